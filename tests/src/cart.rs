@@ -48,9 +48,14 @@ pub fn seating() -> Seating {
         cushion: 0,
         back: 1,
         lateral_m: DRIVER_IN * INCH_M,
-        lean_rad: [15.0_f64, 18.0, 5.0, 20.0].map(f64::to_radians),
-        upper_arms_rad: 35_f64.to_radians(),
-        elbows_rad: (-60_f64).to_radians(),
+        angles_rad: Seating::angles(&[
+            ("middle_torso", 15_f64.to_radians()),
+            ("upper_torso", 18_f64.to_radians()),
+            ("head", 5_f64.to_radians()),
+            ("lower_torso", 20_f64.to_radians()),
+            ("upper_arms", 35_f64.to_radians()),
+            ("elbows", (-60_f64).to_radians()),
+        ]),
         heels_m: [27.0 * INCH_M, 13.0 * INCH_M],
         settle: false,
     }

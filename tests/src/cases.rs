@@ -36,21 +36,22 @@ pub fn male50() -> Body {
         (19.45, 10.31, 10.29, 1.0495, 1.1301, 0.1420),
         (19.45, 10.31, 10.29, 1.0495, 1.1301, 0.1420),
     ];
-    let segments = figures.map(|(l, rho, weight, ix, iy, iz)| SegmentProperties {
-        length_m: l * INCH_M,
-        mass_kg: weight / 386.04 * LBF_N / INCH_M,
-        cg_from_lower_end_m: rho * INCH_M,
-        inertia_kg_m2: Vector3::new(ix, iy, iz) * (LBF_N * INCH_M),
-    });
+    let segment = |(l, rho, weight, ix, iy, iz): (f64, f64, f64, f64, f64, f64)| {
+        let mass_kg = weight / 386.04 * LBF_N / INCH_M;
+        SegmentProperties::new(l * INCH_M, mass_kg, rho * INCH_M, Vector3::new(ix, iy, iz) * (LBF_N * INCH_M))
+    };
+    let segments = figures.map(segment).to_vec();
     let radius_m =
         [3.9, 4.8, 4.7, 2.5, 2.5, 2.0, 2.0, 1.8, 1.8, 3.4, 3.4, 2.4, 2.4, 2.3, 2.3, 1.9, 1.9].map(|r| r * INCH_M);
     let mut body = Body {
         name: "male50-1970".into(),
         tree: &TTI12,
         segments,
+        places: Vec::new(),
         shoulder_half_width_m: 6.57 * INCH_M,
         hip_half_width_m: 3.35 * INCH_M,
         neck_height_m: 0.0,
+        condyles_m: None,
         spheres: Vec::new(),
     };
     body.spheres = body.standard_spheres(&radius_m);
@@ -68,26 +69,18 @@ pub const BEAD_LENGTH_M: f64 = 0.2;
 
 /// One heavy segment, 10 kg with its centre of gravity at T1, and eleven that weigh a part in 10⁹ of it.
 pub fn bead(inertia_kg_m2: f64) -> Body {
-    let light = SegmentProperties {
-        length_m: 0.1,
-        mass_kg: 1e-8,
-        cg_from_lower_end_m: 0.05,
-        inertia_kg_m2: Vector3::repeat(1e-10),
-    };
-    let mut segments = [light; SEGMENTS];
-    segments[0] = SegmentProperties {
-        length_m: BEAD_LENGTH_M,
-        mass_kg: 10.0,
-        cg_from_lower_end_m: BEAD_LENGTH_M,
-        inertia_kg_m2: Vector3::repeat(inertia_kg_m2),
-    };
+    let light = SegmentProperties::new(0.1, 1e-8, 0.05, Vector3::repeat(1e-10));
+    let mut segments = vec![light; SEGMENTS];
+    segments[0] = SegmentProperties::new(BEAD_LENGTH_M, 10.0, BEAD_LENGTH_M, Vector3::repeat(inertia_kg_m2));
     Body {
         name: "bead".into(),
         tree: &TTI12,
         segments,
+        places: Vec::new(),
         shoulder_half_width_m: 0.0,
         hip_half_width_m: 0.0,
         neck_height_m: 0.0,
+        condyles_m: None,
         spheres: Vec::new(),
     }
 }

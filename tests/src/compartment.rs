@@ -109,28 +109,29 @@ impl Compartment {
             edge_force: EdgeForce::default(),
             longest_step_s: 1e-3,
         };
+        let skeleton = Skeleton::new(&system.body, -system.gravity.z);
         let forces = Forces {
             contacts: ContactSystem::new(&system.body, &data),
             belts: Vec::new(),
-            joints: JointSystem::new(&system.joints, &[f64::NAN; 7]),
+            joints: JointSystem::new(&system.joints, &skeleton, |_| f64::NAN),
             limits: Vec::new(),
+            muscles: Vec::new(),
         };
         let untouched = PairHistory { phase: OPEN, greatest: 0.0 };
         let contacts = vec![untouched; forces.contacts.pairs.len()];
-        let history =
-            History::new(&forces, Memory { contacts, belts: Vec::new(), joints: Vec::new(), limits: Vec::new() });
+        let history = History::new(
+            &forces,
+            Memory { contacts, belts: Vec::new(), joints: Vec::new(), limits: Vec::new(), muscles: Vec::new() },
+        );
         let vehicle = Moving {
             origin: V3::of(&self.vehicle.origin),
             axes: M3::of(&self.vehicle.axes),
             velocity: V3::of(&self.vehicle.velocity),
             omega: V3::of(&self.vehicle.omega),
+            ..Moving::space()
         };
-        let kernel = kernel::System {
-            skeleton: Skeleton::new(&system.body, -system.gravity.z),
-            spheres: Site::all(&system.body),
-            forces,
-        };
-        (kernel, [Moving::space(), vehicle], history)
+        let kernel = kernel::System { skeleton, spheres: Site::all(&system.body), forces };
+        (kernel, Frames { time: 0.0, moving: [Moving::space(), vehicle] }, history)
     }
 
     /// The same compartment in a scene turned by `r`; it must have no plane in space.

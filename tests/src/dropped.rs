@@ -3,8 +3,8 @@
 use nalgebra::UnitQuaternion;
 use occupant_core::model::Model;
 use occupant_core::model::seating::InitialPosture;
-use occupant_core::motion::report_coordinates::ReportCoordinates;
-use occupant_core::motion::state::{Quat, State};
+use occupant_core::motion::report_coordinates::{DOF, EULER_START, ReportCoordinates};
+use occupant_core::motion::state::Quat;
 use occupant_core::motion::vector::V3;
 use occupant_core::results::outcome::Status;
 use occupant_core::results::recorder::Watch;
@@ -34,15 +34,16 @@ pub struct Fall {
 pub fn fall(seed: u64) -> Fall {
     let mut random = Random::new(seed);
     let whole = random.turn();
-    let mut state = State::zero();
-    (state.t1, state.velocity) = (V3::of(&random.vector(0.05)), V3::of(&random.vector(2.0)));
+    let mut state = ReportCoordinates { q: [0.0; DOF], rates: [0.0; DOF] }.to_state();
+    state.set_t1(V3::of(&random.vector(0.05)));
+    state.set_velocity(V3::of(&random.vector(2.0)));
     let spin = V3::of(&random.vector(1.0));
-    for (turn, omega) in state.orientation.iter_mut().zip(&mut state.omega) {
+    for slot in 0..EULER_START.len() {
         let bent = whole * UnitQuaternion::from_scaled_axis(random.vector(0.25));
-        *turn = Quat { w: bent.w, v: V3::of(&bent.imag()) };
-        *omega = spin;
+        state.set_orientation(slot, Quat { w: bent.w, v: V3::of(&bent.imag()) });
+        state.set_omega(slot, spin);
     }
-    for (limb, angle) in state.hinge.iter_mut().enumerate() {
+    for (limb, angle) in state.hinge_mut().iter_mut().enumerate() {
         let bend = random.between(0.2, 1.2);
         *angle = if limb < 2 { -bend } else { bend };
     }
@@ -58,5 +59,5 @@ pub fn fall(seed: u64) -> Fall {
     };
     let outcome = simulate(&model, Watch(look)).unwrap();
     assert_eq!(outcome.status, Status::Completed);
-    Fall { beyond_m: beyond_m - HALF_M - WALL_M, balance_error: outcome.balance_error, left: kinetic_j / most_j }
+    Fall { beyond_m: beyond_m - HALF_M - WALL_M, balance_error: outcome.energy.balance_error, left: kinetic_j / most_j }
 }

@@ -49,17 +49,24 @@ impl FreeRun {
             edge_force: EdgeForce::default(),
             longest_step_s: 1e-3,
         };
+        let skeleton = Skeleton::new(&system.body, -system.gravity.z);
         let forces = Forces {
             contacts: ContactSystem::new(&system.body, &nothing),
             belts: Vec::new(),
-            joints: JointSystem::new(&system.joints, &[f64::NAN; 7]),
+            joints: JointSystem::new(&system.joints, &skeleton, |_| f64::NAN),
             limits: Vec::new(),
+            muscles: Vec::new(),
         };
-        let memory = Memory { contacts: Vec::new(), belts: Vec::new(), joints: Vec::new(), limits: Vec::new() };
+        let memory = Memory {
+            contacts: Vec::new(),
+            belts: Vec::new(),
+            joints: Vec::new(),
+            limits: Vec::new(),
+            muscles: Vec::new(),
+        };
         let history = History::new(&forces, memory);
-        let skeleton = Skeleton::new(&system.body, -system.gravity.z);
         let system = kernel::System { skeleton, spheres: Site::all(&system.body), forces };
-        FreeRun { system, history, frames: [Moving::space(), Moving::space()] }
+        FreeRun { system, history, frames: Frames { time: 0.0, moving: [Moving::space(); 2] } }
     }
 
     /// The state after `steps` steps of `h` seconds.
@@ -80,7 +87,7 @@ impl FreeRun {
         let energy = energy::kinetic(body, &k, &Moving::space())
             + energy::gravity(body, &k)
             + self.system.forces.joints.stored(&k)
-            + state.work.sums[DAMPING];
+            + state.work().sums[DAMPING];
         Conserved { energy, linear: linear.to_vector(), angular: angular.to_vector() }
     }
 
@@ -96,15 +103,11 @@ impl FreeRun {
 
 /// Root mean square of all components' differences.
 pub fn distance(a: &State<f64>, b: &State<f64>) -> f64 {
-    let mut squares = (a.t1 - b.t1).norm_squared() + (a.velocity - b.velocity).norm_squared();
-    for i in 0..8 {
-        let (p, q) = (&a.orientation[i], &b.orientation[i]);
-        squares += (p.w - q.w).powi(2) + (p.v - q.v).norm_squared();
-        squares += (a.omega[i] - b.omega[i]).norm_squared();
-    }
-    for i in 0..4 {
-        squares += (a.hinge[i] - b.hinge[i]).powi(2);
-        squares += (a.hinge_rate[i] - b.hinge_rate[i]).powi(2);
-    }
-    (squares / 66.0).sqrt()
+    let (a, b) = (moving(a), moving(b));
+    (a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / 66.0).sqrt()
+}
+
+/// All numbers but the work sums.
+fn moving(state: &State<f64>) -> &[f64] {
+    &state.numbers()[..state.shape().moving()]
 }

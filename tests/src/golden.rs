@@ -93,12 +93,8 @@ impl Golden {
 
     /// The body, in the file's units.
     pub fn body(&self) -> Body {
-        let segment = |s: &GoldenSegment| SegmentProperties {
-            length_m: s.length,
-            mass_kg: s.mass,
-            cg_from_lower_end_m: s.cg_from_lower_end,
-            inertia_kg_m2: Vector3::from(s.inertia),
-        };
+        let segment =
+            |s: &GoldenSegment| SegmentProperties::new(s.length, s.mass, s.cg_from_lower_end, Vector3::from(s.inertia));
         let sphere = |s: &GoldenSphere| {
             let segment = TTI12.segment(s.segment - 1);
             ContactSphere::new(&s.name, segment, Point3::from(s.centre_from_lower_end), s.radius)
@@ -106,10 +102,12 @@ impl Golden {
         Body {
             name: "appendix3".to_owned(),
             tree: &TTI12,
-            segments: std::array::from_fn(|i| segment(&self.segments[i])),
+            segments: self.segments.iter().map(segment).collect(),
+            places: Vec::new(),
             shoulder_half_width_m: self.shoulder_half_width,
             hip_half_width_m: self.hip_half_width,
             neck_height_m: 0.0,
+            condyles_m: None,
             spheres: self.spheres.iter().map(sphere).collect(),
         }
     }

@@ -1,5 +1,6 @@
 //! Shared pieces of the proofs.
 
+pub mod any_tree;
 pub mod cart;
 pub mod cases;
 pub mod compartment;

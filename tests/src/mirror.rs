@@ -71,7 +71,7 @@ fn mirrored_body(body: &Body) -> Body {
         sphere.segment = other_segment(sphere.segment);
         sphere.centre_from_lower_end_m.y = -sphere.centre_from_lower_end_m.y;
     }
-    Body { segments: std::array::from_fn(|i| body.segments[other_side(i)]), spheres, ..body.clone() }
+    Body { segments: (0..body.segments.len()).map(|i| body.segments[other_side(i)]).collect(), spheres, ..body.clone() }
 }
 
 fn other_segment(segment: Segment) -> Segment {

@@ -106,9 +106,9 @@ impl Probe {
     }
 
     fn place(&mut self, centre_m: Vector3<f64>, velocity_m_s: Vector3<f64>, omega: Vector3<f64>) {
-        self.state.t1 = V3::of(&centre_m);
-        self.state.velocity = V3::of(&velocity_m_s);
-        self.state.omega[0] = V3::of(&omega);
+        self.state.set_t1(V3::of(&centre_m));
+        self.state.set_velocity(V3::of(&velocity_m_s));
+        self.state.set_omega(0, V3::of(&omega));
     }
 
     fn evaluate<const COMMIT: bool>(&mut self) -> Load {

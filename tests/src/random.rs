@@ -59,16 +59,18 @@ impl Random {
 
     /// A body with positive masses and possible inertias, every segment different.
     pub fn body(&mut self) -> Body {
-        let segments = std::array::from_fn(|_| self.segment());
+        let segments = TTI12.segments().map(|_| self.segment()).collect();
         let radius: [f64; 17] = std::array::from_fn(|_| self.between(0.03, 0.12));
         let shoulder_half_width_m = self.between(0.1, 0.25);
         let mut body = Body {
             name: "random".to_owned(),
             tree: &TTI12,
             segments,
+            places: Vec::new(),
             shoulder_half_width_m,
             hip_half_width_m: self.between(0.05, 0.15),
             neck_height_m: 0.5 * shoulder_half_width_m,
+            condyles_m: None,
             spheres: Vec::new(),
         };
         body.spheres = body.standard_spheres(&radius);
@@ -80,12 +82,8 @@ impl Random {
         let mass_kg = self.between(1.0, 15.0);
         // Σ m x², Σ m y², Σ m z² of the matter: whatever is positive is possible (triangle inequality).
         let spread = Vector3::from_fn(|_, _| mass_kg * self.between(0.03, 0.15).powi(2));
-        SegmentProperties {
-            length_m,
-            mass_kg,
-            cg_from_lower_end_m: length_m * self.between(0.2, 0.8),
-            inertia_kg_m2: Vector3::new(spread.y + spread.z, spread.z + spread.x, spread.x + spread.y),
-        }
+        let inertia_kg_m2 = Vector3::new(spread.y + spread.z, spread.z + spread.x, spread.x + spread.y);
+        SegmentProperties::new(length_m, mass_kg, length_m * self.between(0.2, 0.8), inertia_kg_m2)
     }
 
     /// Joints with all of damping, twist, stops and springs here and there.

@@ -1,11 +1,17 @@
 //! The step allocates nothing.
 
 use allocation_counter::{AllocationInfo, measure};
+use occupant_core::forces::History;
 use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
+use occupant_core::motion::frame::{Frames, Moving};
+use occupant_core::motion::integrate::rk4;
+use occupant_core::motion::layout::Freedom;
 use occupant_core::results::summary::Summarizer;
 use occupant_core::run::simulate::simulate;
+use occupant_tests::any_tree::{AnyTree, bare};
 use occupant_tests::cart::lap;
+use occupant_tests::random::Random;
 
 /// Allocations of a run of the lap case over 0.15 s with two outputs.
 fn allocations(integrator: Integrator) -> (AllocationInfo, u64) {
@@ -26,6 +32,19 @@ fn twice_as_many_steps_of_rk4_allocate_no_more() {
     // the count is alive: the run itself allocates its buffers
     assert!(few.count_total > 0);
     assert_eq!((few.count_total, few.bytes_total), (many.count_total, many.bytes_total));
+}
+
+#[test]
+fn a_step_of_any_tree_allocates_nothing() {
+    let mut random = Random::new(3);
+    let tree = AnyTree::random(&mut random, 17, Freedom::Ball);
+    let (state, (kernel, mut history)) = (tree.state(&mut random), bare(tree.skeleton()));
+    let frames = Frames { time: 0.0, moving: [Moving::space(); 2] };
+    let step = |history: &mut History<f64>| {
+        rk4::step(&state, 1e-4, |_, s| kernel.rate_alone::<true>(s, &frames, history, &mut ()))
+    };
+    let info = measure(|| assert!(step(&mut history) != state));
+    assert_eq!(info.count_total, 0);
 }
 
 #[test]

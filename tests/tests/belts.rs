@@ -11,6 +11,7 @@ use occupant_core::model::Model;
 use occupant_core::motion::vector::V3;
 use occupant_tests::cases::{afloat, belt, male50, spring};
 use occupant_tests::measure::assert_below;
+use occupant_tests::room::setup;
 
 const R: f64 = 0.1;
 const K: f64 = 4e4;
@@ -283,4 +284,22 @@ fn the_belt_force_acts_at_the_spheres_centre() {
     let arm = Vector3::new(0.04, -0.03, 0.2);
     // Measured: 0.
     assert_below("moment, N·m", (moment - arm.cross(&force)).norm(), 1e-12);
+}
+
+/// What is said of the driver's lap belt with these anchors.
+fn said_of_lap(anchors: &str) -> String {
+    let text = include_str!("../../scenarios/templates/driver.toml");
+    let driver = setup(text, &[&format!("belts.lap.anchors = {anchors}")]);
+    Model::new(driver).unwrap().warnings().to_string()
+}
+
+#[test]
+fn a_belt_beside_the_body_and_a_lap_belt_that_would_slip_are_warned_of() {
+    assert_eq!(said_of_lap("[[-0.30, -0.58, 0.21], [-0.30, -0.12, 0.21]]"), "");
+    let beside = said_of_lap("[[-0.30, 0.58, 0.21], [-0.30, 0.12, 0.21]]");
+    assert!(beside.contains("belts.lap.anchors") && beside.contains("to the right of the pelvis"), "{beside}");
+    let flat = said_of_lap("[[-0.40, -0.58, 0.05], [-0.40, -0.12, 0.05]]");
+    assert!(flat.contains("slides up to the belly"), "{flat}");
+    let ahead = said_of_lap("[[-0.05, -0.58, 0.25], [-0.05, -0.12, 0.25]]");
+    assert!(ahead.contains("20° to 80°"), "{ahead}");
 }

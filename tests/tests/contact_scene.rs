@@ -6,7 +6,6 @@ use occupant_core::forces::contact::surface::Frame;
 use occupant_core::forces::contact::{FRICTION, PRESS, Touch};
 use occupant_core::forces::{History, Observer};
 use occupant_core::kernel::Evaluation;
-use occupant_core::motion::layout::FREE;
 use occupant_tests::{
     compartment::{Compartment, ContactForce},
     random::Random,
@@ -30,11 +29,7 @@ fn evaluate(system: &System, room: &Compartment, state: &SpaceState) -> Evaluati
 
 fn accelerations(evaluation: &Evaluation<f64>) -> SpaceMotion {
     let found = &evaluation.accelerations;
-    SpaceMotion {
-        t1: found.joint[0].to_vector(),
-        angular: std::array::from_fn(|i| found.alpha[FREE[i]].to_vector()),
-        hinge: found.hinge,
-    }
+    SpaceMotion::of_core(found)
 }
 
 #[test]

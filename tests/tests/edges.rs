@@ -155,7 +155,7 @@ fn gain(setup: Setup) -> (f64, f64) {
     )
     .unwrap();
     assert_eq!(outcome.first_touches.len(), 1);
-    (kinetic[1] - kinetic[0], outcome.balance_error)
+    (kinetic[1] - kinetic[0], outcome.energy.balance_error)
 }
 
 #[test]
@@ -246,7 +246,7 @@ fn a_bead_that_goes_round_an_edge_is_not_caught_by_the_planes_extension() {
     setup.time.output_s = 0.5;
     let model = Model::new(setup).unwrap();
     let mut end = Vector3::zeros();
-    let outcome = simulate(&model, Watch(|s: &Sample<'_>| end = s.state.t1.to_vector())).unwrap();
+    let outcome = simulate(&model, Watch(|s: &Sample<'_>| end = s.state.t1().to_vector())).unwrap();
     assert!(outcome.first_touches.is_empty());
     // Measured: 2.2e-16.
     assert_below("place less free flight, m", (end - v(0.25, 0.0, -0.8)).norm(), 1e-12);

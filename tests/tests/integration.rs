@@ -81,20 +81,20 @@ fn end(setup: Setup) -> (State<f64>, Outcome) {
 fn distances(a: &State<f64>, b: &State<f64>) -> [f64; 4] {
     let v = |a: V3<f64>, b: V3<f64>| (a - b).norm_squared();
     let mut angles = 0.0;
-    let mut speeds = v(a.velocity, b.velocity);
+    let mut speeds = v(a.velocity(), b.velocity());
     for i in 0..8 {
-        let (p, q) = (a.orientation[i], b.orientation[i]);
+        let (p, q) = (a.orientation(i), b.orientation(i));
         angles += 4.0 * ((p.w - q.w).powi(2) + v(p.v, q.v));
-        speeds += v(a.omega[i], b.omega[i]);
+        speeds += v(a.omega(i), b.omega(i));
     }
     for i in 0..4 {
-        angles += (a.hinge[i] - b.hinge[i]).powi(2);
-        speeds += (a.hinge_rate[i] - b.hinge_rate[i]).powi(2);
+        angles += (a.hinge()[i] - b.hinge()[i]).powi(2);
+        speeds += (a.hinge_rate()[i] - b.hinge_rate()[i]).powi(2);
     }
-    let (w, u) = (&a.work, &b.work);
+    let (w, u) = (a.work(), b.work());
     let work = [w.sums[joint::DAMPING] - u.sums[joint::DAMPING], w.sums[belt::STRETCH] - u.sums[belt::STRETCH]];
     let work: f64 = work.iter().map(|d| d * d).sum();
-    [v(a.t1, b.t1), angles, speeds, work].map(f64::sqrt)
+    [v(a.t1(), b.t1()), angles, speeds, work].map(f64::sqrt)
 }
 
 #[test]
@@ -113,7 +113,7 @@ fn halving_the_step_of_rk4_divides_every_error_by_sixteen() {
 
 #[test]
 fn the_energy_imbalance_of_rk4_falls_with_the_fourth_power_of_the_step() {
-    let error = |step_s| end(smooth_case(Integrator::Rk4 { step_s })).1.balance_error;
+    let error = |step_s| end(smooth_case(Integrator::Rk4 { step_s })).1.energy.balance_error;
     let (coarse, fine) = (error(2e-3), error(1e-3));
     // Measured: 3.984.
     assert_within("order", (coarse / fine).log2(), [3.7, 5.2]);
@@ -187,7 +187,7 @@ fn crash(integrator: Integrator) -> (Vec<(f64, Vector3<f64>)>, f64) {
         }),
     )
     .unwrap();
-    (places, outcome.balance_error)
+    (places, outcome.energy.balance_error)
 }
 
 /// Greatest distance of two runs' spheres until `end_s`, m.

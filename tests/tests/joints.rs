@@ -5,9 +5,9 @@ use occupant_core::body::tti12::{self, TTI12};
 use occupant_core::forces::joint::{AngularSpring, BallJoint, HingeJoint, Joints, Stop};
 use occupant_core::forces::joint::{BallAction, JointSystem};
 use occupant_core::motion::kinematics::Kinematics;
-use occupant_core::motion::layout::{BALLS, FREE, free_slot};
+use occupant_core::motion::layout::{Layout, MOST_SEGMENTS};
 use occupant_core::motion::skeleton::Skeleton;
-use occupant_core::motion::state::{Quat, State};
+use occupant_core::motion::state::{Quat, Shape, State};
 use occupant_core::motion::vector::{V3, v3};
 use occupant_tests::cases::male50;
 use occupant_tests::measure::assert_below;
@@ -17,7 +17,11 @@ const NECK: usize = 0;
 
 fn system(neck: BallJoint, epsilon: f64) -> JointSystem<f64> {
     let joints = Joints::free(&TTI12).with(tti12::NECK, neck).with_epsilon(epsilon);
-    JointSystem::new(&joints, &[0.0; 7])
+    laws(&joints, |_| 0.0)
+}
+
+fn laws(joints: &Joints, rest_rad: impl Fn(usize) -> f64) -> JointSystem<f64> {
+    JointSystem::new(joints, &Skeleton::new(&male50(), 0.0), rest_rad)
 }
 
 fn kinematics(state: &State<f64>) -> Kinematics<f64> {
@@ -31,11 +35,12 @@ fn spread(i: u32) -> f64 {
 
 /// A state in which everything is turned and turns.
 fn tumbled(case: u32) -> State<f64> {
-    let mut state = State::zero();
-    for slot in 0..FREE.len() {
+    let mut state = State::zero(Shape::of(&Layout::of(&TTI12)));
+    for slot in state.turns() {
         let number = |i: u32| spread(1 + 61 * case + 7 * slot as u32 + i);
-        state.orientation[slot] = quat(&UnitQuaternion::new(Vector3::new(number(0), number(1), number(2)) * 1.5));
-        state.omega[slot] = v3(number(3), number(4), number(5)) * 10.0;
+        let turn = UnitQuaternion::new(Vector3::new(number(0), number(1), number(2)) * 1.5);
+        state.set_orientation(slot, quat(&turn));
+        state.set_omega(slot, v3(number(3), number(4), number(5)) * 10.0);
     }
     state
 }
@@ -47,23 +52,23 @@ fn quat(q: &UnitQuaternion<f64>) -> Quat<f64> {
 /// Upper torso upright; the head bent by `beta` about the axis at `azimuth` in its horizontal plane, turning relatively
 /// with `omega` (space axes).
 fn bent(beta: f64, azimuth: f64, omega: Vector3<f64>) -> Kinematics<f64> {
-    let mut state = State::zero();
+    let mut state = State::zero(Shape::of(&Layout::of(&TTI12)));
     let axis = Vector3::new(azimuth.cos(), azimuth.sin(), 0.0);
-    state.orientation = [quat(&UnitQuaternion::identity()); 8];
+    state.turns().for_each(|slot| state.set_orientation(slot, quat(&UnitQuaternion::identity())));
     let turn = UnitQuaternion::from_axis_angle(&Unit::new_normalize(axis), beta);
-    state.orientation[2] = quat(&turn);
-    state.omega[2] = V3::of(&omega);
+    state.set_orientation(2, quat(&turn));
+    state.set_omega(2, V3::of(&omega));
     kinematics(&state)
 }
 
 /// The same state a moment `h` later at constant angular velocities.
 fn later(state: &State<f64>, h: f64) -> State<f64> {
     let mut out = *state;
-    for slot in 0..FREE.len() {
-        let turn = UnitQuaternion::new(state.omega[slot].to_vector() * h);
-        let Quat { w, v } = state.orientation[slot];
+    for slot in state.turns() {
+        let turn = UnitQuaternion::new(state.omega(slot).to_vector() * h);
+        let Quat { w, v } = state.orientation(slot);
         let now = nalgebra::Quaternion::new(w, v.x, v.y, v.z);
-        out.orientation[slot] = quat(&(turn * UnitQuaternion::from_quaternion(now)));
+        out.set_orientation(slot, quat(&(turn * UnitQuaternion::from_quaternion(now))));
     }
     out
 }
@@ -71,7 +76,7 @@ fn later(state: &State<f64>, h: f64) -> State<f64> {
 /// n·ω, s² + ε² and the relative angular velocity of ball joint `i`, from the axes.
 fn bending(i: usize, state: &State<f64>, epsilon: f64) -> (f64, f64, Vector3<f64>, Vector3<f64>) {
     let k = kinematics(state);
-    let (inner, outer) = BALLS[i];
+    let (inner, outer) = system(BallJoint::default(), 0.0).balls[i].segments;
     let (z_k, z_l) = (k.axes[inner].z.to_vector(), k.axes[outer].z.to_vector());
     let n = z_k.cross(&z_l);
     let omega = (k.omega[outer] - k.omega[inner]).to_vector();
@@ -85,7 +90,7 @@ fn the_rate_of_beta_is_n_omega_over_the_root_of_s_squared_and_epsilon_squared() 
         let system = system(BallJoint::default(), epsilon);
         for case in 0..20 {
             let (state, h) = (tumbled(case), 1e-6);
-            for i in 0..BALLS.len() {
+            for i in 0..system.balls.len() {
                 let beta = |h: f64| system.beta(i, &kinematics(&later(&state, h)));
                 let found = (beta(h) - beta(-h)) / (2.0 * h);
                 let (turn, square, omega, _) = bending(i, &state, epsilon);
@@ -104,7 +109,7 @@ fn the_springs_torque_derives_from_its_energy() {
     let data = BallJoint { spring: Some(spring), ..BallJoint::default() };
     let joints =
         Joints::free(&TTI12).with(tti12::UPPER_BACK, data).with(tti12::LOWER_BACK, data).with(tti12::NECK, data);
-    let system = JointSystem::new(&joints, &[0.0; 7]);
+    let system = laws(&joints, |_| 0.0);
     let mut worst = 0.0_f64;
     for case in 0..20 {
         let (state, h) = (tumbled(case), 1e-6);
@@ -129,7 +134,7 @@ fn the_spring_without_an_angle_of_its_own_rests_at_the_initial_one() {
     let data =
         BallJoint { spring: Some(AngularSpring { stiffness_n_m: 100.0, rest_rad: None }), ..BallJoint::default() };
     let joints = Joints::free(&TTI12).with(tti12::NECK, data);
-    let system = JointSystem::new(&joints, &[0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    let system = laws(&joints, |i| if i == NECK { 0.5 } else { 0.0 });
     let stored = system.ball(NECK, &bent(0.8, 0.3, Vector3::zeros())).stored;
     // ε = 1e−3 moves β by less than 1e−6.
     // Measured: 1.5e-5.
@@ -235,7 +240,7 @@ fn twist_damping_turns_against_the_twist_about_the_outer_segment() {
         let state = tumbled(case);
         let k = kinematics(&state);
         let action = system.ball(NECK, &k);
-        let z = k.axes[BALLS[NECK].1].z.to_vector();
+        let z = k.axes[system.balls[NECK].segments.1].z.to_vector();
         let (_, _, omega, _) = bending(NECK, &state, 1e-3);
         let twist = z.dot(&omega);
         let expected = z * (-0.4 * twist);
@@ -249,19 +254,17 @@ fn twist_damping_turns_against_the_twist_about_the_outer_segment() {
 #[test]
 fn both_segments_of_a_joint_get_opposite_moments() {
     let joints = occupant_tests::cart::joints();
-    let system = JointSystem::new(&joints, &[0.2; 7]);
+    let system = laws(&joints, |_| 0.2);
     let mut state = tumbled(3);
-    state.hinge = [-2.2, -0.2, 0.05, 2.4];
-    state.hinge_rate = [-3.0, 2.0, -4.0, 1.0];
+    state.hinge_mut().copy_from_slice(&[-2.2, -0.2, 0.05, 2.4]);
+    state.hinge_rate_mut().copy_from_slice(&[-3.0, 2.0, -4.0, 1.0]);
     let k = kinematics(&state);
-    let mut wrench = [occupant_core::motion::dynamics::Wrench::zero(); 12];
+    let mut wrench = [occupant_core::motion::dynamics::Wrench::zero(); MOST_SEGMENTS];
     let dissipated = system.apply(&k, &state, &mut wrench, &mut |_| {});
     let sum: Vector3<f64> = wrench.iter().map(|w| w.moment.to_vector()).sum();
     // Measured: 8.6e-15.
     assert_below("sum of moments, N·m", sum.norm(), 1e-10);
     assert!(dissipated > 0.0);
-    // slots of segments 9 and 10 follow 6
-    assert_eq!((free_slot(8), free_slot(9)), (Some(6), Some(7)));
 }
 
 #[test]
@@ -272,7 +275,7 @@ fn the_stops_of_a_hinge_resist_only_while_moving_into_them() {
         upper_stop: Some(Stop { begin_rad: 2.0, full_rad: 2.5, damping_n_m_s: 61.0 }),
     };
     let joints = Joints::free(&TTI12).with(tti12::LEFT_KNEE, hinge);
-    let system = JointSystem::<f64>::new(&joints, &[0.0; 7]);
+    let system = laws(&joints, |_| 0.0);
     // left elbow, right elbow, left knee, right knee
     let knee = &system.hinges[2];
     let expected = [

@@ -164,6 +164,28 @@ fn elastic_limits_side_by_side_have_the_bits_of_each_alone() {
     }
 }
 
+/// Locks that open at different times, one that slips, and muscles that act at different times.
+#[test]
+fn locks_and_muscles_side_by_side_have_the_bits_of_each_alone() {
+    let text = include_str!("../../scenarios/cart-lap-torso.toml");
+    let own = |i: usize| {
+        let locks = format!(
+            "elbows.lock = {{ until = \"{} N m\", relock_below = {} }}\nneck.lock = {{ until = \"{} N m\", slips = true }}",
+            5 + 5 * i,
+            i + 1,
+            10 + i
+        );
+        let muscle = format!("trigger = \"go\", rise = 0.02, until = 0.15, stiffness = {}, damping = {i}", 20 * i);
+        let more = format!("[triggers]\ngo = {{ kind = \"time\", at = 0.0{i} }}\n[muscles]\nhips = {{ {muscle} }}\n");
+        text.replace("[joints]\npreset = \"male50\"", &format!("[joints]\npreset = \"gebod\"\n{locks}")) + &more
+    };
+    let cases: Vec<Case> = (0..5).map(|i| cart_of(i, &own(i))).collect();
+    for kernel in kernels() {
+        let results = compare(&cases, kernel);
+        assert!(results.iter().all(|((outcome, _), used)| outcome.is_ok() && *used == kernel));
+    }
+}
+
 #[test]
 fn a_run_that_fails_stops_or_breaks_leaves_its_neighbours_alone() {
     for kernel in kernels() {

@@ -1,7 +1,9 @@
 //! Proofs of the model, a module each, in one binary: linking each of them alone would cost more than running it.
 
+mod any_tree;
 mod appendix3;
 mod belts;
+mod bodies;
 mod cart_cases;
 mod contact_scene;
 mod driver;
@@ -12,6 +14,7 @@ mod integration;
 mod joint_torques;
 mod joints;
 mod kernel;
+mod laboratory;
 mod lanes;
 mod lap_case;
 mod layers;

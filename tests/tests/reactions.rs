@@ -6,13 +6,15 @@ use occupant_core::body::tti12::{self, TTI12};
 use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
 use occupant_core::motion::dynamics::Wrench;
-use occupant_core::motion::layout::{BALL_JOINTS, BALLS, HINGE_JOINTS};
+use occupant_core::motion::layout::MOST_SEGMENTS;
 use occupant_core::results::channel::{channels, find, matching};
 use occupant_core::results::reaction::{femur_axial_n, reaction};
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::simulate;
 use occupant_tests::cart::lap;
+use occupant_tests::measure::assert_below;
+use occupant_tests::room::setup;
 
 fn cart() -> Model {
     Model::new(lap(Integrator::Rk4 { step_s: 2e-4 })).unwrap()
@@ -35,9 +37,10 @@ fn a_ball_joint_carries_no_moment_but_that_of_its_damper_stop_and_spring() {
     let mut greatest = 0.0_f64;
     watch(&cart(), |s| {
         let k = &s.evaluation.kinematics;
-        for (i, &(_, outer)) in BALLS.iter().enumerate() {
-            let joint = BALL_JOINTS[i];
-            let moment = s.model.system().forces.joints.ball(i, k).moment;
+        let joints = &s.model.system().forces.joints;
+        for (i, ball) in joints.balls.iter().enumerate() {
+            let (joint, outer) = (ball.joint, ball.segments.1);
+            let moment = joints.ball(i, k).moment;
             let passive = k.axes[outer].into_frame(moment).to_vector();
             let carried = reaction(s, joint).moment_n_m;
             worst = worst.max((carried - passive).norm());
@@ -53,11 +56,11 @@ fn a_hinge_carries_its_torque_about_its_axis_and_more_across() {
     let mut worst = 0.0_f64;
     let mut across = 0.0_f64;
     watch(&cart(), |s| {
-        let mut passive = [Wrench::zero(); 12];
+        let mut passive = [Wrench::zero(); MOST_SEGMENTS];
         let k = &s.evaluation.kinematics;
         let joints = &s.model.system().forces.joints;
         joints.apply(k, s.state, &mut passive, &mut |_| {});
-        for &joint in HINGE_JOINTS {
+        for joint in joints.hinges.iter().map(|hinge| hinge.joint) {
             let n = TTI12[joint].distal.index();
             let torque = k.axes[n].y.dot(passive[n].moment);
             let carried = reaction(s, joint).moment_n_m;
@@ -143,4 +146,31 @@ fn every_channel_has_its_own_name_and_a_finite_value() {
             assert!(channel.value(s).is_finite(), "{}", channel.name);
         }
     });
+}
+
+#[test]
+fn loads_of_the_upper_neck_are_those_at_the_condyles_and_follow_from_the_head_alone() {
+    let mut driver = setup(include_str!("../../scenarios/templates/driver.toml"), &["time.end = 0.1"]);
+    driver.time.output_s = 2e-3;
+    let model = Model::new(driver).unwrap();
+    let channel = |name: &str| ["x", "y", "z"].map(|c| find(&model, &format!("{name}.{c}")).unwrap());
+    let (force, moment) = (channel("neck.force"), channel("neck.moment"));
+    let head = *model.body().segment(tti12::HEAD);
+    let condyles_m = model.body().condyles_m.unwrap();
+    let (mut worst, mut greatest) = (0.0_f64, 0.0_f64);
+    let watched = Watch(|s: &Sample<'_>| {
+        // nothing touches the head: what moves it comes through the neck. J211 axes: right and down instead of left and up
+        let [f, m] = [&force, &moment].map(|of| Vector3::from(of.each_ref().map(|c| c.value(s))));
+        let carried = s.specific_force_m_s2(tti12::HEAD) * head.mass_kg;
+        let (omega, alpha) = (s.angular_velocity_rad_s(tti12::HEAD), s.angular_acceleration_rad_s2(tti12::HEAD));
+        let by_inertia = |v: Vector3<f64>| head.inertia_kg_m2.component_mul(&v);
+        let arm = Vector3::z() * head.cg_from_lower_end_m - condyles_m;
+        let about_condyles = by_inertia(alpha) + omega.cross(&by_inertia(omega)) + arm.cross(&carried);
+        worst = worst.max((Vector3::new(f.x, -f.y, -f.z) - carried).norm());
+        worst = worst.max((Vector3::new(m.x, -m.y, -m.z) - about_condyles).norm());
+        greatest = greatest.max(m.norm());
+    });
+    simulate(&model, watched).unwrap();
+    assert_below("loads of the upper neck, N and N·m", worst, 1e-8);
+    assert!(greatest > 50.0, "{greatest}");
 }

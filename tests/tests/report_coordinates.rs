@@ -22,16 +22,16 @@ fn coordinates_become_the_state_of_equations_6_and_44() {
         let state = ReportCoordinates { q, rates }.to_state();
         let (pose, speed) = (pose(&body, &q), space_velocities(&q, &rates));
         for (slot, segment) in FREE.into_iter().enumerate() {
-            let (found, expected) = (axes(&state.orientation[slot]), pose.axes[segment.index()]);
+            let (found, expected) = (axes(&state.orientation(slot)), pose.axes[segment.index()]);
             for (f, e) in [(found.x, expected.x), (found.y, expected.y), (found.z, expected.z)] {
                 worst = worst.max((f.to_vector() - Vector3::from(e)).amax());
             }
-            worst = worst.max((state.omega[slot].to_vector() - speed.angular[slot]).amax());
+            worst = worst.max((state.omega(slot).to_vector() - speed.angular[slot]).amax());
         }
-        assert_eq!(state.hinge, [q[21], q[22], q[29], q[30]]);
-        assert_eq!(state.hinge_rate, speed.hinge);
-        assert_eq!(state.t1.to_vector(), Vector3::new(q[0], q[1], q[2]));
-        assert_eq!(state.velocity.to_vector(), speed.t1);
+        assert_eq!(state.hinge(), [q[21], q[22], q[29], q[30]]);
+        assert_eq!(state.hinge_rate(), speed.hinge);
+        assert_eq!(state.t1().to_vector(), Vector3::new(q[0], q[1], q[2]));
+        assert_eq!(state.velocity().to_vector(), speed.t1);
     }
     assert!(worst < 1e-13, "{worst:e}"); // Measured: 3.6e-15.
 }
@@ -85,8 +85,8 @@ fn a_vertical_segment_gets_the_angles_of_the_rule() {
 #[test]
 fn an_upright_segment_at_rest_has_its_yaw_in_psi() {
     let mut state = Random::new(1).vertical_state().to_core();
-    state.orientation[0] = Quat { w: 0.3_f64.cos(), v: v3(0.0, 0.0, 0.3_f64.sin()) };
-    state.omega[0] = V3::zero();
+    state.set_orientation(0, Quat { w: 0.3_f64.cos(), v: v3(0.0, 0.0, 0.3_f64.sin()) });
+    state.set_omega(0, V3::zero());
     let coordinates = ReportCoordinates::from_state(&state);
     assert_eq!(coordinates.q[3..5], [0.0, 0.0]);
     assert!((coordinates.q[5] - 0.6).abs() < 1e-15); // Measured: 1.2e-16.
@@ -95,16 +95,16 @@ fn an_upright_segment_at_rest_has_its_yaw_in_psi() {
 
 /// Largest difference; orientations by their axes.
 fn difference(a: &State<f64>, b: &State<f64>) -> f64 {
-    let mut worst = (a.t1 - b.t1).norm_squared().max((a.velocity - b.velocity).norm_squared());
+    let mut worst = (a.t1() - b.t1()).norm_squared().max((a.velocity() - b.velocity()).norm_squared());
     for slot in 0..8 {
-        let (p, q) = (axes(&a.orientation[slot]), axes(&b.orientation[slot]));
-        for gap in [p.x - q.x, p.y - q.y, p.z - q.z, a.omega[slot] - b.omega[slot]] {
+        let (p, q) = (axes(&a.orientation(slot)), axes(&b.orientation(slot)));
+        for gap in [p.x - q.x, p.y - q.y, p.z - q.z, a.omega(slot) - b.omega(slot)] {
             worst = worst.max(gap.norm_squared());
         }
     }
     for i in 0..4 {
-        worst = worst.max((a.hinge[i] - b.hinge[i]).powi(2));
-        worst = worst.max((a.hinge_rate[i] - b.hinge_rate[i]).powi(2));
+        worst = worst.max((a.hinge()[i] - b.hinge()[i]).powi(2));
+        worst = worst.max((a.hinge_rate()[i] - b.hinge_rate()[i]).powi(2));
     }
     worst.sqrt()
 }

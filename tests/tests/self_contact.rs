@@ -58,7 +58,7 @@ fn a_body_afloat_that_claps_keeps_its_momenta_and_its_energy() {
     let drift = |k: usize| all.iter().map(|now| (now[k] - all[0][k]).norm()).fold(0.0, f64::max);
     assert_below("linear momentum, N s", drift(0), 1e-11);
     assert_below("angular momentum, N m s", drift(1), 1e-4);
-    assert_below("energy balance", outcome.balance_error, 1e-5);
+    assert_below("energy balance", outcome.energy.balance_error, 1e-5);
 }
 
 #[test]
@@ -68,7 +68,7 @@ fn without_losses_the_energy_is_all_there() {
     let (_, outcome) = run(clap(&set), Watch(|s: &Sample<'_>| energies.push(s.energy)));
     let most = energies.iter().map(|e| e.lost_j[0].abs() + e.lost_j[1].abs()).fold(0.0, f64::max);
     // Measured: 2.3e-5, what steps across the beginnings and ends of contacts miss.
-    assert_below("energy that contacts dissipate, part of all", most / outcome.greatest_kinetic_j, 1e-4);
+    assert_below("energy that contacts dissipate, part of all", most / outcome.energy.greatest_kinetic_j, 1e-4);
 }
 
 /// What each sphere feels is opposite to what the other feels, at the same place.

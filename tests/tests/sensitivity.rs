@@ -1,9 +1,10 @@
 //! Exact sensitivities: duals against closed forms, against identities of scale, and against differences of whole runs.
 
 use allocation_counter::measure;
+use occupant_core::body::JointKind;
+use occupant_core::body::tti12::TTI12;
 use occupant_core::model::Model;
 use occupant_core::model::setup::{Integrator, Setup};
-use occupant_core::motion::layout::{BALL_JOINTS, HINGE_JOINTS};
 use occupant_core::results::channel::{Channel, Series, channels};
 use occupant_core::results::checkpoint::Checkpoint;
 use occupant_core::results::recorder::Watch;
@@ -257,7 +258,7 @@ impl Scaled {
             belt.webbing.k1_n_per_m *= lambda;
             belt.webbing.k2_n_per_m *= lambda;
         }
-        for &joint in BALL_JOINTS {
+        for joint in TTI12.joints().filter(|joint| TTI12[*joint].kind == JointKind::Ball) {
             let ball = setup.joints.ball_mut(joint).unwrap();
             ball.damping_n_m_s *= lambda;
             ball.twist_damping_n_m_s *= lambda;
@@ -268,7 +269,7 @@ impl Scaled {
                 spring.stiffness_n_m *= lambda;
             }
         }
-        for &joint in HINGE_JOINTS {
+        for joint in TTI12.joints().filter(|joint| TTI12[*joint].kind == JointKind::Hinge) {
             let hinge = setup.joints.hinge_mut(joint).unwrap();
             hinge.damping_n_m_s *= lambda;
             for stop in [&mut hinge.lower_stop, &mut hinge.upper_stop].into_iter().flatten() {
@@ -347,8 +348,11 @@ fn slopes_by_the_shape_and_place_of_a_solid_are_those_of_differences() {
     };
     let at_end = |set: &[&str]| {
         let mut last = None;
-        simulate(&model_of(&of(set)), Watch(|s: &occupant_core::results::sample::Sample<'_>| last = Some(s.state.t1)))
-            .unwrap();
+        simulate(
+            &model_of(&of(set)),
+            Watch(|s: &occupant_core::results::sample::Sample<'_>| last = Some(s.state.t1())),
+        )
+        .unwrap();
         last.unwrap()
     };
     let (draft, model) = (of(&[]), model_of(&of(&[])));

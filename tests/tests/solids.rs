@@ -67,7 +67,7 @@ fn a_fall_through_a_room_of_solids_keeps_its_energy() {
     let (_, fine) = centres(room(&["integrator.step=\"0.05 ms\""]));
     let touched: std::collections::BTreeSet<usize> = coarse.first_touches.iter().map(|touch| touch.surface).collect();
     assert!(touched.len() >= 5, "only {touched:?} were touched");
-    let [coarse, fine] = [coarse, fine].map(|outcome| outcome.balance_error.abs());
+    let [coarse, fine] = [coarse, fine].map(|outcome| outcome.energy.balance_error.abs());
     assert!(coarse < 1e-5, "{coarse:e}");
     assert!(fine < 1e-6, "{fine:e}");
 }
@@ -83,7 +83,7 @@ fn among_solids_a_run_resumed_from_a_checkpoint_has_the_bits_of_the_whole_run() 
         let mut last = None;
         let resumed = resume(&model, &middle, Watch(|s: &Sample<'_>| last = Some(s.checkpoint()))).unwrap();
         assert_eq!(last, checkpoints.pop());
-        assert_eq!(resumed.balance_error.to_bits(), whole.balance_error.to_bits());
+        assert_eq!(resumed.energy.balance_error.to_bits(), whole.energy.balance_error.to_bits());
     }
 }
 

@@ -52,10 +52,10 @@ fn a_symmetric_body_in_a_symmetric_state_stays_symmetric() {
         assert!(distance(&start, &state.mirrored().to_core()) < 1e-15);
         let end = run.run(&start, 1e-3, 100);
         assert!(distance(&start, &end) > 0.1, "it moves");
-        worst = worst.max(end.t1.y.abs()).max((end.hinge[0] - end.hinge[1]).abs());
-        worst = worst.max((end.hinge_rate[2] - end.hinge_rate[3]).abs());
+        worst = worst.max(end.t1().y.abs()).max((end.hinge()[0] - end.hinge()[1]).abs());
+        worst = worst.max((end.hinge_rate()[2] - end.hinge_rate()[3]).abs());
         for (left, right) in [(4, 5), (6, 7)] {
-            let (l, r) = (end.omega[left], end.omega[right]);
+            let (l, r) = (end.omega(left), end.omega(right));
             worst = worst.max((l.x + r.x).abs()).max((l.y - r.y).abs()).max((l.z + r.z).abs());
         }
     }

@@ -171,7 +171,7 @@ const FAULTS: &[Fault] = &[
     (
         |s| {
             if let InitialPosture::Seated(seating) = &mut s.posture {
-                seating.lean_rad[2] = f64::NAN;
+                seating.angles_rad[2].1 = f64::NAN;
             }
         },
         "posture.head",

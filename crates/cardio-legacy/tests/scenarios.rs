@@ -71,7 +71,7 @@ fn every_converted_deck_runs_to_its_end_and_tells_its_story() {
         let outcome = simulate(&model, ()).expect("records nothing");
         assert_eq!(outcome.status, Status::Completed, "{name}");
         // Measured in this order: 3e-7, 3e-8, 3.3e-3 (unbelted, hard contacts at 0.1 ms), 2.3e-6, 1.4e-6.
-        assert!(outcome.balance_error < 5e-3, "{name}: {}", outcome.balance_error);
+        assert!(outcome.energy.balance_error < 5e-3, "{name}: {:?}", outcome.energy);
         let setup = model.setup();
         let touched = |touch: &FirstTouch| {
             setup.body.spheres[touch.sphere].name == sphere && setup.surfaces[touch.surface].name == surface

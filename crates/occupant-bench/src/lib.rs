@@ -3,7 +3,6 @@
 //! Three sizes of the same problem: *bare* (the skeleton under given loads), *held* (joint moments and belts as well), *full*
 //! (all 17 × 25 contact pairs as well).
 
-use occupant_core::body::SEGMENTS;
 use occupant_core::forces::contact::{ContactData, ContactSystem, Touch};
 use occupant_core::forces::{History, Memory, Observer};
 use occupant_core::kernel::System;
@@ -12,8 +11,8 @@ use occupant_core::motion::dynamics::{self, Accelerations, Wrench};
 use occupant_core::motion::frame::Frames;
 use occupant_core::motion::integrate::rk4::{self, Stage};
 use occupant_core::motion::kinematics::Kinematics;
-use occupant_core::motion::layout::FREE;
-use occupant_core::motion::state::State;
+use occupant_core::motion::layout::MOST_SEGMENTS;
+use occupant_core::motion::state::{State, Work};
 use occupant_core::scenario::{Format, Loaded, Scenario};
 use occupant_core::vehicle::PathCursor;
 
@@ -117,10 +116,10 @@ impl Instant {
     }
 
     /// The skeleton alone: accelerations under given loads, which is what an articulated-body algorithm answers.
-    pub fn bare(&self, loads: &[Wrench<f64>; SEGMENTS]) -> Accelerations<f64> {
+    pub fn bare(&self, loads: &[Wrench<f64>; MOST_SEGMENTS]) -> Accelerations<f64> {
         let skeleton = &self.system.skeleton;
         let kinematics = Kinematics::new(skeleton, &self.state);
-        dynamics::solve(skeleton, &kinematics, &self.state.hinge_rate, loads)
+        dynamics::solve(skeleton, &kinematics, self.state.hinge_rate(), loads)
     }
 
     /// One step in a vehicle whose motion stands still: four evaluations and the sums of the integrator.
@@ -133,23 +132,12 @@ impl Instant {
     }
 
     /// A step of the skeleton alone under given loads.
-    pub fn bare_step(&self, loads: &[Wrench<f64>; SEGMENTS]) -> State<f64> {
+    pub fn bare_step(&self, loads: &[Wrench<f64>; MOST_SEGMENTS]) -> State<f64> {
         let skeleton = &self.system.skeleton;
         rk4::step(&self.state, STEP_S, |_, state| {
             let kinematics = Kinematics::new(skeleton, state);
-            let motion = dynamics::solve(skeleton, &kinematics, &state.hinge_rate, loads);
-            let mut rate = State {
-                t1: state.velocity,
-                velocity: motion.joint[0],
-                hinge: state.hinge_rate,
-                hinge_rate: motion.hinge,
-                ..*state
-            };
-            for (slot, &n) in FREE.iter().enumerate() {
-                rate.orientation[slot] = state.orientation[slot].rate(state.omega[slot]);
-                rate.omega[slot] = motion.alpha[n];
-            }
-            rate
+            let motion = dynamics::solve(skeleton, &kinematics, state.hinge_rate(), loads);
+            motion.rate(&skeleton.layout, state, Work::zero())
         })
     }
 
@@ -162,8 +150,8 @@ impl Instant {
 }
 
 /// No load on any segment.
-pub fn no_loads() -> [Wrench<f64>; SEGMENTS] {
-    [Wrench::zero(); SEGMENTS]
+pub fn no_loads() -> [Wrench<f64>; MOST_SEGMENTS] {
+    [Wrench::zero(); MOST_SEGMENTS]
 }
 
 struct Count(usize);

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 /// Scenario that runs in a moment: two outputs.
-pub const SCENARIO: &str = include_str!("../src/commands/starter.toml");
+pub const SCENARIO: &str = include_str!("../tests/case.toml");
 /// What makes it short.
 const SHORT: &str = "[set]\n\"time.end\" = \"2 ms\"\n\"output.interval\" = \"1 ms\"\n";
 

@@ -87,9 +87,14 @@ pub(crate) fn cart() -> Result<Setup, Box<dyn Error>> {
         cushion,
         back,
         lateral_m: DRIVER_Y * INCH_M,
-        lean_rad: [15_f64, 18.0, 5.0, 20.0].map(f64::to_radians), // middle torso, upper torso, head, lower torso
-        upper_arms_rad: 35_f64.to_radians(),
-        elbows_rad: (-60_f64).to_radians(),
+        angles_rad: Seating::angles(&[
+            ("middle_torso", 15_f64.to_radians()),
+            ("upper_torso", 18_f64.to_radians()),
+            ("head", 5_f64.to_radians()),
+            ("lower_torso", 20_f64.to_radians()),
+            ("upper_arms", 35_f64.to_radians()),
+            ("elbows", (-60_f64).to_radians()),
+        ]),
         heels_m: [27.0 * INCH_M, 13.0 * INCH_M],
         settle: false,
     });

@@ -51,8 +51,5 @@ fn print_peaks(summary: &Summary) {
         let (t_ms, speed) = (1e3 * contact.time_s, contact.closing_m_s);
         println!("  {} meets {} at {t_ms:.0} ms with {speed:.1} m/s", contact.sphere, contact.surface);
     }
-    println!(
-        "  the energy balance is off by {:.3} % of the greatest kinetic energy",
-        100.0 * summary.energy.balance_error
-    );
+    println!("  the energy balance is {}", summary.energy.found());
 }

@@ -43,7 +43,7 @@
 //!
 //! let (mut drop_m, mut reading_m_s2) = (0.0, f64::NAN);
 //! let outcome = simulate(&model, Watch(|sample: &Sample<'_>| {
-//!     drop_m = 2.0 - sample.state.t1.z;
+//!     drop_m = 2.0 - sample.state.t1().z;
 //!     reading_m_s2 = sample.specific_force_m_s2(HEAD).norm();
 //! }))?;
 //!

@@ -39,7 +39,7 @@ fn from_text(text: &str) -> Setup {
 fn states(setup: Setup) -> Vec<u64> {
     let mut bits = Vec::new();
     let model = Model::new(setup).unwrap();
-    simulate(&model, Watch(|s: &Sample<'_>| bits.extend(s.state.to_numbers().iter().map(|x| x.to_bits())))).unwrap();
+    simulate(&model, Watch(|s: &Sample<'_>| bits.extend(s.state.numbers().iter().map(|x| x.to_bits())))).unwrap();
     bits
 }
 

@@ -62,7 +62,7 @@ fn struck(integrator: Integrator, yaw_rate_after_rad_s: f64) -> Model {
 fn alone(model: &Model) -> Outputs {
     let mut outputs = Outputs::default();
     let outcome = simulate(model, &mut outputs).unwrap();
-    assert!(outcome.balance_error < 1e-4, "{}", outcome.balance_error);
+    assert!(outcome.energy.balance_error < 1e-4, "{:?}", outcome.energy);
     outputs
 }
 
@@ -136,7 +136,7 @@ fn an_own_pulse_moves_the_occupant_as_the_built_in_one() {
     let own = Setup { path: VehiclePath::own(Straight(built_in.path.clone())), ..built_in.clone() };
     let states = |setup: Setup| -> Vec<_> {
         let outputs = alone(&Model::new(setup).unwrap());
-        outputs.checkpoints.iter().map(|c| c.state.to_numbers()).collect()
+        outputs.checkpoints.iter().map(|c| c.state.clone()).collect()
     };
     assert!(states(own) == states(built_in));
 }

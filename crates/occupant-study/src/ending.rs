@@ -6,15 +6,15 @@ use occupant_core::results::outcome::{Outcome, Status};
 use occupant_core::scenario::{Diagnostic, Diagnostics};
 use placed_text::Severity;
 
-pub use occupant_core::results::outcome::Balance;
+pub use occupant_core::results::energy::{Balance, EnergyCheck};
 
 /// How a run of many ended.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ending {
     /// At its end time, its energy in balance to 10 %.
     Completed,
-    /// At its end time, but its results mean nothing; the balance error.
-    OutOfBalance(f64),
+    /// At its end time, but its results mean nothing.
+    OutOfBalance(EnergyCheck),
     /// The integration failed: when, where and why.
     Failed(String),
     /// Its scenario is refused, so that nothing was run: what is wrong with it, in one line.
@@ -29,8 +29,8 @@ impl Ending {
         match &outcome.status {
             Status::Stopped => None,
             Status::Failed(error) => Some(Ending::Failed(error.to_string())),
-            Status::Completed => Some(match Balance::of(outcome.balance_error) {
-                Balance::Lost => Ending::OutOfBalance(outcome.balance_error),
+            Status::Completed => Some(match outcome.energy.balance {
+                Balance::Lost => Ending::OutOfBalance(outcome.energy),
                 Balance::Kept | Balance::Doubtful => Ending::Completed,
             }),
         }
@@ -58,8 +58,7 @@ impl Ending {
     pub fn reason(&self) -> Option<String> {
         match self {
             Ending::Completed => None,
-            Ending::OutOfBalance(error) if error.is_nan() => Some("its energy balance is not known".to_owned()),
-            Ending::OutOfBalance(error) => Some(format!("its energy balance is off by {:.0} %", 100.0 * error.abs())),
+            Ending::OutOfBalance(energy) => Some(format!("its energy balance is {}", energy.found())),
             Ending::Failed(reason) | Ending::Refused(reason) | Ending::Broken(reason) => Some(reason.clone()),
         }
     }
@@ -70,28 +69,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn results_are_doubtful_above_1_percent_and_mean_nothing_above_10() {
-        let of = |errors: [f64; 3]| errors.map(Balance::of);
-        assert_eq!(of([0.0, 0.01, -0.01]), [Balance::Kept; 3]);
-        assert_eq!(of([0.011, 0.1, -0.1]), [Balance::Doubtful; 3]);
-        assert_eq!(of([0.11, -2.0, f64::NAN]), [Balance::Lost; 3]);
-    }
-
-    #[test]
     fn a_run_is_a_result_only_at_its_end_time_and_in_balance() {
-        let of = |status: Status, balance_error: f64| {
-            Ending::of(&Outcome {
-                status,
-                time_s: 0.1,
-                effort: Default::default(),
-                first_touches: Vec::new(),
+        let of = |status: Status, balance| {
+            let energy = EnergyCheck {
+                balance_error: 0.12,
+                reference: "greatest kinetic energy",
+                reference_j: 1.0,
                 greatest_kinetic_j: 1.0,
-                balance_error,
-            })
+                balance,
+            };
+            let (time_s, effort) = (0.1, Default::default());
+            Ending::of(&Outcome { status, time_s, effort, first_touches: Vec::new(), energy })
         };
-        assert_eq!(of(Status::Completed, 0.05), Some(Ending::Completed));
-        assert_eq!(of(Status::Stopped, 0.5), None);
-        let off = of(Status::Completed, 0.12).and_then(|ending| ending.reason());
-        assert_eq!(off.as_deref(), Some("its energy balance is off by 12 %"));
+        assert_eq!(of(Status::Completed, Balance::Doubtful), Some(Ending::Completed));
+        assert_eq!(of(Status::Stopped, Balance::Lost), None);
+        let off = of(Status::Completed, Balance::Lost).and_then(|ending| ending.reason());
+        assert_eq!(off.as_deref(), Some("its energy balance is off by 12 % of the greatest kinetic energy"));
     }
 }

@@ -12,6 +12,7 @@ mod points;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
 
+use occupant_core::body::tti12::TTI12;
 use occupant_core::forces::contact::EdgeForce;
 use occupant_core::model::seating::InitialPosture;
 use occupant_core::model::setup::{Integrator, Setup};
@@ -56,6 +57,10 @@ impl Deck {
     /// A scenario that is refused, or every feature of it that cards cannot hold.
     pub fn from_scenario(scenario: &Loaded, layout: Option<&CompartmentLayout>) -> Result<FromScenario, NoDeck> {
         let (setup, _) = scenario.build().map_err(|d| NoDeck::Refused(Box::new(d)))?;
+        if *setup.body.tree != TTI12 {
+            let count = setup.body.segments.len();
+            return Err(NoDeck::Misfits(vec![format!("body: {count} segments; cards have the report's 12")]));
+        }
         let layout = CompartmentLayout::or_reconstruction(layout).map_err(NoDeck::Compartment)?;
         let kept = notes::from_notes(scenario.scenario.notes.as_deref().unwrap_or_default());
         let mut back = Back::new(&setup, kept);

@@ -12,7 +12,7 @@ use occupant_core::results::sample::Sample;
 
 use super::Back;
 use super::joints::ball_of;
-use crate::cards::{BELTS, POSTURE, SEATS};
+use crate::cards::{BELTS, POSTURE, SEATS, field_named};
 use crate::compartment::CompartmentLayout;
 
 pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
@@ -80,10 +80,14 @@ fn seated(back: &mut Back<'_>, layout: &CompartmentLayout, seating: &Seating) {
     }
     let lateral_m = if is_left { -seating.lateral_m } else { seating.lateral_m };
     back.agree("SWP", lateral_m, "the seat's place sideways");
-    let angles = seating.lean_rad.into_iter().chain([seating.upper_arms_rad, seating.elbows_rad]);
-    for (field, angle) in POSTURE.into_iter().zip(angles) {
-        back.set(field, angle);
+    for field in POSTURE {
+        let key = field_named(field).and_then(|field| field.key.as_deref()).unwrap_or_default();
+        match seating.angle_rad(key.trim_start_matches("posture.")) {
+            Some(angle_rad) => back.set(field, angle_rad),
+            None => back.misfit(format!("{key} is not said: cards have one angle for both sides")),
+        }
     }
+    back.misfit_if(seating.angles_rad.len() > POSTURE.len(), "posture: cards have six angles");
     back.set_all([("XHPV", seating.heels_m[0]), ("ZHPV", seating.heels_m[1])]);
 }
 

@@ -7,8 +7,8 @@
 
 use super::{SignalError, require_positive, require_same_length, require_samples, whole_steps};
 
-/// Most steps of a resampled record.
-const MOST_STEPS: usize = 5_000_000;
+/// Most steps of a resampled record: measures of six channels take half a kilobyte for each.
+const MOST_STEPS: usize = 1_500_000;
 
 /// Shape between samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,7 +88,7 @@ impl<'a> Interpolant<'a> {
         let start_s = self.time_s[0];
         let steps = whole_steps(self.time_s[self.time_s.len() - 1] - start_s, dt_s);
         if steps > MOST_STEPS {
-            let expected = "long enough for at most five million samples";
+            let expected = "long enough for at most 1.5 million samples";
             return Err(SignalError::OutOfRange { what: "new sample interval (s)", found: dt_s, expected });
         }
         Ok((0..=steps).map(|i| self.value_at(start_s + i as f64 * dt_s)).collect())

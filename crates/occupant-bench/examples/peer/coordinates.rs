@@ -7,10 +7,11 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use occupant_bench::Instant;
 use occupant_core::body::SEGMENTS;
+use occupant_core::body::tti12::TTI12;
 use occupant_core::model::Model;
 use occupant_core::motion::dynamics::Accelerations;
 use occupant_core::motion::frame::{Moving, VEHICLE};
-use occupant_core::motion::layout::{LIMBS, free_slot};
+use occupant_core::motion::layout::Layout;
 use occupant_core::motion::state::{Quat, State};
 use occupant_core::motion::vector::V3;
 
@@ -23,7 +24,7 @@ pub const ORDER: [usize; SEGMENTS] = [0, 1, 2, 4, 6, 5, 7, 3, 8, 10, 9, 11];
 
 /// The limb whose lower segment `n` is.
 pub fn limb(n: usize) -> Option<usize> {
-    LIMBS.iter().position(|&(_, lower)| lower == n)
+    Layout::of(&TTI12).hinge_slot(n)
 }
 
 /// The instants that models are set to.
@@ -46,9 +47,10 @@ impl Placed {
             now.state = seen_from_vehicle(&now.state, &now.frames[VEHICLE], &home);
         }
         let mut spun = then.clone();
-        for (slot, omega) in spun.state.omega.iter_mut().enumerate() {
+        for slot in spun.state.turns() {
             let i = slot as f64;
-            *omega += V3::of(&Vector3::new(3.0 - i, 2.0 * i - 5.0, 4.0 - 0.7 * i));
+            let more = V3::of(&Vector3::new(3.0 - i, 2.0 * i - 5.0, 4.0 - 0.7 * i));
+            spun.state.set_omega(slot, spun.state.omega(slot) + more);
         }
         Placed { start, then, spun }
     }
@@ -60,16 +62,19 @@ fn seen_from_vehicle(state: &State<f64>, vehicle: &Moving<f64>, home: &Moving<f6
     let turn = home.axes.to_matrix() * vehicle.axes.to_matrix().transpose();
     let turn = UnitQuaternion::from_matrix(&turn);
     let mut seen = *state;
-    seen.t1 = home.origin + carry(state.t1 - vehicle.origin);
-    seen.velocity = carry(state.velocity - vehicle.velocity_at(state.t1));
-    for q in &mut seen.orientation {
-        let turned = turn.into_inner() * quaternion(q);
-        *q = Quat { w: turned.w, v: V3::of(&turned.imag()) };
-    }
-    for omega in &mut seen.omega {
-        *omega = carry(*omega - vehicle.omega);
+    seen.set_t1(home.origin + carry(state.t1() - vehicle.origin));
+    seen.set_velocity(carry(state.velocity() - vehicle.velocity_at(state.t1())));
+    for slot in state.turns() {
+        let turned = turn.into_inner() * quaternion(&state.orientation(slot));
+        seen.set_orientation(slot, Quat { w: turned.w, v: V3::of(&turned.imag()) });
+        seen.set_omega(slot, carry(state.omega(slot) - vehicle.omega));
     }
     seen
+}
+
+/// Place of the orientation of segment `n`.
+fn free_slot(n: usize) -> usize {
+    Layout::of(&TTI12).free_slot(n).expect("a free segment")
 }
 
 fn quaternion(q: &Quat<f64>) -> Quaternion<f64> {
@@ -78,7 +83,7 @@ fn quaternion(q: &Quat<f64>) -> Quaternion<f64> {
 
 /// Turn of a free segment.
 fn turn(state: &State<f64>, n: usize) -> UnitQuaternion<f64> {
-    UnitQuaternion::from_quaternion(quaternion(&state.orientation[free_slot(n).expect("a free segment")]))
+    UnitQuaternion::from_quaternion(quaternion(&state.orientation(free_slot(n))))
 }
 
 fn push(numbers: &mut Vec<f64>, v: Vector3<f64>) {
@@ -90,13 +95,13 @@ pub fn positions(state: &State<f64>) -> Vec<f64> {
     let mut q = Vec::new();
     for n in ORDER {
         if let Some(limb) = limb(n) {
-            q.push(state.hinge[limb]);
+            q.push(state.hinge()[limb]);
             continue;
         }
         let relative = match PARENTS[n] {
             Some(parent) => turn(state, parent).inverse() * turn(state, n),
             None => {
-                push(&mut q, state.t1.to_vector());
+                push(&mut q, state.t1().to_vector());
                 turn(state, n)
             }
         };
@@ -107,17 +112,17 @@ pub fn positions(state: &State<f64>) -> Vec<f64> {
 
 /// v.
 pub fn speeds(state: &State<f64>) -> Vec<f64> {
-    let omega = |n: usize| state.omega[free_slot(n).expect("a free segment")].to_vector();
+    let omega = |n: usize| state.omega(free_slot(n)).to_vector();
     let mut v = Vec::new();
     for n in ORDER {
         if let Some(limb) = limb(n) {
-            v.push(state.hinge_rate[limb]);
+            v.push(state.hinge_rate()[limb]);
             continue;
         }
         let mut relative = omega(n);
         match PARENTS[n] {
             Some(parent) => relative -= omega(parent),
-            None => push(&mut v, state.velocity.to_vector()),
+            None => push(&mut v, state.velocity().to_vector()),
         }
         push(&mut v, turn(state, n).inverse() * relative);
     }
@@ -126,7 +131,7 @@ pub fn speeds(state: &State<f64>) -> Vec<f64> {
 
 /// v̇ for the accelerations of the segments: d/dt of Rᵀ(ω − ω_p) is Rᵀ(α − α_p + ω × ω_p).
 pub fn rates(state: &State<f64>, motion: &Accelerations<f64>) -> Vec<f64> {
-    let omega = |n: usize| state.omega[free_slot(n).expect("a free segment")].to_vector();
+    let omega = |n: usize| state.omega(free_slot(n)).to_vector();
     let alpha = |n: usize| motion.alpha[n].to_vector();
     let mut rates = Vec::new();
     for n in ORDER {

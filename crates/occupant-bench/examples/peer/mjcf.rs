@@ -88,9 +88,9 @@ fn body(model: &Model, now: &Instant, parts: Parts, n: usize) -> String {
         TTI12.segment_rows()[n].name,
         list(&place(now, n)),
         joint(&model.setup().joints, parts, n),
-        link.cg,
+        link.cg.z,
         link.mass,
-        list(&link.central),
+        list(&inertia(model, n)),
     );
     for (i, site) in now.system.spheres.iter().enumerate() {
         if site.segment == n && parts >= Parts::Held {
@@ -114,7 +114,12 @@ fn body(model: &Model, now: &Instant, parts: Parts, n: usize) -> String {
 /// Proximal joint of segment `n` in its parent's axes, seen from the parent's joint.
 pub fn place(now: &Instant, n: usize) -> [f64; 3] {
     let link = &now.system.skeleton.links[n];
-    [0.0, link.joint_y, link.joint_z]
+    [0.0, link.joint.y, link.joint.z]
+}
+
+/// Principal inertias of segment `n`, kg·m².
+pub fn inertia(model: &Model, n: usize) -> [f64; 3] {
+    model.body().segment(TTI12.segment(n)).inertia_kg_m2.into()
 }
 
 fn joint(joints: &Joints, parts: Parts, n: usize) -> String {

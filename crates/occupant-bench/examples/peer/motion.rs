@@ -3,6 +3,7 @@
 
 use occupant_bench::{self as scene, Instant};
 use occupant_core::body::SEGMENTS;
+use occupant_core::body::tti12::TTI12;
 use occupant_core::forces::joint::JointSystem;
 use occupant_core::forces::joint::{HingeJoint, JointLaw, Joints};
 use occupant_core::forces::{History, Memory};
@@ -16,7 +17,7 @@ use occupant_core::vehicle::PathCursor;
 use serde_json::{Value, json};
 
 use crate::coordinates::{ORDER, PARENTS, limb, positions, rates, speeds};
-use crate::mjcf::place;
+use crate::mjcf::{inertia, place};
 
 /// Length of the motion that is compared, its step and the interval of its places, s.
 const LENGTH_S: f64 = 0.25;
@@ -26,7 +27,7 @@ const STEPS_PER_PLACE: usize = 200;
 /// Body, state, accelerations and motion from `now` on, and what the vehicle does, as JSON.
 pub fn describe(model: &Model, now: &Instant) -> Value {
     let accelerations = now.bare(&scene::no_loads());
-    let bodies: Vec<Value> = ORDER.iter().map(|&n| body(now, n)).collect();
+    let bodies: Vec<Value> = ORDER.iter().map(|&n| body(model, now, n)).collect();
     json!({
         "gravity": now.system.skeleton.gravity,
         "bodies": bodies,
@@ -41,16 +42,16 @@ pub fn describe(model: &Model, now: &Instant) -> Value {
 }
 
 /// Constants of segment `n`, for engines that are built joint by joint.
-fn body(now: &Instant, n: usize) -> Value {
+fn body(model: &Model, now: &Instant, n: usize) -> Value {
     let link = &now.system.skeleton.links[n];
     json!({
         "parent": PARENTS[n].map(|parent| ORDER.iter().position(|&o| o == parent)),
         "hinge": limb(n).is_some(),
         "place": place(now, n),
         "mass": link.mass,
-        "cg": link.cg,
-        "far": link.far,
-        "inertia": link.central,
+        "cg": link.cg.z,
+        "far": far_m(model, n),
+        "inertia": inertia(model, n),
     })
 }
 
@@ -58,12 +59,12 @@ fn body(now: &Instant, n: usize) -> Value {
 fn places(model: &Model, now: &Instant) -> Vec<Vec<[f64; 3]>> {
     let mut now = alone(model, now);
     let steps = (LENGTH_S / STEP_S).round() as usize;
-    let mut found = vec![ends(&now)];
+    let mut found = vec![ends(model, &now)];
     for i in 1..=steps {
         let (system, frames, history) = (&now.system, &now.frames, &mut now.history);
         now.state = rk4::step(&now.state, STEP_S, |_, state| system.rate::<false>(state, frames, history));
         if i.is_multiple_of(STEPS_PER_PLACE) {
-            found.push(ends(&now));
+            found.push(ends(model, &now));
         }
     }
     found
@@ -80,18 +81,26 @@ fn alone(model: &Model, now: &Instant) -> Instant {
     }
     let mut now = now.held(model);
     now.system.forces.belts = Vec::new();
-    now.system.forces.joints = JointSystem::new(&joints, &[0.0; 7]);
-    let memory = Memory { contacts: Vec::new(), belts: Vec::new(), joints: Vec::new(), limits: Vec::new() };
+    now.system.forces.joints = JointSystem::new(&joints, &now.system.skeleton, |_| 0.0);
+    let memory =
+        Memory { contacts: Vec::new(), belts: Vec::new(), joints: Vec::new(), limits: Vec::new(), muscles: Vec::new() };
     now.history = History::new(&now.system.forces, memory);
     now
 }
 
-fn ends(now: &Instant) -> Vec<[f64; 3]> {
+/// Z of the far end of segment `n`, seen from its joint, m.
+fn far_m(model: &Model, n: usize) -> f64 {
+    let segment = TTI12.segment(n);
+    let length_m = model.body().segment(segment).length_m;
+    if TTI12[segment].hangs() { -length_m } else { length_m }
+}
+
+fn ends(model: &Model, now: &Instant) -> Vec<[f64; 3]> {
     let (skeleton, state): (_, &State<f64>) = (&now.system.skeleton, &now.state);
     let k = Kinematics::new(skeleton, state);
     let list = |v: V3<f64>| [v.x, v.y, v.z];
     let ends = |&n: &usize| {
-        let far = k.joint[n] + k.axes[n].z * skeleton.links[n].far;
+        let far = k.joint[n] + k.axes[n].z * far_m(model, n);
         [list(k.joint[n]), list(far)]
     };
     debug_assert_eq!(ORDER.len(), SEGMENTS);

@@ -48,7 +48,7 @@ fuzz_target!(|bytes: &[u8]| {
     if which < 2 {
         let _not_there = fs::remove_file("out/SHA256SUMS");
     }
-    give(&["study report out -o page.html -f -q", "sweep merge out --csv", "sweep study.toml -o out -q --threads 1"]);
+    give(&["study report out -o page.html -f", "sweep merge out --csv", "sweep study.toml -o out -q --threads 1"]);
 });
 
 /// Rows as lines of the journal.

@@ -1,11 +1,11 @@
 //! `occupant new`.
 
+mod template;
+
 use std::path::PathBuf;
 
 use crate::base::{Failure, publish, say};
-
-/// The scenario that `occupant new` writes.
-const STARTER: &str = include_str!("starter.toml");
+use template::Template;
 
 /// Write a commented starter scenario that runs as it is
 #[derive(Debug, clap::Args)]
@@ -13,6 +13,10 @@ pub(crate) struct Args {
     /// The file to write; .toml is added where there is no extension
     #[arg(value_name = "NAME.toml")]
     file: PathBuf,
+
+    /// What to start from
+    #[arg(short, long, value_enum, default_value_t)]
+    template: Template,
 
     /// Replace the file if it exists
     #[arg(short, long)]
@@ -32,11 +36,11 @@ pub(crate) fn new(args: &Args) -> Result<(), Failure> {
     let name = file.display();
     if file.extension().is_some_and(|e| !e.eq_ignore_ascii_case("toml")) {
         return Err(Failure::with_help(
-            format!("{name} is not named .toml, and the starter scenario is TOML"),
+            format!("{name} is not named .toml, and what is written is TOML"),
             "give it a name that ends with .toml",
         ));
     }
-    publish(&file, args.force, STARTER.as_bytes())?;
+    publish(&file, args.force, args.template.text().as_bytes())?;
     if !args.quiet {
         say(&format!("wrote {name}\nnext: occupant check {name}\n      occupant run {name}"));
     }

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::flags::ensemble::EnsembleArgs;
 use super::tables::summary::{Marks, summary_table};
-use crate::base::{Done, Existing, Failure, Interrupt, json, print, program, say};
+use crate::base::{Done, Existing, Failure, Interrupt, ending, json, print, program, say};
 use crate::files::scenario::{self, Opened, ScenarioArgs};
 use crate::jobs::ensemble::report::Report;
 use crate::jobs::ensemble::text::text as ensemble_text;
@@ -110,7 +110,7 @@ pub(crate) fn run(args: &Args) -> Result<Done, Failure> {
     let channels = ensemble.as_ref().map(|e| e.channels.clone()).unwrap_or_default();
     let interrupt = Interrupt::listen("stopping at the next output; once more to stop at once");
     let mut run = simulate(&opened, from.as_ref(), recording, channels, &interrupt, args.quiet)?;
-    let balance = Balance::of(run.summary.energy.balance_error);
+    let balance = run.summary.energy.balance;
     let ensemble = match ensemble {
         Some(wanted) if run.completed && balance != Balance::Lost => {
             let histories = std::mem::take(&mut run.histories);
@@ -155,7 +155,8 @@ fn output_name(args: &Args) -> Result<Option<PathBuf>, Failure> {
         return Ok(None);
     }
     if let Some(name) = &args.output {
-        return Ok(Some(name.clone()));
+        let is_ours = ending(name) == "mcap";
+        return is_ours.then(|| Some(name.clone())).ok_or_else(|| Failure::ending(name, ".mcap"));
     }
     let nameless = || Failure::with_help("the scenario's name gives no name to its results", "use -o FILE.mcap");
     let mut name = args.scenario.scenario.file_stem().ok_or_else(nameless)?.to_owned();

@@ -33,8 +33,10 @@ pub struct Results {
     lost: Option<String>,
     /// What is wrong with it.
     flaw: Option<String>,
-    /// What it says of the run's end; none if the run was cut off.
-    pub(crate) result: Option<BTreeMap<String, String>>,
+    /// How the run ended.
+    status: RunStatus,
+    /// Why, where it did not complete.
+    reason: Option<String>,
     /// The scenario, overrides included.
     pub(crate) loaded: Loaded,
     /// Its model.
@@ -60,7 +62,7 @@ impl Results {
         for checkpoint in &run.checkpoints {
             checkpoint.check(&model).map_err(|e| no_results(path, &e.to_string()))?;
         }
-        let (lost, flaw) = (run.lost(), run.flaw());
+        let (lost, flaw, (status, reason)) = (run.lost(), run.flaw(), run.ending());
         // nothing is computed over a gap
         let next_is_there = |pair: &&[Checkpoint]| pair[1].index == pair[0].index + 1;
         let whole = run.checkpoints.windows(2).take_while(next_is_there).count() + 1;
@@ -73,7 +75,8 @@ impl Results {
             flaw,
             scenario_text: text.map(|t| String::from_utf8_lossy(t).into_owned()),
             run: run.run,
-            result: run.result,
+            status,
+            reason,
             loaded,
             model,
             checkpoints: run.checkpoints,
@@ -82,43 +85,21 @@ impl Results {
 
     /// Whether the run reached its end.
     pub(crate) fn is_complete(&self) -> bool {
-        self.status() == RunStatus::Completed
-    }
-
-    /// An entry of what the file says of the run's end.
-    fn said(&self, key: &str) -> Option<&str> {
-        self.result.as_ref()?.get(key).map(String::as_str)
-    }
-
-    /// How the run ended; one that was cut off, or of which outputs are lost, counts as interrupted.
-    pub(crate) fn status(&self) -> RunStatus {
-        match self.said("status") {
-            _ if self.lost.is_some() => RunStatus::Interrupted,
-            Some("completed") => RunStatus::Completed,
-            Some("failed") => RunStatus::Failed,
-            _ => RunStatus::Interrupted,
-        }
+        self.status == RunStatus::Completed
     }
 
     /// What the run came to, by the one rule; none if it was stopped on its way.
     pub(crate) fn ending(&self) -> Option<Ending> {
-        match self.status() {
+        match self.status {
             RunStatus::Completed => Ending::of(&self.outcome()),
-            RunStatus::Failed => {
-                Some(Ending::Failed(self.said("reason").unwrap_or("the integration failed").to_owned()))
-            }
+            RunStatus::Failed => Some(Ending::Failed(self.reason.clone().unwrap_or_default())),
             RunStatus::Interrupted => None,
         }
     }
 
-    /// Why the run is not complete.
-    fn reason(&self) -> &str {
-        self.lost.as_deref().or_else(|| self.said("reason")).unwrap_or("it was cut off")
-    }
-
     /// How well the run kept its energy, up to its last output.
     pub(crate) fn balance(&self) -> Balance {
-        Balance::of(self.outcome().balance_error)
+        self.outcome().energy.balance
     }
 
     /// What a user should know before trusting the results, in words.
@@ -128,8 +109,8 @@ impl Results {
         notes.extend(self.flaw.iter().map(|flaw| format!("{name} is {flaw}")));
         if self.lost.is_some() {
             notes.push(format!("of {name} only the outputs up to the first that is missing are used"));
-        } else if !self.is_complete() {
-            notes.push(format!("{name} holds a run that did not complete: {}", self.reason()));
+        } else if let Some(reason) = &self.reason {
+            notes.push(format!("{name} holds a run that did not complete: {reason}"));
         }
         let theirs = self.run.get("program").map_or("?", String::as_str);
         if theirs != program() {
@@ -216,20 +197,13 @@ impl Results {
 
     /// The summary that was made, of this run however it ended.
     fn told(&self, summarizer: &Summarizer) -> Result<Summary, Failure> {
-        let summary = summarizer.summary(None);
-        let mut summary = summary.ok_or_else(|| self.refused("the run left no summary"))?;
-        summary.status = self.status();
-        if !self.is_complete() {
-            summary.reason = Some(self.reason().to_owned());
-        }
-        Ok(summary)
+        let summary = summarizer.summary(None).ok_or_else(|| self.refused("the run left no summary"))?;
+        Ok(summary.ended(self.status, self.reason.clone()))
     }
 
     /// The outcome up to the last output.
     fn outcome(&self) -> Outcome {
-        let outcome = self.checkpoints[self.checkpoints.len() - 1].outcome(&self.model);
-        let is_known = self.status() != RunStatus::Failed;
-        Outcome { balance_error: if is_known { outcome.balance_error } else { f64::NAN }, ..outcome }
+        self.checkpoints[self.checkpoints.len() - 1].outcome(&self.model)
     }
 }
 

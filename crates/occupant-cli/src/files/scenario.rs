@@ -56,7 +56,8 @@ pub(crate) fn open(args: &ScenarioArgs) -> Result<Opened, Failure> {
 /// A file that cannot be read; everything that is wrong with its words.
 pub(crate) fn draft(args: &ScenarioArgs) -> Result<(Vec<u8>, Draft), Failure> {
     let path = &args.scenario;
-    let bytes = input_file::bytes(path).map_err(|error| unreadable(path, &error))?;
+    let bytes = input_file::bytes(path).and_then(|bytes| input_file::scenario_fits(&bytes).map(|()| bytes));
+    let bytes = bytes.map_err(|error| unreadable(path, &error))?;
     let name = path.display().to_string();
     let refuse = |problems: Diagnostics| refused(&name, &problems);
     let mut draft = Draft::read_bytes(&bytes, format_of(path), &name).map_err(refuse)?;

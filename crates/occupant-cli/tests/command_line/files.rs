@@ -108,13 +108,36 @@ fn links_keep_pointing_where_they_point_and_devices_are_refused() {
         assert_eq!(std::fs::read_dir(at("elsewhere")).unwrap().count(), 1);
     }
     symlink("/dev/null", at("device.toml")).unwrap();
+    symlink("/dev/null", at("device.mcap")).unwrap();
     for words in
-        [&["new", "device.toml", "-f"][..], &["new", "device.toml"], &["run", "case.toml", "-f", "-o", "/dev/null"]]
+        [&["new", "device.toml", "-f"][..], &["new", "device.toml"], &["run", "case.toml", "-f", "-o", "device.mcap"]]
     {
         let output = answer(folder.path(), words);
         assert_eq!(code(&output), 2);
         assert!(err(&output).contains("is not an ordinary file"), "{}", err(&output));
     }
+}
+
+#[test]
+fn a_run_is_written_only_under_a_name_and_with_a_scenario_that_can_be_read_again() {
+    let folder = folder_with_case();
+    let output = answer(folder.path(), &["run", "case.toml", "-o", "x.txt"]);
+    assert!(code(&output) == 2 && err(&output).contains("use a name that ends with .mcap"), "{}", err(&output));
+    assert!(!folder.path().join("x.txt").exists());
+
+    // what it leaves out would make it too long
+    let case = std::fs::read_to_string(folder.path().join("case.toml")).unwrap();
+    let notes = "x".repeat(1_999_900 - case.len());
+    std::fs::write(folder.path().join("long.toml"), format!("notes = \"{notes}\"\n{case}")).unwrap();
+    let output = answer(folder.path(), &["run", "long.toml", "-q"]);
+    assert!(code(&output) == 2 && err(&output).contains("too long for a result file"), "{}", err(&output));
+    assert!(!folder.path().join("long.partial.mcap").exists());
+    assert_eq!(code(&answer(folder.path(), &["run", "long.toml", "-q", "--no-mcap"])), 0);
+
+    // whatever a scenario's file is called
+    std::fs::write(folder.path().join("long.txt"), vec![b' '; 2_000_001]).unwrap();
+    let output = answer(folder.path(), &["check", "long.txt"]);
+    assert!(err(&output).contains("such a text may have at most 2 MB"), "{}", err(&output));
 }
 
 /// A limit on the size of files stands for a disk that is full.

@@ -27,10 +27,10 @@ fn answer(folder: &Path, words: &[&str]) -> Output {
     output.expect("the command starts")
 }
 
-/// A fresh folder with the starter scenario as case.toml.
+/// A fresh folder with [`crate::common::CASE`] as case.toml.
 fn folder_with_case() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
-    assert_eq!(code(&answer(folder.path(), &["new", "case.toml"])), 0);
+    std::fs::write(folder.path().join("case.toml"), crate::common::CASE).expect("a scenario");
     folder
 }
 

@@ -1,19 +1,75 @@
-use super::{answer, code, err, folder_with_case, out};
+use std::path::Path;
+
+use super::{answer, code, err, json, out};
+
+/// What `occupant new` can start from.
+const TEMPLATES: [&str; 5] = ["driver", "right-hand-drive", "rear-seat", "side", "rollover"];
+
+/// A fresh folder with a template as case.toml.
+fn folder_with(template: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    assert_eq!(code(&answer(folder.path(), &["new", "case.toml", "--template", template])), 0);
+    folder
+}
+
+/// Without the command line's own words about templates a test of each would miss a new one.
+#[test]
+fn help_and_the_error_of_an_unknown_template_list_them_all() {
+    let folder = folder_with("driver");
+    let help = out(&answer(folder.path(), &["new", "--help"]));
+    let unknown = err(&answer(folder.path(), &["new", "other.toml", "--template", "back-seat"]));
+    for said in [help, unknown] {
+        assert!(TEMPLATES.iter().all(|name| said.contains(name)), "{said}");
+    }
+}
 
 #[test]
-fn a_starter_scenario_runs_as_it_is() {
-    let folder = folder_with_case();
-    let check = answer(folder.path(), &["check", "case.toml"]);
-    assert_eq!((code(&check), err(&check)), (0, String::new()));
-    let run = answer(folder.path(), &["run", "case.toml"]);
-    assert_eq!((code(&run), err(&run)), (0, String::new()));
-    assert!(folder.path().join("case.mcap").exists());
-    assert!(!folder.path().join("case.partial.mcap").exists());
+fn every_template_runs_as_it_is_without_a_caveat() {
+    for template in TEMPLATES {
+        let folder = folder_with(template);
+        let check = answer(folder.path(), &["check", "case.toml"]);
+        assert_eq!((code(&check), err(&check)), (0, String::new()), "{template}");
+        let run = answer(folder.path(), &["run", "case.toml", "--json", "--no-mcap", "--quiet"]);
+        assert_eq!((code(&run), err(&run)), (0, String::new()), "{template}");
+        // a bare head on a bare window is a spike that no interval of outputs is short enough for
+        let caveats = json(&run)["caveats"].as_array().unwrap().clone();
+        let is_spike = |name: &str| template == "side" && name == "outputs_too_coarse";
+        let caveats: Vec<_> = caveats.iter().filter(|c| !is_spike(c["name"].as_str().unwrap())).collect();
+        assert!(caveats.is_empty(), "{template}: {caveats:?}");
+    }
+}
+
+#[test]
+fn the_shipped_scenarios_are_the_templates() {
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/templates");
+    for template in TEMPLATES {
+        let written = std::fs::read_to_string(folder_with(template).path().join("case.toml")).unwrap();
+        let file = shipped.join(format!("{template}.toml"));
+        let is_same = std::fs::read_to_string(&file).is_ok_and(|text| text == written);
+        assert!(is_same, "write it anew: occupant new -f --template {template} scenarios/templates/{template}.toml");
+    }
+}
+
+#[test]
+fn a_car_with_the_wheel_on_the_right_is_the_other_in_a_mirror() {
+    let measures = ["driver", "right-hand-drive"].map(|template| {
+        let folder = folder_with(template);
+        let words = ["run", "case.toml", "--json", "--no-mcap", "--quiet", "--set", "time.end=80 ms"];
+        json(&answer(folder.path(), &words))["measures"].clone()
+    });
+    let value = |of: usize, name: &str| {
+        let all = measures[of].as_array().unwrap();
+        all.iter().find(|m| m["name"] == name).unwrap()["value"].as_f64().unwrap()
+    };
+    for (left, right) in [("hic15", "hic15"), ("nij", "nij"), ("left_femur", "right_femur")] {
+        let (left, right) = (value(0, left), value(1, right));
+        assert!((left - right).abs() < 1e-6 * left.abs(), "{left} and {right}");
+    }
 }
 
 #[test]
 fn a_file_that_exists_is_left_alone_unless_forced() {
-    let folder = folder_with_case();
+    let folder = folder_with("driver");
     let file = folder.path().join("case.toml");
     std::fs::write(&file, "mine").unwrap();
     let again = answer(folder.path(), &["new", "case.toml"]);
@@ -26,7 +82,7 @@ fn a_file_that_exists_is_left_alone_unless_forced() {
 
 #[test]
 fn the_ending_is_added_and_no_other_is_taken() {
-    let folder = folder_with_case();
+    let folder = folder_with("driver");
     let named = answer(folder.path(), &["new", "other"]);
     assert_eq!((code(&named), out(&named)), (0, String::new()));
     assert!(err(&named).contains("occupant run other.toml"));

@@ -1,6 +1,6 @@
 use super::{answer, code, err, folder_with_case, out};
 
-/// Changes the starter scenario by replacing words, and runs it.
+/// Changes the case by replacing words, and runs it.
 fn after(change: &[(&str, &str)]) -> (i32, String) {
     let folder = folder_with_case();
     let file = folder.path().join("case.toml");

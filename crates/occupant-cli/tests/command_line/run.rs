@@ -108,18 +108,48 @@ fn figures_that_cannot_be_trusted_say_so_wherever_they_stand() {
 }
 
 #[test]
-fn a_run_that_fails_does_not_know_its_energy_balance() {
-    let folder = folder_with_case();
-    let words = [
-        "run",
-        "case.toml",
-        "--no-mcap",
-        "--set",
-        "integrator={kind=\"adaptive\", min_step=\"1 ms\", max_step=\"1 ms\"}",
-    ];
-    let output = answer(folder.path(), &words);
-    assert_ne!(code(&output), 0);
-    assert!(out(&output).contains("not known of the greatest kinetic energy"), "{}{}", out(&output), err(&output));
+fn a_run_that_fails_marks_every_figure_and_judges_its_energy_as_far_as_it_came() {
+    let folder = tempfile::tempdir().unwrap();
+    let said = |words: &[&str], exit: i32| {
+        let output = answer(folder.path(), words);
+        assert_eq!(code(&output), exit, "{}", err(&output));
+        output
+    };
+    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/cart-lap-torso.toml");
+    let stiff = ["materials.*.k1=1e8", "integrator={kind=\"rk4\", step=\"1 ms\"}", "time.end=\"100 ms\""];
+    let mut words = vec!["run", scenario, "-f", "-o", "a.mcap"];
+    words.extend(stiff.iter().flat_map(|change| ["--set", change]));
+    let table = out(&said(&words, 1));
+    words.push("--json");
+    let ran = json(&said(&words, 1));
+    let caveat = &ran["caveats"][0];
+    assert_eq!((&caveat["name"], &caveat["figures"]), (&"run_failed".into(), &serde_json::json!(["*"])));
+    let why = caveat["text"].as_str().unwrap();
+    assert!(why.starts_with("the run failed: all figures are those up to "), "{why}");
+    assert!(ran["energy"]["balance_error"].as_f64().is_some_and(|error| error > 0.0), "{}", ran["energy"]);
+    // the same of the file that it left
+    let measured = json(&said(&["measures", "a.partial.mcap", "--json"], 0));
+    assert_eq!(measured["caveats"], ran["caveats"]);
+    let measures = out(&said(&["measures", "a.partial.mcap"], 0));
+    assert!(table.contains(&format!("! {why}\n")) && measures.contains(&format!("! {why}\n")), "{table}{measures}");
+    // a number of a table stands with its mark; only limits and margins are none of the run
+    let unmarked =
+        |row: &&str| row.split_whitespace().skip(1).filter(|cell| is_figure(cell)).any(|cell| !cell.ends_with('!'));
+    for name in ["head", "chest", "pelvis", "lap", "torso"] {
+        let rows = rows_of(&table, name);
+        assert!(!rows.is_empty() && !rows.iter().any(unmarked), "{rows:?}");
+    }
+    assert!(row(&table, "energy")[3].ends_with('!') && row(&table, "HIC15")[1].ends_with('!'), "{table}");
+    said(&["report", "a.partial.mcap", "-o", "a.html"], 0);
+    let page = std::fs::read_to_string(folder.path().join("a.html")).unwrap();
+    assert!(page.contains("\"is_marked\":true") && !page.contains("\"is_marked\":false"));
+    let printed = out(&said(&["print", "a.partial.mcap"], 0));
+    assert!(printed.contains(&format!("*** {why}")), "{}", &printed[printed.len() - 4000..]);
+}
+
+/// Whether a cell of a table begins like a number.
+fn is_figure(cell: &str) -> bool {
+    cell.starts_with(|c: char| c.is_ascii_digit())
 }
 
 #[test]

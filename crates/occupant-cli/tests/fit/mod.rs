@@ -14,7 +14,7 @@ use serde_json::Value;
 
 use crate::common::{self, answer, damage, done, err, occupant, spoken};
 
-/// A fresh folder with a study and the starter scenario, whose occupant is the one with whom the bounds of these tests were
+/// A fresh folder with a study and the case, whose occupant is the one with whom the bounds of these tests were
 /// measured.
 fn folder_with(study: &str) -> tempfile::TempDir {
     let folder = common::folder_with(study);
@@ -25,7 +25,7 @@ fn folder_with(study: &str) -> tempfile::TempDir {
     folder
 }
 
-/// The starter scenario up to the end of its belt loads.
+/// The case up to the end of its belt loads.
 const TIME: &str = "time.end=80 ms";
 
 /// What is hidden in the tests: lap belt 90 kN/m instead of 70, torso slack 3.5 cm instead of 2.
@@ -55,7 +55,7 @@ to = "75 ms"
 budget = 160
 "#;
 
-/// Measures a run of the starter scenario with these changes into a table: belt forces and pelvis acceleration, each with
+/// Measures a run of the case with these changes into a table: belt forces and pelvis acceleration, each with
 /// noise of `noise` of its greatest value, the same for the same seed.
 fn measure(folder: &Path, name: &str, changes: &[&str], noise: f64, seed: u64) {
     let mut run = vec!["run", "case.toml", "-o", "test.mcap", "--force", "--quiet", "--set", TIME];

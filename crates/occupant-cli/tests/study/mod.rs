@@ -14,7 +14,7 @@ use occupant_cli::results::Results;
 
 use crate::common::{self, answer, done, err, occupant, spoken};
 
-/// A fresh folder with the starter scenario as case.toml and a study of it, whose runs are short.
+/// A fresh folder with the case as case.toml and a study of it, whose runs are short.
 fn folder_with(study: &str) -> tempfile::TempDir {
     common::folder_with(&format!("base = \"case.toml\"\n{study}"))
 }

@@ -87,7 +87,7 @@ fn a_sample_that_is_refused_or_fails_is_a_row_with_its_reason() {
     let at = folder.path();
     let case = at.join("case.toml");
     let text = fs::read_to_string(&case).unwrap();
-    // the starter's own integrator goes
+    // the case's own integrator goes
     let start = text.find("[integrator]").unwrap();
     let end = start + text[start..].find("\n\n").unwrap();
     let adaptive = "[integrator]\nkind = \"adaptive\"\nmin_step = 1e-8\nmax_step = 1e-3\n\

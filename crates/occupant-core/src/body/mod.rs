@@ -3,12 +3,13 @@
 //! Report: "Body Geometry and Coordinate Systems", Figs 1 and 5. Segment axes are X ahead, Y to the
 //! occupant's left and Z up when the occupant stands upright with hanging arms; they are principal axes.
 
+pub(crate) mod named;
 pub(crate) mod people;
 pub(crate) mod shape;
 pub(crate) mod tree;
 pub mod tti12;
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Point3, UnitQuaternion, Vector2, Vector3};
 
 pub use people::Sex;
 pub use tree::{
@@ -16,20 +17,68 @@ pub use tree::{
     both_sides,
 };
 
-/// Number of rigid segments of the bodies that the kernel is compiled for.
+/// Number of rigid segments of the report's body.
 pub const SEGMENTS: usize = tti12::TTI12.segment_rows().len();
 
 /// Mass and geometry of one segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SegmentProperties {
-    /// L, distance between the segment's ends.
+    /// L, distance between the segment's ends, which lie on its Z axis.
     pub length_m: f64,
     /// M.
     pub mass_kg: f64,
-    /// ρ, distance of the centre of gravity from the lower end (the distal end of a limb).
+    /// ρ, distance of the centre of gravity from the lower end (the distal end of a limb) along Z.
     pub cg_from_lower_end_m: f64,
-    /// I_x, I_y, I_z about the centre of gravity, principal.
+    /// X and Y of the centre of gravity; 0 in the report.
+    pub cg_beside_m: Vector2<f64>,
+    /// Principal moments of inertia about the centre of gravity; I_x, I_y, I_z in the report.
     pub inertia_kg_m2: Vector3<f64>,
+    /// Turns the principal axes into the segment's; no turn in the report.
+    pub principal: UnitQuaternion<f64>,
+}
+
+impl SegmentProperties {
+    /// As in the report: the centre of gravity between the ends, the segment's axes principal.
+    pub fn new(length_m: f64, mass_kg: f64, cg_from_lower_end_m: f64, inertia_kg_m2: Vector3<f64>) -> Self {
+        SegmentProperties {
+            length_m,
+            mass_kg,
+            cg_from_lower_end_m,
+            cg_beside_m: Vector2::zeros(),
+            inertia_kg_m2,
+            principal: UnitQuaternion::identity(),
+        }
+    }
+
+    /// Centre of gravity from the lower end, segment axes, m.
+    pub fn cg_m(&self) -> Vector3<f64> {
+        self.cg_beside_m.push(self.cg_from_lower_end_m)
+    }
+}
+
+/// Where a joint is on one of its segments: a point from the segment's lower end, and the joint's axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointSite {
+    /// From the lower end, segment axes, m.
+    pub point_m: Vector3<f64>,
+    /// Turns the joint's axes into the segment's. In the posture zero both segments' fall together.
+    pub axes: UnitQuaternion<f64>,
+}
+
+impl JointSite {
+    /// With the segment's own axes.
+    pub(crate) fn at(point_m: Vector3<f64>) -> Self {
+        JointSite { point_m, axes: UnitQuaternion::identity() }
+    }
+}
+
+/// Where a joint is on its proximal and on its distal segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointPlace {
+    /// On the segment nearer to the root.
+    pub proximal: JointSite,
+    /// On the segment that it carries.
+    pub distal: JointSite,
 }
 
 /// A sphere fixed to a segment, the only part of the body that touches surfaces and belts.
@@ -66,13 +115,18 @@ pub struct Body {
     /// Its segments, joints and standard spheres.
     pub tree: &'static Tree,
     /// Properties of the segments, in the tree's order.
-    pub segments: [SegmentProperties; SEGMENTS],
+    pub segments: Vec<SegmentProperties>,
+    /// Places of the joints in the tree's order where the tree leaves them to the body ([`Place::Given`]); else empty.
+    pub places: Vec<JointPlace>,
     /// L_s, distance of a shoulder joint from the upper end of segment 2 along Y₂.
     pub shoulder_half_width_m: f64,
     /// L_H, distance of a hip joint from the lower end of segment 4 along Y₄.
     pub hip_half_width_m: f64,
     /// Height of the neck's joint above the line of the shoulders along Z₂; 0 in the report.
     pub neck_height_m: f64,
+    /// The occipital condyles seen from the neck's joint, axes of the head: loads of the upper neck are given there.
+    /// Without them they are given at the joint.
+    pub condyles_m: Option<Vector3<f64>>,
     /// Contact spheres; the tree's standard ones unless a scenario says otherwise.
     pub spheres: Vec<ContactSphere>,
 }
@@ -111,14 +165,12 @@ impl Body {
         let mut joints_m = vec![Vector3::zeros(); self.segments.len()];
         for segment in self.tree.segments() {
             if let Some(carrier) = self.tree.carrier(segment) {
-                let [y, z] = self.joint_m(segment);
-                joints_m[segment.index()] = joints_m[self.tree[carrier].proximal.index()] + Vector3::new(0.0, y, z);
+                joints_m[segment.index()] = joints_m[self.tree[carrier].proximal.index()] + self.offset_m(segment);
             }
         }
         let place = |sphere: &ContactSphere| {
-            let lower_end_m = self.far_m(sphere.segment).min(0.0);
-            let joint_m = joints_m[sphere.segment.index()];
-            sphere.centre_from_lower_end_m + joint_m + Vector3::new(0.0, 0.0, lower_end_m)
+            let lower_end_m = joints_m[sphere.segment.index()] - self.joint_m(sphere.segment);
+            sphere.centre_from_lower_end_m + lower_end_m
         };
         self.spheres.iter().map(place).collect()
     }
@@ -132,26 +184,62 @@ impl Body {
         if side == Side::Left { half_width_m } else { -half_width_m }
     }
 
-    /// Y and Z of the joint that carries a segment, seen from the joint end of its proximal segment along that one's axes,
-    /// m; 0 for both segments that meet at T1.
-    pub(crate) fn joint_m(&self, segment: Segment) -> [f64; 2] {
-        let Some(joint) = self.tree.carrier(segment) else {
-            return [0.0; 2];
+    /// Where a joint is on both of its segments.
+    pub fn place(&self, joint: Joint) -> JointPlace {
+        let row = &self.tree[joint];
+        let at = |y: f64, above_m: f64| {
+            let far_m = if self.tree[row.proximal].hangs() { 0.0 } else { self.segment(row.proximal).length_m };
+            JointSite::at(Vector3::new(0.0, y, far_m + above_m))
         };
-        let joint = &self.tree[joint];
-        let far_m = self.far_m(joint.proximal);
-        match joint.place {
-            Place::Root => [0.0; 2],
-            Place::FarEnd => [0.0, far_m],
-            Place::Neck => [0.0, far_m + self.neck_height_m],
-            Place::Beside(width, side) => [self.beside_m(width, side), far_m],
+        let proximal = match row.place {
+            Place::Given => return self.places[joint.index()],
+            Place::Root => JointSite::at(self.end_m(row.proximal)),
+            Place::FarEnd => at(0.0, 0.0),
+            Place::Neck => at(0.0, self.neck_height_m),
+            Place::Beside(width, side) => at(self.beside_m(width, side), 0.0),
+        };
+        JointPlace { proximal, distal: JointSite::at(self.end_m(row.distal)) }
+    }
+
+    /// The point of a segment that the kernel calls its joint, from its lower end, segment axes, m: where the joint is that
+    /// carries it; of the first segment the end that is T1.
+    pub fn joint_m(&self, segment: Segment) -> Vector3<f64> {
+        match self.tree.carrier(segment) {
+            Some(joint) => self.place(joint).distal.point_m,
+            None => self.end_m(segment),
         }
+    }
+
+    /// Where the joint that carries a segment is on the segment that it hangs from, from that one's lower end, m; zero for
+    /// the first segment.
+    pub fn socket_m(&self, segment: Segment) -> Vector3<f64> {
+        self.tree.carrier(segment).map_or_else(Vector3::zeros, |joint| self.place(joint).proximal.point_m)
+    }
+
+    /// Height over the upper end of a segment at which it carries what leads to the head, m.
+    pub fn neck_above_m(&self, segment: Segment) -> Option<f64> {
+        let joint = |n: &Segment| self.tree.carrier(*n).is_some_and(|joint| self.tree[joint].proximal == segment);
+        let next = self.tree.inwards(self.tree.landmarks().head).find(joint)?;
+        Some(self.socket_m(next).z - self.segment(segment).length_m)
+    }
+
+    /// Where the joint is that carries a segment, seen from the joint of the segment that it hangs from, along that one's
+    /// axes, m; zero for the first segment.
+    pub(crate) fn offset_m(&self, segment: Segment) -> Vector3<f64> {
+        let Some(joint) = self.tree.carrier(segment) else { return Vector3::zeros() };
+        self.socket_m(segment) - self.joint_m(self.tree[joint].proximal)
     }
 
     /// Z of the far end of a segment, seen from its joint end, m.
     pub(crate) fn far_m(&self, segment: Segment) -> f64 {
         let length_m = self.segment(segment).length_m;
         if self.tree[segment].hangs() { -length_m } else { length_m }
+    }
+
+    /// The end at which the joint is that carries a segment, from the lower end, m.
+    fn end_m(&self, segment: Segment) -> Vector3<f64> {
+        let hangs = self.tree[segment].hangs();
+        Vector3::z() * if hangs { self.segment(segment).length_m } else { 0.0 }
     }
 
     /// The tree's spheres (Fig. 5) on this body's segments; `radius_m` in the tree's order.

@@ -6,15 +6,15 @@
 //! are stretches of the same body, from the weights and sitting heights of 49 CFR 571.208 S7.1.4 and mass fractions of
 //! Jensen; the lengths of their segments are the weakest numbers here.
 //!
-//! The 15 segments then become the 12 of [`TTI12`] by the parallel-axis theorem, products of inertia left out. The neck's
-//! joint is 125 mm below the centre of gravity of the reference's head, where one joint alone gives the path of a dummy's
+//! The 15 segments are a body of their own (`divided`), or become the 12 of [`super::tti12::TTI12`] by the parallel-axis theorem, products
+//! of inertia left out. The neck's joint of the 12 is 125 mm below the centre of gravity of the reference's head, where one joint alone gives the path of a dummy's
 //! head in the neck pendulum of 49 CFR 572.7 (chords of 2ρ sin(θ/2) with ρ = 122 to 128 mm at 30, 60 and 68 degrees); the
 //! neck's mass belongs to the upper torso.
 
-use nalgebra::Vector3;
+mod divided;
+mod merged;
 
-use super::tti12::TTI12;
-use super::{Body, SegmentProperties};
+use super::Body;
 
 /// Which regressions hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +51,30 @@ const INCH_M: f64 = 0.0254;
 const POUND_KG: f64 = 0.453_592_37;
 /// lbf in s² in kg m².
 const INERTIA_KG_M2: f64 = 0.112_984_829;
+
+/// How many segments a body is divided into.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Division {
+    /// The report's.
+    #[default]
+    Twelve,
+    /// With a neck and feet.
+    Fifteen,
+    /// With hands too.
+    Seventeen,
+}
+
+impl Division {
+    /// That of so many segments.
+    pub(crate) fn of(segments: i64) -> Option<Division> {
+        match segments {
+            12 => Some(Division::Twelve),
+            15 => Some(Division::Fifteen),
+            17 => Some(Division::Seventeen),
+            _ => None,
+        }
+    }
+}
 
 /// A part of the reference: weight in lb; principal inertias in lbf in s²; turn of the principal axes about Y in degrees.
 struct Part(f64, [f64; 3], f64);
@@ -229,14 +253,14 @@ impl Person {
     }
 
     /// The body, and the factor of its masses: see the module.
-    pub(crate) fn body(&self) -> (Body, f64) {
+    pub(crate) fn body(&self, division: Division) -> (Body, f64) {
         let (stretch, factor) = self.stretch();
-        (stretch.body(), factor)
+        (stretch.body(division), factor)
     }
 }
 
 /// The child of a preset's name.
-pub(crate) fn child(name: &str) -> Option<Body> {
+pub(crate) fn child(name: &str, division: Division) -> Option<Body> {
     let (rows, [shoulder_m, hip_m]) = match name {
         "child06" => (&CHILD_06, [0.1082, 0.0497]),
         "child10" => (&CHILD_10, [0.1283, 0.0597]),
@@ -249,45 +273,12 @@ pub(crate) fn child(name: &str) -> Option<Body> {
         shoulder_half_width: shoulder_m / (shoulder_inch * INCH_M),
         hip_half_width: hip_m / (hip_inch * INCH_M),
     };
-    Some(stretch.body())
+    Some(stretch.body(division))
 }
 
 /// How many of a part a body has.
 const fn both(part: usize) -> f64 {
     if part < UL { 1.0 } else { 2.0 }
-}
-
-/// Parts joined rigidly: moments of inertia about the centre of gravity, which lies `z_m` above a datum.
-#[derive(Clone, Copy)]
-struct Lump {
-    mass_kg: f64,
-    z_m: f64,
-    inertia_kg_m2: [f64; 3],
-}
-
-impl Lump {
-    /// With another, whose centre of gravity lies `ahead_m` ahead of this one's.
-    fn with(self, other: Lump, ahead_m: f64) -> Lump {
-        let mass_kg = self.mass_kg + other.mass_kg;
-        let reduced_kg = self.mass_kg * other.mass_kg / mass_kg;
-        let up_m = other.z_m - self.z_m;
-        let steiner =
-            [up_m * up_m, up_m * up_m + ahead_m * ahead_m, ahead_m * ahead_m].map(|square| reduced_kg * square);
-        Lump {
-            mass_kg,
-            z_m: (self.mass_kg * self.z_m + other.mass_kg * other.z_m) / mass_kg,
-            inertia_kg_m2: std::array::from_fn(|i| self.inertia_kg_m2[i] + other.inertia_kg_m2[i] + steiner[i]),
-        }
-    }
-
-    fn segment(&self, length_m: f64) -> SegmentProperties {
-        SegmentProperties {
-            length_m,
-            mass_kg: self.mass_kg,
-            cg_from_lower_end_m: self.z_m,
-            inertia_kg_m2: Vector3::from(self.inertia_kg_m2),
-        }
-    }
 }
 
 impl Stretch {
@@ -296,64 +287,34 @@ impl Stretch {
         self.scale[part][axis] * inches * INCH_M
     }
 
-    /// A part with its inertias stretched as second moments of mass, S_xx = (I_y + I_z − I_x)/2, about axes that the
-    /// body's 12 segments have; its centre of gravity lies `z_m` above the datum.
-    fn lump(&self, part: usize, z_m: f64) -> Lump {
-        let Part(pounds, [ix, iy, iz], turn_deg) = REFERENCE[part];
+    /// Principal moments of a part, stretched as second moments of mass, S_xx = (I_y + I_z − I_x)/2, kg m².
+    fn principal(&self, part: usize) -> [f64; 3] {
+        let Part(pounds, [ix, iy, iz], _) = REFERENCE[part];
         let [sx, sy, sz] = self.scale[part];
         let heavier = 0.5 * INERTIA_KG_M2 * self.mass_kg[part] / (pounds * POUND_KG);
         let [xx, yy, zz] = [(iy + iz - ix) * sx * sx, (iz + ix - iy) * sy * sy, (ix + iy - iz) * sz * sz];
-        let [ix, iy, iz] = [yy + zz, zz + xx, xx + yy].map(|inertia| heavier * inertia);
-        let sin2 = libm::sin(turn_deg.to_radians()).powi(2);
-        let inertia_kg_m2 = [ix + (iz - ix) * sin2, iy, iz + (ix - iz) * sin2];
-        Lump { mass_kg: self.mass_kg[part], z_m, inertia_kg_m2 }
+        [yy + zz, zz + xx, xx + yy].map(|inertia| heavier * inertia)
     }
 
-    /// The parts become the 12 segments; distances of joints from centres of gravity are the reference's.
-    fn body(&self) -> Body {
-        let z = |part, inches| self.along(part, 2, inches);
-        let x = |part, inches| self.along(part, 0, inches);
-        let plain = |part, above, below| self.lump(part, z(part, below)).segment(z(part, above) + z(part, below));
-
-        // the neck's centre of gravity is 1.46 in above its lower joint, which is 7.26 in above the upper torso's
-        let neck = self.lump(N, z(UT, 6.99 + 7.26) + z(N, 1.46));
-        let torso = self.lump(UT, z(UT, 6.99)).with(neck, x(N, 0.93) - x(UT, 0.27));
-        // of the 3.97 in between the neck's joints, 2.99 hang from the head's
-        let head = self.lump(H, z(H, 1.93) + z(N, 2.99));
-        let ankle_m = x(F, 1.37 + 1.39);
-        let shank = self.lump(LL, z(LL, 9.78) + ankle_m);
-        let leg = shank.with(self.foot(), x(LL, 0.39) + z(F, 2.76));
-
-        let segments = [
-            plain(CT, 0.83, 2.25),
-            torso.segment(z(UT, 6.99 + 4.35)),
-            head.segment(head.z_m + z(H, 4.90)),
-            plain(LT, 2.24, 1.52),
-            plain(UA, 5.22, 5.04),
-            plain(LA, 7.08, 9.20),
-            plain(UL, 7.55, 9.80),
-            leg.segment(z(LL, 6.91 + 9.78) + ankle_m),
-        ];
-        let [shoulder_inch, hip_inch] = REFERENCE_HALF_WIDTHS;
-        let mut body = Body {
-            name: "person".to_owned(),
-            tree: &TTI12,
-            segments: std::array::from_fn(|n| segments[if n < 4 { n } else { 4 + (n - 4) / 2 }]),
-            shoulder_half_width_m: self.shoulder_half_width * shoulder_inch * INCH_M,
-            hip_half_width_m: self.hip_half_width * hip_inch * INCH_M,
-            neck_height_m: z(UT, 2.91) + z(N, 0.98),
-            spheres: Vec::new(),
+    fn body(&self, division: Division) -> Body {
+        let mut body = match division {
+            Division::Twelve => self.merged(),
+            Division::Fifteen => self.divided(false),
+            Division::Seventeen => self.divided(true),
         };
         let radii_m = REFERENCE_SPHERES.map(|(inches, part, axis)| self.along(part, axis, inches));
         body.spheres = body.standard_spheres(&radii_m);
         body
     }
 
-    /// The foot: its X axis points up and its Z axis ahead.
-    fn foot(&self) -> Lump {
-        let foot = self.lump(F, self.along(F, 0, 1.39));
-        let [ix, iy, iz] = foot.inertia_kg_m2;
-        Lump { inertia_kg_m2: [iz, iy, ix], ..foot }
+    /// Distance from the middle plane of the joint that carries a part.
+    fn half_width_m(&self, part: usize) -> f64 {
+        let [shoulder_inch, hip_inch] = REFERENCE_HALF_WIDTHS;
+        match part {
+            UA => self.shoulder_half_width * shoulder_inch * INCH_M,
+            UL => self.hip_half_width * hip_inch * INCH_M,
+            _ => 0.0,
+        }
     }
 }
 
@@ -361,11 +322,26 @@ impl Stretch {
 mod tests {
     use approx::{assert_abs_diff_eq, assert_relative_eq};
 
+    use nalgebra::Vector3;
+
     use super::*;
+    use crate::body::SegmentProperties;
 
     /// Segments that a neck's place does not touch: length m, mass kg, ρ m, I_x, I_y, I_z kg m², as an independent
     /// computation gave them, rounded.
     type Row = (usize, [f64; 6]);
+    const FIFTEEN: [(&str, [f64; 4]); 10] = [
+        ("lower_torso", [6.834, 0.05050, 0.04158, 0.05873]),
+        ("middle_torso", [1.147, 0.00546, 0.00287, 0.00807]),
+        ("upper_torso", [13.787, 0.20325, 0.14924, 0.13273]),
+        ("neck", [0.586, 0.00070, 0.00082, 0.00093]),
+        ("head", [3.448, 0.01477, 0.01652, 0.01077]),
+        ("left_thigh", [5.787, 0.06809, 0.07216, 0.02078]),
+        ("left_lower_leg", [2.248, 0.02592, 0.02632, 0.00313]),
+        ("left_foot", [0.477, 0.00028, 0.00150, 0.00160]),
+        ("left_upper_arm", [0.859, 0.00405, 0.00426, 0.00070]),
+        ("left_forearm", [0.864, 0.00989, 0.00984, 0.00050]),
+    ];
     const FEMALE_05: [Row; 6] = [
         (0, [0.0654, 1.147, 0.0477, 0.00546, 0.00287, 0.00807]),
         (3, [0.0798, 6.834, 0.0323, 0.05050, 0.04158, 0.05873]),
@@ -384,7 +360,7 @@ mod tests {
     ];
 
     fn named(name: &str) -> (Body, f64) {
-        Person::named(name).expect("a preset").body()
+        Person::named(name).expect("a preset").body(Division::Twelve)
     }
 
     fn agrees(body: &Body, rows: &[Row], relative: f64) {
@@ -424,10 +400,10 @@ mod tests {
             (8, [0.2692, 1.820, 0.1520, 0.01093, 0.01143, 0.00258]),
             (10, [0.3181, 1.391, 0.1580, 0.01543, 0.01670, 0.00227]),
         ];
-        let body = child("child06").expect("a preset");
+        let body = child("child06", Division::Twelve).expect("a preset");
         agrees(&body, &rows, 2e-3);
         assert_abs_diff_eq!(body.mass_kg(), 21.45, epsilon = 0.01);
-        assert_abs_diff_eq!(child("child10").expect("a preset").mass_kg(), 37.24, epsilon = 0.01);
+        assert_abs_diff_eq!(child("child10", Division::Twelve).expect("a preset").mass_kg(), 37.24, epsilon = 0.01);
     }
 
     /// The neck's place moves no matter: mass, centre of gravity and inertia of neck, head and upper torso together are those
@@ -460,7 +436,7 @@ mod tests {
             {
                 let person = Person { sex, stature_m, mass_kg: index * stature_m * stature_m };
                 assert!(person.is_within_reach() || stature_m > 2.05, "{person:?}");
-                let (body, factor) = person.body();
+                let (body, factor) = person.body(Division::Twelve);
                 assert_relative_eq!(body.mass_kg(), person.mass_kg, max_relative = 1e-12);
                 assert!((0.5..2.0).contains(&factor), "{person:?}: {factor}");
                 for p in &body.segments {
@@ -470,5 +446,84 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Height of the centre of gravity of a body that stands straight above T1, m.
+    fn cg_height_m(body: &Body) -> f64 {
+        let mut joint_m = vec![0.0; body.segments.len()];
+        let mut moment = 0.0;
+        for segment in body.tree.segments() {
+            let n = segment.index();
+            if let Some(joint) = body.tree.carrier(segment) {
+                joint_m[n] = joint_m[body.tree[joint].proximal.index()] + body.offset_m(segment).z;
+            }
+            let p = body.segment(segment);
+            moment += p.mass_kg * (joint_m[n] + (p.cg_m() - body.joint_m(segment)).z);
+        }
+        moment / body.mass_kg()
+    }
+
+    fn divided(name: &str) -> [Body; 3] {
+        [Division::Twelve, Division::Fifteen, Division::Seventeen].map(|division| {
+            let made = child(name, division);
+            made.unwrap_or_else(|| Person::named(name).expect("a preset").body(division).0)
+        })
+    }
+
+    /// What 15 and 17 segments weigh and where their centre of gravity is, the 12 made of them have too.
+    #[test]
+    fn a_body_of_more_segments_is_the_same_body() {
+        for name in ["female05", "male50", "male95", "child06", "child10"] {
+            let [twelve, fifteen, seventeen] = divided(name);
+            assert_eq!([fifteen.segments.len(), seventeen.segments.len()], [15, 17]);
+            for body in [&fifteen, &seventeen] {
+                assert_relative_eq!(body.mass_kg(), twelve.mass_kg(), max_relative = 1e-12);
+                assert_abs_diff_eq!(cg_height_m(body), cg_height_m(&twelve), epsilon = 1e-12);
+                assert_eq!(body.places.len() + 1, body.segments.len());
+                assert_eq!(body.spheres.len(), 17);
+                for p in &body.segments {
+                    let i = p.inertia_kg_m2;
+                    assert!(i.min() > 0.0 && 2.0 * i.max() <= i.sum() * (1.0 + 1e-12), "{name}: {i}");
+                }
+            }
+            let marks = fifteen.tree.landmarks();
+            assert_eq!((fifteen.tree[marks.head].name, fifteen.tree[marks.neck].name), ("head", "neck"));
+            assert_eq!(fifteen.tree[fifteen.tree[marks.neck].proximal].name, "neck");
+            assert_eq!((marks.legs().count(), marks.arms().filter(|arm| arm.end.is_some()).count()), (2, 0));
+            assert_eq!(seventeen.tree.landmarks().arms().filter(|arm| arm.end.is_some()).count(), 2);
+        }
+    }
+
+    /// Masses and principal moments of an independent computation, rounded.
+    #[test]
+    fn fifteen_segments_are_those_of_an_independent_computation() {
+        let [_, female, _] = divided("female05");
+        let rows = FIFTEEN;
+        for (name, [mass_kg, ix, iy, iz]) in rows {
+            let segment = female.tree.segment_named(name).expect("a segment");
+            let p = female.segment(segment);
+            assert_abs_diff_eq!(p.mass_kg, mass_kg, epsilon = 6e-4 + 6e-4 * mass_kg);
+            for (got, expected) in p.inertia_kg_m2.iter().zip([ix, iy, iz]) {
+                assert_abs_diff_eq!(*got, expected, epsilon = 1.5e-5 + 1e-3 * expected);
+            }
+        }
+    }
+
+    /// Forearm and hand together are the forearm of 15 segments.
+    #[test]
+    fn a_hand_takes_nothing_away() {
+        let [_, whole, split] = divided("male50");
+        let of = |body: &Body, name: &str| *body.segment(body.tree.segment_named(name).expect("a segment"));
+        let [arm, forearm, hand] = [of(&whole, "left_forearm"), of(&split, "left_forearm"), of(&split, "left_hand")];
+        let apart_m = forearm.cg_from_lower_end_m + hand.length_m - hand.cg_from_lower_end_m;
+        let together = forearm.mass_kg + hand.mass_kg;
+        let steiner = forearm.mass_kg * hand.mass_kg / together * apart_m * apart_m;
+        let inertia = forearm.inertia_kg_m2 + hand.inertia_kg_m2 + Vector3::new(steiner, steiner, 0.0);
+        assert_relative_eq!(together, arm.mass_kg, max_relative = 1e-12);
+        assert_relative_eq!(inertia, arm.inertia_kg_m2, max_relative = 1e-9);
+        assert_relative_eq!(forearm.length_m + hand.length_m, arm.length_m, max_relative = 1e-12);
+        assert!(
+            (1.04..=1.11).contains(&(hand.mass_kg / POUND_KG)) && (2.9..=3.0).contains(&(forearm.mass_kg / POUND_KG))
+        );
     }
 }

@@ -5,7 +5,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Body, ContactSphere, Tree};
+use super::{Body, ContactSphere, Segment, Tree};
 
 /// A sphere beside one of the report's, whose part it belongs to.
 struct Beside {
@@ -81,7 +81,7 @@ pub(crate) fn full(body: &Body, report: Vec<ContactSphere>) -> Vec<ContactSphere
         let sphere = ContactSphere { name: b.name.to_owned(), centre_from_lower_end_m: centre, ..of.clone() };
         Some(ContactSphere { radius_m: b.radius * of.radius_m, ..sphere })
     });
-    let trunk = [of("head").map(|head| neck(body, head)), of("pelvis").map(|pelvis| abdomen(body, pelvis))];
+    let trunk = [of("head").map(|head| neck(body, head)), of("pelvis").and_then(|pelvis| abdomen(body, pelvis))];
     let rows = SIDES.iter().flat_map(|side| ROWS.iter().flat_map(move |r| in_row(body, side, r, &of)));
     let is_replaced =
         |name: &str| ROWS.iter().any(|row| SIDES.iter().any(|side| name == format!("{side}_{}", row.part)));
@@ -95,17 +95,20 @@ fn neck(body: &Body, head: &ContactSphere) -> ContactSphere {
     let (segment, z_m) = match body.tree.segment_named("neck") {
         Some(neck) => (neck, 0.5 * height_m(neck)),
         None => {
-            let above_m = body.joint_m(head.segment)[1] - body.far_m(body.tree.landmarks().chest);
+            let above_m = body.neck_above_m(body.tree.landmarks().chest).unwrap_or(0.0);
             (head.segment, NECK * (above_m + height_m(head.segment)) - above_m)
         }
     };
     ContactSphere::new("neck", segment, [0.0, 0.0, z_m].into(), 0.62 * head.radius_m)
 }
 
-fn abdomen(body: &Body, pelvis: &ContactSphere) -> ContactSphere {
-    let middle = body.tree.landmarks().middle;
+/// Between chest and pelvis, where the body has a segment there.
+fn abdomen(body: &Body, pelvis: &ContactSphere) -> Option<ContactSphere> {
+    let marks = body.tree.landmarks();
+    let is_between = |s: &Segment| body.tree.is_trunk(*s) && ![marks.chest, marks.pelvis].contains(s);
+    let middle = body.tree.segments().find(is_between)?;
     let centre_m = [0.0, 0.0, 0.5 * body.segment(middle).length_m].into();
-    ContactSphere::new("abdomen", middle, centre_m, 0.93 * pelvis.radius_m)
+    Some(ContactSphere::new("abdomen", middle, centre_m, 0.93 * pelvis.radius_m))
 }
 
 /// The spheres of a row, numbered from the trunk; none where the body lacks what places them.

@@ -4,7 +4,9 @@
 //! ([`crate::motion::layout`]), the report's coordinates, names in scenarios and results. Nothing here knows a number of
 //! kilograms or metres; those are a [`super::Body`].
 
+use std::collections::BTreeSet;
 use std::ops::Index;
+use std::sync::{Mutex, PoisonError};
 
 /// A segment of a tree: its place in the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -66,7 +68,7 @@ pub enum Width {
 }
 
 /// A row of the table of segments.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SegmentRow {
     /// Name in scenarios and result channels.
     pub name: &'static str,
@@ -88,6 +90,10 @@ pub enum JointKind {
     Ball,
     /// About the common Y axis only.
     Hinge,
+    /// About the Y axis, then about the X axis that it carries round; its angle is the first.
+    Universal,
+    /// Not at all.
+    Fixed,
 }
 
 /// Where a joint is on its proximal segment.
@@ -101,10 +107,12 @@ pub enum Place {
     Neck,
     /// Beside that end.
     Beside(Width, Side),
+    /// Where a body says: [`super::Body::places`].
+    Given,
 }
 
 /// A row of the table of joints.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointRow {
     /// Name in scenarios and result channels.
     pub name: &'static str,
@@ -119,15 +127,25 @@ pub struct JointRow {
 }
 
 impl JointRow {
-    /// True for elbows and knees.
+    /// The side that the joint is on.
+    pub(crate) fn side(&self) -> Option<Side> {
+        match self.place {
+            Place::Beside(_, side) => Some(side),
+            Place::Given if self.name.starts_with("left_") => Some(Side::Left),
+            Place::Given if self.name.starts_with("right_") => Some(Side::Right),
+            _ => None,
+        }
+    }
+
+    /// True for elbows and knees, and where two axes are free.
     pub(crate) const fn is_hinge(&self) -> bool {
-        matches!(self.kind, JointKind::Hinge)
+        matches!(self.kind, JointKind::Hinge | JointKind::Universal)
     }
 }
 
 /// A row of the table of standard spheres: its centre lies `lengths`·L + `radii`·r above the segment's lower end, L the
 /// segment's length and r the sphere's radius.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SphereRow {
     /// Name in scenarios and result channels.
     pub name: &'static str,
@@ -142,16 +160,18 @@ pub struct SphereRow {
 }
 
 /// An arm or a leg.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limb {
     /// Upper arm or thigh.
     pub upper: Segment,
     /// Forearm or lower leg, on a hinge.
     pub lower: Segment,
+    /// Hand or foot, where it is a segment of its own.
+    pub end: Option<Segment>,
 }
 
 /// One of each side.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair<T> {
     /// The left one.
     pub left: T,
@@ -160,7 +180,7 @@ pub struct Pair<T> {
 }
 
 /// The parts that instruments are fixed to and that seating asks for.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Landmarks {
     /// Carries the accelerometer of the head.
     pub head: Segment,
@@ -168,34 +188,78 @@ pub struct Landmarks {
     pub chest: Segment,
     /// Sits on the cushion.
     pub pelvis: Segment,
-    /// Between T1 and the pelvis.
-    pub middle: Segment,
     /// Its load is that of the upper neck.
     pub neck: Joint,
     /// Arms.
-    pub arms: Pair<Limb>,
+    pub arms: Pair<Option<Limb>>,
     /// Legs.
-    pub legs: Pair<Limb>,
+    pub legs: Pair<Option<Limb>>,
+}
+
+impl Landmarks {
+    /// The arms that the body has.
+    pub fn arms(&self) -> impl Iterator<Item = Limb> + Clone + use<> {
+        [self.arms.left, self.arms.right].into_iter().flatten()
+    }
+
+    /// The legs that the body has.
+    pub fn legs(&self) -> impl Iterator<Item = Limb> + Clone + use<> {
+        [self.legs.left, self.legs.right].into_iter().flatten()
+    }
 }
 
 /// The tables of a body. A segment stands after the one that carries it.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tree {
-    pub(super) name: &'static str,
     pub(super) segments: &'static [SegmentRow],
     pub(super) joints: &'static [JointRow],
     pub(super) spheres: &'static [SphereRow],
     pub(super) landmarks: Landmarks,
 }
 
-/// Trees are constants of this crate, told apart by their names.
-impl PartialEq for Tree {
-    fn eq(&self, other: &Tree) -> bool {
-        self.name == other.name
+/// A landmark for which a body has no segment, by its key in a scenario.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct MissingLandmark(pub &'static str);
+
+/// A name that is kept to the end of the program, once for all that are spelt so.
+pub(crate) fn kept(name: &str) -> &'static str {
+    static NAMES: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
+    let mut names = NAMES.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = names.get(name) {
+        return known;
     }
+    let kept: &'static str = Box::leak(name.into());
+    names.insert(kept);
+    kept
 }
 
 impl Tree {
+    /// The tree of these tables, in which a segment stands after the one that carries it. It is kept to the end of the
+    /// program, once for all that are alike: runs that differ in numbers alone share it.
+    pub(crate) fn interned(
+        segments: &[SegmentRow],
+        joints: &[JointRow],
+        spheres: &[SphereRow],
+        landmarks: Landmarks,
+    ) -> &'static Tree {
+        static TREES: Mutex<Vec<&'static Tree>> = Mutex::new(Vec::new());
+        let is_it = |tree: &Tree| {
+            (tree.segments, tree.joints, tree.spheres, tree.landmarks) == (segments, joints, spheres, landmarks)
+        };
+        let mut trees = TREES.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = trees.iter().find(|tree| is_it(tree)) {
+            return known;
+        }
+        let kept: &'static Tree = Box::leak(Box::new(Tree {
+            segments: segments.to_vec().leak(),
+            joints: joints.to_vec().leak(),
+            spheres: spheres.to_vec().leak(),
+            landmarks,
+        }));
+        trees.push(kept);
+        kept
+    }
+
     /// Rows of the segments.
     pub const fn segment_rows(&self) -> &'static [SegmentRow] {
         self.segments
@@ -209,6 +273,17 @@ impl Tree {
     /// Rows of the standard spheres.
     pub const fn spheres(&self) -> &'static [SphereRow] {
         self.spheres
+    }
+
+    /// 6 of the first segment and those of the joints.
+    pub(crate) fn degrees_of_freedom(&self) -> usize {
+        let free = |row: &JointRow| match row.kind {
+            JointKind::Ball => 3,
+            JointKind::Hinge => 1,
+            JointKind::Universal => 2,
+            JointKind::Fixed => 0,
+        };
+        6 + self.joints.iter().map(free).sum::<usize>()
     }
 
     /// Names of the standard spheres, in the table's order.
@@ -254,6 +329,11 @@ impl Tree {
         self.segments().find(|s| self[*s].name == name)
     }
 
+    /// The joint with this name.
+    pub(crate) fn joint_named(&self, name: &str) -> Option<Joint> {
+        self.joints().find(|j| self[*j].name == name)
+    }
+
     /// The joint that carries a segment; nothing carries the first.
     pub(crate) const fn carrier(&self, segment: Segment) -> Option<Joint> {
         let mut j = 0;
@@ -264,6 +344,32 @@ impl Tree {
             j += 1;
         }
         None
+    }
+}
+
+impl Tree {
+    /// A segment and those between it and the root, the root last.
+    pub(crate) fn inwards(&self, segment: Segment) -> impl Iterator<Item = Segment> + Clone + '_ {
+        let proximal = |n: &Segment| Some(self[self.carrier(*n)?].proximal);
+        std::iter::successors(Some(segment), proximal)
+    }
+
+    /// Whether a segment belongs to a limb: the limb's own, hands, feet and whatever they carry.
+    pub fn is_of(&self, segment: Segment, limb: &Limb) -> bool {
+        self.inwards(segment).any(|n| n == limb.upper)
+    }
+
+    /// Whether a segment belongs to an arm or a leg.
+    pub fn is_limb(&self, segment: Segment) -> bool {
+        self.landmarks.arms().chain(self.landmarks.legs()).any(|limb| self.is_of(segment, &limb))
+    }
+
+    /// Whether a segment lies between chest and pelvis or is one of them.
+    pub fn is_trunk(&self, segment: Segment) -> bool {
+        let [from_chest, from_pelvis] = [self.landmarks.chest, self.landmarks.pelvis].map(|n| self.inwards(n));
+        let meet = from_chest.clone().find(|n| from_pelvis.clone().any(|m| m == *n));
+        let [above, below] = [from_chest, from_pelvis].map(|mut way| way.any(|n| n == segment));
+        meet == Some(segment) || above != below
     }
 }
 

@@ -10,7 +10,6 @@ use Width::{Hip, Shoulder};
 
 /// The tree of the report's body.
 pub const TTI12: Tree = Tree {
-    name: "TTI 12",
     segments: &[
         segment("middle_torso", End::Upper),
         segment("upper_torso", End::Lower),
@@ -61,16 +60,9 @@ pub const TTI12: Tree = Tree {
         head: HEAD,
         chest: UPPER_TORSO,
         pelvis: LOWER_TORSO,
-        middle: MIDDLE_TORSO,
         neck: NECK,
-        arms: Pair {
-            left: Limb { upper: LEFT_UPPER_ARM, lower: LEFT_FOREARM },
-            right: Limb { upper: RIGHT_UPPER_ARM, lower: RIGHT_FOREARM },
-        },
-        legs: Pair {
-            left: Limb { upper: LEFT_THIGH, lower: LEFT_LOWER_LEG },
-            right: Limb { upper: RIGHT_THIGH, lower: RIGHT_LOWER_LEG },
-        },
+        arms: Pair { left: limb(LEFT_UPPER_ARM, LEFT_FOREARM), right: limb(RIGHT_UPPER_ARM, RIGHT_FOREARM) },
+        legs: Pair { left: limb(LEFT_THIGH, LEFT_LOWER_LEG), right: limb(RIGHT_THIGH, RIGHT_LOWER_LEG) },
     },
 };
 
@@ -96,6 +88,10 @@ ids! { Segment:
 ids! { Joint:
     NECK = 0, RIGHT_SHOULDER = 1, LEFT_SHOULDER = 2, UPPER_BACK = 3, LEFT_ELBOW = 4, RIGHT_ELBOW = 5,
     LOWER_BACK = 6, RIGHT_HIP = 7, LEFT_HIP = 8, RIGHT_KNEE = 9, LEFT_KNEE = 10
+}
+
+const fn limb(upper: Segment, lower: Segment) -> Option<Limb> {
+    Some(Limb { upper, lower, end: None })
 }
 
 const fn segment(name: &'static str, joint_end: End) -> SegmentRow {

@@ -22,9 +22,6 @@ use crate::motion::mobility::Mobility;
 use crate::vehicle::{PathCursor, VehiclePath};
 use rates::FrictionMasses;
 
-/// Degrees of freedom of the body.
-pub(crate) const DEGREES_OF_FREEDOM: usize = 31;
-
 /// What will be simulated.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Diagnosis {
@@ -181,7 +178,7 @@ fn body(model: &Model) -> BodyFigures {
         name: body.name.clone(),
         mass_kg: body.mass_kg(),
         segments: body.tree.segments().map(segment).collect(),
-        degrees_of_freedom: DEGREES_OF_FREEDOM,
+        degrees_of_freedom: body.tree.degrees_of_freedom(),
         spheres: body.spheres.len(),
     }
 }

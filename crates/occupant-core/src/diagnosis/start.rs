@@ -156,7 +156,7 @@ pub(super) fn behind(model: &Model, mobility: &Mobility<'_>) -> Vec<SphereBehind
 /// Convex corners of two surfaces that are nearer to the body than it can reach.
 pub(super) fn corners(model: &Model) -> Vec<[String; 2]> {
     let (setup, faces) = (model.setup(), model.faces());
-    let t1_m = model.start().state.t1.to_vector();
+    let t1_m = model.start().state.t1().to_vector();
     let spheres = setup.body.spheres.iter().zip(setup.body.standing_m());
     let reach_m = spheres.map(|(sphere, place)| place.coords.norm() + sphere.radius_m).fold(0.0, f64::max);
     let vehicle = vehicle_at_start(model);

@@ -1,14 +1,12 @@
 use nalgebra::{SymmetricEigen, Vector3};
 
 use super::*;
-use crate::body::SEGMENTS;
 use crate::body::tti12::TTI12;
 use crate::motion::dynamics::{Wrench, solve};
 use crate::motion::frame::Moving;
 use crate::motion::kinematics::Kinematics;
-use crate::motion::layout::FREE;
+use crate::motion::layout::MOST_SEGMENTS;
 use crate::motion::mobility::greatest;
-use crate::motion::state::State;
 use crate::motion::vector::V3;
 use crate::results::energy::kinetic;
 use crate::run::simulate::simulate;
@@ -71,17 +69,18 @@ fn an_impulse_at_a_point_gives_the_kinetic_energy_that_its_mobility_says() {
     for segment in TTI12.segments() {
         let n = segment.index();
         let arm = V3 { x: 0.05, y: -0.02, z: 0.11 };
-        let mut loads = [Wrench::zero(); SEGMENTS];
+        let mut loads = [Wrench::zero(); MOST_SEGMENTS];
         loads[n] = Wrench { force: V3::of(&force), moment: arm.cross(V3::of(&force)) };
-        let still = State { velocity: V3::zero(), omega: [V3::zero(); 8], hinge_rate: [0.0; 4], ..model.start().state };
-        let base = solve(skeleton, k, &[0.0; 4], &[Wrench::zero(); SEGMENTS]);
+        let base = solve(skeleton, k, &[0.0; 4], &[Wrench::zero(); MOST_SEGMENTS]);
         let pushed = solve(skeleton, k, &[0.0; 4], &loads);
-        let moving = State {
-            velocity: pushed.joint[0] - base.joint[0],
-            omega: std::array::from_fn(|i| pushed.alpha[FREE[i]] - base.alpha[FREE[i]]),
-            hinge_rate: std::array::from_fn(|i| pushed.hinge[i] - base.hinge[i]),
-            ..still
-        };
+        let mut moving = model.start().state.still();
+        moving.set_velocity(pushed.joint[0] - base.joint[0]);
+        for (slot, &n) in skeleton.layout.free().iter().enumerate() {
+            moving.set_omega(slot, pushed.alpha[n] - base.alpha[n]);
+        }
+        for (i, rate) in moving.hinge_rate_mut().iter_mut().enumerate() {
+            *rate = pushed.hinge[i] - base.hinge[i];
+        }
         let energy_j = kinetic(skeleton, &Kinematics::new(skeleton, &moving), &Moving::space());
         let by_mobility = 0.5 * force.dot(&(mobility.of_point(n, k.joint[n] + arm) * force));
         // measured: 4.6e-15
@@ -180,7 +179,7 @@ fn a_force_through_the_whole_body_moves_its_mass() {
     let mobility = mobility_of(&model);
     let k = &mobility.kinematics;
     let skeleton = &model.system().skeleton;
-    let mut loads = [Wrench::zero(); SEGMENTS];
+    let mut loads = [Wrench::zero(); MOST_SEGMENTS];
     for (n, link) in skeleton.links.iter().enumerate() {
         let force = V3 { x: link.mass, y: 0.0, z: 0.0 };
         loads[n] = Wrench { force, moment: (k.cg(skeleton, n) - k.joint[n]).cross(force) };

@@ -2,13 +2,14 @@
 
 use std::fmt::Debug;
 
-use crate::body::{Body, SEGMENTS};
+use crate::body::Body;
 use crate::forces::list::STORES;
 use crate::forces::rate::Rate;
 use crate::forces::sphere::Site;
 use crate::motion::dynamics::Wrench;
 use crate::motion::frame::Frames;
 use crate::motion::kinematics::Kinematics;
+use crate::motion::layout::MOST_SEGMENTS;
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::motion::state::{State, Work};
@@ -202,7 +203,7 @@ impl<S: Scalar> Instant<'_, S> {
 #[derive(Clone, Copy, Debug)]
 pub struct Load<S> {
     /// By segment.
-    pub wrench: [Wrench<S>; SEGMENTS],
+    pub wrench: [Wrench<S>; MOST_SEGMENTS],
     /// W.
     pub power: Work<S>,
 }
@@ -211,7 +212,7 @@ impl<S: Scalar> Load<S> {
     /// None yet.
     #[inline(always)]
     pub(crate) fn zero() -> Self {
-        Load { wrench: [Wrench::zero(); SEGMENTS], power: Work::zero() }
+        Load { wrench: [Wrench::zero(); MOST_SEGMENTS], power: Work::zero() }
     }
 }
 

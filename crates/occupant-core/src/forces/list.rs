@@ -5,6 +5,7 @@ use super::contact::Contacts;
 use super::element::{Element, Hints as _, Instant, Load, Misfit, StoredEnergy, Unlike, WorkSum};
 use super::joint::JointMoments;
 use super::joint::limit::JointLimits;
+use super::joint::muscle::Muscles;
 use super::rate::Rate;
 use super::shown::Reported;
 use super::stored::Archive;
@@ -12,6 +13,7 @@ use crate::body::Body;
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::motion::state::WORK_SUMS;
+use crate::quantity::{Energy, Quantity};
 use placed_text::Problems;
 
 /// Everything that goes over all kinds, for the kinds in the order in which their forces are added.
@@ -122,10 +124,13 @@ macro_rules! kinds {
         }
 
         impl Data<'_> {
-            /// Reports what is wrong with the data by themselves, in the order of [`STORED`].
+            /// Reports what is wrong with the data by themselves, in the order of [`STORED`], then of what stores nothing.
             pub(crate) fn check(&self, body: &Body, problems: &mut Problems) {
-                let mut found = [const { Problems::new() }; STORES];
-                $($Kind::check(self.$kind, body, &mut found[$Kind::STORED[0].at]);)+
+                let mut found = [const { Problems::new() }; STORES + 1];
+                $(
+                    let place = $Kind::STORED.first().map_or(STORES, |energy| energy.at);
+                    $Kind::check(self.$kind, body, &mut found[place]);
+                )+
                 found.into_iter().for_each(|some| problems.extend(some));
             }
 
@@ -172,11 +177,13 @@ macro_rules! kinds {
         }
 
         impl<S: Copy> Forces<S> {
-            /// Whether results tell the energy at this place of [`STORED`]; see [`Element::OPTIONAL`].
-            pub(crate) fn tells_stored(&self, at: usize) -> bool {
+            /// Whether results tell an energy of [`STORED`] or [`SUMS`]; see [`Element::OPTIONAL`].
+            pub(crate) fn tells(&self, energy: &Quantity<Energy>) -> bool {
+                let field = |energy: &Quantity<Energy>| energy.field.map(|words| words.number);
+                let is = |own: Quantity<Energy>| field(&own) == field(energy);
                 let mut tells = true;
-                $(if $Kind::STORED.iter().any(|energy| energy.at == at) {
-                    tells = !$Kind::OPTIONAL || $Kind::count(&self.$kind) > 0;
+                $(if $Kind::STORED.iter().any(|own| is(own.quantity)) || $Kind::SUMS.iter().any(|own| is(own.quantity)) {
+                    tells = !$Kind::OPTIONAL || $Kind::most_actions(&self.$kind) > 0;
                 })+
                 tells
             }
@@ -305,6 +312,7 @@ kinds! {
     belts: Belts,
     joints: JointMoments,
     limits: JointLimits,
+    muscles: Muscles,
 }
 
 /// A kind of the list, with its part of all that goes over all kinds.

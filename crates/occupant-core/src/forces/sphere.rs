@@ -23,11 +23,8 @@ impl<S: Copy> Site<S> {
 }
 
 impl<S: Scalar> Site<S> {
-    fn new(body: &Body, sphere: &ContactSphere) -> Site<S> {
-        // the proximal joint of a hanging segment is its upper end
-        let joint = if body.tree[sphere.segment].hangs() { body.segment(sphere.segment).length_m } else { 0.0 };
-        let mut offset = sphere.centre_from_lower_end_m.coords;
-        offset.z -= joint;
+    pub(crate) fn new(body: &Body, sphere: &ContactSphere) -> Site<S> {
+        let offset = sphere.centre_from_lower_end_m.coords - body.joint_m(sphere.segment);
         Site { segment: sphere.segment.index(), offset: V3::of(&offset), radius: S::of(sphere.radius_m) }
     }
 

@@ -8,18 +8,19 @@
 
 mod dispatch;
 
-use crate::body::SEGMENTS;
 use crate::forces::sphere::Site;
 use crate::forces::{Forces, History, Instant, Load, Observer, Unlike};
-use crate::motion::dynamics::{self, Accelerations, Sweep, Wrench};
+use crate::motion::dynamics::{Accelerations, Sweep, Wrench};
 use crate::motion::frame::Frames;
 use crate::motion::kinematics::Kinematics;
-use crate::motion::layout::FREE;
+use crate::motion::layout::MOST_SEGMENTS;
 use crate::motion::scalar::Scalar;
 use crate::motion::skeleton::Skeleton;
 use crate::motion::state::{State, Work};
 use crate::motion::vector::V3;
 
+/// Another tree, or one on another frame.
+pub(crate) const OTHER_TREE: Unlike = Unlike("the bodies have other trees of segments");
 /// Other spheres, or spheres on other segments.
 pub(crate) const OTHER_SPHERES: Unlike = Unlike("the contact spheres are others or on other segments");
 
@@ -46,6 +47,9 @@ impl<S: Copy> System<S> {
         if self.spheres.len() != other.spheres.len() || spheres.clone().any(|(a, b)| a.segment != b.segment) {
             return Err(OTHER_SPHERES);
         }
+        if !self.skeleton.is_like(&other.skeleton) {
+            return Err(OTHER_TREE);
+        }
         Ok(System {
             skeleton: self.skeleton.zip(&other.skeleton, &f),
             spheres: spheres.map(|(a, b)| a.zip(b, &f)).collect(),
@@ -60,7 +64,7 @@ pub struct Evaluation<S> {
     /// Places and velocities.
     pub kinematics: Kinematics<S>,
     /// Loads on the segments, without gravity.
-    pub wrench: [Wrench<S>; SEGMENTS],
+    pub wrench: [Wrench<S>; MOST_SEGMENTS],
     /// Accelerations.
     pub accelerations: Accelerations<S>,
     /// Powers for the energy ledger, W.
@@ -75,10 +79,10 @@ pub(crate) struct Scratch<S> {
 }
 
 impl<S: Scalar> Scratch<S> {
-    /// Nothing written yet.
+    /// Nothing written yet of a body like `body`.
     #[inline(always)]
-    pub(crate) fn blank() -> Self {
-        Scratch { kinematics: Kinematics::blank(), sweep: Sweep::blank() }
+    pub(crate) fn blank(body: &Skeleton<S>) -> Self {
+        Scratch { kinematics: Kinematics::blank(), sweep: Sweep::blank(body) }
     }
 }
 
@@ -99,7 +103,7 @@ impl<S: Scalar> System<S> {
         history: &mut History<S>,
         observer: &mut impl Observer<S>,
     ) -> State<S> {
-        self.rate_with::<COMMIT>(&mut Scratch::blank(), state, frames, history, observer)
+        self.rate_with::<COMMIT>(&mut Scratch::blank(&self.skeleton), state, frames, history, observer)
     }
 
     /// The same, with a place for what is on the way that is used again: clearing it costs lanes 6 % of an evaluation.
@@ -112,25 +116,8 @@ impl<S: Scalar> System<S> {
         history: &mut History<S>,
         observer: &mut impl Observer<S>,
     ) -> State<S> {
-        let Scratch { kinematics: k, sweep } = scratch;
-        k.follow(&self.skeleton, state);
-        let Load { wrench, power } = self.load::<COMMIT>(k, state, frames, history, observer);
-        // q̈ from q̇ and q (114)
-        sweep.solve(&self.skeleton, k, &state.hinge_rate, &wrench);
-        let accelerations = &sweep.accelerations;
-        let mut rate = State {
-            t1: state.velocity,
-            velocity: accelerations.joint[0],
-            hinge: state.hinge_rate,
-            hinge_rate: accelerations.hinge,
-            work: power,
-            ..*state
-        };
-        for (slot, &n) in FREE.iter().enumerate() {
-            rate.orientation[slot] = state.orientation[slot].rate(state.omega[slot]);
-            rate.omega[slot] = accelerations.alpha[n];
-        }
-        rate
+        let power = self.derive::<COMMIT>(scratch, state, frames, history, observer).power;
+        scratch.sweep.accelerations.rate(&self.skeleton.layout, state, power)
     }
 
     /// Everything that [`System::rate`] derives.
@@ -142,24 +129,29 @@ impl<S: Scalar> System<S> {
         history: &mut History<S>,
         observer: &mut impl Observer<S>,
     ) -> Evaluation<S> {
-        let kinematics = Kinematics::new(&self.skeleton, state);
-        let Load { wrench, power } = self.load::<COMMIT>(&kinematics, state, frames, history, observer);
-        let accelerations = dynamics::solve(&self.skeleton, &kinematics, &state.hinge_rate, &wrench);
-        Evaluation { kinematics, wrench, accelerations, power }
+        let mut scratch = Scratch::blank(&self.skeleton);
+        let Load { wrench, power } = self.derive::<COMMIT>(&mut scratch, state, frames, history, observer);
+        Evaluation { kinematics: scratch.kinematics, wrench, accelerations: scratch.sweep.accelerations, power }
     }
 
-    /// All loads on the segments but gravity, and their powers.
+    /// Motion, loads and accelerations; returns the loads.
     #[inline(always)]
-    fn load<const COMMIT: bool>(
+    fn derive<const COMMIT: bool>(
         &self,
-        k: &Kinematics<S>,
+        scratch: &mut Scratch<S>,
         state: &State<S>,
         frames: &Frames<S>,
         history: &mut History<S>,
         observer: &mut impl Observer<S>,
     ) -> Load<S> {
+        let Scratch { kinematics: k, sweep } = scratch;
+        let root = self.skeleton.mount.as_ref().map(|mount| mount.of(frames));
+        k.follow(&self.skeleton, state, root.as_ref());
         let at = Instant { k, state, frames, spheres: &self.spheres };
-        self.forces.apply::<COMMIT>(&at, history, observer) // Q_f + R (48), and F_s
+        let load = self.forces.apply::<COMMIT>(&at, history, observer); // Q_f + R (48), and F_s
+        // q̈ from q̇ and q (114)
+        sweep.solve(&self.skeleton, k, state.hinge_rate(), &load.wrench, root.as_ref());
+        load
     }
 
     /// A sphere's centre seen from its segment's joint, in space, and its velocity; all in space axes.

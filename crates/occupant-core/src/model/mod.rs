@@ -19,7 +19,6 @@ use crate::model::settle::{Settled, kept, settle};
 use crate::model::setup::Setup;
 use crate::motion::frame::{Frames, Moving};
 use crate::motion::kinematics::Kinematics;
-use crate::motion::layout::FREE;
 use crate::motion::skeleton::Skeleton;
 use crate::motion::state::State;
 use crate::motion::vector::V3;
@@ -100,6 +99,13 @@ impl Model {
         &self.start
     }
 
+    /// The same, its body swept as any tree is.
+    #[cfg(test)]
+    pub(crate) fn without_closed_forms(mut self) -> Self {
+        self.system.skeleton = self.system.skeleton.without_closed_forms();
+        self
+    }
+
     /// Things that a user should know but that do not stop a run.
     pub fn warnings(&self) -> &Problems {
         &self.warnings
@@ -121,15 +127,25 @@ impl Model {
         self.setup.time.whole_intervals() as usize + 2
     }
 
+    /// Times at which the vehicle's motion jumps or a muscle begins or ends to act, s, in increasing order: no step goes
+    /// across one where the error control chooses it.
+    pub(crate) fn breaks_s(&self) -> Vec<f64> {
+        let mut breaks_s = self.setup.path.breaks_s();
+        breaks_s.extend(self.setup.joints.muscles.iter().flat_map(|muscle| muscle.times_s));
+        breaks_s.sort_by(f64::total_cmp);
+        breaks_s.dedup();
+        breaks_s
+    }
+
     /// Frames at `t_s` within a step whose middle is `step_middle_s`.
     pub fn frames(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> Frames<f64> {
-        frames(&self.setup.path.motion(t_s, step_middle_s, cursor))
+        frames(t_s, &self.setup.path.motion(t_s, step_middle_s, cursor))
     }
 }
 
-/// Frames for a motion of the vehicle.
-pub fn frames(vehicle: &FrameMotion) -> Frames<f64> {
-    [Moving::space(), Moving::of(vehicle)]
+/// Frames for a motion of the vehicle at a time.
+pub fn frames(time_s: f64, vehicle: &FrameMotion) -> Frames<f64> {
+    Frames { time: time_s, moving: [Moving::space(), Moving::of(vehicle)] }
 }
 
 /// Places the body, then everything that depends on where it is: velocities, constants and history of force elements.
@@ -165,7 +181,7 @@ fn begin(setup: &Setup, faces: &[FlatFace], problems: &mut Problems) -> Option<(
         set_velocity(&mut state, &setup.velocity, &vehicle);
     }
     let k = Kinematics::new(&system.skeleton, &state);
-    let at = Instant { k: &k, state: &state, frames: &frames(&vehicle), spheres: &system.spheres };
+    let at = Instant { k: &k, state: &state, frames: &frames(start_s, &vehicle), spheres: &system.spheres };
     let forces = &mut system.forces;
     forces.lay(&data, &setup.body, &at);
     forces.begin(&data, &setup.body, &at, problems);
@@ -232,12 +248,12 @@ fn seat_of<'a>(
 fn set_velocity(state: &mut State<f64>, velocity: &InitialVelocity, vehicle: &FrameMotion) {
     match velocity {
         InitialVelocity::WithVehicle => {
-            state.velocity = V3::of(&vehicle.velocity_at(state.t1.to_vector()));
-            state.omega = [V3::of(&vehicle.angular_velocity_rad_s); FREE.len()];
+            state.set_velocity(V3::of(&vehicle.velocity_at(state.t1().to_vector())));
+            state.turns().for_each(|slot| state.set_omega(slot, V3::of(&vehicle.angular_velocity_rad_s)));
         }
-        InitialVelocity::VehicleOrigin => state.velocity = V3::of(&vehicle.velocity_m_s),
+        InitialVelocity::VehicleOrigin => state.set_velocity(V3::of(&vehicle.velocity_m_s)),
         InitialVelocity::Given(v) => {
-            state.velocity = V3::of(&vehicle.vector_to_space(*v));
+            state.set_velocity(V3::of(&vehicle.vector_to_space(*v)));
         }
     }
 }

@@ -3,20 +3,25 @@
 //! Report: "Seating the Passenger", Figs 19 and 20. In vehicle axes a segment that leans back by γ has
 //! Z = (−sin γ, 0, −cos γ). Our decisions: the pelvis sphere is tangent to the seat back and sinks into the cushion until
 //! the loading curve there, resolved along gravity, carries g·(M₁+…+M₈ + ½(M₉+M₁₀)); each leg is a two-link chain from hip
-//! to heel with the knee above the line.
+//! to heel with the knee above the line. Where the legs of a smaller person do not reach the heels' place, the thighs lie along
+//! the cushion and the feet stand as high as they were to, nearer; where they do not reach down to there either, the legs lie
+//! stretched along the cushion.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use crate::body::tree::Limb;
-use crate::body::{Body, Segment};
+use crate::body::{Body, Joint, Segment};
 use crate::forces::spring::{BilinearSpring, Spring};
 use crate::model::seating::Seating;
-use crate::motion::layout::{free_slot, hinge_slot};
+use crate::motion::layout::Layout;
 use crate::motion::report_coordinates::quaternion;
-use crate::motion::state::State;
+use crate::motion::state::{Shape, State};
 use crate::motion::vector::V3;
 use crate::vehicle::FrameMotion;
 use placed_text::Problems;
+
+/// Heels farther from the hips than this, m, are a mistake: nobody's legs are so long.
+const NOBODYS_LEG_M: f64 = 1.1;
 
 /// Figures of a seating, for the user to check.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,48 +77,105 @@ pub(crate) fn seat(
         problems.error("body.spheres.pelvis", "not on the lower torso", "the lower torso");
         return None;
     }
+    if marks.legs().next().is_none() {
+        let expected = "segments `left_thigh` and `left_lower_leg` or the right ones, whose heels stand on the floor";
+        problems.error("posture.seat", "a body without legs", expected);
+        return None;
+    }
     let sink_m = sink(body, seat, vehicle, gravity_m_s2, problems)?;
     let pelvis_m = place_pelvis(seat, pelvis.radius_m, sink_m, seating.lateral_m, problems)?;
 
-    let length = |s: Segment| body.segment(s).length_m;
-    let lean = leaned(seating.lean_rad[3]);
+    let lean = leaned(seating.angle_of(body.tree[marks.pelvis].name).unwrap_or_default());
     let lower_end = pelvis_m - lean * pelvis.centre_from_lower_end_m.coords;
-    let hip = Vector3::new(lower_end.x, 0.0, lower_end.z);
-    let legs = [&marks.legs.left, &marks.legs.right].map(|limb| leg(body, limb, hip, seating, problems));
-    let [Some(left), Some(right)] = legs else { return None };
+    let hip = |limb: &Limb| lower_end + lean * body.socket_m(limb.upper);
+    let legs: Vec<_> = marks
+        .legs()
+        .map(|limb| (limb, leg(body, &limb, hip(&limb), &seat.cushion.normal, seating, problems)))
+        .collect();
+    let legs: Vec<(Limb, Leg)> = legs.into_iter().map(|(limb, leg)| Some((limb, leg?))).collect::<Option<_>>()?;
+    let pose = Pose::new(body, seating, &legs);
+    let (first, Leg { thigh, shank }) = &legs[0];
+    let knee_m = hip(first) + pose.axes[first.upper.index()] * link_m(body, first.upper, first.lower);
+    let heel_m = knee_m + pose.axes[first.lower.index()] * to_heel_m(body, first);
+    warn_short(seating, heel_m, problems);
+    let state = pose.state(body, pose.t1_m(body, marks.pelvis, lower_end), vehicle);
+    Some((state, Seated { sink_m, pelvis_m, knee_m, legs_rad: [*thigh, *shank] }))
+}
 
-    let t1 = lower_end
-        - along(seating.lean_rad[3]) * -length(marks.pelvis)
-        - along(seating.lean_rad[0]) * -length(marks.middle);
-    let mut state = State::zero();
-    state.t1 = V3::of(&vehicle.point_to_space(t1));
-    let mut lean = |segment: Segment, gamma: f64| {
-        if let Some(slot) = free_slot(segment.index()) {
+/// How the segments are turned, vehicle axes, and the angles of the hinges.
+struct Pose {
+    axes: Vec<Matrix3<f64>>,
+    /// By segment; 0 of one that is on no hinge.
+    hinge_rad: Vec<f64>,
+}
+
+impl Pose {
+    fn new(body: &Body, seating: &Seating, legs: &[(Limb, Leg)]) -> Self {
+        let count = body.segments.len();
+        let mut pose = Pose { axes: vec![leaned(0.0); count], hinge_rad: vec![0.0; count] };
+        for segment in body.tree.segments() {
+            let of_leg = legs.iter().find_map(|(limb, leg)| leg.angle_rad(limb, segment));
+            let carrier = body.tree.carrier(segment);
+            let row = carrier.map(|joint| &body.tree[joint]);
+            let hinge = row.filter(|row| row.is_hinge());
+            let said = of_leg.or_else(|| seating.angle_of(hinge.map_or(body.tree[segment].name, |row| row.name)));
+            let axes = match (carrier, said) {
+                (Some(joint), angle_rad) if hinge.is_some() => {
+                    pose.hinge_rad[segment.index()] = angle_rad.unwrap_or_default();
+                    pose.carried(body, joint, angle_rad.unwrap_or_default())
+                }
+                (_, Some(angle_rad)) => leaned(angle_rad),
+                (Some(joint), None) => pose.carried(body, joint, 0.0),
+                (None, None) => leaned(0.0),
+            };
+            pose.axes[segment.index()] = axes;
+        }
+        pose
+    }
+
+    /// Axes of the distal segment of a joint that is turned about its Y axis.
+    fn carried(&self, body: &Body, joint: Joint, angle_rad: f64) -> Matrix3<f64> {
+        let place = body.place(joint);
+        let turn = place.proximal.axes
+            * UnitQuaternion::from_axis_angle(&Vector3::y_axis(), angle_rad)
+            * place.distal.axes.inverse();
+        self.axes[body.tree[joint].proximal.index()] * turn.to_rotation_matrix().into_inner()
+    }
+
+    /// T1 where the lower end of `from` is at `lower_end`, vehicle axes.
+    fn t1_m(&self, body: &Body, from: Segment, lower_end: Vector3<f64>) -> Vector3<f64> {
+        let mut place = lower_end;
+        for segment in body.tree.inwards(from) {
+            place += self.axes[segment.index()] * body.joint_m(segment);
+            if let Some(joint) = body.tree.carrier(segment) {
+                let proximal = body.tree[joint].proximal.index();
+                place -= self.axes[proximal] * body.place(joint).proximal.point_m;
+            }
+        }
+        place
+    }
+
+    fn state(&self, body: &Body, t1_m: Vector3<f64>, vehicle: &FrameMotion) -> State<f64> {
+        let layout = Layout::of(body.tree);
+        let mut state = State::zero(Shape::of(&layout));
+        state.set_t1(V3::of(&vehicle.point_to_space(t1_m)));
+        for (slot, &n) in layout.free().iter().enumerate() {
             // Bⁿ (111), which is Tⁿ at the start: X′ = Bⁿ X_n (110)
-            state.orientation[slot] = quaternion(&(vehicle.rotation * leaned(gamma)));
+            state.set_orientation(slot, quaternion(&(vehicle.rotation * self.axes[n])));
         }
-    };
-    let trunk = [marks.middle, marks.chest, marks.head, marks.pelvis];
-    for (segment, gamma) in trunk.into_iter().zip(seating.lean_rad) {
-        lean(segment, gamma);
-    }
-    let limbs = [
-        (&marks.arms.left, seating.upper_arms_rad, seating.elbows_rad),
-        (&marks.arms.right, seating.upper_arms_rad, seating.elbows_rad),
-        (&marks.legs.left, left.thigh, left.thigh - left.shank),
-        (&marks.legs.right, right.thigh, right.thigh - right.shank),
-    ];
-    for (limb, gamma, _) in limbs {
-        lean(limb.upper, gamma);
-    }
-    for (limb, _, alpha) in limbs {
-        if let Some(slot) = hinge_slot(limb.lower.index()) {
-            state.hinge[slot] = alpha;
+        for (slot, &n) in layout.hinged().iter().enumerate() {
+            // of two axes the posture speaks of the first
+            if layout.hinge_slot(n) == Some(slot) {
+                state.hinge_mut()[slot] = self.hinge_rad[n];
+            }
         }
+        state
     }
-    let knee_m = lower_end - Vector3::y() * body.hip_half_width_m - along(left.thigh) * length(marks.legs.left.upper);
-    let seated = Seated { sink_m, pelvis_m, knee_m, legs_rad: [left.thigh, left.shank] };
-    Some((state, seated))
+}
+
+/// From the joint that carries a segment to the one by which it carries `next`, m.
+fn link_m(body: &Body, segment: Segment, next: Segment) -> Vector3<f64> {
+    body.socket_m(next) - body.joint_m(segment)
 }
 
 /// Z of a segment that leans back by γ, vehicle axes (Eq. 109).
@@ -141,10 +203,10 @@ fn sink(
         return Some(0.0);
     }
     let mass = |s: Segment| body.segment(s).mass_kg;
-    let legs = &body.tree.landmarks().legs;
-    let in_legs = |s: &Segment| [legs.left, legs.right].iter().any(|leg| *s == leg.upper || *s == leg.lower);
+    let marks = body.tree.landmarks();
+    let in_legs = |s: &Segment| marks.legs().any(|leg| body.tree.is_of(*s, &leg));
     let carried = body.tree.segments().filter(|s| !in_legs(s)).map(mass).sum::<f64>()
-        + 0.5 * (mass(legs.left.upper) + mass(legs.right.upper));
+        + 0.5 * marks.legs().map(|leg| mass(leg.upper)).sum::<f64>();
     let up = vehicle.rotation.tr_mul(&Vector3::z());
     let support = seat.cushion.normal.dot(&up);
     if support < 0.1 {
@@ -200,13 +262,75 @@ struct Leg {
     shank: f64,
 }
 
-/// Two links from `hip` to the heel in the X_v–Z_v plane, the knee above the line.
-fn leg(body: &Body, limb: &Limb, hip: Vector3<f64>, seating: &Seating, problems: &mut Problems) -> Option<Leg> {
-    let (a, b) = (body.segment(limb.upper).length_m, body.segment(limb.lower).length_m);
+impl Leg {
+    /// Lean of the limb's thigh, angle of its knee.
+    fn angle_rad(&self, limb: &Limb, segment: Segment) -> Option<f64> {
+        let knee = (segment == limb.lower).then_some(self.thigh - self.shank);
+        if segment == limb.upper { Some(self.thigh) } else { knee }
+    }
+}
+
+/// Length of a link in the X–Z plane of its segment, m, and how far it leans ahead of the segment's Z axis, rad.
+fn planar(link_m: &Vector3<f64>) -> (f64, f64) {
+    let ahead = crash_measures::trig::atan2(link_m.x, -link_m.z);
+    ((link_m.x * link_m.x + link_m.z * link_m.z).sqrt(), ahead)
+}
+
+/// From the knee to the heel, the far end of the leg, along the lower leg's axes, m.
+fn to_heel_m(body: &Body, limb: &Limb) -> Vector3<f64> {
+    match limb.end {
+        Some(foot) => link_m(body, limb.lower, foot) - body.joint_m(foot),
+        None => -body.joint_m(limb.lower),
+    }
+}
+
+/// Says where the feet are that do not reach the heels' place.
+fn warn_short(seating: &Seating, heel_m: Vector3<f64>, problems: &mut Problems) {
     let [x, z] = seating.heels_m;
+    if (heel_m.x - x).hypot(heel_m.z - z) < 1e-6 {
+        return;
+    }
+    let how =
+        if (heel_m.z - z).abs() < 1e-6 { "stand nearer" } else { "do not reach down, and the legs lie on the cushion" };
+    problems.warning(
+        "posture.heels",
+        format!(
+            "the legs are too short for heels at [{x:.3}, {z:.3}] m: the feet {how}, at [{:.3}, {:.3}] m",
+            heel_m.x, heel_m.z
+        ),
+        "heels that the feet of this body reach",
+    );
+}
+
+/// Legs too short for the heels' place: along the cushion, and from the knees down to the height of the heels if they reach.
+fn short_leg(a: f64, b: f64, hip: Vector3<f64>, cushion: &Vector3<f64>, heel_z: f64) -> [f64; 2] {
+    let thigh = crash_measures::trig::atan2(-cushion.z, cushion.x);
+    let down = (heel_z - (hip - along(thigh) * a).z) / b;
+    let shank = if down.abs() < 1.0 { crash_measures::trig::acos(down) } else { thigh };
+    [thigh, shank]
+}
+
+/// Two links from `hip` to the heel in the X_v–Z_v plane, the knee above the line.
+fn leg(
+    body: &Body,
+    limb: &Limb,
+    hip: Vector3<f64>,
+    cushion: &Vector3<f64>,
+    seating: &Seating,
+    problems: &mut Problems,
+) -> Option<Leg> {
+    let (a, thigh_ahead) = planar(&link_m(body, limb.upper, limb.lower));
+    let (b, shank_ahead) = planar(&to_heel_m(body, limb));
+    let of = |thigh: f64, shank: f64| Some(Leg { thigh: thigh - thigh_ahead, shank: shank - shank_ahead });
+    let [x, z] = seating.heels_m;
+    let hip = Vector3::new(hip.x, 0.0, hip.z);
     let to_heel = Vector3::new(x, 0.0, z) - hip;
     let distance = to_heel.norm();
     let (shortest, longest) = ((a - b).abs(), a + b);
+    if distance > longest && distance < NOBODYS_LEG_M {
+        let [thigh, shank] = short_leg(a, b, hip, cushion, z);
+        return of(thigh, shank);
+    }
     if !(distance >= shortest && distance <= longest) {
         let (by, remedy) = if distance > longest {
             (distance - longest, "bring the heels nearer to the seat")
@@ -232,5 +356,6 @@ fn leg(body: &Body, limb: &Limb, hip: Vector3<f64>, seating: &Seating, problems:
     let thigh_lean = line + opening;
     let knee = hip - along(thigh_lean) * a;
     let down = Vector3::new(x, 0.0, z) - knee;
-    Some(Leg { thigh: thigh_lean, shank: crash_measures::trig::atan2(down.x, down.z) })
+    let shank_lean = crash_measures::trig::atan2(down.x, down.z);
+    of(thigh_lean, shank_lean)
 }

@@ -4,10 +4,11 @@
 
 use nalgebra::Vector3;
 
+use crate::body::both_sides;
 use crate::motion::report_coordinates::ReportCoordinates;
 
 /// Where on what the body sits and how it holds itself. Angles as in Fig. 19: γ > 0 leans the top back.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Seating {
     /// Index of the cushion: a surface, or a solid behind all surfaces.
     pub cushion: usize,
@@ -15,16 +16,30 @@ pub struct Seating {
     pub back: usize,
     /// Lateral place of the body's middle plane, Y_v (right positive).
     pub lateral_m: f64,
-    /// γ₁ middle torso, γ₂ upper torso, γ₃ head, γ₄ lower torso.
-    pub lean_rad: [f64; 4],
-    /// γ₅, both upper arms.
-    pub upper_arms_rad: f64,
-    /// α of both elbows; negative brings the hands forward.
-    pub elbows_rad: f64,
+    /// Angles under the names of segments, which lean by γ, and of hinges, which turn by α: `head`, or `upper_arms` for
+    /// both. A segment of which nothing is said hangs as the one that carries it; heels say where the legs are.
+    pub angles_rad: Vec<(String, f64)>,
     /// X_VH, Z_VH: the heels in vehicle axes.
     pub heels_m: [f64; 2],
     /// Move the seated body as one piece until contact and belt forces carry it.
     pub settle: bool,
+}
+
+impl Seating {
+    /// Angles under their names.
+    pub fn angles(named_rad: &[(&str, f64)]) -> Vec<(String, f64)> {
+        named_rad.iter().map(|(name, angle_rad)| ((*name).to_owned(), *angle_rad)).collect()
+    }
+
+    /// The angle under this name.
+    pub fn angle_rad(&self, name: &str) -> Option<f64> {
+        self.angles_rad.iter().find(|(own, _)| own == name).map(|(_, angle_rad)| *angle_rad)
+    }
+
+    /// The angle of what has this name, said of it alone or of both sides.
+    pub(crate) fn angle_of(&self, name: &str) -> Option<f64> {
+        self.angle_rad(name).or_else(|| self.angle_rad(&both_sides(name)?))
+    }
 }
 
 /// Position of the body at the start.

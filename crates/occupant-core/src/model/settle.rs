@@ -11,6 +11,7 @@ use crate::forces::{Data, Instant};
 use crate::kernel::System;
 use crate::model::frames;
 use crate::model::setup::Setup;
+use crate::motion::frame::VEHICLE;
 use crate::motion::kinematics::Kinematics;
 use crate::motion::report_coordinates::quaternion;
 use crate::motion::state::State;
@@ -127,10 +128,10 @@ fn limited(step: Vector6<f64>) -> Vector6<f64> {
 fn moved(state: &State<f64>, x: &Vector6<f64>) -> State<f64> {
     let turn = turned_by(&(x.fixed_rows::<3>(3) / LEVER_M));
     let mut out = *state;
-    out.t1 += V3::of(&x.fixed_rows::<3>(0).into());
-    for q in &mut out.orientation {
-        let axes = crate::motion::kinematics::axes(q).to_matrix();
-        *q = quaternion(&(turn * axes));
+    out.set_t1(state.t1() + V3::of(&x.fixed_rows::<3>(0).into()));
+    for slot in state.turns() {
+        let axes = crate::motion::kinematics::axes(&state.orientation(slot)).to_matrix();
+        out.set_orientation(slot, quaternion(&(turn * axes)));
     }
     out
 }
@@ -155,24 +156,21 @@ fn load(
     state: &State<f64>,
 ) -> Vector6<f64> {
     let mut system = system.clone();
-    let frames = frames(vehicle);
     // at rest: no friction, no damping
-    let still = frames.map(|mut f| {
-        (f.velocity, f.omega) = (V3::zero(), V3::zero());
-        f
-    });
+    let mut still = frames(setup.time.start_s, vehicle);
+    still[VEHICLE].velocity = V3::zero();
+    still[VEHICLE].omega = V3::zero();
     let k = Kinematics::new(&system.skeleton, state);
     let at = Instant { k: &k, state, frames: &still, spheres: &system.spheres };
     system.forces.lay(data, &setup.body, &at);
     let mut history = system.forces.start(&at);
     let e = system.evaluate::<false>(state, &still, &mut history, &mut ());
     let (mut force, mut moment) = (V3::zero(), V3::zero());
-    for (n, wrench) in e.wrench.iter().enumerate() {
-        let link = &system.skeleton.links[n];
+    for (n, (wrench, link)) in e.wrench.iter().zip(&system.skeleton.links).enumerate() {
         let weight = V3 { x: 0.0, y: 0.0, z: -link.mass * system.skeleton.gravity };
         force += wrench.force + weight;
-        moment += wrench.moment + (k.joint[n] - state.t1).cross(wrench.force);
-        moment += (k.cg(&system.skeleton, n) - state.t1).cross(weight);
+        moment += wrench.moment + (k.joint[n] - state.t1()).cross(wrench.force);
+        moment += (k.cg(&system.skeleton, n) - state.t1()).cross(weight);
     }
     let lever = 1.0 / LEVER_M;
     Vector6::new(force.x, force.y, force.z, moment.x * lever, moment.y * lever, moment.z * lever)

@@ -2,7 +2,11 @@
 //!
 //! [`SetupBuilder`] puts one together in code. A `Setup` may still be wrong; [`crate::model::Model::new`] checks it and reports every problem at once.
 
-use crate::body::Body;
+use nalgebra::Point3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::body::{Body, ContactSphere, Segment};
 use crate::forces::Data;
 use crate::forces::belt::Belt;
 use crate::forces::contact::flat_face::FlatFace;
@@ -12,6 +16,7 @@ use crate::forces::contact::solid::Solid;
 use crate::forces::contact::surface::Surface;
 use crate::forces::contact::{ContactData, EdgeForce};
 use crate::forces::joint::Joints;
+use crate::forces::sphere::Site;
 use crate::model::seating::{InitialPosture, InitialVelocity};
 use crate::motion::report_coordinates::{DOF, ReportCoordinates};
 use crate::vehicle::VehiclePath;
@@ -95,10 +100,43 @@ impl Integrator {
 }
 
 /// What is recorded besides the results every run has.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct OutputOptions {
     /// Also record the report's q₁…q₃₁ and their rates.
     pub report_coordinates: bool,
+    /// Points of segments whose motion is recorded.
+    pub(crate) markers: Vec<Marker>,
+}
+
+/// A named point of a segment whose motion is recorded.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Marker {
+    pub(crate) name: String,
+    pub(crate) segment: Segment,
+    /// Segment axes.
+    pub(crate) place_from_lower_end_m: Point3<f64>,
+    pub(crate) frame: MarkerFrame,
+}
+
+impl Marker {
+    /// As the kernel sees it: a sphere without a radius.
+    pub(crate) fn site(&self, body: &Body) -> Site<f64> {
+        let (segment, centre_from_lower_end_m) = (self.segment, self.place_from_lower_end_m);
+        Site::new(body, &ContactSphere::new(&self.name, segment, centre_from_lower_end_m, 0.0))
+    }
+}
+
+/// Who sees the motion of a marker.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum MarkerFrame {
+    /// The vehicle.
+    #[default]
+    Vehicle,
+    /// Space.
+    Space,
+    /// An accelerometer on the segment.
+    Segment,
 }
 
 /// Everything a run needs.
@@ -179,7 +217,7 @@ impl Setup {
             edge_force: self.edge_force,
             longest_step_s: self.integrator.longest_step_s(),
         };
-        Data { contacts, belts: &self.belts, joints: &self.joints, limits: &self.joints }
+        Data { contacts, belts: &self.belts, joints: &self.joints, limits: &self.joints, muscles: &self.joints }
     }
 }
 

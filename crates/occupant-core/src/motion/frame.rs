@@ -2,6 +2,8 @@
 //!
 //! Report: Eqs 82, 83 and 94. Space is frame 0 and the vehicle frame 1; more frames are more entries.
 
+use std::ops::{Index, IndexMut};
+
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{M3, V3};
 use crate::vehicle::FrameMotion;
@@ -17,6 +19,10 @@ pub struct Moving<S> {
     pub velocity: V3<S>,
     /// Angular velocity, rad/s.
     pub omega: V3<S>,
+    /// Acceleration of the origin, m/s².
+    pub acceleration: V3<S>,
+    /// Angular acceleration, rad/s².
+    pub alpha: V3<S>,
 }
 
 /// Index of space among the frames.
@@ -33,6 +39,8 @@ impl<S: Copy> Moving<S> {
             axes: self.axes.zip(&other.axes, f),
             velocity: self.velocity.zip(&other.velocity, f),
             omega: self.omega.zip(&other.omega, f),
+            acceleration: self.acceleration.zip(&other.acceleration, f),
+            alpha: self.alpha.zip(&other.alpha, f),
         }
     }
 }
@@ -49,6 +57,8 @@ impl<S> Moving<S> {
             (&mut axes.0.z, &axes.1.z),
             (&mut self.velocity, &other.velocity),
             (&mut self.omega, &other.omega),
+            (&mut self.acceleration, &other.acceleration),
+            (&mut self.alpha, &other.alpha),
         ] {
             f(&mut a.x, b.x);
             f(&mut a.y, b.y);
@@ -60,7 +70,8 @@ impl<S> Moving<S> {
 impl<S: Scalar> Moving<S> {
     /// Space itself.
     pub fn space() -> Self {
-        Moving { origin: V3::zero(), axes: M3::identity(), velocity: V3::zero(), omega: V3::zero() }
+        let o = V3::zero();
+        Moving { origin: o, axes: M3::identity(), velocity: o, omega: o, acceleration: o, alpha: o }
     }
 
     /// The same motion in every lane.
@@ -71,6 +82,22 @@ impl<S: Scalar> Moving<S> {
             axes: M3::of(&motion.rotation),
             velocity: V3::of(&motion.velocity_m_s),
             omega: V3::of(&motion.angular_velocity_rad_s),
+            acceleration: V3::of(&motion.acceleration_m_s2),
+            alpha: V3::of(&motion.angular_acceleration_rad_s2),
+        }
+    }
+
+    /// Motion of a frame that is fixed to this one, its origin at `place` and with these axes in it.
+    #[inline(always)]
+    pub(crate) fn carried(&self, place: V3<S>, axes: &M3<S>) -> Self {
+        let arm = self.axes.out(place);
+        let turning = self.omega.cross(arm);
+        Moving {
+            origin: self.origin + arm,
+            axes: self.axes.times(axes),
+            velocity: self.velocity + turning,
+            acceleration: self.acceleration + self.alpha.cross(arm) + self.omega.cross(turning),
+            ..*self
         }
     }
 
@@ -82,4 +109,33 @@ impl<S: Scalar> Moving<S> {
 }
 
 /// Motions of the frames at one instant, by [`SPACE`] and [`VEHICLE`].
-pub type Frames<S> = [Moving<S>; 2];
+#[derive(Clone, Copy, Debug)]
+pub struct Frames<S> {
+    /// Time of the scenario, s.
+    pub time: S,
+    /// The frames.
+    pub moving: [Moving<S>; 2],
+}
+
+impl<S: Copy> Frames<S> {
+    /// f applied to every number and the one in the same place of `other`.
+    pub fn zip<A: Copy, T>(&self, other: &Frames<A>, f: &impl Fn(S, A) -> T) -> Frames<T> {
+        let moving = std::array::from_fn(|i| self.moving[i].zip(&other.moving[i], f));
+        Frames { time: f(self.time, other.time), moving }
+    }
+}
+
+impl<S> Index<usize> for Frames<S> {
+    type Output = Moving<S>;
+
+    #[inline(always)]
+    fn index(&self, frame: usize) -> &Moving<S> {
+        &self.moving[frame]
+    }
+}
+
+impl<S> IndexMut<usize> for Frames<S> {
+    fn index_mut(&mut self, frame: usize) -> &mut Moving<S> {
+        &mut self.moving[frame]
+    }
+}

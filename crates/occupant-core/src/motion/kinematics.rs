@@ -1,12 +1,13 @@
 //! Where every segment is and how it moves: derived from the state, overwritten at every evaluation.
 //!
-//! Report: "Body Geometry and Coordinate Systems". Every joint is T1 plus constant multiples of Y and Z of the
-//! segments; all vectors are in space axes.
+//! Report: "Body Geometry and Coordinate Systems". Every joint is T1 plus constant vectors in axes of the segments, in the
+//! report's body multiples of Y and Z; all vectors are in space axes.
 
-use crate::body::SEGMENTS;
-use crate::motion::layout::{FREE, HUNG, LIMBS, ROOTS};
+use crate::motion::closed;
+use crate::motion::frame::Moving;
+use crate::motion::layout::{Axis, Freedom, MOST_HINGES, MOST_SEGMENTS, Row};
 use crate::motion::scalar::Scalar;
-use crate::motion::skeleton::Skeleton;
+use crate::motion::skeleton::{Link, Skeleton};
 use crate::motion::state::{Quat, State};
 use crate::motion::vector::{M3, V3, v3};
 
@@ -14,15 +15,17 @@ use crate::motion::vector::{M3, V3, v3};
 #[derive(Clone, Copy, Debug)]
 pub struct Kinematics<S> {
     /// Axes X, Y, Z of each segment as columns.
-    pub axes: [M3<S>; SEGMENTS],
+    pub axes: [M3<S>; MOST_SEGMENTS],
     /// Absolute angular velocity.
-    pub omega: [V3<S>; SEGMENTS],
-    /// Proximal joint: T1 for segments 1 and 2.
-    pub joint: [V3<S>; SEGMENTS],
+    pub omega: [V3<S>; MOST_SEGMENTS],
+    /// Proximal joint; that of the root is T1.
+    pub joint: [V3<S>; MOST_SEGMENTS],
     /// Its velocity.
-    pub joint_velocity: [V3<S>; SEGMENTS],
-    /// sin α and cos α of the lower segment of each limb.
-    pub hinge_sin_cos: [(S, S); LIMBS.len()],
+    pub joint_velocity: [V3<S>; MOST_SEGMENTS],
+    /// Axes of the hinges, in the order of the state's: what turns about one turns against what carries it.
+    pub hinge_axis: [V3<S>; MOST_HINGES],
+    /// sin α and cos α of the hinges.
+    pub(crate) hinge_sin_cos: [(S, S); MOST_HINGES],
 }
 
 impl<S: Scalar> Kinematics<S> {
@@ -30,7 +33,7 @@ impl<S: Scalar> Kinematics<S> {
     #[inline(always)]
     pub fn new(body: &Skeleton<S>, state: &State<S>) -> Self {
         let mut k = Kinematics::blank();
-        k.follow(body, state);
+        k.follow(body, state, None);
         k
     }
 
@@ -38,64 +41,74 @@ impl<S: Scalar> Kinematics<S> {
     #[inline(always)]
     pub(crate) fn blank() -> Self {
         Kinematics {
-            axes: [M3::identity(); SEGMENTS],
-            omega: [V3::zero(); SEGMENTS],
-            joint: [V3::zero(); SEGMENTS],
-            joint_velocity: [V3::zero(); SEGMENTS],
-            hinge_sin_cos: [(S::zero(), S::one()); LIMBS.len()],
+            axes: [M3::identity(); MOST_SEGMENTS],
+            omega: [V3::zero(); MOST_SEGMENTS],
+            joint: [V3::zero(); MOST_SEGMENTS],
+            joint_velocity: [V3::zero(); MOST_SEGMENTS],
+            hinge_axis: [V3::zero(); MOST_HINGES],
+            hinge_sin_cos: [(S::zero(), S::one()); MOST_HINGES],
         }
     }
 
-    /// Becomes the kinematics of `state`.
+    /// Becomes the kinematics of `state`; a guided root moves as `root` does, not as the state says.
     #[inline(always)]
-    pub(crate) fn follow(&mut self, body: &Skeleton<S>, state: &State<S>) {
-        for &n in ROOTS {
-            (self.joint[n], self.joint_velocity[n]) = (state.t1, state.velocity);
+    pub(crate) fn follow(&mut self, body: &Skeleton<S>, state: &State<S>, root: Option<&Moving<S>>) {
+        for (i, angle) in state.hinge().iter().enumerate() {
+            self.hinge_sin_cos[i] = angle.sin_cos();
         }
-        for (slot, &n) in FREE.iter().enumerate() {
-            self.axes[n] = axes(&state.orientation[slot]);
-            self.omega[n] = state.omega[slot];
+        if body.is_closed {
+            return closed::place(self, body, state);
         }
-        for (limb, &(upper, lower)) in LIMBS.iter().enumerate() {
-            self.turn_hinge(limb, upper, lower, state);
+        let root = root.filter(|_| body.layout.is_guided());
+        for (n, (row, link)) in body.layout.rows().iter().zip(&body.links).enumerate() {
+            match (row.parent, root) {
+                (Some(parent), _) => {
+                    let arm = self.axes[parent].out(link.joint);
+                    self.joint[n] = self.joint[parent] + arm;
+                    self.joint_velocity[n] = self.joint_velocity[parent] + self.omega[parent].cross(arm);
+                }
+                (None, Some(root)) => (self.joint[n], self.joint_velocity[n]) = (root.origin, root.velocity),
+                (None, None) => (self.joint[n], self.joint_velocity[n]) = (state.t1(), state.velocity()),
+            }
+            (self.axes[n], self.omega[n]) = match (row.freedom, root) {
+                (Freedom::Hinges(_), _) => self.turned(row, link, state.hinge_rate()),
+                (Freedom::Guided, Some(root)) => (root.axes, root.omega),
+                _ => (axes(&state.orientation(row.slot)), state.omega(row.slot)),
+            };
         }
-        self.place_joints(body);
     }
 
-    /// X_j = R_y(α) X_m (8) for the lower segment m of a limb on its upper segment j, and its angular velocity.
+    /// Axes and angular velocity of a segment on hinges.
     #[inline(always)]
-    fn turn_hinge(&mut self, limb: usize, upper: usize, lower: usize, state: &State<S>) {
-        let (s, c) = state.hinge[limb].sin_cos();
-        let M3 { x, y, z } = self.axes[upper];
-        self.hinge_sin_cos[limb] = (s, c);
-        // T^nm = Tⁿ R_y(α) (9), (10) by columns: from those of Tⁿ X_m = c X_j − s Z_j and Z_m = s X_j + c Z_j (11)
-        self.axes[lower] = M3 { x: x * c - z * s, y, z: x * s + z * c };
-        self.omega[lower] = self.omega[upper] + y * state.hinge_rate[limb]; // (45), in space axes
-    }
-
-    /// Joints from the root outwards, each at (0, y, z) of the segment that carries it.
-    #[inline(always)]
-    fn place_joints(&mut self, body: &Skeleton<S>) {
-        for &(child, parent) in HUNG {
-            let (axes, link) = (&self.axes[parent], &body.links[child]);
-            let offset = axes.y * link.joint_y + axes.z * link.joint_z;
-            self.joint[child] = self.joint[parent] + offset;
-            self.joint_velocity[child] = self.joint_velocity[parent] + self.omega[parent].cross(offset);
+    fn turned(&mut self, row: &Row, link: &Link<S>, rates: &[S]) -> (M3<S>, V3<S>) {
+        let [inner, outer] = &link.triads;
+        let carrier = row.parent.unwrap_or(0);
+        let (mut triad, mut omega) = (self.axes[carrier].times(inner), self.omega[carrier]);
+        for (i, axis) in (row.slot..).zip(row.axes()) {
+            let (s, c) = self.hinge_sin_cos[i];
+            let M3 { x, y, z } = triad;
+            (self.hinge_axis[i], triad) = match axis {
+                Axis::X => (x, M3 { x, y: y * c + z * s, z: z * c - y * s }),
+                Axis::Y => (y, M3 { x: x * c - z * s, y, z: x * s + z * c }),
+                Axis::Z => (z, M3 { x: x * c + y * s, y: y * c - x * s, z }),
+            };
+            omega += self.hinge_axis[i] * rates[i];
         }
+        (triad.times(&outer.transposed()), omega)
     }
 
     /// Centre of gravity of segment `n`; (13) is that of segment 1, (14) that of segment 8.
     #[inline(always)]
     pub fn cg(&self, body: &Skeleton<S>, n: usize) -> V3<S> {
         // segments 1 to 12: (15), (16), (17), (18), (19), (20), (21), (22), (23), (24), (25), (26)
-        self.joint[n] + self.axes[n].z * body.links[n].cg
+        self.joint[n] + self.axes[n].out(body.links[n].cg)
     }
 
     /// Velocity of the centre of gravity of segment `n`.
     #[inline(always)]
     pub fn cg_velocity(&self, body: &Skeleton<S>, n: usize) -> V3<S> {
         // its square is, for segments 1 to 12: (27), (28), (29), (30), (31), (32), (33), (34), (35), (36), (37), (38)
-        self.joint_velocity[n] + self.omega[n].cross(self.axes[n].z * body.links[n].cg)
+        self.joint_velocity[n] + self.omega[n].cross(self.axes[n].out(body.links[n].cg))
     }
 }
 

@@ -1,164 +1,227 @@
-//! What the kernel loops over, derived from the body's tree when the kernel is compiled.
+//! What the kernel loops over: how the segments of a tree hang on each other, and where the numbers of each stand in a state.
 //!
-//! Segments are indices here; a segment's joint is the one that carries it. How [`super::dynamics`] reduces a segment to
-//! what it asks of its joint follows from the shape of the tree: a limb (a ball joint, one hinged segment beyond) and a
-//! leaf (a ball joint, nothing beyond) have closed forms, a trunk segment carries any subtrees on ball joints.
-//!
-//! The kernel is compiled for one tree. A second one makes these constants, and the lengths of the arrays that have their
-//! lengths, a parameter of it; a segment that fits none of the three kinds needs a reduction of its own.
+//! Segments are indices here; a segment's joint is the one that carries it. A segment stands after the one that carries it.
 
-use crate::body::SEGMENTS;
-use crate::body::tree::{Joint, JointRow, Place, Tree};
-use crate::body::tti12::TTI12;
+use crate::body::tree::{JointKind, JointRow, Tree};
 
-/// The tree.
-pub(crate) const TREE: Tree = TTI12;
-const JOINTS: usize = TREE.joint_rows().len();
+/// Most segments of a tree.
+pub const MOST_SEGMENTS: usize = 20;
+/// Most axes of hinges in a tree.
+pub const MOST_HINGES: usize = 20;
 
-/// The values, at all `$n` below `$bound` for which the condition holds, as a constant slice.
-macro_rules! collect {
-    ($type:ty: $value:expr, for $n:ident in $bound:expr, if $keep:expr) => {{
-        const COUNT: usize = {
-            let (mut count, mut $n) = (0, 0);
-            while $n < $bound {
-                count += ($keep) as usize;
-                $n += 1;
+/// An axis of a joint's triads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// X.
+    X,
+    /// Y.
+    Y,
+    /// Z.
+    Z,
+}
+
+/// How the joint of a segment lets it move against the segment that carries it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Freedom {
+    /// It turns any way; for the root: it moves any way.
+    Ball,
+    /// It turns about axes of the triads, each carried round by those before it: none for a fixed joint, one for a pin, two
+    /// for a universal joint.
+    Hinges(&'static [Axis]),
+    /// The root follows a frame that moves on a given path.
+    Guided,
+}
+
+/// A segment's place in the tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Row {
+    /// The segment that carries it; none for the root.
+    pub parent: Option<usize>,
+    pub freedom: Freedom,
+    /// Place of its orientation in a state, or of its first hinge.
+    pub slot: usize,
+}
+
+impl Row {
+    /// Axes of the hinges of its joint.
+    #[inline(always)]
+    pub(crate) fn axes(&self) -> &'static [Axis] {
+        if let Freedom::Hinges(axes) = self.freedom { axes } else { &[] }
+    }
+
+    /// Places of its hinges in a state.
+    #[inline(always)]
+    pub(crate) fn hinges(&self) -> std::ops::Range<usize> {
+        self.slot..self.slot + self.axes().len()
+    }
+}
+
+/// A tree that the kernel cannot carry.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("segment {segment}: {found}; expected {expected}")]
+pub struct TreeError {
+    /// Its place among the segments, from 0.
+    pub segment: usize,
+    /// What is wrong with it.
+    pub found: &'static str,
+    /// What could be there.
+    pub expected: &'static str,
+}
+
+/// The tree as the kernel sees it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Layout {
+    rows: Vec<Row>,
+    free: Vec<usize>,
+    hinged: Vec<usize>,
+}
+
+impl Layout {
+    /// Of segments by the one that carries each and the freedom of its joint.
+    ///
+    /// # Errors
+    /// A tree that the kernel cannot carry.
+    pub fn new(segments: &[(Option<usize>, Freedom)]) -> Result<Self, TreeError> {
+        let hinges = |(_, freedom): &(_, Freedom)| if let Freedom::Hinges(axes) = freedom { axes.len() } else { 0 };
+        let mut turns = 0;
+        for (n, segment @ &(parent, freedom)) in segments.iter().enumerate() {
+            let error = |found, expected| Err(TreeError { segment: n, found, expected });
+            turns += hinges(segment);
+            match parent {
+                None if n > 0 => return error("carried by none", "one root, the first segment"),
+                Some(parent) if parent >= n => return error("carried by one that stands after it", "one before it"),
+                _ => {}
             }
-            count
-        };
-        const KEPT: [$type; COUNT] = {
-            let (mut at, mut $n) = (0, 0);
-            let mut kept = [$value; COUNT];
-            while $n < $bound {
-                if $keep {
-                    kept[at] = $value;
-                    at += 1;
+            match freedom {
+                Freedom::Hinges(_) if n == 0 => return error("a root on hinges", "a free root, or one on a mount"),
+                Freedom::Hinges([first, second]) if first == second => {
+                    return error("two hinges about one axis", "two axes");
                 }
-                $n += 1;
+                Freedom::Hinges([_, _, _, ..]) => return error("more than two hinges", "a ball joint"),
+                Freedom::Guided if n > 0 => return error("a mount beyond the root", "a joint"),
+                _ => {}
             }
-            kept
+            if n >= MOST_SEGMENTS || turns > MOST_HINGES {
+                return error("too many segments or hinges", "20 segments and 20 axes of hinges at most");
+            }
+        }
+        if segments.is_empty() {
+            return Err(TreeError { segment: 0, found: "no segments", expected: "a root" });
+        }
+        Ok(Layout::of_rows(segments.iter().copied()))
+    }
+
+    /// Of a body's tree.
+    pub fn of(tree: &Tree) -> Self {
+        let freedom = |joint: &JointRow| match joint.kind {
+            JointKind::Ball => Freedom::Ball,
+            JointKind::Hinge => Freedom::Hinges(&[Axis::Y]),
+            JointKind::Universal => Freedom::Hinges(&[Axis::Y, Axis::X]),
+            JointKind::Fixed => Freedom::Hinges(&[]),
         };
-        &KEPT
-    }};
-}
+        let rows = tree.segments().map(|segment| tree.carrier(segment).map(|joint| &tree[joint]));
+        Layout::of_rows(
+            rows.map(|joint| (joint.map(|joint| joint.proximal.index()), joint.map_or(Freedom::Ball, freedom))),
+        )
+    }
 
-/// Segments whose orientation is free, in the order of [`super::state::State::orientation`].
-pub const FREE: &[usize] = collect!(usize: n, for n in SEGMENTS, if !is_hinged(n));
-/// Hinged segments, in the order of [`super::state::State::hinge`].
-pub(crate) const HINGED: &[usize] = collect!(usize: n, for n in SEGMENTS, if is_hinged(n));
-/// Upper and lower segment of each limb, in the order of `HINGED`.
-pub const LIMBS: &[(usize, usize)] = collect!((usize, usize): (parent(n), n), for n in SEGMENTS, if is_hinged(n));
-/// Segments on a ball joint that carry nothing.
-pub(crate) const LEAVES: &[usize] =
-    collect!(usize: n, for n in SEGMENTS, if !is_hinged(n) && !carries(n, false) && !carries(n, true));
-/// Segments on a ball joint that carry others on ball joints.
-pub(crate) const TRUNKS: &[usize] = collect!(usize: n, for n in SEGMENTS, if !is_hinged(n) && carries(n, false));
-/// Segments whose joint is T1.
-pub(crate) const ROOTS: &[usize] = collect!(usize: n, for n in SEGMENTS, if parent(n) == AT_T1);
-/// All other segments, each with the one that carries it: those that one segment carries stand together, and none stands
-/// before the one that carries it.
-pub(crate) const HUNG: &[(usize, usize)] = collect!(
-    (usize, usize): (n % SEGMENTS, n / SEGMENTS), for n in SEGMENTS * SEGMENTS, if parent(n % SEGMENTS) == n / SEGMENTS
-);
-
-/// Ball joints, in the order of [`crate::forces::joint::JointSystem::balls`].
-pub const BALL_JOINTS: &[Joint] = collect!(Joint: TREE.joint(n), for n in JOINTS, if !row(n).is_hinge());
-/// Proximal and distal segment of [`BALL_JOINTS`].
-pub const BALLS: &[(usize, usize)] = collect!(
-    (usize, usize): (row(n).proximal.index(), row(n).distal.index()), for n in JOINTS, if !row(n).is_hinge()
-);
-/// Hinges, in the order of `HINGED`.
-pub const HINGE_JOINTS: &[Joint] = collect!(
-    Joint: TREE.joint(n % JOINTS), for n in HINGED.len() * JOINTS, if row(n % JOINTS).distal.index() == HINGED[n / JOINTS]
-);
-
-/// Stands for the segment that carries one whose joint is T1.
-const AT_T1: usize = usize::MAX;
-
-/// Every segment is reduced with its limb, as a leaf or as part of the trunk.
-const _: () = assert!(
-    TRUNKS.len() + LEAVES.len() + 2 * LIMBS.len() == SEGMENTS && HINGED.len() + BALLS.len() + 1 == SEGMENTS,
-    "a tree with a segment that has no reduction yet"
-);
-
-/// Place of a free segment in [`FREE`], if it is one.
-pub fn free_slot(segment: usize) -> Option<usize> {
-    FREE.iter().position(|&n| n == segment)
-}
-
-/// Place of a hinged segment in [`HINGED`], if it is one.
-pub(crate) fn hinge_slot(segment: usize) -> Option<usize> {
-    HINGED.iter().position(|&n| n == segment)
-}
-
-/// The part of [`HUNG`] that a segment carries.
-#[inline(always)]
-pub(crate) fn hung_from(segment: usize) -> &'static [(usize, usize)] {
-    const FIRST: [usize; SEGMENTS + 1] = {
-        let (mut first, mut n) = ([0; SEGMENTS + 1], 0);
-        while n < SEGMENTS {
-            let mut at = first[n];
-            while at < HUNG.len() && HUNG[at].1 == n {
-                at += 1;
-            }
-            first[n + 1] = at;
-            n += 1;
+    fn of_rows(segments: impl Iterator<Item = (Option<usize>, Freedom)>) -> Self {
+        let mut layout = Layout { rows: Vec::new(), free: Vec::new(), hinged: Vec::new() };
+        for (n, (parent, freedom)) in segments.enumerate() {
+            let slot = if let Freedom::Hinges(axes) = freedom {
+                layout.hinged.extend(axes.iter().map(|_| n));
+                layout.hinged.len() - axes.len()
+            } else {
+                layout.free.push(n);
+                layout.free.len() - 1
+            };
+            layout.rows.push(Row { parent, freedom, slot });
         }
-        first
-    };
-    &HUNG[FIRST[segment]..FIRST[segment + 1]]
-}
-
-const fn row(joint: usize) -> &'static JointRow {
-    &TREE.joint_rows()[joint]
-}
-
-/// The joint that carries a segment.
-const fn carrier(segment: usize) -> Option<&'static JointRow> {
-    match TREE.carrier(TREE.segment(segment)) {
-        Some(joint) => Some(row(joint.index())),
-        None => None,
+        layout
     }
-}
 
-const fn is_hinged(segment: usize) -> bool {
-    matches!(carrier(segment), Some(joint) if joint.is_hinge())
-}
-
-/// The segment that carries another, or [`AT_T1`].
-const fn parent(segment: usize) -> usize {
-    match carrier(segment) {
-        Some(joint) if !matches!(joint.place, Place::Root) => joint.proximal.index(),
-        _ => AT_T1,
+    /// By segment.
+    #[inline(always)]
+    pub(crate) fn rows(&self) -> &[Row] {
+        &self.rows
     }
-}
 
-/// Whether a segment carries one on a hinge, or one on a ball joint.
-const fn carries(segment: usize, on_hinge: bool) -> bool {
-    let mut n = 0;
-    while n < SEGMENTS {
-        if parent(n) == segment && is_hinged(n) == on_hinge {
-            return true;
-        }
-        n += 1;
+    /// Whether the root follows a given path.
+    #[inline(always)]
+    pub(crate) fn is_guided(&self) -> bool {
+        matches!(self.rows[0].freedom, Freedom::Guided)
     }
-    false
+
+    /// Number of segments.
+    #[expect(clippy::len_without_is_empty, reason = "a tree has a root")]
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Segments whose orientation is a state, in the order of the state's orientations.
+    #[inline(always)]
+    pub fn free(&self) -> &[usize] {
+        &self.free
+    }
+
+    /// Segments on hinges, in the order of the state's hinges; one on two stands twice.
+    #[inline(always)]
+    pub fn hinged(&self) -> &[usize] {
+        &self.hinged
+    }
+
+    /// Place of a segment's orientation in a state, if it has one.
+    pub fn free_slot(&self, segment: usize) -> Option<usize> {
+        self.free.iter().position(|&n| n == segment)
+    }
+
+    /// Place of a segment's first hinge in a state, if it is on one.
+    pub fn hinge_slot(&self, segment: usize) -> Option<usize> {
+        self.hinged.iter().position(|&n| n == segment)
+    }
+
+    /// The segment that carries another.
+    pub fn parent(&self, segment: usize) -> Option<usize> {
+        self.rows[segment].parent
+    }
+
+    /// The segments that one carries.
+    pub(crate) fn children(&self, segment: usize) -> impl Iterator<Item = usize> + '_ {
+        (0..self.rows.len()).filter(move |&n| self.rows[n].parent == Some(segment))
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::tti12::TTI12;
+    use Freedom::{Ball, Guided, Hinges};
 
     #[test]
     fn the_reports_body_is_laid_out_as_its_figures_say() {
-        assert_eq!(FREE, [0, 1, 2, 3, 4, 5, 8, 9]);
-        assert_eq!(LIMBS, [(4, 6), (5, 7), (8, 10), (9, 11)]);
-        assert_eq!((TRUNKS, LEAVES, ROOTS), (&[0, 1, 3][..], &[2][..], &[0, 1][..]));
-        assert_eq!(BALLS, [(1, 2), (1, 5), (1, 4), (0, 1), (0, 3), (3, 9), (3, 8)]);
-        assert_eq!(hung_from(1), [(2, 1), (4, 1), (5, 1)]);
-        assert_eq!(hung_from(11), []);
-        for (joint, hinged) in HINGE_JOINTS.iter().zip(HINGED) {
-            assert_eq!(TTI12[*joint].distal.index(), *hinged);
-        }
+        let layout = Layout::of(&TTI12);
+        assert_eq!(layout.free(), [0, 1, 2, 3, 4, 5, 8, 9]);
+        assert_eq!(layout.hinged(), [6, 7, 10, 11]);
+        assert_eq!(layout.children(1).collect::<Vec<_>>(), [2, 4, 5]);
+        assert_eq!((layout.free_slot(8), layout.hinge_slot(8)), (Some(6), None));
+        assert_eq!((layout.free_slot(11), layout.hinge_slot(11)), (None, Some(3)));
+    }
+
+    #[test]
+    fn a_tree_that_cannot_be_carried_is_refused_where_it_is_wrong() {
+        let one = [(None, Ball)];
+        let with = |row| Layout::new(&[&one[..], &[row]].concat()).map(|_| ()).map_err(|e| e.segment);
+        assert_eq!(with((Some(0), Hinges(&[Axis::X, Axis::Z]))), Ok(()));
+        assert_eq!(with((None, Ball)), Err(1));
+        assert_eq!(with((Some(1), Ball)), Err(1));
+        assert_eq!(with((Some(0), Guided)), Err(1));
+        assert_eq!(with((Some(0), Hinges(&[Axis::X, Axis::X]))), Err(1));
+        assert_eq!(with((Some(0), Hinges(&[Axis::X, Axis::Y, Axis::Z]))), Err(1));
+        assert_eq!(Layout::new(&[(None, Hinges(&[]))]).map_err(|e| e.segment), Err(0));
+        assert_eq!(Layout::new(&[]).map_err(|e| e.segment), Err(0));
+        let chain = |count| std::iter::once((None, Guided)).chain((1..count).map(|n| (Some(n - 1), Ball)));
+        assert!(Layout::new(&chain(MOST_SEGMENTS).collect::<Vec<_>>()).is_ok());
+        let many = Layout::new(&chain(MOST_SEGMENTS + 1).collect::<Vec<_>>());
+        assert_eq!(many.map_err(|e| e.segment), Err(MOST_SEGMENTS));
     }
 }

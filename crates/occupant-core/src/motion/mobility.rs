@@ -5,10 +5,9 @@
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
-use crate::body::SEGMENTS;
 use crate::motion::dynamics::{Accelerations, Wrench, solve};
 use crate::motion::kinematics::Kinematics;
-use crate::motion::layout::{HINGED, LIMBS};
+use crate::motion::layout::{MOST_HINGES, MOST_SEGMENTS};
 use crate::motion::skeleton::Skeleton;
 use crate::motion::state::State;
 use crate::motion::vector::V3;
@@ -16,7 +15,7 @@ use crate::motion::vector::V3;
 /// Responses of the body at the start of a run.
 #[derive(Clone, Debug)]
 pub struct Mobility<'a> {
-    skeleton: &'a Skeleton<f64>,
+    pub(crate) skeleton: &'a Skeleton<f64>,
     pub(crate) kinematics: Kinematics<f64>,
     pub(crate) unloaded: Accelerations<f64>,
 }
@@ -24,10 +23,8 @@ pub struct Mobility<'a> {
 impl<'a> Mobility<'a> {
     /// Of a body that stands as it does at the start.
     pub(crate) fn new(skeleton: &'a Skeleton<f64>, start: &State<f64>) -> Self {
-        let zero = State::zero();
-        let still = State { velocity: zero.velocity, omega: zero.omega, hinge_rate: zero.hinge_rate, ..*start };
-        let kinematics = Kinematics::new(skeleton, &still);
-        let unloaded = solve(skeleton, &kinematics, &[0.0; HINGED.len()], &[Wrench::zero(); SEGMENTS]);
+        let kinematics = Kinematics::new(skeleton, &start.still());
+        let unloaded = solve(skeleton, &kinematics, &[0.0; MOST_HINGES], &[Wrench::zero(); MOST_SEGMENTS]);
         Mobility { skeleton, kinematics, unloaded }
     }
 
@@ -35,7 +32,7 @@ impl<'a> Mobility<'a> {
     pub(crate) fn of_point(&self, segment: usize, point: V3<f64>) -> Matrix3<f64> {
         let arm = point - self.kinematics.joint[segment];
         let column = |force: V3<f64>| {
-            let mut loads = [Wrench::zero(); SEGMENTS];
+            let mut loads = [Wrench::zero(); MOST_SEGMENTS];
             loads[segment] = Wrench { force, moment: arm.cross(force) };
             let loaded = self.loaded(&loads);
             let joint = loaded.joint[segment] - self.unloaded.joint[segment];
@@ -49,7 +46,7 @@ impl<'a> Mobility<'a> {
     pub(crate) fn of_joint(&self, inner: usize, outer: usize) -> Matrix3<f64> {
         let relative = |a: &Accelerations<f64>| a.alpha[outer] - a.alpha[inner];
         let column = |moment: V3<f64>| {
-            let mut loads = [Wrench::zero(); SEGMENTS];
+            let mut loads = [Wrench::zero(); MOST_SEGMENTS];
             loads[outer].moment = moment;
             loads[inner].moment = -moment;
             (relative(&self.loaded(&loads)) - relative(&self.unloaded)).to_vector()
@@ -57,18 +54,19 @@ impl<'a> Mobility<'a> {
         symmetric(column)
     }
 
-    /// α̈ of the hinge of a limb for a unit moment in it, 1/(kg·m²).
-    pub(crate) fn of_hinge(&self, limb: usize) -> f64 {
-        let (upper, lower) = LIMBS[limb];
-        let axis = self.kinematics.axes[upper].y;
-        let mut loads = [Wrench::zero(); SEGMENTS];
+    /// α̈ of a hinge, by its place in the state, for a unit moment in it, 1/(kg·m²).
+    pub(crate) fn of_hinge(&self, hinge: usize) -> f64 {
+        let lower = self.skeleton.layout.hinged()[hinge];
+        let upper = self.skeleton.layout.parent(lower).unwrap_or(lower);
+        let axis = self.kinematics.hinge_axis[hinge];
+        let mut loads = [Wrench::zero(); MOST_SEGMENTS];
         loads[lower].moment = axis;
         loads[upper].moment = -axis;
-        self.loaded(&loads).hinge[limb] - self.unloaded.hinge[limb]
+        self.loaded(&loads).hinge[hinge] - self.unloaded.hinge[hinge]
     }
 
-    pub(crate) fn loaded(&self, loads: &[Wrench<f64>; SEGMENTS]) -> Accelerations<f64> {
-        solve(self.skeleton, &self.kinematics, &[0.0; HINGED.len()], loads)
+    pub(crate) fn loaded(&self, loads: &[Wrench<f64>; MOST_SEGMENTS]) -> Accelerations<f64> {
+        solve(self.skeleton, &self.kinematics, &[0.0; MOST_HINGES], loads)
     }
 }
 

@@ -1,5 +1,7 @@
 //! How the body moves: numbers and vectors, state, kinematics, dynamics, integrators.
 
+pub(crate) mod articulated;
+pub(crate) mod closed;
 pub mod dual;
 pub mod dynamics;
 pub mod frame;
@@ -8,7 +10,6 @@ pub mod kinematics;
 #[cfg(any(target_arch = "x86_64", test))]
 pub(crate) mod lanes;
 pub mod layout;
-pub(crate) mod limb;
 pub(crate) mod mobility;
 pub mod report_coordinates;
 pub(crate) mod scalar;

@@ -9,23 +9,28 @@
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
+use crate::body::tti12::TTI12;
+use crate::motion::closed::{FREE, LIMBS};
 use crate::motion::kinematics::axes;
-use crate::motion::layout::{FREE, HINGED};
-use crate::motion::state::{Quat, State};
+use crate::motion::layout::Layout;
+use crate::motion::state::{Quat, Shape, State};
 use crate::motion::vector::{V3, v3};
 use crash_measures::trig::{atan2, sin_cos};
 
 /// Number of degrees of freedom.
-pub const DOF: usize = 3 + 3 * FREE.len() + HINGED.len();
+pub const DOF: usize = 3 + 3 * FREE.len() + LIMBS.len();
 
 /// Where φ, θ, ψ of each free segment begin in q, in the order of the state's orientations.
 pub const EULER_START: [usize; FREE.len()] = places(FREE);
 
 /// Where α of each hinged segment stands in q, in the order of the state's hinges.
-pub(crate) const HINGE_PLACE: [usize; HINGED.len()] = places(HINGED);
+pub(crate) const HINGE_PLACE: [usize; LIMBS.len()] = places(LOWER);
+
+/// Hinged segments.
+const LOWER: [usize; LIMBS.len()] = [LIMBS[0].1, LIMBS[1].1, LIMBS[2].1, LIMBS[3].1];
 
 /// Where the coordinates of these segments begin in q: those of T1 come first, then all segments in the tree's order.
-const fn places<const N: usize>(segments: &[usize]) -> [usize; N] {
+const fn places<const N: usize>(segments: [usize; N]) -> [usize; N] {
     let mut places = [3; N];
     let mut i = 0;
     while i < N {
@@ -33,7 +38,7 @@ const fn places<const N: usize>(segments: &[usize]) -> [usize; N] {
         while free < FREE.len() && FREE[free] < segments[i] {
             free += 1;
         }
-        while hinged < HINGED.len() && HINGED[hinged] < segments[i] {
+        while hinged < LOWER.len() && LOWER[hinged] < segments[i] {
             hinged += 1;
         }
         places[i] += 3 * free + hinged;
@@ -58,17 +63,18 @@ impl ReportCoordinates {
     /// The state with these coordinates.
     pub fn to_state(&self) -> State<f64> {
         let (q, rates) = (&self.q, &self.rates);
-        let mut state = State::zero();
-        state.t1 = v3(q[0], q[1], q[2]);
-        state.velocity = v3(rates[0], rates[1], rates[2]);
+        let mut state = State::zero(Shape::of(&Layout::of(&TTI12)));
+        state.set_t1(v3(q[0], q[1], q[2]));
+        state.set_velocity(v3(rates[0], rates[1], rates[2]));
         for (slot, &at) in EULER_START.iter().enumerate() {
             let angles = [q[at], q[at + 1], q[at + 2]];
-            state.orientation[slot] = quaternion(&euler_rotation(angles));
-            state.omega[slot] = V3::of(&angular_velocity(angles, [rates[at], rates[at + 1], rates[at + 2]]));
+            state.set_orientation(slot, quaternion(&euler_rotation(angles)));
+            let omega = angular_velocity(angles, [rates[at], rates[at + 1], rates[at + 2]]);
+            state.set_omega(slot, V3::of(&omega));
         }
         for (slot, &at) in HINGE_PLACE.iter().enumerate() {
-            state.hinge[slot] = q[at];
-            state.hinge_rate[slot] = rates[at];
+            state.hinge_mut()[slot] = q[at];
+            state.hinge_rate_mut()[slot] = rates[at];
         }
         state
     }
@@ -76,17 +82,17 @@ impl ReportCoordinates {
     /// The coordinates of a state.
     pub fn from_state(state: &State<f64>) -> Self {
         let (mut q, mut rates) = ([0.0; DOF], [0.0; DOF]);
-        (q[0], q[1], q[2]) = (state.t1.x, state.t1.y, state.t1.z);
-        (rates[0], rates[1], rates[2]) = (state.velocity.x, state.velocity.y, state.velocity.z);
+        q[..3].copy_from_slice(&state.numbers()[..3]);
+        rates[..3].copy_from_slice(state.velocity().to_vector().as_slice());
         for (slot, &at) in EULER_START.iter().enumerate() {
-            let rotation = axes(&state.orientation[slot]).to_matrix();
-            let (angles, angle_rates) = euler(&rotation, state.omega[slot].to_vector());
+            let rotation = axes(&state.orientation(slot)).to_matrix();
+            let (angles, angle_rates) = euler(&rotation, state.omega(slot).to_vector());
             q[at..at + 3].copy_from_slice(&angles);
             rates[at..at + 3].copy_from_slice(&angle_rates);
         }
         for (slot, &at) in HINGE_PLACE.iter().enumerate() {
-            q[at] = state.hinge[slot];
-            rates[at] = state.hinge_rate[slot];
+            q[at] = state.hinge()[slot];
+            rates[at] = state.hinge_rate()[slot];
         }
         ReportCoordinates { q, rates }
     }

@@ -1,100 +1,207 @@
 //! Constants of the multibody system: masses, inertias and joint places, seen from each segment's own joint.
 //!
-//! Report: "Body Geometry and Coordinate Systems". Seen from its proximal joint, the centre of gravity of a segment lies on its Z axis: at −ρ̄
-//! for the hanging segments, at +ρ for the upper torso and the head (Eq. 15 as printed has ρ₁ for ρ̄₁).
+//! Report: "Body Geometry and Coordinate Systems". There, seen from its proximal joint, the centre of gravity of a segment lies
+//! on its Z axis: at −ρ̄ for the hanging segments, at +ρ for the upper torso and the head (Eq. 15 as printed has ρ₁ for ρ̄₁).
+//! Of any other body it may lie anywhere, and so may the joints.
 
-use std::array::from_fn;
+use nalgebra::{Matrix3, Vector3};
 
-use crate::body::{Body, SEGMENTS, Segment};
+use crate::body::{Body, Segment};
+use crate::motion::closed;
+use crate::motion::frame::{Frames, Moving};
+use crate::motion::layout::Layout;
 use crate::motion::scalar::Scalar;
+use crate::motion::vector::{M3, Sym3, V3};
+
+/// What a segment is made of; all of its vectors are in its own axes unless they say otherwise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Part {
+    /// M.
+    pub mass_kg: f64,
+    /// The centre of gravity, seen from the segment's joint.
+    pub cg_m: Vector3<f64>,
+    /// Tensor of inertia about the centre of gravity.
+    pub inertia_kg_m2: Matrix3<f64>,
+    /// The segment's joint, seen from the joint of the segment that carries it, in that one's axes.
+    pub joint_m: Vector3<f64>,
+    /// Axes X, Y, Z of the joint as columns, in axes of the segment that carries this one and in its own: where both agree
+    /// all hinges stand at 0.
+    pub triads: [Matrix3<f64>; 2],
+}
 
 /// Constants of one segment.
 #[derive(Clone, Copy, Debug)]
 pub struct Link<S> {
     /// M, kg.
     pub mass: S,
-    /// Z of the centre of gravity seen from the proximal joint, m.
-    pub cg: S,
-    /// Z of the far end seen from the proximal joint, m.
-    pub far: S,
-    /// Y of the proximal joint seen from that of the segment that carries this one, in that one's axes, m.
-    pub joint_y: S,
-    /// Z of it.
-    pub joint_z: S,
+    /// Centre of gravity seen from the proximal joint, m.
+    pub cg: V3<S>,
+    /// The proximal joint seen from that of the segment that carries this one, in that one's axes, m.
+    pub joint: V3<S>,
+    /// Axes of the joint in the segment that carries this one, and in this one.
+    pub triads: [M3<S>; 2],
     /// First moment of mass M·cg, kg·m.
-    pub sigma: S,
-    /// I_x + M·cg²: about the proximal joint, kg·m².
-    pub ix: S,
-    /// I_y + M·cg².
-    pub iy: S,
-    /// I_z.
-    pub iz: S,
-    /// 1/(I_y + M·cg²).
-    pub inverse_iy: S,
-    /// Principal inertias about the centre of gravity, kg·m².
-    pub central: [S; 3],
+    pub(crate) sigma: V3<S>,
+    /// Inertia about the proximal joint, kg·m².
+    pub(crate) inertia: Sym3<S>,
+    /// 1/I_y of it.
+    pub(crate) inverse_iy: S,
+    /// Inertia about the centre of gravity, kg·m².
+    pub(crate) central: Sym3<S>,
+}
+
+/// Where the frame of a mount carries the root.
+#[derive(Clone, Copy, Debug)]
+pub struct Mount<S> {
+    /// Its place among the frames.
+    pub frame: usize,
+    /// The root's joint in axes of the frame, m.
+    pub place: V3<S>,
+    /// The root's axes in those of the frame.
+    pub axes: M3<S>,
 }
 
 /// Constants of the whole body.
 #[derive(Clone, Debug)]
 pub struct Skeleton<S> {
-    /// Segments in the tree's order.
-    pub links: [Link<S>; SEGMENTS],
+    /// How the segments hang on each other.
+    pub layout: Layout,
+    /// By segment.
+    pub links: Vec<Link<S>>,
     /// g along −Z′, m/s².
     pub gravity: S,
+    /// What carries a guided root.
+    pub mount: Option<Mount<S>>,
+    /// Whether the closed forms of the report's body hold.
+    pub(crate) is_closed: bool,
+}
+
+impl Part {
+    /// One of the parts of which [`closed`] treats: principal axes along its own, centre of gravity and joint on Z of both
+    /// segments, the joint beside it on Y.
+    fn is_plain(&self) -> bool {
+        let inertia = Matrix3::from_diagonal(&self.inertia_kg_m2.diagonal());
+        self.cg_m.xy() == Vector3::zeros().xy()
+            && self.inertia_kg_m2 == inertia
+            && self.joint_m.x == 0.0
+            && self.triads == [Matrix3::identity(); 2]
+    }
+}
+
+impl Link<f64> {
+    fn new(part: &Part) -> Self {
+        let sigma = part.cg_m * part.mass_kg;
+        // I + M (cg² 1 − cg cgᵀ)
+        let c = &part.cg_m;
+        let product = sigma * c.transpose();
+        let others = |i: usize| product[((i + 1) % 3, (i + 1) % 3)] + product[((i + 2) % 3, (i + 2) % 3)];
+        let shift = Matrix3::from_fn(|i, j| if i == j { others(i) } else { -product[(i, j)] });
+        let inertia = Sym3::of(&(part.inertia_kg_m2 + shift));
+        Link {
+            mass: part.mass_kg,
+            cg: V3::of(c),
+            joint: V3::of(&part.joint_m),
+            triads: part.triads.map(|triad| M3::of(&triad)),
+            sigma: V3::of(&sigma),
+            inertia,
+            inverse_iy: 1.0 / inertia.yy,
+            central: Sym3::of(&part.inertia_kg_m2),
+        }
+    }
 }
 
 impl<S: Copy> Link<S> {
     /// f applied to every number and the one in the same place of `other`.
     pub(crate) fn zip<A: Copy, T>(&self, other: &Link<A>, f: &impl Fn(S, A) -> T) -> Link<T> {
+        let ([inner, outer], [others_inner, others_outer]) = (&self.triads, &other.triads);
         Link {
             mass: f(self.mass, other.mass),
-            cg: f(self.cg, other.cg),
-            far: f(self.far, other.far),
-            joint_y: f(self.joint_y, other.joint_y),
-            joint_z: f(self.joint_z, other.joint_z),
-            sigma: f(self.sigma, other.sigma),
-            ix: f(self.ix, other.ix),
-            iy: f(self.iy, other.iy),
-            iz: f(self.iz, other.iz),
+            cg: self.cg.zip(&other.cg, f),
+            joint: self.joint.zip(&other.joint, f),
+            triads: [inner.zip(others_inner, f), outer.zip(others_outer, f)],
+            sigma: self.sigma.zip(&other.sigma, f),
+            inertia: self.inertia.zip(&other.inertia, f),
             inverse_iy: f(self.inverse_iy, other.inverse_iy),
-            central: from_fn(|i| f(self.central[i], other.central[i])),
+            central: self.central.zip(&other.central, f),
         }
     }
 }
 
-impl<S: Copy> Skeleton<S> {
-    /// f applied to every number and the one in the same place of `other`.
-    pub(crate) fn zip<A: Copy, T>(&self, other: &Skeleton<A>, f: &impl Fn(S, A) -> T) -> Skeleton<T> {
-        Skeleton { links: from_fn(|n| self.links[n].zip(&other.links[n], f)), gravity: f(self.gravity, other.gravity) }
+impl<S: Scalar> Link<S> {
+    /// I v about the centre of gravity, segment axes.
+    pub fn by_inertia(&self, v: V3<S>) -> V3<S> {
+        self.central.mul(v)
     }
 }
 
-impl<S: Scalar> Skeleton<S> {
+impl<S: Scalar> Mount<S> {
+    /// Motion of the root in the frame that carries it.
+    #[inline(always)]
+    pub(crate) fn of(&self, frames: &Frames<S>) -> Moving<S> {
+        frames[self.frame].carried(self.place, &self.axes)
+    }
+}
+
+impl<S: Copy> Skeleton<S> {
+    /// Whether another has the same tree, carried by the same frame, and is computed in the same way.
+    pub(crate) fn is_like<A>(&self, other: &Skeleton<A>) -> bool {
+        let frames = (self.mount.as_ref().map(|m| m.frame), other.mount.as_ref().map(|m| m.frame));
+        self.layout == other.layout && self.is_closed == other.is_closed && frames.0 == frames.1
+    }
+
+    /// f applied to every number and the one in the same place of `other`, which [is like](Skeleton::is_like) it.
+    pub(crate) fn zip<A: Copy, T>(&self, other: &Skeleton<A>, f: &impl Fn(S, A) -> T) -> Skeleton<T> {
+        let mount = |(a, b): (&Mount<S>, &Mount<A>)| Mount {
+            frame: a.frame,
+            place: a.place.zip(&b.place, f),
+            axes: a.axes.zip(&b.axes, f),
+        };
+        Skeleton {
+            layout: self.layout.clone(),
+            links: self.links.iter().zip(&other.links).map(|(a, b)| a.zip(b, f)).collect(),
+            gravity: f(self.gravity, other.gravity),
+            mount: self.mount.as_ref().zip(other.mount.as_ref()).map(mount),
+            is_closed: self.is_closed,
+        }
+    }
+}
+
+impl Skeleton<f64> {
     /// Constants of `body` under gravity `gravity_m_s2`.
     pub fn new(body: &Body, gravity_m_s2: f64) -> Self {
-        Skeleton { links: from_fn(|n| link(body, body.tree.segment(n))), gravity: S::of(gravity_m_s2) }
+        let parts: Vec<Part> = body.tree.segments().map(|segment| part(body, segment)).collect();
+        let skeleton = Skeleton::of(Layout::of(body.tree), &parts, gravity_m_s2);
+        // joints that a body places itself may be where no closed form has them
+        if body.places.is_empty() { skeleton } else { skeleton.without_closed_forms() }
+    }
+
+    /// Constants of a tree of `parts`, in the layout's order. A guided root stays where it is without a [`Mount`].
+    pub fn of(layout: Layout, parts: &[Part], gravity_m_s2: f64) -> Self {
+        debug_assert_eq!(layout.len(), parts.len());
+        let is_closed = closed::holds(&layout) && parts.iter().all(Part::is_plain);
+        let links = parts.iter().map(Link::new).collect();
+        Skeleton { layout, links, gravity: gravity_m_s2, mount: None, is_closed }
+    }
+
+    /// The same, computed as any tree is: to the rounding what the closed forms give.
+    pub fn without_closed_forms(self) -> Self {
+        Skeleton { is_closed: false, ..self }
     }
 }
 
-fn link<S: Scalar>(body: &Body, segment: Segment) -> Link<S> {
+fn part(body: &Body, segment: Segment) -> Part {
     let p = body.segment(segment);
-    let lower_end = if body.tree[segment].hangs() { -p.length_m } else { 0.0 };
-    let cg = p.cg_from_lower_end_m + lower_end;
-    let [joint_y, joint_z] = body.joint_m(segment);
-    let [ix, iy, iz] = p.inertia_kg_m2.into();
-    let about_joint = p.mass_kg * cg * cg;
-    Link {
-        mass: S::of(p.mass_kg),
-        cg: S::of(cg),
-        far: S::of(body.far_m(segment)),
-        joint_y: S::of(joint_y),
-        joint_z: S::of(joint_z),
-        sigma: S::of(p.mass_kg * cg),
-        ix: S::of(ix + about_joint),
-        iy: S::of(iy + about_joint),
-        iz: S::of(iz),
-        inverse_iy: S::of(1.0 / (iy + about_joint)),
-        central: [S::of(ix), S::of(iy), S::of(iz)],
+    let turn = p.principal.to_rotation_matrix().into_inner();
+    let triads = body
+        .tree
+        .carrier(segment)
+        .map(|joint| body.place(joint))
+        .map(|place| [place.proximal, place.distal].map(|site| site.axes.to_rotation_matrix().into_inner()));
+    Part {
+        mass_kg: p.mass_kg,
+        cg_m: p.cg_m() - body.joint_m(segment),
+        inertia_kg_m2: turn * Matrix3::from_diagonal(&p.inertia_kg_m2) * turn.transpose(),
+        joint_m: body.offset_m(segment),
+        triads: triads.unwrap_or([Matrix3::identity(); 2]),
     }
 }

@@ -1,16 +1,14 @@
 //! What is integrated: place, orientations, hinge angles, their speeds, and the work sums of the energy ledger.
 //!
 //! Report: Eqs 8, 13–26 for the place of a segment; the state itself is ours, because Euler angles are singular for an
-//! upright torso. A rate of change has the same shape, so that Runge–Kutta stages are sums of states.
+//! upright torso. It is one row of numbers, of which a [`Shape`] says what stands where. A rate of change has the same
+//! shape, so that Runge–Kutta stages are sums of rows.
 
 use std::array::from_fn;
 
-use crate::motion::layout::{FREE, HINGED};
+use crate::motion::layout::{Layout, MOST_SEGMENTS};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{V3, v3};
-
-/// Numbers in a [`State`].
-pub const NUMBERS: usize = 7 + 7 * FREE.len() + 2 * HINGED.len() + WORK_SUMS;
 
 /// A quaternion w + xi + yj + zk; a unit quaternion turns segment axes into space axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,14 +17,6 @@ pub struct Quat<S> {
     pub w: S,
     /// Imaginary part.
     pub v: V3<S>,
-}
-
-impl<S: Copy> Quat<S> {
-    /// f applied to every number and the one in the same place of `other`.
-    #[inline(always)]
-    pub(crate) fn zip<A: Copy, T>(&self, other: &Quat<A>, f: &impl Fn(S, A) -> T) -> Quat<T> {
-        Quat { w: f(self.w, other.w), v: self.v.zip(&other.v, f) }
-    }
 }
 
 impl<S: Scalar> Quat<S> {
@@ -45,7 +35,7 @@ impl<S: Scalar> Quat<S> {
 }
 
 /// Work sums of the force elements.
-pub(crate) const WORK_SUMS: usize = 4;
+pub(crate) const WORK_SUMS: usize = 5;
 
 /// Work done since the start, for the energy ledger, J.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,110 +46,253 @@ pub struct Work<S> {
     pub vehicle: S,
 }
 
-/// The integrated state, or its rate of change.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State<S> {
-    /// T1, space axes, m.
-    pub t1: V3<S>,
-    /// Orientations of the free segments.
-    pub orientation: [Quat<S>; FREE.len()],
-    /// α of the hinged segments, rad.
-    pub hinge: [S; HINGED.len()],
-    /// Velocity of T1, space axes, m/s.
-    pub velocity: V3<S>,
-    /// Absolute angular velocities of the free segments, space axes, rad/s.
-    pub omega: [V3<S>; FREE.len()],
-    /// α̇, rad/s.
-    pub hinge_rate: [S; HINGED.len()],
-    /// Work sums.
-    pub work: Work<S>,
-}
-
-#[inline(always)]
-fn zip_4<S: Copy, A: Copy, T>(a: &[S; 4], b: &[A; 4], f: &impl Fn(S, A) -> T) -> [T; 4] {
-    [f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2]), f(a[3], b[3])]
-}
-
 impl<S: Scalar> Work<S> {
     /// None yet.
     #[inline(always)]
-    pub(crate) fn zero() -> Self {
+    pub fn zero() -> Self {
         let o = S::zero();
         Work { sums: [o; WORK_SUMS], vehicle: o }
     }
+}
+
+/// Most numbers that force elements have in a state.
+const MOST_OWN: usize = 40;
+/// Most numbers of a state.
+const MOST_NUMBERS: usize = 6 + 7 * MOST_SEGMENTS + WORK_SUMS + 1 + MOST_OWN;
+
+/// How many numbers of each kind a state has. In a row: T1, orientations (w, x, y, z), hinges; velocity of T1, angular
+/// velocities, hinge rates; work sums; numbers that force elements own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shape {
+    /// Orientations.
+    free: usize,
+    /// Angles of hinges.
+    hinges: usize,
+    /// Numbers that force elements own.
+    own: usize,
+}
+
+impl Shape {
+    /// That of a body whose force elements own no numbers.
+    pub fn of(layout: &Layout) -> Self {
+        Shape { free: layout.free().len(), hinges: layout.hinged().len(), own: 0 }
+    }
+
+    #[inline(always)]
+    fn hinge(&self) -> usize {
+        3 + 4 * self.free
+    }
+
+    /// How many numbers say where the body is; as many of the next, less one for each orientation, say how it moves.
+    #[inline(always)]
+    pub fn places(&self) -> usize {
+        self.hinge() + self.hinges
+    }
+
+    #[inline(always)]
+    fn hinge_rate(&self) -> usize {
+        self.places() + 3 + 3 * self.free
+    }
+
+    /// Numbers before the work sums.
+    #[inline(always)]
+    pub fn moving(&self) -> usize {
+        self.hinge_rate() + self.hinges
+    }
+
+    /// All numbers.
+    #[expect(clippy::len_without_is_empty, reason = "no state is without T1")]
+    #[inline(always)]
+    pub fn len(&self) -> usize {
+        self.moving() + WORK_SUMS + 1 + self.own
+    }
+}
+
+/// The integrated state, or its rate of change.
+#[derive(Clone, Copy, Debug)]
+pub struct State<S> {
+    /// Those beyond the shape's are 0.
+    numbers: [S; MOST_NUMBERS],
+    shape: Shape,
 }
 
 impl<S: Copy> State<S> {
     /// f applied to every number and the one in the same place of `other`.
     #[inline(always)]
     pub fn zip<A: Copy, T>(&self, other: &State<A>, f: impl Fn(S, A) -> T) -> State<T> {
-        // written out: every call in here must be inlined into code for the lanes' instructions
-        let (p, q) = (&self.orientation, &other.orientation);
-        let (u, v) = (&self.omega, &other.omega);
-        let (a, b) = (&self.work, &other.work);
-        State {
-            t1: self.t1.zip(&other.t1, &f),
-            orientation: [
-                p[0].zip(&q[0], &f),
-                p[1].zip(&q[1], &f),
-                p[2].zip(&q[2], &f),
-                p[3].zip(&q[3], &f),
-                p[4].zip(&q[4], &f),
-                p[5].zip(&q[5], &f),
-                p[6].zip(&q[6], &f),
-                p[7].zip(&q[7], &f),
-            ],
-            hinge: zip_4(&self.hinge, &other.hinge, &f),
-            velocity: self.velocity.zip(&other.velocity, &f),
-            omega: [
-                u[0].zip(&v[0], &f),
-                u[1].zip(&v[1], &f),
-                u[2].zip(&v[2], &f),
-                u[3].zip(&v[3], &f),
-                u[4].zip(&v[4], &f),
-                u[5].zip(&v[5], &f),
-                u[6].zip(&v[6], &f),
-                u[7].zip(&v[7], &f),
-            ],
-            hinge_rate: zip_4(&self.hinge_rate, &other.hinge_rate, &f),
-            work: Work { sums: zip_4(&a.sums, &b.sums, &f), vehicle: f(a.vehicle, b.vehicle) },
-        }
+        State { numbers: from_fn(|i| f(self.numbers[i], other.numbers[i])), shape: self.shape }
+    }
+
+    /// What stands where.
+    #[inline(always)]
+    pub fn shape(&self) -> Shape {
+        self.shape
+    }
+
+    /// All numbers in a row; see [`Shape`].
+    #[inline(always)]
+    pub fn numbers(&self) -> &[S] {
+        &self.numbers[..self.shape.len()]
+    }
+
+    /// All numbers in a row.
+    #[inline(always)]
+    pub fn numbers_mut(&mut self) -> &mut [S] {
+        &mut self.numbers[..self.shape.len()]
+    }
+
+    #[inline(always)]
+    fn vector(&self, at: usize) -> V3<S> {
+        let v = &self.numbers[at..at + 3];
+        v3(v[0], v[1], v[2])
+    }
+
+    #[inline(always)]
+    fn set_vector(&mut self, at: usize, v: V3<S>) {
+        self.numbers[at..at + 3].copy_from_slice(&[v.x, v.y, v.z]);
+    }
+
+    /// T1, the place of the root's joint, space axes, m.
+    #[inline(always)]
+    pub fn t1(&self) -> V3<S> {
+        self.vector(0)
+    }
+
+    /// Gives it another [`State::t1`].
+    #[inline(always)]
+    pub fn set_t1(&mut self, place: V3<S>) {
+        self.set_vector(0, place);
+    }
+
+    /// Orientation of a segment by its place in [`Layout::free`].
+    #[inline(always)]
+    pub fn orientation(&self, slot: usize) -> Quat<S> {
+        let at = 3 + 4 * slot;
+        Quat { w: self.numbers[at], v: self.vector(at + 1) }
+    }
+
+    /// Gives it another [`State::orientation`].
+    #[inline(always)]
+    pub fn set_orientation(&mut self, slot: usize, q: Quat<S>) {
+        let at = 3 + 4 * slot;
+        self.numbers[at] = q.w;
+        self.set_vector(at + 1, q.v);
+    }
+
+    /// Angles of the hinges, in the order of [`Layout::hinged`], rad.
+    #[inline(always)]
+    pub fn hinge(&self) -> &[S] {
+        &self.numbers[self.shape.hinge()..self.shape.places()]
+    }
+
+    /// [`State::hinge`] to be changed.
+    #[inline(always)]
+    pub fn hinge_mut(&mut self) -> &mut [S] {
+        &mut self.numbers[self.shape.hinge()..self.shape.places()]
+    }
+
+    /// Velocity of T1, space axes, m/s.
+    #[inline(always)]
+    pub fn velocity(&self) -> V3<S> {
+        self.vector(self.shape.places())
+    }
+
+    /// Gives it another [`State::velocity`].
+    #[inline(always)]
+    pub fn set_velocity(&mut self, velocity: V3<S>) {
+        self.set_vector(self.shape.places(), velocity);
+    }
+
+    /// Absolute angular velocity of a segment by its place in [`Layout::free`], space axes, rad/s.
+    #[inline(always)]
+    pub fn omega(&self, slot: usize) -> V3<S> {
+        self.vector(self.shape.places() + 3 + 3 * slot)
+    }
+
+    /// Gives it another [`State::omega`].
+    #[inline(always)]
+    pub fn set_omega(&mut self, slot: usize, omega: V3<S>) {
+        self.set_vector(self.shape.places() + 3 + 3 * slot, omega);
+    }
+
+    /// Rates of the hinges, rad/s.
+    #[inline(always)]
+    pub fn hinge_rate(&self) -> &[S] {
+        &self.numbers[self.shape.hinge_rate()..self.shape.moving()]
+    }
+
+    /// [`State::hinge_rate`] to be changed.
+    #[inline(always)]
+    pub fn hinge_rate_mut(&mut self) -> &mut [S] {
+        &mut self.numbers[self.shape.hinge_rate()..self.shape.moving()]
+    }
+
+    /// Work sums.
+    #[inline(always)]
+    pub fn work(&self) -> Work<S> {
+        let w = &self.numbers[self.shape.moving()..][..WORK_SUMS + 1];
+        Work { sums: from_fn(|i| w[i]), vehicle: w[WORK_SUMS] }
+    }
+
+    /// Gives it other [`State::work`] sums.
+    #[inline(always)]
+    pub fn set_work(&mut self, work: Work<S>) {
+        let w = &mut self.numbers[self.shape.moving()..][..WORK_SUMS + 1];
+        w[..WORK_SUMS].copy_from_slice(&work.sums);
+        w[WORK_SUMS] = work.vehicle;
+    }
+
+    /// Places of the orientations.
+    #[inline(always)]
+    pub fn turns(&self) -> std::ops::Range<usize> {
+        0..self.shape.free
     }
 }
 
 impl<S: Scalar> State<S> {
     /// All zero: the neutral element of sums, not a posture.
-    pub fn zero() -> Self {
-        let o = S::zero();
-        State {
-            t1: V3::zero(),
-            orientation: [Quat { w: o, v: V3::zero() }; FREE.len()],
-            hinge: [o; HINGED.len()],
-            velocity: V3::zero(),
-            omega: [V3::zero(); FREE.len()],
-            hinge_rate: [o; HINGED.len()],
-            work: Work::zero(),
+    #[inline(always)]
+    pub fn zero(shape: Shape) -> Self {
+        State { numbers: [S::zero(); MOST_NUMBERS], shape }
+    }
+
+    /// The same without any motion.
+    pub fn still(&self) -> Self {
+        let mut still = *self;
+        still.numbers[self.shape.places()..self.shape.moving()].fill(S::zero());
+        still
+    }
+
+    /// Adds h·rate.
+    #[inline(always)]
+    pub(crate) fn add(&mut self, h: S, rate: &Self) {
+        for (x, rate) in self.numbers_mut().iter_mut().zip(rate.numbers()) {
+            *x += h * *rate;
+        }
+    }
+
+    /// Becomes `from` + h·rate, of the same shape.
+    #[inline(always)]
+    pub(crate) fn advance(&mut self, from: &Self, h: S, rate: &Self) {
+        for (x, (from, rate)) in self.numbers_mut().iter_mut().zip(from.numbers().iter().zip(rate.numbers())) {
+            *x = *from + h * *rate;
         }
     }
 
     /// self + h·rate.
     #[inline(always)]
     pub(crate) fn advanced(&self, h: S, rate: &Self) -> Self {
-        self.zip(rate, |a, b| a + h * b)
+        let mut sum = *self;
+        sum.add(h, rate);
+        sum
     }
 
     /// Where every component but the work sums is a finite number.
     #[inline(always)]
     pub(crate) fn finite(&self) -> S::Mask {
-        let mut all = finite(self.t1) & finite(self.velocity);
-        for q in &self.orientation {
-            all = all & finite(q.v) & q.w.abs().lt(S::of(f64::INFINITY));
-        }
-        for omega in &self.omega {
-            all = all & finite(*omega);
-        }
-        for angle in self.hinge.iter().chain(&self.hinge_rate) {
-            all = all & angle.abs().lt(S::of(f64::INFINITY));
+        let (limit, mut all) = (S::of(f64::INFINITY), S::truth(true));
+        for x in &self.numbers[..self.shape.moving()] {
+            all = all & x.abs().lt(limit);
         }
         all
     }
@@ -167,70 +300,27 @@ impl<S: Scalar> State<S> {
     /// Brings the quaternions back to unit length, which the integration keeps only to its order.
     #[inline(always)]
     pub(crate) fn normalize(&mut self) {
-        for q in &mut self.orientation {
+        for slot in self.turns() {
+            let q = self.orientation(slot);
             let k = S::one() / q.norm_squared().sqrt();
-            *q = Quat { w: q.w * k, v: q.v * k };
+            self.set_orientation(slot, Quat { w: q.w * k, v: q.v * k });
         }
     }
 }
 
-#[inline(always)]
-fn finite<S: Scalar>(v: V3<S>) -> S::Mask {
-    let limit = S::of(f64::INFINITY);
-    v.x.abs().lt(limit) & v.y.abs().lt(limit) & v.z.abs().lt(limit)
-}
-
-/// The next three numbers.
-fn vector(next: &mut impl FnMut() -> f64) -> V3<f64> {
-    v3(next(), next(), next())
+/// Numbers and shape.
+impl PartialEq for State<f64> {
+    fn eq(&self, other: &Self) -> bool {
+        self.shape == other.shape && self.numbers() == other.numbers()
+    }
 }
 
 impl State<f64> {
-    /// All components in a row: T1, orientations (w, x, y, z), hinges, velocity, angular velocities, hinge rates, work sums.
-    pub fn to_numbers(&self) -> [f64; NUMBERS] {
-        let mut numbers = [0.0; NUMBERS];
-        let mut at = 0;
-        self.each(|x| {
-            numbers[at] = x;
-            at += 1;
-        });
-        numbers
-    }
-
-    /// The state whose [`State::to_numbers`] these are.
-    pub fn from_numbers(numbers: &[f64; NUMBERS]) -> Self {
-        let mut rest = numbers.iter().copied();
-        let mut n = || rest.next().unwrap_or(f64::NAN);
-        // in the order in which the fields are written
-        State {
-            t1: vector(&mut n),
-            orientation: from_fn(|_| Quat { w: n(), v: vector(&mut n) }),
-            hinge: from_fn(|_| n()),
-            velocity: vector(&mut n),
-            omega: from_fn(|_| vector(&mut n)),
-            hinge_rate: from_fn(|_| n()),
-            work: Work { sums: from_fn(|_| n()), vehicle: n() },
-        }
-    }
-
-    /// Every component in the order of [`State::to_numbers`].
-    fn each(&self, mut see: impl FnMut(f64)) {
-        let mut see_all = |numbers: &[f64]| numbers.iter().for_each(|x| see(*x));
-        let of = |v: &V3<f64>| [v.x, v.y, v.z];
-        see_all(&of(&self.t1));
-        for q in &self.orientation {
-            see_all(&[q.w]);
-            see_all(&of(&q.v));
-        }
-        see_all(&self.hinge);
-        see_all(&of(&self.velocity));
-        for w in &self.omega {
-            see_all(&of(w));
-        }
-        see_all(&self.hinge_rate);
-        let w = &self.work;
-        see_all(&w.sums);
-        see_all(&[w.vehicle]);
+    /// The state of this shape with these numbers, if there are as many.
+    pub fn from_numbers(shape: Shape, numbers: &[f64]) -> Option<Self> {
+        let mut state = State::zero(shape);
+        (numbers.len() == shape.len()).then(|| state.numbers_mut().copy_from_slice(numbers))?;
+        Some(state)
     }
 
     /// True if every component but the work sums is a finite number.
@@ -242,13 +332,17 @@ impl State<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::tti12::TTI12;
 
     #[test]
     fn a_state_is_its_numbers() {
-        let numbers: [f64; NUMBERS] = from_fn(|i| i as f64 + 0.5);
-        let state = State::from_numbers(&numbers);
-        assert_eq!(state.to_numbers(), numbers);
-        assert_eq!(state.orientation[7].v.z, 34.5);
-        assert_eq!(state.work.sums[0], 70.5);
+        let shape = Shape::of(&Layout::of(&TTI12));
+        let numbers: [f64; 76] = from_fn(|i| i as f64 + 0.5);
+        let state = State::from_numbers(shape, &numbers).unwrap();
+        assert_eq!(state.numbers(), numbers);
+        assert_eq!((state.orientation(7).v.z, state.hinge()[0]), (34.5, 35.5));
+        assert_eq!((state.velocity().x, state.omega(7).z, state.hinge_rate()), (39.5, 65.5, &numbers[66..70]));
+        assert_eq!((state.work().sums[0], state.work().vehicle), (70.5, 75.5));
+        assert_eq!(State::from_numbers(shape, &numbers[1..]), None);
     }
 }

@@ -150,6 +150,19 @@ impl<S: Scalar> M3<S> {
         self.x * v.x + self.y * v.y + self.z * v.z
     }
 
+    /// M N.
+    #[inline(always)]
+    pub(crate) fn times(&self, n: &Self) -> Self {
+        M3 { x: self.out(n.x), y: self.out(n.y), z: self.out(n.z) }
+    }
+
+    /// Mᵀ.
+    #[inline(always)]
+    pub(crate) fn transposed(&self) -> Self {
+        let (x, y, z) = (self.x, self.y, self.z);
+        M3 { x: v3(x.x, y.x, z.x), y: v3(x.y, y.y, z.y), z: v3(x.z, y.z, z.z) }
+    }
+
     /// Mᵀ v: components outside → components in the frame; X_n = Tⁿᵀ X′ (7), X_m = T^nmᵀ X′ (12).
     #[inline(always)]
     pub fn into_frame(&self, v: V3<S>) -> V3<S> {
@@ -181,7 +194,42 @@ pub(crate) struct Sym3<S> {
     pub yz: S,
 }
 
+impl<S: Copy> Sym3<S> {
+    /// f applied to every number and the one in the same place of `other`.
+    #[inline(always)]
+    pub(crate) fn zip<A: Copy, T>(&self, other: &Sym3<A>, f: &impl Fn(S, A) -> T) -> Sym3<T> {
+        Sym3 {
+            xx: f(self.xx, other.xx),
+            yy: f(self.yy, other.yy),
+            zz: f(self.zz, other.zz),
+            xy: f(self.xy, other.xy),
+            xz: f(self.xz, other.xz),
+            yz: f(self.yz, other.yz),
+        }
+    }
+}
+
 impl<S: Scalar> Sym3<S> {
+    /// The symmetric part of a matrix.
+    pub(crate) fn of(m: &Matrix3<f64>) -> Self {
+        let mean = |a: f64, b: f64| S::of(0.5 * (a + b));
+        let [xy, xz, yz] = [mean(m.m12, m.m21), mean(m.m13, m.m31), mean(m.m23, m.m32)];
+        Sym3 { xx: S::of(m.m11), yy: S::of(m.m22), zz: S::of(m.m33), xy, xz, yz }
+    }
+
+    /// R M Rᵀ: in the axes outside the frame whose axes are R.
+    #[inline(always)]
+    pub(crate) fn out(&self, axes: &M3<S>) -> Self {
+        let mut sum = Sym3::scaled_identity(self.zz);
+        // with 1 = XXᵀ + YYᵀ + ZZᵀ
+        sum.add_outer(self.xx - self.zz, axes.x);
+        sum.add_outer(self.yy - self.zz, axes.y);
+        sum.add_outer_pair(self.xy, axes.x, axes.y);
+        sum.add_outer_pair(self.xz, axes.x, axes.z);
+        sum.add_outer_pair(self.yz, axes.y, axes.z);
+        sum
+    }
+
     /// k·1.
     #[inline(always)]
     pub(crate) fn scaled_identity(k: S) -> Self {
@@ -252,6 +300,16 @@ impl<S: Scalar> Sym3<S> {
             xz: xz * k,
             yz: (self.xy * self.xz - self.xx * self.yz) * k,
         }
+    }
+}
+
+in_place!([S: Scalar] Sym3<S>);
+
+impl<S: Scalar> Sub for Sym3<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, b: Self) -> Self {
+        self.zip(&b, &|a, b| a - b)
     }
 }
 

@@ -67,7 +67,7 @@ impl Component {
     }
 }
 
-/// All channels of a model, in a fixed order: vehicle, segments, neck and femurs, spheres, belts, joints, energies.
+/// All channels of a model, in a fixed order: vehicle, segments, neck and femurs, spheres, belts, joints, markers, energies.
 pub fn channels(model: &Model) -> Vec<Channel> {
     Catalogue::of(model).channels
 }

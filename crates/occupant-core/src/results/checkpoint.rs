@@ -8,7 +8,7 @@ use crate::forces::{Forces, History, Memory, Misfit, STORED};
 use crate::model::Model;
 use crate::motion::state::State;
 use crate::quantity::FieldWords;
-use crate::results::energy::{EnergyStart, balance_error};
+use crate::results::energy::{EnergyStart, Greatest};
 use crate::results::outcome::{FirstTouch, Outcome, Status};
 use crate::results::sample::Effort;
 
@@ -19,8 +19,8 @@ pub struct Checkpoint {
     pub index: usize,
     /// Time, s.
     pub time_s: f64,
-    /// Integrated state with its work sums.
-    pub state: State<f64>,
+    /// Integrated state with its work sums: the numbers of a [`State`].
+    pub state: Vec<f64>,
     /// What force elements remember, in the model's order.
     pub memory: Memory<f64>,
     /// First touches so far, in the order in which they happened.
@@ -38,8 +38,8 @@ pub struct StepStart {
     pub start_s: f64,
     /// Its end, s, after the output.
     pub end_s: f64,
-    /// State at its start.
-    pub state: State<f64>,
+    /// Numbers of the state at its start.
+    pub state: Vec<f64>,
     /// What force elements remember there, in the model's order.
     pub memory: Memory<f64>,
 }
@@ -60,7 +60,8 @@ pub struct StepUnderWay<'a> {
 impl StepUnderWay<'_> {
     /// All of it as plain data.
     pub(crate) fn to_start(self) -> StepStart {
-        StepStart { start_s: self.start_s, end_s: self.end_s, state: *self.state, memory: self.history.memory.clone() }
+        let (state, memory) = (self.state.numbers().to_vec(), self.history.memory.clone());
+        StepStart { start_s: self.start_s, end_s: self.end_s, state, memory }
     }
 }
 
@@ -75,10 +76,8 @@ pub struct Progress {
     pub step_error: f64,
     /// Energies from which the balance counts.
     pub energy_start: EnergyStart,
-    /// Greatest kinetic energy relative to the vehicle among the outputs, J.
-    pub greatest_kinetic_j: f64,
-    /// Greatest energy imbalance among the outputs, J.
-    pub greatest_imbalance_j: f64,
+    /// Greatest energies so far.
+    pub greatest: Greatest,
 }
 
 impl Progress {
@@ -96,8 +95,9 @@ impl Progress {
                 file.number(held.start, &mut start.stored_j[energy.at]);
             }
         }
-        file.number(words(23, "greatest_kinetic_j", "greatest kinetic energy relative to the vehicle so far"), &mut self.greatest_kinetic_j);
-        file.number(words(24, "greatest_imbalance_j", "greatest energy imbalance so far"), &mut self.greatest_imbalance_j);
+        file.number(words(23, "greatest_kinetic_j", "greatest kinetic energy relative to the vehicle so far"), &mut self.greatest.kinetic_j);
+        file.number(words(24, "greatest_imbalance_j", "greatest energy imbalance so far"), &mut self.greatest.imbalance_j);
+        file.number(words(46, "greatest_work_j", "greatest work of gravity and force elements so far"), &mut self.greatest.work_j);
         file.number(words(25, "step_error", "error of the last accepted step in units of the tolerance"), &mut self.step_error);
     }
 }
@@ -148,9 +148,9 @@ fn other_time(index: usize, found_s: f64, expected_s: Option<f64>) -> String {
 }
 
 /// How `state` is written.
-const STATE: &str = "75 numbers in space axes, SI: T1; w, x, y, z of the 8 free segments (middle_torso, upper_torso, head, \
+const STATE: &str = "76 numbers in space axes, SI: T1; w, x, y, z of the 8 free segments (middle_torso, upper_torso, head, \
 lower_torso, left_upper_arm, right_upper_arm, left_thigh, right_thigh); 4 hinges (left_forearm, right_forearm, left_lower_leg, \
-right_lower_leg); velocity of T1; angular velocities of the 8; hinge rates; work of contacts, friction, joints, belts, vehicle";
+right_lower_leg); velocity of T1; angular velocities of the 8; hinge rates; work of contacts, friction, joints, belts, muscles, vehicle";
 
 const STEP: &str =
     "start and end of the step in which the output lies, if it goes on beyond it; the columns below tell its start";
@@ -165,7 +165,7 @@ impl Checkpoint {
         let mut checkpoint = Checkpoint {
             index: 0,
             time_s: 0.0,
-            state: State::zero(),
+            state: Vec::new(),
             memory: Memory::none(),
             first_touches: Vec::new(),
             progress: Progress::default(),
@@ -181,8 +181,7 @@ impl Checkpoint {
         file.number(words(1, "time_s", "time of the scenario"), &mut self.time_s);
         file.count(words(2, "output", "number of the output, from 0"), &mut index);
         self.index = index as usize;
-        let state = file.numbers(words(3, "state", STATE), self.state.to_numbers().to_vec());
-        self.state = to_state(&state, file);
+        self.state = file.numbers(words(3, "state", STATE), std::mem::take(&mut self.state));
         self.memory.keep(None, file);
         self.keep_touches(file);
         self.progress.keep(file);
@@ -219,7 +218,7 @@ impl Checkpoint {
     fn keep_step(&mut self, file: &mut dyn Archive) {
         let step = self.under_way.take();
         let (times_s, state, mut memory) = match step {
-            Some(step) => (vec![step.start_s, step.end_s], step.state.to_numbers().to_vec(), step.memory),
+            Some(step) => (vec![step.start_s, step.end_s], step.state, step.memory),
             None => (Vec::new(), Vec::new(), Memory::none()),
         };
         let times_s = file.numbers(words(26, "step_times_s", STEP), times_s);
@@ -229,7 +228,7 @@ impl Checkpoint {
         match times_s[..] {
             [] => {}
             [start_s, end_s] => {
-                self.under_way = Some(StepStart { start_s, end_s, state: to_state(&state, file), memory });
+                self.under_way = Some(StepStart { start_s, end_s, state, memory });
             }
             _ => file.refuse("other than two times of a step"),
         }
@@ -237,14 +236,12 @@ impl Checkpoint {
 
     /// The outcome of a run of `model` that ends here.
     pub fn outcome(&self, model: &Model) -> Outcome {
-        let Progress { effort, greatest_kinetic_j, greatest_imbalance_j, .. } = self.progress;
         Outcome {
             status: Status::Completed,
             time_s: self.time_s,
-            effort,
+            effort: self.progress.effort,
             first_touches: self.first_touches.clone(),
-            greatest_kinetic_j,
-            balance_error: balance_error(greatest_imbalance_j, greatest_kinetic_j, model.body().mass_kg()),
+            energy: self.progress.greatest.check(model.body().mass_kg()),
         }
     }
 
@@ -266,6 +263,21 @@ impl Checkpoint {
             self.check_step(step, forces)?;
         }
         self.check_numbers(forces)
+    }
+
+    /// The state of `model` with these numbers.
+    ///
+    /// # Errors
+    /// Another number of them than the model's state has.
+    pub fn state_of(model: &Model, numbers: &[f64]) -> Result<State<f64>, CheckpointError> {
+        let (shape, of) = (model.start().state.shape(), "numbers of the state");
+        let misfit = Misfit::Count { of, found: numbers.len(), expected: shape.len() };
+        let mut numbers = numbers.to_vec();
+        // files of 0.1.0 have no work of muscles, which stands before that of the vehicle
+        if numbers.len() + 1 == shape.len() {
+            numbers.insert(numbers.len() - 1, 0.0);
+        }
+        State::from_numbers(shape, &numbers).ok_or(CheckpointError::Memory(misfit))
     }
 
     fn check_step(&self, step: &StepStart, forces: &Forces<f64>) -> Result<(), CheckpointError> {
@@ -290,25 +302,18 @@ impl Checkpoint {
     fn check_numbers(&self, forces: &Forces<f64>) -> Result<(), CheckpointError> {
         check_histories(&self.memory, &self.state, forces)?;
         let p = &self.progress;
-        let numbers =
-            [p.wanted_s, p.step_error, p.greatest_kinetic_j, p.greatest_imbalance_j, p.energy_start.mechanical_j];
+        // a balance may be lost without end
+        let numbers = [p.wanted_s, p.step_error, p.greatest.kinetic_j, p.greatest.work_j, p.energy_start.mechanical_j];
         check_finite(numbers.into_iter().chain(p.energy_start.stored_j))
     }
 }
 
-fn check_histories(memory: &Memory<f64>, state: &State<f64>, forces: &Forces<f64>) -> Result<(), CheckpointError> {
+fn check_histories(memory: &Memory<f64>, state: &[f64], forces: &Forces<f64>) -> Result<(), CheckpointError> {
     memory.check(forces)?;
-    check_finite(state.to_numbers())
+    check_finite(state.iter().copied())
 }
 
 fn check_finite(numbers: impl IntoIterator<Item = f64>) -> Result<(), CheckpointError> {
     let are_finite = numbers.into_iter().all(f64::is_finite);
     are_finite.then_some(()).ok_or(CheckpointError::Memory(Misfit::NotFinite))
-}
-
-fn to_state(numbers: &[f64], file: &mut dyn Archive) -> State<f64> {
-    numbers.try_into().map(State::from_numbers).unwrap_or_else(|_| {
-        file.refuse("a state of another number of coordinates");
-        State::zero()
-    })
 }

@@ -4,6 +4,8 @@
 //! weights. With W_v the work of the moving vehicle on the occupant, kinetic + gravity + what is stored without a work
 //! sum + Σ work sums − W_v stays what it was at the start.
 
+use serde::Serialize;
+
 use crate::forces::contact::FASTEST_M_S;
 use crate::forces::{HeldBy, STORED, STORES, StoredEnergy};
 use crate::motion::frame::Moving;
@@ -82,15 +84,99 @@ impl EnergyLedger {
     }
 }
 
-/// The greatest imbalance of a run as a fraction of the greatest kinetic energy relative to the vehicle. Not a number where a
-/// body of `mass_kg` has that energy only at speeds beyond those that contacts follow: it is no measure then.
-pub(crate) fn balance_error(imbalance_j: f64, kinetic_j: f64, mass_kg: f64) -> f64 {
-    if kinetic_j > 0.5 * mass_kg * FASTEST_M_S.powi(2) {
-        f64::NAN
-    } else if kinetic_j > 0.0 {
-        imbalance_j / kinetic_j
-    } else {
-        0.0
+/// The greatest energies among the outputs of a run so far, J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Greatest {
+    /// Kinetic energy relative to the vehicle.
+    pub kinetic_j: f64,
+    /// Work of gravity and of force elements since the start, each by its size. The vehicle's is not in it: that depends on
+    /// who watches.
+    pub work_j: f64,
+    /// Energy imbalance.
+    pub imbalance_j: f64,
+}
+
+impl Greatest {
+    /// Looks at an output, where gravity and force elements have done `work_j`.
+    pub(crate) fn see(&mut self, energy: &EnergyLedger, work_j: f64) {
+        self.kinetic_j = self.kinetic_j.max(energy.kinetic_relative_j);
+        self.work_j = self.work_j.max(work_j);
+        // sums that ran away are no balance
+        let imbalance_j = if energy.balance_j.is_nan() { f64::INFINITY } else { energy.balance_j.abs() };
+        self.imbalance_j = self.imbalance_j.max(imbalance_j);
+    }
+
+    /// How well a run of a body of `mass_kg` kept its energy.
+    pub(crate) fn check(&self, mass_kg: f64) -> EnergyCheck {
+        let is_of_vehicle = self.kinetic_j > 0.5 * mass_kg * FASTEST_M_S.powi(2);
+        let (reference, reference_j) = if is_of_vehicle {
+            ("greatest work of gravity and force elements", self.work_j)
+        } else {
+            ("greatest kinetic energy in the vehicle", self.kinetic_j)
+        };
+        let balance_error = self.imbalance_j / reference_j;
+        let balance = match balance_error {
+            _ if is_of_vehicle => Balance::Lost,
+            _ if self.imbalance_j == 0.0 => Balance::Kept,
+            error => Balance::of(error),
+        };
+        EnergyCheck { balance_error, reference, reference_j, greatest_kinetic_j: self.kinetic_j, balance }
+    }
+}
+
+/// How well a run kept its energy, up to its last output.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct EnergyCheck {
+    /// Greatest imbalance among the outputs as a fraction of the reference; not a number, `null` in JSON, where nothing
+    /// moved or pulled.
+    pub balance_error: f64,
+    /// The greatest kinetic energy relative to the vehicle; where that takes speeds above 100 m/s, which are the vehicle's, the
+    /// greatest work of gravity and force elements.
+    pub reference: &'static str,
+    /// Its size, J.
+    pub reference_j: f64,
+    /// Greatest kinetic energy relative to the vehicle, J.
+    pub greatest_kinetic_j: f64,
+    /// What that means for the results.
+    pub balance: Balance,
+}
+
+impl EnergyCheck {
+    /// What was found, in words.
+    pub fn found(&self) -> String {
+        let EnergyCheck { balance_error, reference, greatest_kinetic_j: kinetic_j, .. } = self;
+        match Balance::of(*balance_error) {
+            _ if !balance_error.is_finite() => "not known".to_owned(),
+            Balance::Lost => format!("off by {:.0} % of the {reference}", 100.0 * balance_error),
+            _ if self.balance == Balance::Lost => {
+                format!("no measure: a kinetic energy of {kinetic_j:.1e} J in the vehicle is none of an occupant")
+            }
+            _ => format!("off by {:.1} % of the {reference}", 100.0 * balance_error),
+        }
+    }
+}
+
+/// How far the results of a run can be trusted by its energy balance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Balance {
+    /// Off by 1 % at most.
+    Kept,
+    /// Off by more than 1 %: results are doubtful.
+    Doubtful,
+    /// Off by more than 10 % or by what is not known, or speeds in the vehicle are above 100 m/s, which contacts do not follow:
+    /// results mean nothing.
+    Lost,
+}
+
+impl Balance {
+    /// Of a `balance_error`.
+    fn of(error: f64) -> Balance {
+        match error {
+            error if error <= 0.01 => Balance::Kept,
+            error if error <= 0.1 => Balance::Doubtful,
+            _ => Balance::Lost,
+        }
     }
 }
 
@@ -100,8 +186,8 @@ pub fn kinetic(body: &Skeleton<f64>, k: &Kinematics<f64>, frame: &Moving<f64>) -
         let link = &body.links[n];
         let v = k.cg_velocity(body, n) - frame.velocity_at(k.cg(body, n));
         let w = k.axes[n].into_frame(k.omega[n] - frame.omega);
-        let [ix, iy, iz] = link.central;
-        link.mass * v.norm_squared() + ix * w.x * w.x + iy * w.y * w.y + iz * w.z * w.z
+        let spin = link.by_inertia(w);
+        link.mass * v.norm_squared() + spin.x * w.x + spin.y * w.y + spin.z * w.z
     };
     0.5 * (0..body.links.len()).map(segment).sum::<f64>()
 }

@@ -43,12 +43,11 @@ impl Recorder for Signals {
         push(&mut self.head_rad_s, s.angular_velocity_rad_s(marks.head));
         push(&mut self.head_rad_s2, s.angular_acceleration_rad_s2(marks.head));
         let loads = Loads::new(s);
-        let neck = loads.reaction(marks.neck);
+        let neck = loads.upper_neck();
         push(&mut self.neck_n, neck.force_n);
         push(&mut self.neck_n_m, neck.moment_n_m);
-        let thighs = [marks.legs.right.upper, marks.legs.left.upper];
-        for (values, thigh) in self.femur_n.iter_mut().zip(thighs) {
-            values.push(loads.femur_axial_n(thigh));
+        for (values, leg) in self.femur_n.iter_mut().zip([marks.legs.right, marks.legs.left]) {
+            values.push(leg.map_or(f64::NAN, |leg| loads.femur_axial_n(leg.upper)));
         }
         Ok(Flow::Continue)
     }

@@ -1,6 +1,7 @@
 //! How a run ended: its outcome, first touches, and the errors that say when, where and why.
 
 use crate::results::checkpoint::CheckpointError;
+use crate::results::energy::EnergyCheck;
 use crate::results::recorder::RecorderError;
 use crate::results::sample::Effort;
 
@@ -15,33 +16,8 @@ pub struct Outcome {
     pub effort: Effort,
     /// First touch of each sphere with each surface, in the order in which they happened.
     pub first_touches: Vec<FirstTouch>,
-    /// Greatest kinetic energy relative to the vehicle among the outputs, J.
-    pub greatest_kinetic_j: f64,
-    /// Greatest energy imbalance among the outputs as a fraction of it; not a number where it is not known: the run failed, or
-    /// that kinetic energy is one of speeds above 100 m/s, which contacts do not follow.
-    pub balance_error: f64,
-}
-
-/// How well a run kept its energy: greatest imbalance over greatest kinetic energy.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Balance {
-    /// Off by 1 % at most.
-    Kept,
-    /// Off by more than 1 %: results are doubtful.
-    Doubtful,
-    /// Off by more than 10 %, or by what is not known: results mean nothing.
-    Lost,
-}
-
-impl Balance {
-    /// Of a `balance_error` as outcomes, summaries and tables hold it.
-    pub fn of(error: f64) -> Balance {
-        match error.abs() {
-            error if error <= 0.01 => Balance::Kept,
-            error if error <= 0.1 => Balance::Doubtful,
-            _ => Balance::Lost,
-        }
-    }
+    /// How well it kept its energy.
+    pub energy: EnergyCheck,
 }
 
 /// Why a run ended.

@@ -9,15 +9,15 @@
 //! τ = Iα + ω × Iω + r × M (a + g Z′) − T + Σ (τ_distal + c × f_distal)
 //! ```
 //!
-//! F and T are the loads of contacts and all other force elements but joints. The moment of a ball joint is that of its damper, stop and spring, for it constrains none;
+//! F and T are the loads of contacts and all other force elements but joints. The moment of a ball joint is that of its damper, stop, spring and muscle, for it constrains none;
 //! a hinge adds the two constraint moments across its axis.
 
 use nalgebra::Vector3;
 
 use crate::body::Joint;
-use crate::body::{SEGMENTS, Segment};
+use crate::body::Segment;
 use crate::motion::dynamics::Wrench;
-use crate::motion::layout::hung_from;
+use crate::motion::layout::MOST_SEGMENTS;
 use crate::motion::vector::{V3, v3};
 use crate::results::sample::Sample;
 
@@ -38,19 +38,21 @@ pub fn reaction(sample: &Sample<'_>, joint: Joint) -> Reaction {
 /// Loads of force elements, from which reactions follow.
 pub(super) struct Loads<'s, 'a> {
     sample: &'s Sample<'a>,
-    /// Moments of dampers, stops, limits, friction and springs, which the evaluation counts among the loads.
-    passive: [Wrench<f64>; SEGMENTS],
+    /// Moments of dampers, stops, limits, friction, locks, springs and muscles, which the evaluation counts among the loads.
+    passive: [Wrench<f64>; MOST_SEGMENTS],
 }
 
 impl<'s, 'a> Loads<'s, 'a> {
     pub(super) fn new(sample: &'s Sample<'a>) -> Self {
-        let mut passive = [Wrench::zero(); SEGMENTS];
+        let mut passive = [Wrench::zero(); MOST_SEGMENTS];
         let k = &sample.evaluation.kinematics;
         sample.model.system().forces.joints.apply(k, sample.state, &mut passive, &mut |_| {});
-        for action in &sample.actions.limits {
-            let row = &sample.model.body().tree[action.joint];
-            passive[row.distal.index()].moment += action.moment;
-            passive[row.proximal.index()].moment -= action.moment;
+        let limits = sample.actions.limits.iter().map(|action| (action.joint, action.moment));
+        let muscles = sample.actions.muscles.iter().map(|action| (action.joint, action.moment));
+        for (joint, moment) in limits.chain(muscles) {
+            let row = &sample.model.body().tree[joint];
+            passive[row.distal.index()].moment += moment;
+            passive[row.proximal.index()].moment -= moment;
         }
         Loads { sample, passive }
     }
@@ -63,10 +65,10 @@ impl<'s, 'a> Loads<'s, 'a> {
         let upward = v3(0.0, 0.0, skeleton.gravity);
         let inertial = (e.accelerations.cg(skeleton, k, n) + upward) * link.mass;
         let mut force = inertial - e.wrench[n].force;
-        let arm = k.axes[n].z * link.cg;
+        let arm = k.axes[n].out(link.cg);
         let applied = e.wrench[n].moment - self.passive[n].moment;
         let mut moment = self.spin(n) + arm.cross(inertial) - applied;
-        for &(next, _) in hung_from(n) {
+        for next in skeleton.layout.children(n) {
             let load = self.at(next);
             force += load.force;
             moment += load.moment + (k.joint[next] - k.joint[n]).cross(load.force);
@@ -78,11 +80,8 @@ impl<'s, 'a> Loads<'s, 'a> {
     fn spin(&self, n: usize) -> V3<f64> {
         let e = self.sample.evaluation;
         let axes = &e.kinematics.axes[n];
-        let [ix, iy, iz] = self.sample.model.system().skeleton.links[n].central;
-        let by_inertia = |v: V3<f64>| {
-            let v = axes.into_frame(v);
-            axes.out(v3(ix * v.x, iy * v.y, iz * v.z))
-        };
+        let link = &self.sample.model.system().skeleton.links[n];
+        let by_inertia = |v: V3<f64>| axes.out(link.by_inertia(axes.into_frame(v)));
         let omega = e.kinematics.omega[n];
         by_inertia(e.accelerations.alpha[n]) + omega.cross(by_inertia(omega))
     }
@@ -97,11 +96,20 @@ impl<'s, 'a> Loads<'s, 'a> {
         }
     }
 
+    /// [`upper_neck`].
+    pub(super) fn upper_neck(&self) -> Reaction {
+        let body = self.sample.model.body();
+        let at_joint = self.reaction(body.tree.landmarks().neck);
+        let Some(condyles_m) = body.condyles_m else { return at_joint };
+        Reaction { moment_n_m: at_joint.moment_n_m - condyles_m.cross(&at_joint.force_n), ..at_joint }
+    }
+
     /// [`femur_axial_n`] of `thigh`.
     pub(super) fn femur_axial_n(&self, thigh: Segment) -> f64 {
         let sample = self.sample;
         let k = &sample.evaluation.kinematics;
-        let shanks = hung_from(thigh.index()).iter().map(|&(shank, _)| self.at(shank).force);
+        let layout = &sample.model.system().skeleton.layout;
+        let shanks = layout.children(thigh.index()).map(|shank| self.at(shank).force);
         let carried = shanks.reduce(|a, b| a + b).unwrap_or(V3::zero());
         let body = sample.model.body();
         let half_m = 0.5 * body.segment(thigh).length_m;
@@ -115,6 +123,13 @@ impl<'s, 'a> Loads<'s, 'a> {
         // Z of a thigh points from the knee to the hip: a force at the knee against it pulls
         -(pushed - carried).dot(k.axes[thigh.index()].z)
     }
+}
+
+/// What the neck carries at the occipital condyles, where limits of necks hold: M − c × F with M and F at the neck's joint and
+/// c the condyles seen from there. It follows from the head's motion and what touches it, wherever the joint is. Of a body
+/// that does not say where they are, what its neck's joint carries.
+pub(crate) fn upper_neck(sample: &Sample<'_>) -> Reaction {
+    Loads::new(sample).upper_neck()
 }
 
 /// Axial force in a thigh at its knee end, tension positive as a load cell in the femur reports it, N: what the shank, the

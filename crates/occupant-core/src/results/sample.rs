@@ -10,7 +10,6 @@ use crate::kernel::Evaluation;
 use crate::model::Model;
 use crate::motion::frame::Frames;
 use crate::motion::frame::VEHICLE;
-use crate::motion::layout::{BALL_JOINTS, HINGE_JOINTS};
 use crate::motion::report_coordinates::ReportCoordinates;
 use crate::motion::state::State;
 use crate::motion::vector::V3;
@@ -100,7 +99,7 @@ impl<'a> Sample<'a> {
         Checkpoint {
             index: self.index,
             time_s: self.time_s,
-            state: *self.state,
+            state: self.state.numbers().to_vec(),
             memory: self.history.memory.clone(),
             first_touches: self.first_touches.to_vec(),
             progress: self.progress,
@@ -112,10 +111,10 @@ impl<'a> Sample<'a> {
     pub fn end_points_m(&self, segment: Segment) -> [Point3<f64>; 2] {
         let k = &self.evaluation.kinematics;
         let n = segment.index();
-        let near = k.joint[n];
-        let far = near + k.axes[n].z * self.model.system().skeleton.links[n].far;
-        let (upper, lower) = if self.model.body().tree[segment].hangs() { (near, far) } else { (far, near) };
-        [self.place_m(upper), self.place_m(lower)]
+        let body = self.model.body();
+        let ends = [Vector3::z() * body.segment(segment).length_m, Vector3::zeros()];
+        let seen = ends.map(|end| k.axes[n].out(V3::of(&(end - body.joint_m(segment)))));
+        seen.map(|end| self.place_m(k.joint[n] + end))
     }
 
     /// Centre of gravity of a segment, vehicle axes, m.
@@ -214,11 +213,12 @@ impl<'a> Sample<'a> {
 
     /// β of a ball joint or α of a hinge, rad.
     pub fn joint_angle_rad(&self, joint: Joint) -> f64 {
-        let ball = BALL_JOINTS.iter().position(|j| *j == joint);
-        let hinge = HINGE_JOINTS.iter().position(|j| *j == joint);
+        let joints = &self.model.system().forces.joints;
+        let ball = joints.balls.iter().position(|ball| ball.joint == joint);
+        let hinge = joints.hinges.iter().position(|hinge| hinge.joint == joint);
         match (ball, hinge) {
-            (Some(i), _) => self.model.system().forces.joints.beta(i, &self.evaluation.kinematics),
-            (None, Some(i)) => self.state.hinge[i],
+            (Some(i), _) => joints.beta(i, &self.evaluation.kinematics),
+            (None, Some(i)) => self.state.hinge()[i],
             (None, None) => f64::NAN,
         }
     }

@@ -95,7 +95,7 @@ impl Run {
                 Stage::End => system.rate_alone::<false>(state, &at_end, history, &mut ()),
             });
             self.effort.evaluations += 4;
-            self.accept(next, step)?;
+            self.accept(model, next, step)?;
         }
         Ok(())
     }

@@ -47,7 +47,7 @@ impl Front {
             step: Step { start_s: time_s, end_s: time_s },
             from: *state,
             to: *state,
-            rates: [State::zero(); 2],
+            rates: [State::zero(state.shape()); 2],
             rate_is_known: false,
             is_half_known: false,
             before: history.clone(),
@@ -58,10 +58,10 @@ impl Front {
         }
     }
 
-    /// Within the step that a checkpoint tells the start of.
-    pub(super) fn within(model: &Model, start: &StepStart) -> Self {
+    /// Within the step that a checkpoint tells the start of, at `state`.
+    pub(super) fn within(model: &Model, start: &StepStart, state: &State<f64>) -> Self {
         let history = History::new(&model.system().forces, start.memory.clone());
-        let mut front = Front::new(start.start_s, &start.state, &history);
+        let mut front = Front::new(start.start_s, state, &history);
         front.step.end_s = start.end_s;
         front.is_half_known = true;
         front

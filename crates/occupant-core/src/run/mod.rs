@@ -20,10 +20,10 @@ use crate::model::setup::Integrator;
 use crate::model::{Model, frames};
 use crate::motion::frame::VEHICLE;
 use crate::motion::integrate::bogacki_shampine::Tolerance;
-use crate::motion::layout::{FREE, HINGED, TREE};
+use crate::motion::kinematics::Kinematics;
 use crate::motion::state::State;
 use crate::results::checkpoint::{Checkpoint, CheckpointError, Progress};
-use crate::results::energy::{EnergyLedger, EnergyStart, balance_error};
+use crate::results::energy::{self, EnergyLedger, EnergyStart, Greatest};
 use crate::results::outcome::{Outcome, RecordingFailed, Status, StepError};
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::{Effort, Sample};
@@ -47,11 +47,11 @@ pub struct Run {
     front: Option<Box<Front>>,
     control: Memory,
     energy_start: Option<EnergyStart>,
-    greatest_kinetic_j: f64,
-    greatest_imbalance_j: f64,
+    start_gravity_j: f64,
+    greatest: Greatest,
     mass_kg: f64,
     actions: Actions<f64>,
-    /// Times at which the motion of the vehicle jumps, s.
+    /// Times at which the motion of the vehicle or an activation jumps, s.
     pub breaks_s: Vec<f64>,
     /// The accepted steps since it was last emptied, where somebody wants to follow them.
     pub taken: Option<Vec<Step>>,
@@ -62,6 +62,7 @@ impl Run {
     pub fn new(model: &Model) -> Self {
         let start = model.start();
         let (integrator, time_s) = (&model.setup().integrator, model.setup().time.start_s);
+        let skeleton = &model.system().skeleton;
         Run {
             index: 0,
             time_s,
@@ -78,12 +79,12 @@ impl Run {
             },
             control: Memory::new(first_step(integrator)),
             energy_start: None,
-            greatest_kinetic_j: 0.0,
-            greatest_imbalance_j: 0.0,
+            start_gravity_j: energy::gravity(skeleton, &Kinematics::new(skeleton, &start.state)),
+            greatest: Greatest::default(),
             mass_kg: model.body().mass_kg(),
             actions: Actions::with_room(&model.system().forces),
             seen: Seen::new(model),
-            breaks_s: model.setup().path.breaks_s(),
+            breaks_s: model.breaks_s(),
             taken: None,
         }
     }
@@ -91,24 +92,24 @@ impl Run {
     /// A run of `model` at one of its outputs.
     pub(crate) fn from_checkpoint(model: &Model, from: &Checkpoint) -> Result<Self, CheckpointError> {
         from.check(model)?;
+        let state = |numbers: &[f64]| Checkpoint::state_of(model, numbers);
         let mut run = Run::new(model);
         let progress = from.progress;
         run.index = from.index;
         run.time_s = from.time_s;
-        run.state = from.state;
+        run.state = state(&from.state)?;
         run.history = History::new(&model.system().forces, from.memory.clone());
         run.effort = progress.effort;
         run.control = Memory { wanted_s: progress.wanted_s, error: progress.step_error };
-        run.front = run.front.map(|_| {
+        if run.front.is_some() {
             let step = from.under_way.as_ref();
-            Box::new(match step {
-                Some(start) => Front::within(model, start),
+            run.front = Some(Box::new(match step {
+                Some(start) => Front::within(model, start, &state(&start.state)?),
                 None => Front::new(run.time_s, &run.state, &run.history),
-            })
-        });
+            }));
+        }
         run.energy_start = Some(progress.energy_start);
-        run.greatest_kinetic_j = progress.greatest_kinetic_j;
-        run.greatest_imbalance_j = progress.greatest_imbalance_j;
+        run.greatest = progress.greatest;
         run.seen.know(&from.first_touches);
         Ok(run)
     }
@@ -124,7 +125,7 @@ impl Run {
         let path = &model.setup().path;
         let vehicle = path.motion(t, t, &mut self.cursor);
         let vehicle_pose = path.attitude(t, &mut self.cursor);
-        let frames = frames(&vehicle);
+        let frames = frames(t, &vehicle);
         let system = model.system();
         self.actions.clear();
         let evaluation = system.evaluate::<true>(&self.state, &frames, &mut self.history, &mut self.actions);
@@ -138,14 +139,14 @@ impl Run {
                 &evaluation.kinematics,
                 &frames[VEHICLE],
                 stored_j,
-                &self.state.work,
+                &self.state.work(),
                 start,
             )
         };
         let energy_start = *self.energy_start.get_or_insert_with(|| ledger(&EnergyStart::default()).as_start());
         let energy = ledger(&energy_start);
-        self.greatest_kinetic_j = self.greatest_kinetic_j.max(energy.kinetic_relative_j);
-        self.greatest_imbalance_j = self.greatest_imbalance_j.max(energy.balance_j.abs());
+        let by_elements = self.state.work().sums.iter().map(|work| work.abs()).sum::<f64>();
+        self.greatest.see(&energy, (energy.gravity_j - self.start_gravity_j).abs() + by_elements);
         let index = self.index;
         self.index += 1;
         let recorded = recorder.record(&Sample {
@@ -166,8 +167,7 @@ impl Run {
                 wanted_s: self.control.wanted_s,
                 step_error: self.control.error,
                 energy_start,
-                greatest_kinetic_j: self.greatest_kinetic_j,
-                greatest_imbalance_j: self.greatest_imbalance_j,
+                greatest: self.greatest,
             },
             first_touches: &self.seen.touches,
             under_way: self.front.as_ref().and_then(|front| front.under_way(t)),
@@ -196,12 +196,12 @@ impl Run {
     }
 
     /// Takes over the state after a step, if it is one of numbers.
-    pub(crate) fn accept(&mut self, next: State<f64>, step: Step) -> Result<(), StepError> {
+    pub(crate) fn accept(&mut self, model: &Model, next: State<f64>, step: Step) -> Result<(), StepError> {
         if !next.is_finite() {
             return Err(StepError::NotFinite {
                 time_s: step.start_s,
                 step_s: step.length_s(),
-                component: broken_component(&next),
+                component: broken_component(model, &next),
             });
         }
         self.state = next;
@@ -235,17 +235,12 @@ impl Run {
     }
 
     fn outcome(self, status: Status) -> Outcome {
-        let balance_error = match status {
-            Status::Failed(_) => f64::NAN,
-            _ => balance_error(self.greatest_imbalance_j, self.greatest_kinetic_j, self.mass_kg),
-        };
         Outcome {
             status,
             time_s: self.time_s,
             effort: self.effort,
             first_touches: self.seen.touches,
-            greatest_kinetic_j: self.greatest_kinetic_j,
-            balance_error,
+            energy: self.greatest.check(self.mass_kg),
         }
     }
 
@@ -263,17 +258,18 @@ fn first_step(integrator: &Integrator) -> f64 {
 }
 
 /// Name of the first component that is not finite.
-fn broken_component(state: &State<f64>) -> String {
-    let name = |n: usize| TREE.segment_rows()[n].name;
+fn broken_component(model: &Model, state: &State<f64>) -> String {
+    let (tree, layout) = (model.body().tree, &model.system().skeleton.layout);
+    let name = |n: usize| tree[tree.segment(n)].name;
     let bad = |x: f64, y: f64, z: f64| !(x.is_finite() && y.is_finite() && z.is_finite());
-    for (slot, &n) in FREE.iter().enumerate() {
-        let (q, w) = (&state.orientation[slot], &state.omega[slot]);
+    for (slot, &n) in layout.free().iter().enumerate() {
+        let (q, w) = (state.orientation(slot), state.omega(slot));
         if bad(q.v.x, q.v.y, q.v.z) || bad(w.x, w.y, w.z) || !q.w.is_finite() {
             return format!("orientation or angular velocity of the {}", name(n));
         }
     }
-    for (slot, &n) in HINGED.iter().enumerate() {
-        if !(state.hinge[slot].is_finite() && state.hinge_rate[slot].is_finite()) {
+    for (slot, &n) in layout.hinged().iter().enumerate() {
+        if !(state.hinge()[slot].is_finite() && state.hinge_rate()[slot].is_finite()) {
             return format!("joint angle of the {}", name(n));
         }
     }

@@ -7,7 +7,7 @@ use super::check::check_words;
 use super::presets;
 use super::sections::schema;
 use crate::body::shape;
-use crate::body::tree::{JointRow, both_sides};
+use crate::body::tree::both_sides;
 use crate::body::tti12::TTI12;
 use placed_text::{Document, Entry, Format, Node, Sources, Table, Value};
 
@@ -45,13 +45,28 @@ pub(super) fn written(title: &str, text: &str) -> Option<Document> {
 pub(super) fn expand(sources: &mut Sources, root: &Node) -> Node {
     let mut explicit = root.clone();
     let body = section(sources, root, "body", |layers| body(&layers));
+    let rows = body.as_ref().map_or_else(report_joints, |body| joint_rows(&body.node));
     let sets = root.get("joint_sets").cloned();
-    let joints = section(sources, root, "joints", |layers| joints(&layers, sets.as_ref()));
+    let joints = section(sources, root, "joints", |layers| joints(&layers, &rows, sets.as_ref()));
     if let Some(table) = explicit.as_table_mut() {
         table
             .extend([("body", body), ("joints", joints)].into_iter().filter_map(|(key, e)| Some((key.to_owned(), e?))));
     }
     explicit
+}
+
+/// Name of a joint, and whether it is a hinge.
+type JointWord = (String, bool);
+
+fn report_joints() -> Vec<JointWord> {
+    TTI12.joint_rows().iter().map(|row| (row.name.to_owned(), row.is_hinge())).collect()
+}
+
+/// The joints of an explicit body.
+fn joint_rows(body: &Node) -> Vec<JointWord> {
+    let is_hinge = |entry: &Entry| matches!(entry.node.get("kind").and_then(Node::as_str), Some("pin" | "universal"));
+    let own = body.get("joints").and_then(Node::as_table);
+    own.map_or_else(report_joints, |own| own.iter().map(|(name, entry)| (name.clone(), is_hinge(entry))).collect())
 }
 
 /// Replaces the table under `key` by what `explicit` makes of its layers.
@@ -71,34 +86,60 @@ fn start(sources: &mut Sources, section: &Node, key: &str) -> Option<Node> {
 }
 
 fn body(layers: &[Node]) -> Table {
-    let mut explicit = plain_keys(layers, &["segments", "spheres"]);
+    let mut explicit = plain_keys(layers, &["segments", "joints", "spheres"]);
     let parts = |key: &str| -> Vec<Node> { layers.iter().filter_map(|l| l.get(key).cloned()).collect() };
+    let joints = parts("joints");
+    let own: Vec<String> = other_names(&joints, &[]);
+    let joined = members(&joints, own.iter().map(String::as_str));
+    let names = segment_names(&joined);
+    put(&mut explicit, "joints", &joints, joined);
     let segments = parts("segments");
-    let names = TTI12.segment_rows().iter().map(|row| row.name);
-    put(&mut explicit, "segments", &segments, members(&segments, names));
+    put(&mut explicit, "segments", &segments, all_members(&segments, &names));
     let spheres = parts("spheres");
-    let known = shape::names(&TTI12);
-    let others = other_names(&spheres, &known);
-    let names = known.iter().chain(&others).map(String::as_str);
-    put(&mut explicit, "spheres", &spheres, members(&spheres, names));
+    put(&mut explicit, "spheres", &spheres, all_members(&spheres, &shape::names(&TTI12)));
     explicit
 }
 
-fn joints(layers: &[Node], sets: Option<&Node>) -> Table {
+/// Names of the segments of a body with these joints; without any it is the report's.
+fn segment_names(joints: &Table) -> Vec<String> {
+    if joints.is_empty() {
+        return TTI12.segment_rows().iter().map(|row| row.name.to_owned()).collect();
+    }
+    let named = |entry: &Entry| ["proximal", "distal"].map(|key| Some(entry.node.get(key)?.as_str()?.to_owned()));
+    let mut names: Vec<String> = Vec::new();
+    for name in joints.values().flat_map(named).flatten() {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
+/// One merged entry for each of `names` and for every other one in the layers.
+fn all_members(layers: &[Node], names: &[String]) -> Table {
+    let known: Vec<&str> = names.iter().map(String::as_str).collect();
+    let others = other_names(layers, &known);
+    members(layers, known.iter().copied().chain(others.iter().map(String::as_str)))
+}
+
+fn joints(layers: &[Node], rows: &[JointWord], sets: Option<&Node>) -> Table {
     let mut explicit = plain_keys(layers, &[]);
-    let words_of = |joint: &JointRow| -> Vec<String> {
-        ["all".to_owned()].into_iter().chain(both_sides(joint.name)).chain([joint.name.to_owned()]).collect()
+    let words_of = |(name, _): &JointWord| -> Vec<String> {
+        ["all".to_owned()].into_iter().chain(both_sides(name)).chain([name.clone()]).collect()
     };
-    for word in TTI12.joint_rows().iter().flat_map(words_of) {
+    for word in rows.iter().flat_map(words_of) {
         explicit.shift_remove(&word);
     }
-    for joint in TTI12.joint_rows() {
+    // a preset speaks of joints that this body may not have
+    let own = layers.last();
+    explicit.retain(|name, entry| entry.node.as_table().is_none() || own.is_some_and(|own| own.get(name).is_some()));
+    for row in rows {
         let whole = |word: &str, entry: &Entry| {
             let whole = with_set(entry, sets);
-            if word == "all" { fitting(whole, joint) } else { whole }
+            if word == "all" { fitting(whole, row.1) } else { whole }
         };
-        if let Some(entry) = merged(layers, &words_of(joint), whole) {
-            explicit.insert(joint.name.to_owned(), entry);
+        if let Some(entry) = merged(layers, &words_of(row), whole) {
+            explicit.insert(row.0.clone(), entry);
         }
     }
     explicit
@@ -112,8 +153,8 @@ fn merged(layers: &[Node], words: &[String], whole: impl Fn(&str, &Entry) -> Ent
 }
 
 /// What is said of all joints, without what this kind of joint cannot have.
-fn fitting(mut entry: Entry, joint: &JointRow) -> Entry {
-    let foreign: &[&str] = if joint.is_hinge() {
+fn fitting(mut entry: Entry, is_hinge: bool) -> Entry {
+    let foreign: &[&str] = if is_hinge {
         &["twist_damping", "stop", "stiffness", "rest_angle", "centre", "limit", "twist_limit"]
     } else {
         &["lower_stop", "upper_stop", "angle_limit"]
@@ -150,7 +191,7 @@ fn plain_keys(layers: &[Node], except: &[&str]) -> Table {
 }
 
 /// Names in the layers that are neither a pair's word nor among `known`, in order of appearance.
-fn other_names(layers: &[Node], known: &[String]) -> Vec<String> {
+fn other_names(layers: &[Node], known: &[&str]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for key in layers.iter().filter_map(Node::as_table).flat_map(Table::keys) {
         let is_known = known.iter().any(|name| name == key || both_sides(name).as_ref() == Some(key));

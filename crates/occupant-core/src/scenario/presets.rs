@@ -3,12 +3,14 @@
 
 use std::sync::OnceLock;
 
+use nalgebra::{UnitQuaternion, Vector2};
 use serde::Deserialize;
 
 use super::expand::{expand, written};
 use super::sections::{BodySection, occupant};
-use crate::body::Body;
-use crate::body::people::{self, Person, Sex};
+use crate::body::people::{self, Division, Person, Sex};
+use crate::body::tti12::TTI12;
+use crate::body::{Body, Joint, JointKind};
 use crate::forces::joint::Joints;
 use placed_text::{Document, Format, Node};
 
@@ -16,7 +18,7 @@ impl Body {
     /// The 50th-percentile male (1.773 m, 78.7 kg) of the GEBOD generator with the report's 17 spheres, its neck's joint
     /// where a dummy's is: `body.preset = "male50"`.
     pub fn male50() -> Self {
-        Body { name: "male50".to_owned(), ..people::REFERENCE_PERSON.body().0 }
+        Body { name: "male50".to_owned(), ..people::REFERENCE_PERSON.body(Division::default()).0 }
     }
 
     /// The body that a scenario calls by this name in `body.preset`; none for a name that it does not know.
@@ -28,7 +30,7 @@ impl Body {
     /// measurements behind it reach no such person.
     pub fn person(sex: Sex, stature_m: f64, mass_kg: f64) -> Option<Self> {
         let person = Person { sex, stature_m, mass_kg };
-        person.is_within_reach().then(|| person.body().0)
+        person.is_within_reach().then(|| person.body(Division::default()).0)
     }
 }
 
@@ -53,19 +55,30 @@ fn read(body: &str) -> Option<(Body, Joints)> {
 pub(super) fn base(section: &Node, key: &str) -> Option<(String, Document)> {
     let preset = section.get("preset").and_then(Node::as_str);
     match (key, preset) {
-        ("body", Some("male50-1970")) | ("joints", Some("male50")) => {
-            Some(("preset male50".to_owned(), male50()?.clone()))
+        ("joints", Some("male50")) => Some(("preset male50".to_owned(), male50()?.clone())),
+        ("body", Some(OLD)) if section.get("joints").is_none() => Some(("preset male50".to_owned(), male50()?.clone())),
+        ("joints", Some(name)) => {
+            let at = ELASTIC.iter().position(|(known, _)| *known == name)?;
+            static READ: [OnceLock<Option<Document>>; ELASTIC.len()] = [const { OnceLock::new() }; ELASTIC.len()];
+            let title = format!("preset {name}");
+            let document = READ[at].get_or_init(|| written(&title, ELASTIC[at].1)).clone()?;
+            Some((title, document))
         }
-        ("joints", Some("gebod")) => Some(("preset gebod".to_owned(), gebod()?.clone())),
         ("body", _) => {
-            let body = preset.and_then(people::child).or_else(|| Some(person(section, preset)?.body().0))?;
+            let division = BodySection::deserialize(section).ok()?.division().unwrap_or_default();
+            let old = || (preset == Some(OLD)).then(|| Body::preset(OLD)).flatten();
+            let made = preset.and_then(|name| people::child(name, division)).or_else(old);
+            let body = made.or_else(|| Some(person(section, preset)?.body(division).0))?;
             let title = format!("body of {}", preset.unwrap_or("a person"));
-            let document = written(&title, &words(&body))?;
+            let document = written(&title, &words(&body, section.get("joints").is_some()))?;
             Some((title, document))
         }
         _ => None,
     }
 }
+
+/// The preset whose body stands in a file.
+const OLD: &str = "male50-1970";
 
 /// The body of the first version and a starting set of joints.
 fn male50() -> Option<&'static Document> {
@@ -73,11 +86,13 @@ fn male50() -> Option<&'static Document> {
     READ.get_or_init(|| written("preset male50", include_str!("presets/male50-1970.toml"))).as_ref()
 }
 
-/// Joints with elastic limits.
-fn gebod() -> Option<&'static Document> {
-    static READ: OnceLock<Option<Document>> = OnceLock::new();
-    READ.get_or_init(|| written("preset gebod", include_str!("presets/gebod.toml"))).as_ref()
-}
+/// Joints with elastic limits, by name.
+const ELASTIC: [(&str, &str); 4] = [
+    ("gebod", include_str!("presets/gebod.toml")),
+    ("dummy50-like", include_str!("presets/dummy50-like.toml")),
+    ("dummy05f-like", include_str!("presets/dummy05f-like.toml")),
+    ("dummy06c-like", include_str!("presets/dummy06c-like.toml")),
+];
 
 /// The grown-up that a body section speaks of; the reference where it is too incomplete or out of reach, which is reported
 /// when the body is built.
@@ -92,24 +107,67 @@ fn person(section: &Node, preset: Option<&str>) -> Option<Person> {
     Some(if person.is_within_reach() { person } else { start })
 }
 
-/// A body in the words of a scenario. Every number has the same width, so that places in one text hold in another.
-fn words(body: &Body) -> String {
-    let quantity = |value: f64, unit: &str| format!("\"{value:.16e} {unit}\"");
+/// A body in the words of a scenario, with its joints where they are its own or `has_joints` says so. Every number has the
+/// same width, so that places in one text hold in another.
+fn words(body: &Body, has_joints: bool) -> String {
     let mut lines = vec![
         "[body]".to_owned(),
         format!("shoulder_half_width = {}", quantity(body.shoulder_half_width_m, "m")),
         format!("hip_half_width = {}", quantity(body.hip_half_width_m, "m")),
         format!("neck_height = {}", quantity(body.neck_height_m, "m")),
     ];
+    if let Some(at) = body.condyles_m {
+        lines.push(format!("condyles = [{}, {}]", quantity(at.x, "m"), quantity(at.z, "m")));
+    }
     for (row, p) in body.tree.segment_rows().iter().zip(&body.segments) {
-        let inertia = p.inertia_kg_m2.map(|moment| quantity(moment, "kg m^2"));
         lines.push(format!("[body.segments.{}]", row.name));
         lines.push(format!("length = {}", quantity(p.length_m, "m")));
         lines.push(format!("cg_from_lower_end = {}", quantity(p.cg_from_lower_end_m, "m")));
         lines.push(format!("mass = {}", quantity(p.mass_kg, "kg")));
-        lines.push(format!("inertia = [{}, {}, {}]", inertia.x, inertia.y, inertia.z));
+        lines.push(format!("inertia = {}", list(p.inertia_kg_m2.as_slice(), "kg m^2")));
+        if p.cg_beside_m != Vector2::zeros() {
+            lines.push(format!("cg_beside = {}", list(p.cg_beside_m.as_slice(), "m")));
+        }
+        if p.principal != UnitQuaternion::identity() {
+            lines.push(format!("principal_axes = {}", angles(&p.principal)));
+        }
     }
+    let joints = body.tree.joints().filter(|_| has_joints || *body.tree != TTI12);
+    lines.extend(joints.flat_map(|joint| joint_words(body, joint)));
     lines.push("[body.spheres]".to_owned());
     lines.extend(body.spheres.iter().map(|s| format!("{}.radius = {}", s.name, quantity(s.radius_m, "m"))));
     lines.join("\n")
+}
+
+fn quantity(value: f64, unit: &str) -> String {
+    format!("\"{value:.16e} {unit}\"")
+}
+
+fn list(values: &[f64], unit: &str) -> String {
+    let each: Vec<String> = values.iter().map(|value| quantity(*value, unit)).collect();
+    format!("[{}]", each.join(", "))
+}
+
+/// Yaw, pitch and roll.
+fn angles(turn: &UnitQuaternion<f64>) -> String {
+    let (roll, pitch, yaw) = turn.euler_angles();
+    list(&[yaw, pitch, roll], "rad")
+}
+
+fn joint_words(body: &Body, joint: Joint) -> Vec<String> {
+    let (row, place) = (&body.tree[joint], body.place(joint));
+    let kind = match row.kind {
+        JointKind::Ball => "ball",
+        JointKind::Hinge => "pin",
+        JointKind::Universal => "universal",
+        JointKind::Fixed => "fixed",
+    };
+    vec![
+        format!("[body.joints.{}]", row.name),
+        format!("proximal = {:?}", body.tree[row.proximal].name),
+        format!("distal = {:?}", body.tree[row.distal].name),
+        format!("kind = {kind:?}"),
+        format!("on_proximal = {}", list(place.proximal.point_m.as_slice(), "m")),
+        format!("on_distal = {}", list(place.distal.point_m.as_slice(), "m")),
+    ]
 }

@@ -30,6 +30,7 @@ mod sensors;
 mod spline;
 mod station;
 mod table;
+mod trigger;
 
 use nalgebra::Vector3;
 

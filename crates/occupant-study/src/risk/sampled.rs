@@ -4,11 +4,11 @@ use nalgebra::Vector3;
 
 use occupant_core::vehicle::{AccelerationRecord, Interpolation, PathCursor, VehiclePath};
 
-/// Most samples of a path.
-const MOST_SAMPLES: f64 = 1e7;
+/// Most samples of a path: what is made of one takes half a kilobyte.
+const MOST_SAMPLES: f64 = 1.5e6;
 
 /// Accelerations and rates of the c.g. along the vehicle's axes from `start_s` to `end_s`, `dt_s` apart; none for a span or an
-/// interval that is not positive, or more than ten million samples.
+/// interval that is not positive, or more than 1.5 million samples.
 ///
 /// Between the stations of a straight-line table the vehicle has no acceleration, and at them its velocity jumps. There the
 /// acceleration of a sample is the velocity change from half an interval before to half an interval after it, over the

@@ -16,7 +16,7 @@ use occupant_core::model::{Model, frames};
 use occupant_core::motion::dual::Dual;
 use occupant_core::motion::frame::Frames;
 use occupant_core::motion::frame::{Moving, VEHICLE};
-use occupant_core::motion::state::{NUMBERS, State};
+use occupant_core::motion::state::State;
 use occupant_core::vehicle::{PathCursor, VehiclePath};
 
 /// Step of the differences as a part of the parameter's size.
@@ -26,13 +26,15 @@ const ROUGH: f64 = 1e-2;
 /// A number below this is compared with this: it may be a trace of rounding.
 const SMALL: f64 = 1e-6;
 /// Numbers of the motion of a frame.
-const MOTION: usize = 18;
+const MOTION: usize = 24;
+/// Those of them that all forces depend on; the rest are accelerations, which may jump.
+const PLACE_AND_SPEED: usize = 18;
 
 /// How the numbers of a model change with a parameter.
 #[derive(Clone, Debug)]
 pub struct Built {
     system: Vec<f64>,
-    state: [f64; NUMBERS],
+    state: Vec<f64>,
     history: Vec<f64>,
     path: Option<Path>,
     /// Greatest distance of two extrapolations, as a part of the number or of its change.
@@ -70,7 +72,7 @@ impl Built {
             slopes.iter().map(|s| s.value).collect::<Vec<f64>>()
         };
         let system = slopes(&|m| system_numbers(m.system()));
-        let state = slopes(&|m| m.start().state.to_numbers().to_vec()).try_into().unwrap_or([0.0; NUMBERS]);
+        let state = slopes(&|m| m.start().state.numbers().to_vec());
         let history = slopes(&|m| remembered(&m.start().history.memory));
         let mut notes = Vec::new();
         if let Some(reason) = &family.one_sided {
@@ -126,14 +128,14 @@ impl Path {
         let mut values = [[0.0; MOTION]; POINTS];
         let paths = self.paths.iter().zip(&mut self.cursors);
         for (values, (path, cursor)) in values.iter_mut().zip(paths) {
-            *values = motion_numbers(&frames(&path.motion(t_s, middle_s, cursor))[VEHICLE]);
+            *values = motion_numbers(&frames(t_s, &path.motion(t_s, middle_s, cursor))[VEHICLE]);
         }
         let count = self.paths.len();
         from_fn(|i| {
             let column: [f64; POINTS] = from_fn(|point| values[point][i]);
             let slope = self.ladder.slope(at_base[i], &column[..count]);
             let doubt = slope.doubt * self.size / (slope.value * self.size).abs().max(1.0);
-            if doubt > self.doubt.0 {
+            if i < PLACE_AND_SPEED && doubt > self.doubt.0 {
                 self.doubt = (doubt, t_s);
             }
             slope.value
@@ -193,10 +195,9 @@ pub(super) fn dual_state<const N: usize>(model: &Model, built: &[Built]) -> Stat
     let start = &model.start().state;
     let mut dual = start.zip(start, |x, _| Dual::new(x, [0.0; N]));
     for (k, built) in built.iter().enumerate().take(N) {
-        dual = dual.zip(&State::from_numbers(&built.state), |mut x, slope| {
-            x.slopes[k] = slope;
-            x
-        });
+        for (x, slope) in dual.numbers_mut().iter_mut().zip(&built.state) {
+            x.slopes[k] = *slope;
+        }
     }
     dual
 }
@@ -220,7 +221,7 @@ pub(super) fn dual_frames<const N: usize>(
     middle_s: f64,
 ) -> Frames<Dual<N>> {
     let still = |x: f64, _: f64| Dual::new(x, [0.0; N]);
-    let mut dual = plain.map(|frame| frame.zip(&frame, &still));
+    let mut dual = plain.zip(plain, &still);
     let numbers = motion_numbers(&plain[VEHICLE]);
     for (k, built) in built.iter_mut().enumerate().take(N) {
         let Some(path) = &mut built.path else { continue };

@@ -16,7 +16,7 @@ use crash_measures::nearest::nearest;
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, Series, matches};
 use occupant_core::results::checkpoint::{Checkpoint, Progress};
-use occupant_core::results::energy::EnergyStart;
+use occupant_core::results::energy::{EnergyStart, Greatest};
 use occupant_core::results::recorder::{Recorder, Watch};
 use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::run::simulate::replay;
@@ -151,7 +151,7 @@ fn values(
     }
     let mut outcome = trajectory.outcome.clone();
     if let Some(progress) = progress {
-        outcome.greatest_kinetic_j = progress.greatest_kinetic_j;
+        outcome.energy.greatest_kinetic_j = progress.greatest.kinetic_j;
     }
     recorder.end(&outcome)?;
     let (summarizer, series) = recorder;
@@ -164,8 +164,7 @@ fn values(
 fn from_the_start(model: &Model, checkpoint: &Checkpoint) -> Result<Progress, Trouble> {
     let mut first = checkpoint.clone();
     first.progress.energy_start = EnergyStart::default();
-    first.progress.greatest_kinetic_j = 0.0;
-    first.progress.greatest_imbalance_j = 0.0;
+    first.progress.greatest = Greatest::default();
     let mut start = EnergyStart::default();
     let mut watch = Watch(|sample: &occupant_core::results::sample::Sample<'_>| start = sample.energy.as_start());
     replay(model, &first, &mut watch).map_err(|e| Trouble::Output(e.to_string()))?;

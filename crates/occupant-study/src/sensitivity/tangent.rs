@@ -55,7 +55,7 @@ impl<'a, const N: usize> Tangent<'a, N> {
             step: Step { start_s: time_s, end_s: time_s },
             from: state,
             to: state,
-            rates: [State::zero(); 2],
+            rates: [State::zero(state.shape()); 2],
             rate_is_known: false,
             before: history.clone(),
             after: history.clone(),

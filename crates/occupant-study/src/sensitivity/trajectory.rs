@@ -8,8 +8,9 @@ use super::trouble::Trouble;
 use occupant_core::forces::Memory;
 use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
-use occupant_core::motion::dual::Dual;
-use occupant_core::motion::state::{NUMBERS, State};
+use occupant_core::motion::state::Shape;
+#[cfg(doc)]
+use occupant_core::motion::state::State;
 use occupant_core::results::checkpoint::Checkpoint;
 use occupant_core::results::outcome::{Outcome, Status};
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
@@ -35,12 +36,13 @@ pub struct Trajectory {
     pub dropped_events: u64,
     /// By parameter, then by output.
     slopes: Vec<Vec<Displacement>>,
+    shape: Shape,
 }
 
 /// How an output changes with a parameter, per unit.
 #[derive(Clone, Debug)]
 struct Displacement {
-    state: [f64; NUMBERS],
+    state: Vec<f64>,
     /// Remembered numbers that change, by their place in the order of [`Memory::each`].
     memory: Vec<(u32, f64)>,
 }
@@ -105,7 +107,8 @@ fn pass<const N: usize>(model: &Model, built: &mut [Built]) -> Result<Trajectory
     }
     let outcome = run.end(Status::Completed, &mut keeper).map_err(|e| failed(&e))?;
     let (events, dropped_events) = lookout.events(count);
-    Ok(Trajectory { checkpoints: keeper.0, outcome, events, dropped_events, slopes })
+    let shape = model.start().state.shape();
+    Ok(Trajectory { checkpoints: keeper.0, outcome, events, dropped_events, slopes, shape })
 }
 
 /// Room for the steps between two outputs.
@@ -119,33 +122,28 @@ fn steps_to_an_output(model: &Model) -> usize {
 
 /// Whether the values of the run in duals are, to the bit, those of the plain run.
 fn compare<const N: usize>(tangent: &Tangent<'_, N>, run: &Run) -> Result<(), Trouble> {
-    let values = values(&tangent.state).to_numbers();
-    let plain = run.state.to_numbers();
-    let state = values.iter().zip(&plain).all(|(a, b)| a.to_bits() == b.to_bits());
+    let values = tangent.state.numbers().iter().map(|x| x.value);
+    let state = values.zip(run.state.numbers()).all(|(a, b)| a.to_bits() == b.to_bits());
     let mut memory = true;
     let mut plain = run.history.memory.clone();
     tangent.history.memory.clone().each(&mut plain, &mut |a, b| memory &= a.value.to_bits() == b.to_bits());
     if state && memory { Ok(()) } else { Err(Trouble::Apart { time_s: run.time_s }) }
 }
 
-fn values<const N: usize>(state: &State<Dual<N>>) -> State<f64> {
-    state.zip(state, |x, _| x.value)
-}
-
 impl Displacement {
     /// Direction `k` of a run in duals at an output.
     fn of<const N: usize>(tangent: &Tangent<'_, N>, k: usize) -> Self {
-        let state = tangent.state.zip(&tangent.state, |x, _| x.slopes[k]);
+        let state = tangent.state.numbers().iter().map(|x| x.slopes[k]).collect();
         let mut slopes = Vec::new();
         tangent.history.memory.map(&mut |x| slopes.push(x.slopes[k]));
         let memory = (0..).zip(slopes).filter(|(_, slope)| *slope != 0.0);
-        Displacement { state: state.to_numbers(), memory: memory.collect() }
+        Displacement { state, memory: memory.collect() }
     }
 }
 
 impl Trajectory {
-    /// Derivatives of the state by parameter `k` at an output, in the order of [`State::to_numbers`].
-    pub fn state_slopes(&self, k: usize, output: usize) -> &[f64; NUMBERS] {
+    /// Derivatives of the state by parameter `k` at an output, in the order of [`State::numbers`].
+    pub fn state_slopes(&self, k: usize, output: usize) -> &[f64] {
         &self.slopes[k][output].state
     }
 
@@ -153,12 +151,11 @@ impl Trajectory {
     /// derivative is too large for a number.
     pub fn reach(&self, k: usize) -> f64 {
         // places, quaternions and hinges come first, then speeds, then work sums, which move nothing
-        const PLACES: usize = 39;
-        const SPEEDS: usize = 70;
+        let (places, moving) = (self.shape.places(), self.shape.moving());
         let outputs = self.slopes[k].iter();
         let greatest = outputs.flat_map(|d| {
-            let scaled = |(i, x): (usize, &f64)| if i < PLACES { x.abs() } else { 0.1 * x.abs() };
-            d.state[..SPEEDS].iter().enumerate().map(scaled)
+            let scaled = |(i, x): (usize, &f64)| if i < places { x.abs() } else { 0.1 * x.abs() };
+            d.state[..moving].iter().enumerate().map(scaled)
         });
         let worse = |a: f64, b: f64| {
             if b.is_finite() { a.max(b) } else { f64::INFINITY }
@@ -170,11 +167,9 @@ impl Trajectory {
     pub(super) fn displaced(&self, k: usize, output: usize, by: f64) -> Checkpoint {
         let mut checkpoint = self.checkpoints[output].clone();
         let slopes = &self.slopes[k][output];
-        let mut numbers = checkpoint.state.to_numbers();
-        for (x, slope) in numbers.iter_mut().zip(&slopes.state) {
+        for (x, slope) in checkpoint.state.iter_mut().zip(&slopes.state) {
             *x += by * slope;
         }
-        checkpoint.state = State::from_numbers(&numbers);
         let mut changing = slopes.memory.iter().peekable();
         let mut place = 0;
         checkpoint.memory = checkpoint.memory.map(&mut |x| {

@@ -80,7 +80,8 @@ function measureRow(key, runs, clock) {
 
 function measureCells(m, clock) {
   if (!m) return ["–", "–", "–", "–"].map((text) => element("td", {}, text));
-  const value = m.value === null ? "–" : `${figures(m.value)} ${m.unit}`;
+  const mark = m.is_marked ? " !" : "";
+  const value = m.value === null ? "–" : `${figures(m.value)} ${m.unit}${mark}`;
   const limit = m.limit === null ? "–" : `≤ ${figures(m.limit)} ${m.unit}`;
   const verdict = m.verdict ?? "–";
   return [

@@ -72,7 +72,7 @@ fn path_of(args: &Args, name: &str, extension: &str, wanted: &Preparation) -> Re
     Subject::path(name, model.setup(), interval_s).ok_or_else(|| {
         Failure::with_help(
             format!("the path of {name} cannot be sampled every {interval_s} s"),
-            "give an interval that the run has at least one and at most ten million of",
+            "give an interval that the run has at least one and at most 1.5 million of",
         )
     })
 }

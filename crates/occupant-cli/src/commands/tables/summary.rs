@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use occupant_core::results::energy::EnergyCheck;
 use occupant_core::results::summary::{
     Acceleration, Caveat, ContactBegin, FirstContact, Level, Peak, RunStatus, Summary, word,
 };
@@ -93,7 +94,7 @@ fn acceleration(name: &str, part: &Acceleration, marks: &Marks) -> [String; 6] {
         mark("peak", number(part.peak_g, 1)),
         mark("peak_time", ms(part.peak_time_s)),
         mark("three_ms_contiguous", level(held)),
-        held.map_or(NONE.to_owned(), |l| format!("{}–{}", ms(l.from_s), ms(l.to_s))),
+        mark("three_ms_contiguous", held.map_or(NONE.to_owned(), |l| format!("{}–{}", ms(l.from_s), ms(l.to_s)))),
         mark("three_ms_cumulative", level(total)),
     ]
 }
@@ -126,10 +127,11 @@ fn rows_of(summary: &Summary, first: &FirstContact, marks: &Marks) -> Vec<[Strin
     let own = summary.contacts.iter().filter(|c| c.part == first.sphere);
     let mut touches: Vec<[String; 4]> = own.map(touch).collect();
     let is_first = |t: &&[String; 4]| Some(&t[1]) == first.contact.as_ref().map(|c| ms(c.time_s)).as_ref();
-    let at = touches.iter().position(|t| is_first(&t));
-    if let Some([_, texts @ ..]) = at.and_then(|i| touches.get_mut(i)) {
+    let arrival = touches.iter().position(|t| is_first(&t));
+    for (i, [_, texts @ ..]) in touches.iter_mut().enumerate() {
         for (text, figure) in texts.iter_mut().zip(["first_time", "first_speed", "first_closing"]) {
-            *text = mark(figure, std::mem::take(text));
+            // later touches are no figures of a study, but as good or bad as the first
+            *text = mark(if arrival == Some(i) { figure } else { "touch" }, std::mem::take(text));
         }
     }
     if touches.is_empty() {
@@ -158,13 +160,10 @@ fn touch(contact: &ContactBegin) -> [String; 4] {
 fn trust(summary: &Summary, written: &Written, marks: &Marks) -> String {
     let mut lines = Vec::new();
     if let Some(e) = &summary.head_excursion {
-        let mm = |way: &str, peak: Peak| {
-            let text = format!("{way} {} mm", number(peak.value * 1e3, 0));
-            let marked = marks.put(&format!("head_excursion.{way}"), text);
-            marked.trim_end().to_owned()
-        };
+        let mark = |figure: &str, text| marks.put(&format!("head_excursion.{figure}"), text).trim_end().to_owned();
+        let mm = |way: &str, peak: Peak| mark(way, format!("{way} {} mm", number(peak.value * 1e3, 0)));
         let ways = [
-            format!("{} at {} ms", mm("forward", e.forward), ms(e.forward.time_s)),
+            format!("{} at {}", mm("forward", e.forward), mark("forward_time", format!("{} ms", ms(e.forward.time_s)))),
             mm("up", e.up),
             mm("down", e.down),
             mm("left", e.left),
@@ -172,12 +171,10 @@ fn trust(summary: &Summary, written: &Written, marks: &Marks) -> String {
         ];
         lines.push(("head excursion", ways.join(", ")));
     }
-    let error = match summary.energy.balance_error {
-        error if error.is_nan() => "not known".to_owned(),
-        error => format!("error {error:.1e}"),
-    };
-    let kinetic_j = number(summary.energy.greatest_kinetic_j, 0);
-    lines.push(("energy balance", format!("{error} of the greatest kinetic energy in the vehicle, {kinetic_j} J")));
+    let EnergyCheck { balance_error, reference, reference_j, .. } = summary.energy;
+    let error = if balance_error.is_finite() { format!("error {balance_error:.1e}") } else { "not known".to_owned() };
+    let error = marks.put("energy.balance_error", error);
+    lines.push(("energy balance", format!("{} of the {reference}, {reference_j:.0} J", error.trim_end())));
     lines.push(("integration", integration(summary)));
     match written {
         Written::Nothing => {}

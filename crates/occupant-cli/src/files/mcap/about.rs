@@ -91,8 +91,9 @@ pub(crate) fn result(outcome: &Outcome, outputs: u64) -> Metadata {
         ("steps", outcome.effort.steps.to_string()),
         ("rejected", outcome.effort.rejected.to_string()),
         ("evaluations", outcome.effort.evaluations.to_string()),
-        ("greatest_kinetic_j", outcome.greatest_kinetic_j.to_string()),
-        ("balance_error", outcome.balance_error.to_string()),
+        ("greatest_kinetic_j", outcome.energy.greatest_kinetic_j.to_string()),
+        ("balance_error", outcome.energy.balance_error.to_string()),
+        ("balance_reference", format!("{}, {} J", outcome.energy.reference, outcome.energy.reference_j)),
     ];
     Metadata { name: RESULT.to_owned(), metadata: entries.map(|(k, v)| (k.to_owned(), v)).into() }
 }

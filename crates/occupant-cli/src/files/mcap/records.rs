@@ -40,18 +40,18 @@ impl<'a> Frame<'a> {
         (opcode != 0).then_some(Frame { opcode, body, next: bytes.len() - fields.0.len() })
     }
 
-    /// What it says.
+    /// What it says; `room` is how many bytes compressed chunks may still make.
     ///
     /// # Errors
     /// What is wrong with it.
-    pub(super) fn record(self) -> Result<Record<'a>, &'static str> {
+    pub(super) fn record(self, room: &mut u64) -> Result<Record<'a>, &'static str> {
         let fields = Fields(self.body);
         match self.opcode {
             op::CHANNEL => fields.channel().ok_or("a channel whose lengths do not fit"),
             op::MESSAGE => fields.message().ok_or("a message that is too short"),
             op::METADATA => fields.metadata().ok_or("a metadata record whose lengths do not fit"),
             op::ATTACHMENT => fields.attachment(self.body),
-            op::CHUNK => fields.chunk(),
+            op::CHUNK => fields.chunk(room),
             _ => Ok(Record::Other),
         }
     }
@@ -91,7 +91,7 @@ impl Index {
                 _ => None,
             };
             index.landmarks.extend(place.and_then(|at| usize::try_from(at).ok()));
-            if let (op::CHANNEL, Ok(Record::Channel { id, topic })) = (frame.opcode, frame.record()) {
+            if let (op::CHANNEL, Ok(Record::Channel { id, topic })) = (frame.opcode, frame.record(&mut 0)) {
                 index.channels.push((id, topic));
             }
             at = frame.next;
@@ -168,7 +168,7 @@ impl<'a> Fields<'a> {
         Ok(Record::Attachment { name, data })
     }
 
-    fn chunk(mut self) -> Result<Record<'a>, &'static str> {
+    fn chunk(mut self, room: &mut u64) -> Result<Record<'a>, &'static str> {
         let mut lengths = || {
             let _times: [u8; 16] = self.array()?;
             let (size, checksum) = (self.number()?, self.array().map(u32::from_le_bytes)?);
@@ -179,7 +179,7 @@ impl<'a> Fields<'a> {
         let (size, checksum, compression, packed) = lengths().ok_or("a chunk whose lengths do not fit")?;
         let content = match compression {
             b"" => Cow::Borrowed(packed),
-            b"lz4" => Cow::Owned(unpacked(packed, size)?),
+            b"lz4" => Cow::Owned(unpacked(packed, size, room)?),
             _ => return Err("a chunk that is compressed in a way that this program does not read"),
         };
         if content.len() as u64 != size {
@@ -192,13 +192,14 @@ impl<'a> Fields<'a> {
     }
 }
 
-fn unpacked(packed: &[u8], size: u64) -> Result<Vec<u8>, &'static str> {
+fn unpacked(packed: &[u8], size: u64, room: &mut u64) -> Result<Vec<u8>, &'static str> {
     if size > LARGEST_CHUNK {
         return Err("a chunk of more than 256 MiB");
     }
     if size > LARGEST_RATIO.saturating_mul(packed.len() as u64) {
         return Err("a chunk that announces more bytes than it can hold");
     }
+    *room = room.checked_sub(size).ok_or("a chunk that makes more bytes than a file of its size holds")?;
     let mut content = Vec::with_capacity(size as usize);
     let read = lz4::Decoder::new(packed).and_then(|decoder| decoder.take(size + 1).read_to_end(&mut content));
     read.map(|_| content).map_err(|_| "a chunk that cannot be unpacked")

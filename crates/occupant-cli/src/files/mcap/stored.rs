@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use mcap::records::op;
 use occupant_core::results::checkpoint::Checkpoint;
+use occupant_core::results::summary::RunStatus;
 
 use super::about::{RESULT, RUN};
 use super::checkpoint::{self, TOPIC};
@@ -26,11 +27,16 @@ pub struct StoredRun {
     end: Option<usize>,
     /// Bytes that checkpoints may still take.
     room: usize,
+    /// Bytes that compressed chunks may still make.
+    pub(super) unpacked: u64,
 }
 
 /// Bytes that the checkpoints of a small file may take; one of a large file may take so many times its own.
 const MOST_OF_CHECKPOINTS: usize = 256 << 20;
 const MOST_TIMES_FILE: usize = 8;
+/// Bytes that the chunks of a small file may make; those of a large file may make so many times its own. Ours make 2 to 5.
+const MOST_UNPACKED: u64 = 256 << 20;
+const MOST_TIMES_PACKED: u64 = 32;
 
 /// How reading ends early.
 enum Refused {
@@ -57,7 +63,8 @@ impl StoredRun {
             return Err("it is not an MCAP file".to_owned());
         }
         let room = MOST_OF_CHECKPOINTS.max(bytes.len().saturating_mul(MOST_TIMES_FILE));
-        let mut stored = StoredRun { room, ..StoredRun::default() };
+        let unpacked = MOST_UNPACKED.max((bytes.len() as u64).saturating_mul(MOST_TIMES_PACKED));
+        let mut stored = StoredRun { room, unpacked, ..StoredRun::default() };
         let index = Index::of(bytes);
         let mut wanted = index.channels.iter().find(|(_, topic)| topic == TOPIC).map(|(id, _)| *id);
         let mut at = mcap::MAGIC.len();
@@ -96,7 +103,7 @@ impl StoredRun {
 
     /// Takes what counts from a record; `wanted` is the channel of checkpoints.
     fn take(&mut self, frame: Frame<'_>, wanted: &mut Option<u16>) -> Result<(), Refused> {
-        match frame.record()? {
+        match frame.record(&mut self.unpacked)? {
             Record::Chunk(content) => {
                 let before = self.checkpoints.len();
                 let taken = self.take_all(&content, wanted);
@@ -164,6 +171,19 @@ impl StoredRun {
         let gaps: Vec<String> = self.gaps().iter().map(name).collect();
         let found = self.damage.map_or_else(|| "damaged".to_owned(), damaged_at);
         (!gaps.is_empty()).then(|| format!("{found}; outputs {} are missing", gaps.join(", ")))
+    }
+
+    /// How the run ended, and why where it did not complete; one that was cut off, or of which outputs are lost, counts as
+    /// interrupted.
+    pub(crate) fn ending(&self) -> (RunStatus, Option<String>) {
+        let said = |key| self.result.as_ref()?.get(key).cloned();
+        let lost = self.lost();
+        let status = match said("status").as_deref() {
+            Some("completed") if lost.is_none() => return (RunStatus::Completed, None),
+            Some("failed") if lost.is_none() => RunStatus::Failed,
+            _ => RunStatus::Interrupted,
+        };
+        (status, lost.or_else(|| said("reason")).or_else(|| Some("it was cut off".to_owned())))
     }
 
     /// What is wrong with the file; none for one that is whole or was cut off.

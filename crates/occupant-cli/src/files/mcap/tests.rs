@@ -25,7 +25,7 @@ fn mutations() -> u64 {
 /// Bytes of a run with outputs every 0.1 ms, 50 in a chunk.
 fn recorded(folder: &Path, end: &str) -> Vec<u8> {
     let scenario = folder.join("case.toml");
-    fs::write(&scenario, include_str!("../../commands/starter.toml")).unwrap();
+    fs::write(&scenario, include_str!("../../../tests/case.toml")).unwrap();
     let overrides = vec![format!("time.end={end}"), "output.interval='0.1 ms'".to_owned()];
     let args = ScenarioArgs { scenario, overrides };
     let opened = scenario::open(&args).unwrap();
@@ -41,7 +41,7 @@ fn bare(bytes: &[u8]) -> Vec<u8> {
     let mut at = bare.len();
     while let Some(frame) = Frame::at(bytes, at) {
         let whole = &bytes[at..frame.next];
-        match frame.record().unwrap() {
+        match frame.record(&mut u64::MAX.clone()).unwrap() {
             Record::Chunk(content) => bare.extend_from_slice(&content),
             Record::Attachment { .. } => {
                 bare.extend_from_slice(&whole[..whole.len() - 4]);
@@ -217,4 +217,26 @@ fn chunks_that_announce_too_much_are_not_unpacked() {
     assert!(said(u64::MAX).contains("at byte 8: a chunk of more than 256 MiB"), "{}", said(u64::MAX));
     assert!(said(1 << 20).contains("announces more bytes than it can hold"), "{}", said(1 << 20));
     assert!(said(1 << 10).contains("cannot be unpacked"), "{}", said(1 << 10));
+}
+
+#[test]
+fn chunks_of_a_small_file_make_a_quarter_of_a_gigabyte_at_most() {
+    use std::io::Write;
+    let mut packer = lz4::EncoderBuilder::new().build(Vec::new()).unwrap();
+    packer.write_all(&vec![0; 100 << 20]).unwrap();
+    let packed = packer.finish().0;
+    let body = [&[0; 16][..], &(100_u64 << 20).to_le_bytes(), &[0; 4], &3_u32.to_le_bytes(), b"lz4"].concat();
+    let body = [&body[..], &(packed.len() as u64).to_le_bytes(), &packed].concat();
+    let chunk = [&[op::CHUNK][..], &(body.len() as u64).to_le_bytes(), &body].concat();
+    let said = |chunks: usize| {
+        let file = [mcap::MAGIC, &chunk.repeat(chunks)].concat();
+        StoredRun::read(&file).unwrap().because()
+    };
+    // zeros are no records, but that is seen only behind the unpacking
+    assert!(said(2).contains("not whole"), "{}", said(2));
+    let third = format!("at byte {}: a chunk that makes more bytes", 8 + 2 * chunk.len());
+    assert!(!said(2).contains("more bytes than a file"));
+    let file = [mcap::MAGIC, &chunk.repeat(3)].concat();
+    let stored = StoredRun::read(&file).unwrap();
+    assert!(stored.unpacked < 100 << 20 && stored.checkpoints.is_empty(), "{third}");
 }

@@ -1,4 +1,4 @@
-//! `/tf`: space → vehicle → the twelve segments. Every message holds every frame, because a viewer that jumps in time
+//! `/tf`: space → vehicle → the segments. Every message holds every frame, because a viewer that jumps in time
 //! reads only the last one.
 
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};

@@ -105,7 +105,7 @@ pub(crate) fn place_of(model: &Model, channel: &Channel) -> Option<Place> {
     let (segment, marks) = (segment?, model.body().tree.landmarks());
     let webbing = match segment {
         _ if segment == marks.pelvis => Some("B6"),
-        _ if [marks.chest, marks.middle].contains(&segment) => Some("B3"),
+        _ if model.body().tree.is_trunk(segment) => Some("B3"),
         _ => return None,
     };
     let place = Place { location: "SEBE0000", webbing, dimension: "FO", direction: '0', of_vehicle: false, sign: 1.0 };

@@ -12,8 +12,10 @@ use crate::base::Failure;
 use crate::files::history;
 use crate::files::table::{Cell, Kind, columns};
 
-/// Memory that histories may take.
-const MOST_BYTES: usize = 1 << 30;
+/// Memory that histories and bands may take: with all else below one GB.
+const MOST_BYTES: usize = 1 << 29;
+/// Curves of a band.
+const CURVES: usize = 6;
 
 /// The bands of an ensemble; in JSON without their values.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -58,17 +60,18 @@ pub(crate) fn choose(model: &Model, names: &[String]) -> Result<Vec<Channel>, Fa
 /// Refuses histories that would not fit into memory.
 ///
 /// # Errors
-/// More than one GiB.
+/// More than half a GiB.
 pub(crate) fn refuse_too_much(members: u64, channels: usize, outputs: usize) -> Result<(), Failure> {
     let members = usize::try_from(members).unwrap_or(usize::MAX);
-    let bytes = members.saturating_mul(channels).saturating_mul(outputs).saturating_mul(size_of::<f64>());
+    let curves = members.saturating_add(CURVES).saturating_mul(channels);
+    let bytes = curves.saturating_mul(outputs).saturating_mul(size_of::<f64>());
     if bytes <= MOST_BYTES {
         return Ok(());
     }
     Err(Failure::with_help(
         format!(
-            "bands of {channels} channels over {outputs} outputs of {members} members need {:.1} GiB, more than the 1 GiB allowed",
-            bytes as f64 / MOST_BYTES as f64
+            "bands of {channels} channels over {outputs} outputs of {members} members need {:.1} GiB, more than the half GiB allowed",
+            bytes as f64 / f64::from(1 << 30)
         ),
         "ask for fewer --channels or members, or set a longer output.interval",
     ))

@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
+use occupant_core::body::tti12::TTI12;
 use occupant_core::forces::contact::PairHistory;
 use occupant_core::model::Model;
+use occupant_core::results::summary::RunStatus;
 use occupant_core::scenario::Loaded;
 
 use cardio_legacy::{CompartmentLayout, passed_pairs};
@@ -51,6 +53,15 @@ impl Case {
             return Err(refused(found));
         }
         let (loaded, model, warnings) = stored(path, &file)?;
+        if *model.body().tree != TTI12 {
+            let count = model.body().segments.len();
+            return Err(Failure::with_help(
+                format!(
+                    "{name} cannot be printed: its body has {count} segments, the report's pages have lines for 12"
+                ),
+                "`occupant report`, `export` and `plot` show a run of any body",
+            ));
+        }
         file.checkpoints.iter().try_for_each(|c| c.check(&model)).map_err(|e| refused(e.to_string()))?;
         let report = report_numbers(&model);
         let in_order = || (1..=model.setup().surface_names().count()).collect();
@@ -89,8 +100,7 @@ impl Case {
 
     /// Whether the run reached its end.
     pub(crate) fn is_complete(&self) -> bool {
-        let status = self.file.result.as_ref().and_then(|r| r.get("status"));
-        status.is_some_and(|s| s == "completed") && self.file.lost().is_none()
+        self.file.ending().0 == RunStatus::Completed
     }
 
     /// A surface by its number and name.

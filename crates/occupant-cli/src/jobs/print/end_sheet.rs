@@ -3,7 +3,6 @@
 
 use occupant_core::body::tti12::{LOWER_BACK, UPPER_BACK};
 use occupant_core::motion::kinematics::Kinematics;
-use occupant_core::motion::layout::BALL_JOINTS;
 use occupant_core::motion::report_coordinates::ReportCoordinates;
 use occupant_core::results::checkpoint::Checkpoint;
 use occupant_core::results::summary::Caveat;
@@ -36,14 +35,17 @@ fn ending(pages: &mut Pages, case: &Case) {
         return;
     };
     let known = |key: &str| result.get(key).map_or("-", String::as_str);
-    let imbalance = known("balance_error").parse().unwrap_or(f64::NAN);
+    let imbalance: f64 = known("balance_error").parse().unwrap_or(f64::NAN);
+    // files of 0.1.0 do not say it
+    let reference = result.get("balance_reference").map_or("greatest kinetic energy", |words| words);
     match known("status") {
         "completed" => pages.say("THE RUN REACHED ITS END TIME"),
         status => pages.say(&format!("*** PARTIAL: THE RUN WAS NOT COMPLETED ({status}): {} ***", known("reason"))),
     }
     pages.say(&reached);
     pages.say(&format!(
-        "GREATEST ENERGY IMBALANCE {imbalance:.2E} OF THE GREATEST KINETIC ENERGY; {} STEPS, {} REJECTED, {} EVALUATIONS",
+        "GREATEST ENERGY IMBALANCE {imbalance:.2E} OF THE {}; {} STEPS, {} REJECTED, {} EVALUATIONS",
+        reference.to_uppercase(),
         known("steps"),
         known("rejected"),
         known("evaluations")
@@ -65,8 +67,10 @@ fn extension(pages: &mut Pages, case: &Case, units: Units, checkpoint: &Checkpoi
         &format!("PAIRS WITH NARRY(J,K) = 0: THE SPHERE HAS PASSED THE SURFACE'S EDGE ({numbers})"),
         &case.passed(&checkpoint.memory.contacts),
     );
-    let q = ReportCoordinates::from_state(&checkpoint.state);
-    coordinates(pages, units, "GENERALIZED COORDINATES AT THE END", &q);
+    if let Ok(state) = Checkpoint::state_of(&case.model, &checkpoint.state) {
+        let q = ReportCoordinates::from_state(&state);
+        coordinates(pages, units, "GENERALIZED COORDINATES AT THE END", &q);
+    }
     pages.say("");
     let [upper, lower] = spine_rest_rad(case);
     pages.say(&format!("REST ANGLES OF THE BACK JOINTS: BETA4 {upper:.6} RAD, BETA7 {lower:.6} RAD"));
@@ -78,7 +82,7 @@ fn spine_rest_rad(case: &Case) -> [f64; 2] {
     let (system, joints) = (case.model.system(), &case.model.setup().joints);
     let start = Kinematics::new(&system.skeleton, &case.model.start().state);
     [UPPER_BACK, LOWER_BACK].map(|joint| {
-        let ball = BALL_JOINTS.iter().position(|ball| *ball == joint);
+        let ball = system.forces.joints.balls.iter().position(|ball| ball.joint == joint);
         let at_start = ball.map_or(f64::NAN, |i| system.forces.joints.beta(i, &start));
         joints[joint].ball().and_then(|data| data.spring?.rest_rad).unwrap_or(at_start)
     })

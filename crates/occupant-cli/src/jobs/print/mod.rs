@@ -93,7 +93,8 @@ fn caveats(case: &Case) -> Result<Vec<Caveat>, String> {
         replay(&case.model, checkpoint, &mut summarizer).map_err(|e| e.to_string())?;
     }
     summarizer.end(&last.outcome(&case.model)).map_err(|e| e.to_string())?;
-    Ok(summarizer.summary(None).map_or_else(Vec::new, |summary| summary.caveats))
+    let (status, reason) = case.file.ending();
+    Ok(summarizer.summary(None).map_or_else(Vec::new, |summary| summary.ended(status, reason).caveats))
 }
 
 /// Numbers of the outputs to print: the first at or after each print time, and the last.

@@ -3,7 +3,7 @@
 use crash_measures::injury;
 use crash_measures::unit::{Shown, Unit};
 use occupant_core::forces::table::{Holds, Table};
-use occupant_core::results::summary::{Caveat, Peak, Summary};
+use occupant_core::results::summary::{Caveat, Peak, Summary, word};
 use serde::Serialize;
 
 /// A row of the table.
@@ -23,40 +23,58 @@ pub(crate) struct Measure {
     verdict: Option<&'static str>,
     /// Why there is no value, or what to know of it.
     remark: Option<String>,
+    /// Whether a caveat touches it.
+    is_marked: bool,
+    /// The name that caveats know it by.
+    #[serde(skip)]
+    figure: String,
 }
 
 impl Measure {
-    fn new(group: &'static str, name: impl Into<String>, value: Option<f64>, unit: Shown, time_s: Option<f64>) -> Self {
-        Measure { group, name: name.into(), value, unit: unit.symbol(), time_s, ..Measure::default() }
+    fn new(group: &'static str, name: impl Into<String>, figure: impl Into<String>, unit: Shown) -> Self {
+        Measure { group, name: name.into(), figure: figure.into(), unit: unit.symbol(), ..Measure::default() }
+    }
+
+    /// With the caveats on it as the first remarks.
+    fn judged(mut self, caveats: &[Caveat]) -> Self {
+        let touching: Vec<_> = caveats.iter().filter(|caveat| caveat.touches(&self.figure)).collect();
+        self.is_marked = !touching.is_empty();
+        let remarks = touching.iter().map(|caveat| caveat.text.as_str()).chain(self.remark.as_deref());
+        let remarks: Vec<_> = remarks.collect();
+        self.remark = (!remarks.is_empty()).then(|| remarks.join("; "));
+        self
     }
 }
 
 /// All rows, group by group.
 pub(crate) fn measures(summary: &Summary) -> Vec<Measure> {
-    let mut rows: Vec<_> = summary.measures.iter().flat_map(|m| injury_rows(m, &summary.caveats)).collect();
+    let mut rows: Vec<_> = summary.measures.iter().flat_map(injury_rows).collect();
     add_loads(&mut rows, summary);
     add_excursion(&mut rows, summary);
     let energy = &summary.energy;
     let group = "Energy balance and work of the integrator";
-    let mut add = |name: &str, value: f64, unit| {
-        rows.push(Measure::new(group, name, Some(value), unit, None));
+    let mut add = |name: &str, figure: &str, value: f64, unit| {
+        rows.push(Measure { value: Some(value), ..Measure::new(group, name, figure, unit) });
     };
     let percent = Unit::One.shown_in("%");
-    add("Greatest imbalance, of the greatest kinetic energy", 100.0 * energy.balance_error, percent);
-    add("Greatest kinetic energy, in the vehicle", energy.greatest_kinetic_j, Unit::Joule.shown());
-    add("Steps", summary.solver.steps as f64, Unit::One.shown());
-    add("Steps rejected", summary.solver.rejected as f64, Unit::One.shown());
-    rows
+    let imbalance = format!("Greatest imbalance, of the {}", energy.reference);
+    add(&imbalance, "energy.balance_error", 100.0 * energy.balance_error, percent);
+    let kinetic = "Greatest kinetic energy, in the vehicle";
+    add(kinetic, "energy.greatest_kinetic", energy.greatest_kinetic_j, Unit::Joule.shown());
+    add("Steps", "solver.steps", summary.solver.steps as f64, Unit::One.shown());
+    add("Steps rejected", "solver.rejected", summary.solver.rejected as f64, Unit::One.shown());
+    rows.into_iter().map(|row| row.judged(&summary.caveats)).collect()
 }
 
 /// A row for each limit of an injury measure, or one without.
-fn injury_rows(m: &injury::Measure, caveats: &[Caveat]) -> Vec<Measure> {
+fn injury_rows(m: &injury::Measure) -> Vec<Measure> {
     let unit = engineering(m.unit);
-    let mut first =
-        Measure::new("Injury measures, unfiltered", m.label, m.value.map(|v| v * unit.per_si()), unit, m.from_s);
-    let touching = caveats.iter().filter(|caveat| caveat.touches(m.name)).map(|caveat| &caveat.text);
-    let remarks: Vec<_> = touching.chain(&m.remark).map(String::as_str).collect();
-    first.remark = (!remarks.is_empty()).then(|| remarks.join("; "));
+    let first = Measure {
+        value: m.value.map(|v| v * unit.per_si()),
+        time_s: m.from_s,
+        remark: m.remark.clone(),
+        ..Measure::new("Injury measures, unfiltered", m.label, m.figure.unwrap_or(m.name), unit)
+    };
     if m.limits.is_empty() {
         return vec![first];
     }
@@ -83,27 +101,32 @@ fn engineering(unit: Unit) -> Shown {
 }
 
 fn add_loads(rows: &mut Vec<Measure>, summary: &Summary) {
-    rows.extend(summary.elements.values().flat_map(element_rows));
-    let spheres = summary.sphere_forces.iter();
-    rows.extend(spheres.map(|s| load(format!("{} against {}", s.sphere, s.surface), Some(s.force_n), Some(s.time_s))));
+    rows.extend(summary.elements.iter().flat_map(|(of, table)| element_rows(of, table)));
+    rows.extend(summary.sphere_forces.iter().map(|s| {
+        let figure = format!("contacts.{}.peak", word(&s.sphere));
+        load(format!("{} against {}", s.sphere, s.surface), figure, Some(s.force_n), Some(s.time_s))
+    }));
 }
 
 /// The row of a force.
-fn load(name: String, force_n: Option<f64>, time_s: Option<f64>) -> Measure {
+fn load(name: String, figure: String, force_n: Option<f64>, time_s: Option<f64>) -> Measure {
     let unit = engineering(Unit::Newton);
-    Measure::new("Loads", name, force_n.map(|force_n| force_n / unit.si), unit, time_s)
+    let value = force_n.map(|force_n| force_n / unit.si);
+    Measure { value, time_s, ..Measure::new("Loads", name, figure, unit) }
 }
 
 /// Peak forces of force elements whose times are known: `Belt lap, loop force`.
-fn element_rows(table: &Table) -> impl Iterator<Item = Measure> {
+fn element_rows(list: &str, table: &Table) -> impl Iterator<Item = Measure> {
     let of = table.columns[0].heading;
     let of = of[..1].to_uppercase() + &of[1..];
     let peaks = table.columns.windows(2).filter(|both| both[1].holds == Holds::Time);
     let all = peaks.flat_map(|peak| table.rows.iter().map(move |row| (peak, row)));
     all.map(move |(peak, row)| {
         let what = peak[0].heading.split(',').next().unwrap_or_default();
-        let name = format!("{of} {}, {what}", row[0].text().unwrap_or_default());
-        load(name, row[peak[0].key].number(), row[peak[1].key].number())
+        let element = row[0].text().unwrap_or_default();
+        let measure = peak[0].measure.map_or(peak[0].key, |(measure, _)| measure);
+        let figure = format!("{list}.{}.{measure}", word(element));
+        load(format!("{of} {element}, {what}"), figure, row[peak[0].key].number(), row[peak[1].key].number())
     })
 }
 
@@ -113,6 +136,8 @@ fn add_excursion(rows: &mut Vec<Measure>, summary: &Summary) {
     };
     for (way, Peak { value, time_s }) in e.ways() {
         let (group, unit) = ("Head excursion in the vehicle", Unit::Metre.shown_in("mm"));
-        rows.push(Measure::new(group, way, Some(value * unit.per_si()), unit, Some(time_s)));
+        let figure = format!("head_excursion.{way}");
+        let (value, time_s) = (Some(value * unit.per_si()), Some(time_s));
+        rows.push(Measure { value, time_s, ..Measure::new(group, way, figure, unit) });
     }
 }

@@ -10,7 +10,7 @@ use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 
 use super::resume::Resumption;
-use crate::base::{Existing, Failure, PartialFile, file_name, partial_path, program, refuse_input};
+use crate::base::{Existing, Failure, PartialFile, file_name, input_file, partial_path, program, refuse_input};
 use crate::files::mcap::about::RESOLVED;
 use crate::files::mcap::{About, Document, McapOptions, McapRecorder};
 use crate::files::scenario::{Opened, ScenarioArgs};
@@ -155,6 +155,11 @@ fn unwritten(partial: &Path, error: &(dyn Error + 'static)) -> Failure {
 fn about(args: &ScenarioArgs, opened: &Opened) -> Result<About, Failure> {
     let resolved = opened.loaded.explicit().to_toml();
     let resolved = resolved.map_err(|e| Failure::plain(format!("the scenario cannot be written down: {e}")))?;
+    // nothing is written that is refused when it is read
+    input_file::scenario_fits(resolved.as_bytes()).map_err(|error| {
+        let found = format!("the scenario with all that it leaves out is too long for a result file: {error}");
+        Failure::with_help(found, "shorten its lists and notes, or use --no-mcap")
+    })?;
     let media_type = match args.scenario.extension() {
         Some(e) if e.eq_ignore_ascii_case("json") => "application/json",
         _ => "application/toml",

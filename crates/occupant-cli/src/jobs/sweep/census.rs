@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use occupant_study::ending::Balance;
+use occupant_core::results::summary::Caveat;
 
 use crate::files::study_folder::{Manifest, Row, Status};
-use crate::files::table::Cell;
 
 /// So many different reasons are remembered.
 const REASONS: usize = 12;
@@ -25,7 +24,7 @@ pub(crate) struct Census {
     pub(crate) refused: u64,
     /// Runs on which the program broke off.
     pub(crate) broken: u64,
-    /// Completed runs with an energy balance that is off by more than 10 %: their figures count for nothing.
+    /// Completed runs whose energy balance is lost: their figures count for nothing.
     pub(crate) doubtful: u64,
     /// The first runs that did not complete, and why.
     pub(crate) first: Vec<(u64, String)>,
@@ -35,14 +34,11 @@ pub(crate) struct Census {
     pub(crate) caveats: BTreeMap<String, (u64, u64)>,
     /// Runs with other reasons still.
     pub(crate) other_reasons: u64,
-    /// Column of the energy balance.
-    balance: Option<usize>,
 }
 
 impl Census {
     pub(crate) fn new(manifest: &Manifest) -> Self {
-        let balance = manifest.figure("energy.balance_error");
-        Census { planned: manifest.samples, balance, ..Census::default() }
+        Census { planned: manifest.samples, ..Census::default() }
     }
 
     /// Runs that have ended, however.
@@ -67,13 +63,12 @@ impl Census {
             self.remember(row);
             return false;
         }
+        let mut counts = true;
         for caveat in row.caveats() {
+            counts &= caveat.name != Caveat::BALANCE_LOST;
             let (count, first) = self.caveats.entry(caveat.name).or_insert((0, row.index));
             (*count, *first) = (*count + 1, row.index.min(*first));
         }
-        let error = |at: usize| row.cells.get(at).and_then(Cell::number);
-        let balanced = |at: usize| error(at).is_some_and(|error| Balance::of(error) != Balance::Lost);
-        let counts = self.balance.is_none_or(balanced);
         self.doubtful += u64::from(!counts);
         counts
     }

@@ -7,7 +7,7 @@
 mod snapshot;
 
 use nalgebra::Vector3;
-use occupant_core::body::{Body, Segment, SegmentProperties};
+use occupant_core::body::{Body, Limb, Pair, Segment, SegmentProperties};
 
 pub(crate) use snapshot::{PATCH_M, Snapshot};
 
@@ -51,11 +51,11 @@ pub(crate) fn parts(body: &Body) -> Vec<Part> {
         let ends = match segment {
             _ if segment == marks.head => head(body, segment),
             _ if segment == marks.chest => upper_torso(body, segment),
-            _ if segment == marks.middle => vec![trunk(body, segment)],
             _ if segment == marks.pelvis => lower_torso(body, segment),
+            _ if body.tree.is_trunk(segment) => vec![trunk(body, segment)],
             _ => limb(body, segment),
         };
-        let tone = Tone::of(marks, segment);
+        let tone = Tone::of(body.tree, segment);
         ends.into_iter().map(move |ends| Part { segment, tone, ends })
     };
     body.tree.segments().flat_map(of_segment).collect()
@@ -69,8 +69,7 @@ fn head(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
         Some(sphere) => (sphere_centre_m(body, sphere), sphere.radius_m),
         None => {
             let radius = mean_radius(p).min(0.5 * p.length_m);
-            let height = p.length_m - radius - p.cg_from_lower_end_m;
-            (Vector3::z() * height, radius)
+            (Vector3::z() * (p.length_m - radius) - p.cg_m(), radius)
         }
     };
     let skull = ball(centre, radius);
@@ -78,7 +77,7 @@ fn head(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
     let bridge = centre + Vector3::new(0.8 * radius, 0.0, 0.1 * radius);
     let nose = centre + Vector3::new(radius, 0.0, -0.1 * radius);
     vec![
-        [ball(Vector3::z() * -p.cg_from_lower_end_m, neck), ball(centre, neck)],
+        [ball(body.joint_m(segment) - p.cg_m(), neck), ball(centre, neck)],
         [skull, skull],
         [ball(bridge, NOSE * radius), ball(nose, NOSE * radius)],
     ]
@@ -87,24 +86,28 @@ fn head(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
 /// The chest, the bar that carries the shoulders, and as much of the neck as does not turn with the head.
 fn upper_torso(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
     let p = body.segment(segment);
-    let shoulder = limb_radius(body, body.tree.landmarks().arms.left.upper);
-    let height_m = p.length_m - p.cg_from_lower_end_m;
-    let mut parts = vec![trunk(body, segment), bar(body.shoulder_half_width_m, height_m, shoulder)];
-    if body.neck_height_m > 0.0 {
-        parts.push([0.0, body.neck_height_m].map(|above_m| ball(Vector3::z() * (height_m + above_m), shoulder)));
+    let arms = &body.tree.landmarks().arms;
+    let shoulder = limb_radius(body, arms.left.or(arms.right).map_or(segment, |arm| arm.upper));
+    let mut parts = vec![trunk(body, segment)];
+    parts.extend(bar(body, segment, arms, shoulder));
+    if let Some(above_m) = body.neck_above_m(segment).filter(|above_m| *above_m > 0.0) {
+        let upper = Vector3::z() * p.length_m - p.cg_m();
+        parts.push([0.0, above_m].map(|above_m| ball(upper + Vector3::z() * above_m, shoulder)));
     }
     parts
 }
 
 /// The pelvis and the bar that carries the hips.
 fn lower_torso(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
-    let hip = 0.9 * limb_radius(body, body.tree.landmarks().legs.left.upper);
-    vec![trunk(body, segment), bar(body.hip_half_width_m, -body.segment(segment).cg_from_lower_end_m, hip)]
+    let legs = &body.tree.landmarks().legs;
+    let hip = 0.9 * limb_radius(body, legs.left.or(legs.right).map_or(segment, |leg| leg.upper));
+    [trunk(body, segment)].into_iter().chain(bar(body, segment, legs, hip)).collect()
 }
 
-/// A capsule from the left to the right at a height over the centre of gravity.
-fn bar(half_width_m: f64, height_m: f64, radius_m: f64) -> [Lump; 2] {
-    [half_width_m, -half_width_m].map(|y| ball(Vector3::new(0.0, y, height_m), radius_m))
+/// A capsule from the joint of the left limb to that of the right one.
+fn bar(body: &Body, segment: Segment, limbs: &Pair<Option<Limb>>, radius_m: f64) -> Option<[Lump; 2]> {
+    let cg_m = body.segment(segment).cg_m();
+    Some([limbs.left?, limbs.right?].map(|limb| ball(body.socket_m(limb.upper) - cg_m, radius_m)))
 }
 
 /// The elliptic column of a segment of the trunk, rounded at its ends.
@@ -113,7 +116,7 @@ fn trunk(body: &Body, segment: Segment) -> [Lump; 2] {
     let (a, b) = slim_axes_m(p, SLIM);
     let half = Vector3::new(a, b, 0.25 * p.length_m);
     let lower = -p.cg_from_lower_end_m + half.z;
-    let end = |z: f64| Lump { centre_m: Vector3::z() * z, half_m: half };
+    let end = |z: f64| Lump { centre_m: on_axis(p, z), half_m: half };
     [end(lower), end(lower + 2.0 * half.z)]
 }
 
@@ -131,7 +134,7 @@ fn limb(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
     if last.0 < upper - NEAR_END_M {
         stations.push((upper, last.1));
     }
-    let at = |&(z, r): &(f64, f64)| ball(Vector3::z() * z, r);
+    let at = |&(z, r): &(f64, f64)| ball(on_axis(p, z), r);
     stations.windows(2).map(|two| [at(&two[0]), at(&two[1])]).collect()
 }
 
@@ -154,6 +157,11 @@ fn limb_radius(body: &Body, segment: Segment) -> f64 {
 /// Radius of the cylinder with the segment's mass and I_z.
 fn mean_radius(p: &SegmentProperties) -> f64 {
     (2.0 * p.inertia_kg_m2.z.max(0.0) / p.mass_kg).sqrt()
+}
+
+/// The point of a segment's long axis at a height over the centre of gravity.
+fn on_axis(p: &SegmentProperties, height_m: f64) -> Vector3<f64> {
+    Vector3::new(-p.cg_beside_m.x, -p.cg_beside_m.y, height_m)
 }
 
 fn ball(centre_m: Vector3<f64>, radius_m: f64) -> Lump {

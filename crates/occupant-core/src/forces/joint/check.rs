@@ -2,7 +2,6 @@
 
 use crate::forces::element::Instant;
 use crate::forces::joint::{BallJoint, HingeJoint, JointLaw, JointSystem, Joints, Stop};
-use crate::motion::layout::{BALL_JOINTS, HINGE_JOINTS};
 use placed_text::Problems;
 
 pub(super) fn check(j: &Joints, problems: &mut Problems) {
@@ -86,8 +85,8 @@ const BEYOND_RAD: f64 = 0.2;
 
 /// Joints that begin beyond their stops, in a posture that the body cannot take.
 pub(super) fn start(joints: &Joints, law: &JointSystem<f64>, at: &Instant<'_, f64>, problems: &mut Problems) {
-    let balls = BALL_JOINTS.iter().enumerate().map(|(i, joint)| (*joint, law.beta(i, at.k)));
-    let hinges = HINGE_JOINTS.iter().zip(&at.state.hinge).map(|(joint, angle_rad)| (*joint, *angle_rad));
+    let balls = law.balls.iter().enumerate().map(|(i, ball)| (ball.joint, law.beta(i, at.k)));
+    let hinges = law.hinges.iter().zip(at.state.hinge()).map(|(hinge, angle_rad)| (hinge.joint, *angle_rad));
     for (joint, angle_rad) in balls.chain(hinges) {
         let (lower, upper) = match &joints[joint] {
             JointLaw::Ball(ball) => (None, ball.stop),

@@ -6,6 +6,7 @@ use std::ops::Index;
 
 use crate::body::{Joint, Tree};
 use crate::forces::joint::limit::Limits;
+use crate::forces::joint::muscle::Muscle;
 
 /// Damping that rises towards a limit of travel (Figs 9–11): from the joint's normal damping at `begin_rad` linearly to
 /// `damping_n_m_s` at `full_rad`, constant beyond, and only while the joint moves towards the limit.
@@ -96,8 +97,10 @@ impl JointLaw {
 pub struct Joints {
     tree: &'static Tree,
     laws: Vec<JointLaw>,
-    /// Elastic limits and dry friction, in the tree's order.
+    /// Elastic limits, dry friction and locks, in the tree's order.
     pub(crate) limits: Vec<Limits>,
+    /// Muscles, in the tree's order.
+    pub(crate) muscles: Vec<Muscle>,
     /// ε that keeps β smooth where the two Z axes are parallel; 0 is the report's formula.
     pub epsilon: f64,
 }
@@ -114,7 +117,8 @@ impl Joints {
     /// All ball joints alike, and all hinges.
     pub fn alike(tree: &'static Tree, ball: BallJoint, hinge: HingeJoint) -> Self {
         let law = |joint: Joint| if tree[joint].is_hinge() { hinge.into() } else { ball.into() };
-        Joints { tree, laws: tree.joints().map(law).collect(), limits: Vec::new(), epsilon: Joints::EPSILON }
+        let laws = tree.joints().map(law).collect();
+        Joints { tree, laws, limits: Vec::new(), muscles: Vec::new(), epsilon: Joints::EPSILON }
     }
 
     /// With another law in one joint; one of the other kind changes nothing.

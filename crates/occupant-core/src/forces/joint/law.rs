@@ -1,18 +1,18 @@
 //! Moments in the joints: viscous dampers, stops, springs in β, resistance to twist.
 //!
-//! Report: "The Viscous Damper", "Joint Stops", Figs 9–11. For a ball joint between segments k and l: n = Z_k × Z_l, s = |n|,
-//! ω = ω_l − ω_k. Our decision: β = atan2(√(s² + ε²), Z_k·Z_l), which has no singular posture; then
+//! Report: "The Viscous Damper", "Joint Stops", Figs 9–11. For a ball joint between segments k and l: Z_k and Z_l are the Z
+//! axes of its triads, in the report's body of the segments, n = Z_k × Z_l, s = |n|, ω = ω_l − ω_k. Our decision: β = atan2(√(s² + ε²), Z_k·Z_l), which has no singular posture; then
 //! β̇ = n·ω/√(s² + ε²), exactly.
 
-use std::array::from_fn;
-
 use crate::body::Joint;
-use crate::body::SEGMENTS;
-use crate::forces::joint::{BallJoint, HingeJoint, Joints, Stop};
+use nalgebra::Vector3;
+
+use crate::forces::joint::{Joints, Stop};
 use crate::motion::dynamics::Wrench;
 use crate::motion::kinematics::Kinematics;
-use crate::motion::layout::{BALL_JOINTS, BALLS, HINGE_JOINTS, LIMBS};
+use crate::motion::layout::MOST_SEGMENTS;
 use crate::motion::scalar::Scalar;
+use crate::motion::skeleton::Skeleton;
 use crate::motion::state::State;
 use crate::motion::vector::V3;
 use crash_measures::trig;
@@ -53,6 +53,12 @@ impl<S: Scalar> Limit<S> {
 /// Constants of a ball joint.
 #[derive(Clone, Copy, Debug)]
 pub struct Ball<S> {
+    /// The joint.
+    pub joint: Joint,
+    /// Proximal and distal segment.
+    pub segments: (usize, usize),
+    /// Z of the triads in axes of these segments; none where they are theirs.
+    z: Option<[V3<S>; 2]>,
     damping: S,
     twist: S,
     stop: Limit<S>,
@@ -66,18 +72,22 @@ pub struct Ball<S> {
 /// Constants of a hinge.
 #[derive(Clone, Copy, Debug)]
 pub struct Hinge<S> {
+    /// The joint.
+    pub joint: Joint,
+    /// Proximal and distal segment.
+    pub segments: (usize, usize),
     damping: S,
     lower: Limit<S>,
     upper: Limit<S>,
 }
 
-/// Force laws of all joints.
-#[derive(Clone, Debug)]
+/// Force laws of all joints; none by default.
+#[derive(Clone, Debug, Default)]
 pub struct JointSystem<S> {
-    /// In the order of [`BALL_JOINTS`].
-    pub balls: [Ball<S>; BALLS.len()],
-    /// In the order of [`HINGE_JOINTS`].
-    pub hinges: [Hinge<S>; LIMBS.len()],
+    /// In the tree's order of joints.
+    pub balls: Vec<Ball<S>>,
+    /// In the order of the state's hinges.
+    pub hinges: Vec<Hinge<S>>,
     epsilon_squared: S,
 }
 
@@ -94,7 +104,11 @@ pub struct BallAction<S> {
 
 impl<S: Copy> Ball<S> {
     fn zip<A: Copy, T>(&self, other: &Ball<A>, f: &impl Fn(S, A) -> T) -> Ball<T> {
+        let z = self.z.as_ref().zip(other.z.as_ref());
         Ball {
+            joint: self.joint,
+            segments: self.segments,
+            z: z.map(|([k, l], [others_k, others_l])| [k.zip(others_k, f), l.zip(others_l, f)]),
             damping: f(self.damping, other.damping),
             twist: f(self.twist, other.twist),
             stop: self.stop.zip(&other.stop, f),
@@ -109,6 +123,8 @@ impl<S: Copy> Ball<S> {
 impl<S: Copy> Hinge<S> {
     fn zip<A: Copy, T>(&self, other: &Hinge<A>, f: &impl Fn(S, A) -> T) -> Hinge<T> {
         Hinge {
+            joint: self.joint,
+            segments: self.segments,
             damping: f(self.damping, other.damping),
             lower: self.lower.zip(&other.lower, f),
             upper: self.upper.zip(&other.upper, f),
@@ -117,74 +133,111 @@ impl<S: Copy> Hinge<S> {
 }
 
 impl<S: Copy> JointSystem<S> {
-    /// f applied to every number and the one in the same place of `other`, which has springs in the same joints.
+    /// f applied to every number and the one in the same place of `other`, which has the same joints with springs in the same.
     pub(crate) fn zip<A: Copy, T>(&self, other: &JointSystem<A>, f: &impl Fn(S, A) -> T) -> JointSystem<T> {
         JointSystem {
-            balls: from_fn(|i| self.balls[i].zip(&other.balls[i], f)),
-            hinges: from_fn(|i| self.hinges[i].zip(&other.hinges[i], f)),
+            balls: self.balls.iter().zip(&other.balls).map(|(a, b)| a.zip(b, f)).collect(),
+            hinges: self.hinges.iter().zip(&other.hinges).map(|(a, b)| a.zip(b, f)).collect(),
             epsilon_squared: f(self.epsilon_squared, other.epsilon_squared),
         }
     }
 
-    /// Which ball joints have a spring.
-    pub(crate) fn springs(&self) -> [bool; BALLS.len()] {
-        from_fn(|i| self.balls[i].has_spring)
+    /// Which ball joints have a spring, and which triads of their own.
+    pub(super) fn structure(&self) -> impl Iterator<Item = (Joint, bool, bool)> + '_ {
+        self.balls.iter().map(|ball| (ball.joint, ball.has_spring, ball.z.is_some()))
+    }
+}
+
+impl JointSystem<f64> {
+    /// Constants from data; `rest_rad` is β₀ of the ball joints that do not give their own, by [`JointSystem::balls`].
+    pub fn new(joints: &Joints, skeleton: &Skeleton<f64>, rest_rad: impl Fn(usize) -> f64) -> Self {
+        let (tree, layout) = (joints.tree(), &skeleton.layout);
+        let balls = tree.joints().filter(|joint| !tree[*joint].is_hinge()).enumerate();
+        let carriers = layout.hinged().iter().filter_map(|&n| tree.carrier(tree.segment(n)));
+        JointSystem {
+            balls: balls.map(|(i, joint)| ball(joints, joint, skeleton, rest_rad(i))).collect(),
+            hinges: carriers.map(|joint| hinge(joints, joint)).collect(),
+            epsilon_squared: joints.epsilon * joints.epsilon,
+        }
     }
 }
 
 impl<S: Scalar> JointSystem<S> {
-    /// Constants from data; `rest_rad` are the β₀ of the ball joints that do not give their own.
-    pub fn new(joints: &Joints, rest_rad: &[f64; BALLS.len()]) -> Self {
-        let ball_law = |joint: Joint| joints[joint].ball().copied().unwrap_or_default();
-        let hinge_law = |joint: Joint| joints[joint].hinge().copied().unwrap_or_default();
-        JointSystem {
-            balls: from_fn(|i| ball(&ball_law(BALL_JOINTS[i]), rest_rad[i], joints.epsilon)),
-            hinges: from_fn(|i| hinge(&hinge_law(HINGE_JOINTS[i]))),
-            epsilon_squared: S::of(joints.epsilon * joints.epsilon),
-        }
-    }
-
     /// Adds all joint moments to `wrench` and shows what the ball joints do; returns the power that they dissipate, W.
     #[inline(always)]
     pub fn apply(
         &self,
         k: &Kinematics<S>,
         state: &State<S>,
-        wrench: &mut [Wrench<S>; SEGMENTS],
+        wrench: &mut [Wrench<S>; MOST_SEGMENTS],
         show: &mut impl FnMut(&BallAction<S>),
     ) -> S {
         let mut dissipated = S::zero();
-        for (i, &(inner, outer)) in BALLS.iter().enumerate() {
-            let action = self.ball(i, k);
+        for ball in &self.balls {
+            let action = ball.act(k, self.epsilon_squared);
+            let (inner, outer) = ball.segments;
             show(&action);
             // R (76), and F_s
             wrench[outer].moment += action.moment;
             wrench[inner].moment -= action.moment;
             dissipated += action.dissipated;
         }
-        for (i, &(upper, lower)) in LIMBS.iter().enumerate() {
-            let rate = state.hinge_rate[i];
-            let torque = self.hinges[i].torque(state.hinge[i], rate); // β is α (72)
-            let moment = k.axes[upper].y * torque;
+        let (angles, rates) = (state.hinge(), state.hinge_rate());
+        for (i, hinge) in self.hinges.iter().enumerate() {
+            let (upper, lower) = hinge.segments;
+            let torque = hinge.torque(angles[i], rates[i]); // β is α (72)
+            let moment = k.hinge_axis[i] * torque;
             // R of elbows and knees (77)
             wrench[lower].moment += moment;
             wrench[upper].moment -= moment;
-            dissipated -= torque * rate;
+            dissipated -= torque * rates[i];
         }
         dissipated
     }
 
-    /// Ball joint `i` of [`BALLS`].
-    #[inline(always)]
+    /// What ball joint `i` of [`JointSystem::balls`] does.
     pub fn ball(&self, i: usize, k: &Kinematics<S>) -> BallAction<S> {
-        let (inner, outer) = BALLS[i];
-        let joint = &self.balls[i];
-        let (z_k, z_l) = (k.axes[inner].z, k.axes[outer].z);
-        let omega = k.omega[outer] - k.omega[inner];
+        self.balls[i].act(k, self.epsilon_squared)
+    }
+
+    /// β of ball joint `i` of [`JointSystem::balls`], rad.
+    pub fn beta(&self, i: usize, k: &Kinematics<S>) -> S {
+        let (z_k, z_l) = self.balls[i].axes(k);
+        let sine = (z_k.cross(z_l).norm_squared() + self.epsilon_squared).sqrt();
+        sine.atan2(z_k.dot(z_l))
+    }
+
+    /// Energy stored in all springs, J.
+    pub fn stored(&self, k: &Kinematics<S>) -> S {
+        let mut sum = S::zero();
+        for ball in &self.balls {
+            sum += ball.act(k, self.epsilon_squared).stored;
+        }
+        sum
+    }
+}
+
+impl<S: Scalar> Ball<S> {
+    /// Z_k and Z_l, space axes.
+    #[inline(always)]
+    pub(super) fn axes(&self, k: &Kinematics<S>) -> (V3<S>, V3<S>) {
+        let (inner, outer) = (&k.axes[self.segments.0], &k.axes[self.segments.1]);
+        match &self.z {
+            None => (inner.z, outer.z),
+            Some([z_k, z_l]) => (inner.out(*z_k), outer.out(*z_l)),
+        }
+    }
+
+    /// What it does.
+    #[inline(always)]
+    fn act(&self, k: &Kinematics<S>, epsilon_squared: S) -> BallAction<S> {
+        let joint = self;
+        let (z_k, z_l) = joint.axes(k);
+        let omega = k.omega[joint.segments.1] - k.omega[joint.segments.0];
         let normal = z_k.cross(z_l);
         let cosine = z_k.dot(z_l); // (58)
         // s² + ε², kept off zero for ε = 0 at β = 0, where n = 0 makes every moment vanish
-        let sine_squared = (normal.norm_squared() + self.epsilon_squared).max(S::of(1e-30));
+        let sine_squared = (normal.norm_squared() + epsilon_squared).max(S::of(1e-30));
         let inverse = S::one() / sine_squared;
         let bending = normal.dot(omega); // n·ω, of the sign of β̇
 
@@ -199,9 +252,9 @@ impl<S: Scalar> JointSystem<S> {
         // T = −J [n (n·ω) + ε² ω_⊥]/(s² + ε²) (69)
         let across = omega - z_k * z_k.dot(omega);
         let scale = damping * inverse;
-        let mut moment = -(normal * (scale * bending) + across * (scale * self.epsilon_squared));
+        let mut moment = -(normal * (scale * bending) + across * (scale * epsilon_squared));
         // −T·ω (70)
-        let mut dissipated = scale * (bending * bending + self.epsilon_squared * across.norm_squared());
+        let mut dissipated = scale * (bending * bending + epsilon_squared * across.norm_squared());
         // T = −J_t Z_l (Z_l·ω)
         let twisting = z_l.dot(omega);
         moment -= z_l * (joint.twist * twisting);
@@ -215,27 +268,10 @@ impl<S: Scalar> JointSystem<S> {
         }
         BallAction { moment, stored, dissipated }
     }
-
-    /// β of ball joint `i` of [`BALLS`], rad.
-    pub fn beta(&self, i: usize, k: &Kinematics<S>) -> S {
-        let (inner, outer) = BALLS[i];
-        let (z_k, z_l) = (k.axes[inner].z, k.axes[outer].z);
-        let sine = (z_k.cross(z_l).norm_squared() + self.epsilon_squared).sqrt();
-        sine.atan2(z_k.dot(z_l))
-    }
-
-    /// Energy stored in all springs, J.
-    pub fn stored(&self, k: &Kinematics<S>) -> S {
-        let mut sum = S::zero();
-        for i in 0..BALLS.len() {
-            sum += self.ball(i, k).stored;
-        }
-        sum
-    }
 }
 
 impl<S: Scalar> Hinge<S> {
-    /// Torque about Y on the lower segment: −J α̇, with each stop only while moving into it (Figs 10, 11).
+    /// Torque about its axis on the distal segment: −J α̇, with each stop only while moving into it (Figs 10, 11).
     #[inline(always)]
     pub fn torque(&self, angle: S, rate: S) -> S {
         let o = S::zero();
@@ -245,23 +281,33 @@ impl<S: Scalar> Hinge<S> {
     }
 }
 
-fn ball<S: Scalar>(data: &BallJoint, rest_rad: f64, epsilon: f64) -> Ball<S> {
+fn ball(joints: &Joints, joint: Joint, skeleton: &Skeleton<f64>, rest_rad: f64) -> Ball<f64> {
+    let row = &joints.tree()[joint];
+    let segments = (row.proximal.index(), row.distal.index());
+    let z = skeleton.links[segments.1].triads.map(|triad| triad.z);
+    let (data, epsilon) = (joints[joint].ball().copied().unwrap_or_default(), joints.epsilon);
     let (stiffness, rest) = data.spring.map_or((0.0, 0.0), |s| (s.stiffness_n_m, s.rest_rad.unwrap_or(rest_rad)));
-    let stop_cosine = data.stop.map_or(-2.0, |s| trig::sin_cos(s.begin_rad).1 * (1.0 + epsilon * epsilon).sqrt());
     Ball {
-        damping: S::of(data.damping_n_m_s),
-        twist: S::of(data.twist_damping_n_m_s),
+        joint,
+        segments,
+        z: (z != [V3::of(&Vector3::z()); 2]).then_some(z),
+        damping: data.damping_n_m_s,
+        twist: data.twist_damping_n_m_s,
         stop: Limit::new(data.stop, data.damping_n_m_s, 1.0),
-        stop_cosine: S::of(stop_cosine),
-        stiffness: S::of(stiffness),
-        rest: S::of(rest),
+        stop_cosine: data.stop.map_or(-2.0, |s| trig::sin_cos(s.begin_rad).1 * (1.0 + epsilon * epsilon).sqrt()),
+        stiffness,
+        rest,
         has_spring: data.spring.is_some(),
     }
 }
 
-fn hinge<S: Scalar>(data: &HingeJoint) -> Hinge<S> {
+fn hinge(joints: &Joints, joint: Joint) -> Hinge<f64> {
+    let row = &joints.tree()[joint];
+    let data = joints[joint].hinge().copied().unwrap_or_default();
     Hinge {
-        damping: S::of(data.damping_n_m_s),
+        joint,
+        segments: (row.proximal.index(), row.distal.index()),
+        damping: data.damping_n_m_s,
         lower: Limit::new(data.lower_stop, data.damping_n_m_s, -1.0),
         upper: Limit::new(data.upper_stop, data.damping_n_m_s, 1.0),
     }

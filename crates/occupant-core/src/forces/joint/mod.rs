@@ -4,6 +4,8 @@ mod check;
 mod data;
 mod law;
 pub(crate) mod limit;
+pub(crate) mod muscle;
+mod posture;
 mod rates;
 
 pub use data::*;
@@ -14,9 +16,9 @@ use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkS
 use crate::forces::list::STORES;
 use crate::forces::rate::Rate;
 use crate::forces::shown::Reported;
-use crate::motion::layout::BALLS;
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
+use crate::motion::skeleton::Skeleton;
 use crate::quantity::energy;
 use placed_text::Problems;
 
@@ -57,15 +59,14 @@ impl Element for JointMoments {
         check::check(data, problems);
     }
 
-    fn new(data: &Joints, _body: &Body) -> JointSystem<f64> {
-        JointSystem::new(data, &[0.0; BALLS.len()])
+    fn new(data: &Joints, body: &Body) -> JointSystem<f64> {
+        JointSystem::new(data, &Skeleton::new(body, 0.0), |_| 0.0)
     }
 
     /// The springs are at rest where the body begins, unless they give their own angles.
-    fn begin(law: &mut JointSystem<f64>, data: &Joints, _body: &Body, at: &Instant<'_, f64>, problems: &mut Problems) {
+    fn begin(law: &mut JointSystem<f64>, data: &Joints, body: &Body, at: &Instant<'_, f64>, problems: &mut Problems) {
         check::start(data, law, at, problems);
-        let rest = std::array::from_fn(|i| law.beta(i, at.k));
-        *law = JointSystem::new(data, &rest);
+        *law = JointSystem::new(data, &Skeleton::new(body, 0.0), |i| law.beta(i, at.k));
     }
 
     fn start(_law: &JointSystem<f64>, _at: &Instant<'_, f64>) -> Vec<()> {
@@ -78,8 +79,8 @@ impl Element for JointMoments {
         0
     }
 
-    fn most_actions<S>(_law: &JointSystem<S>) -> usize {
-        BALLS.len()
+    fn most_actions<S>(law: &JointSystem<S>) -> usize {
+        law.balls.len()
     }
 
     fn zip<S: Copy, A: Copy, T>(
@@ -87,7 +88,7 @@ impl Element for JointMoments {
         other: &JointSystem<A>,
         f: &impl Fn(S, A) -> T,
     ) -> Result<JointSystem<T>, Unlike> {
-        if one.springs() == other.springs() { Ok(one.zip(other, f)) } else { Err(OTHER_SPRINGS) }
+        if one.structure().eq(other.structure()) { Ok(one.zip(other, f)) } else { Err(OTHER_SPRINGS) }
     }
 
     fn each<S, A>(_one: &mut (), _other: &mut (), _f: &mut impl FnMut(&mut S, &mut A)) {}

@@ -2,40 +2,33 @@
 
 use nalgebra::Matrix3;
 
-use super::{BallJoint, Joints};
+use super::{Ball, BallJoint, JointSystem, Joints};
 use crate::body::Joint;
 use crate::forces::rate::Rate;
-use crate::motion::layout::{BALL_JOINTS, BALLS, HINGE_JOINTS};
 use crate::motion::mobility::{Mobility, greatest};
 
 /// Joints: the damper at its strongest, and the spring.
 pub(super) fn rates(j: &Joints, mobility: &Mobility<'_>) -> Vec<Rate> {
     let name = |joint: Joint| j.tree()[joint].name;
     let mut rates = Vec::new();
-    for (&joint, &(inner, outer)) in BALL_JOINTS.iter().zip(BALLS) {
-        let Some(law) = j[joint].ball() else { continue };
-        rates.extend(ball_rates(name(joint), law, mobility, inner, outer, j.epsilon));
+    let system = JointSystem::new(j, mobility.skeleton, |_| 0.0);
+    for ball in &system.balls {
+        let Some(law) = j[ball.joint].ball() else { continue };
+        rates.extend(ball_rates(name(ball.joint), law, mobility, ball, j.epsilon));
     }
-    for (limb, &joint) in HINGE_JOINTS.iter().enumerate() {
+    for (i, joint) in system.hinges.iter().map(|hinge| hinge.joint).enumerate() {
         let Some(law) = j[joint].hinge() else { continue };
         let stops = [law.lower_stop, law.upper_stop];
         let strongest = stops.iter().flatten().fold(law.damping_n_m_s, |most, stop| most.max(stop.damping_n_m_s));
-        rates.extend(Rate::of_damper(name(joint), 1.0 / mobility.of_hinge(limb), strongest));
+        rates.extend(Rate::of_damper(name(joint), 1.0 / mobility.of_hinge(i), strongest));
     }
     rates
 }
 
-fn ball_rates(
-    name: &str,
-    joint: &BallJoint,
-    mobility: &Mobility<'_>,
-    inner: usize,
-    outer: usize,
-    epsilon: f64,
-) -> Vec<Rate> {
-    let relative = mobility.of_joint(inner, outer);
-    let axes = &mobility.kinematics.axes;
-    let (z_k, z_l) = (axes[inner].z.to_vector(), axes[outer].z.to_vector());
+fn ball_rates(name: &str, joint: &BallJoint, mobility: &Mobility<'_>, ball: &Ball<f64>, epsilon: f64) -> Vec<Rate> {
+    let relative = mobility.of_joint(ball.segments.0, ball.segments.1);
+    let (z_k, z_l) = ball.axes(&mobility.kinematics);
+    let (z_k, z_l) = (z_k.to_vector(), z_l.to_vector());
     let n = z_k.cross(&z_l);
     let sine_squared = (n.norm_squared() + epsilon * epsilon).max(1e-30);
     // T = −J·C·ω with C = [n nᵀ + ε²(1 − Z_k Z_kᵀ)]/(s² + ε²)

@@ -1,15 +1,33 @@
 //! Segments and spheres of the body.
 
-use crate::body::{Body, SegmentProperties};
+use crate::body::{Body, Place, SegmentProperties};
 use placed_text::Problems;
 
 /// A sphere may lie this far beside even a short segment, m.
 const WIDEST_M: f64 = 0.3;
 
+/// Whether there are as many segments and places of joints as the tree has.
+pub(super) fn check_count(body: &Body, problems: &mut Problems) -> bool {
+    let given = body.tree.joint_rows().iter().any(|row| row.place == Place::Given);
+    let (segments, joints) = (body.tree.segments().len(), if given { body.tree.joints().len() } else { 0 });
+    let is_whole = body.segments.len() == segments && body.places.len() == joints;
+    if !is_whole {
+        let found = format!("{} segments and {} places of joints", body.segments.len(), body.places.len());
+        problems.error("body", found, format!("{segments} segments and {joints} places, as many as its tree has"));
+    }
+    is_whole
+}
+
 pub(super) fn check_body(body: &Body, problems: &mut Problems) {
     for segment in body.tree.segments() {
         let path = format!("body.segments.{}", body.tree[segment].name);
         check_segment(body.segment(segment), &path, problems);
+    }
+    for (joint, row) in body.tree.joints().zip(body.tree.joint_rows()) {
+        let place = body.place(joint);
+        if !place.proximal.point_m.sum().is_finite() || !place.distal.point_m.sum().is_finite() {
+            problems.error(format!("body.joints.{}", row.name), "a place that is not finite", "finite coordinates");
+        }
     }
     for (key, value) in [
         ("shoulder_half_width", body.shoulder_half_width_m),
@@ -19,6 +37,10 @@ pub(super) fn check_body(body: &Body, problems: &mut Problems) {
         problems.check_at_least_zero(&format!("body.{key}"), value, "m");
     }
     problems.check_unique("body.spheres", "sphere", body.spheres.iter().map(|s| s.name.as_str()));
+    check_spheres(body, problems);
+}
+
+fn check_spheres(body: &Body, problems: &mut Problems) {
     for sphere in &body.spheres {
         let path = format!("body.spheres.{}", sphere.name);
         problems.check_positive(&format!("{path}.radius"), sphere.radius_m, "m");
@@ -55,6 +77,11 @@ fn check_segment(p: &SegmentProperties, path: &str, problems: &mut Problems) {
             format!("ρ = {rho} m from the lower end of a segment of {} m", p.length_m),
             "a centre of gravity between the segment's ends",
         );
+    }
+    let beside_m = p.cg_beside_m.norm();
+    if beside_m.is_nan() || beside_m > p.length_m.max(WIDEST_M) {
+        let found = format!("a centre of gravity {beside_m} m beside a segment of {} m", p.length_m);
+        problems.error(format!("{path}.cg_beside"), found, "a centre of gravity that is near its segment");
     }
     let inertia = p.inertia_kg_m2;
     let mut sound = true;

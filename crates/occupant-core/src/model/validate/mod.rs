@@ -6,6 +6,7 @@ mod time;
 
 use std::f64::consts::PI;
 
+use crate::body::tti12::TTI12;
 use crate::model::seating::InitialPosture;
 use crate::model::setup::Setup;
 pub(super) use path::check_path;
@@ -13,10 +14,14 @@ use placed_text::Problems;
 
 /// Reports every problem of the numbers of `setup`.
 pub(crate) fn check(setup: &Setup, problems: &mut Problems) {
+    if !body::check_count(&setup.body, problems) {
+        return;
+    }
     body::check_body(&setup.body, problems);
     setup.forces(&[]).check(&setup.body, problems);
     time::check_time(&setup.time, &setup.integrator, problems);
     check_posture(&setup.posture, problems);
+    check_coordinates(setup, problems);
     if !(setup.gravity_m_s2 >= 0.0 && setup.gravity_m_s2.is_finite()) {
         problems.error(
             "gravity",
@@ -26,19 +31,24 @@ pub(crate) fn check(setup: &Setup, problems: &mut Problems) {
     }
 }
 
+/// The report's coordinates are those of its own body.
+fn check_coordinates(setup: &Setup, problems: &mut Problems) {
+    if *setup.body.tree == TTI12 {
+        return;
+    }
+    let found = format!("the report's coordinates of a body of {} segments", setup.body.segments.len());
+    if !matches!(setup.posture, InitialPosture::Seated(_)) {
+        problems.error("initial_state", found.clone(), "`posture`, or the report's 12 segments");
+    }
+    if setup.output.report_coordinates {
+        problems.error("output.report_coordinates", found, "false, or the report's 12 segments");
+    }
+}
+
 /// Angles of more than half a turn, which a slip of the pen makes.
 fn check_posture(posture: &InitialPosture, problems: &mut Problems) {
     let InitialPosture::Seated(seating) = posture else { return };
-    let [middle, upper, head, lower] = seating.lean_rad;
-    let angles = [
-        ("middle_torso", middle),
-        ("upper_torso", upper),
-        ("head", head),
-        ("lower_torso", lower),
-        ("upper_arms", seating.upper_arms_rad),
-        ("elbows", seating.elbows_rad),
-    ];
-    for (key, angle_rad) in angles.into_iter().filter(|(_, angle)| angle.is_nan() || angle.abs() > PI) {
+    for (key, angle_rad) in seating.angles_rad.iter().filter(|(_, angle)| angle.is_nan() || angle.abs() > PI) {
         problems.error(format!("posture.{key}"), format!("{}°", angle_rad.to_degrees()), "an angle from −180° to 180°");
     }
 }

@@ -56,11 +56,10 @@ pub(crate) fn attempt(
 ) -> Trial {
     let (end, [k2, k3, k4]) = stages(state, k1, h, rate);
     // third-order weights 2/9, 1/3, 4/9, 0 less second-order weights 7/24, 1/4, 1/3, 1/8
-    let error = State::zero()
-        .advanced(h * (-5.0 / 72.0), k1)
-        .advanced(h / 12.0, &k2)
-        .advanced(h / 9.0, &k3)
-        .advanced(h / -8.0, &k4);
+    let mut error = State::zero(state.shape());
+    for (weight, rate) in [(h * (-5.0 / 72.0), k1), (h / 12.0, &k2), (h / 9.0, &k3), (h / -8.0, &k4)] {
+        error.add(weight, rate);
+    }
     Trial { error: norm(&error, state, &end, tolerance), state: end, rate: k4 }
 }
 
@@ -74,7 +73,8 @@ pub fn stages<S: Scalar>(
 ) -> (State<S>, [State<S>; 3]) {
     let k2 = rate(Stage::Within(0.5), &state.advanced(S::of(0.5 * h), k1));
     let k3 = rate(Stage::Within(0.75), &state.advanced(S::of(0.75 * h), &k2));
-    let sum = k1.advanced(S::of(1.5), &k2).advanced(S::of(2.0), &k3);
+    let mut sum = k1.advanced(S::of(1.5), &k2);
+    sum.add(S::of(2.0), &k3);
     let mut end = state.advanced(S::of(h * (2.0 / 9.0)), &sum);
     end.normalize();
     let k4 = rate(Stage::End, &end);
@@ -86,10 +86,9 @@ pub fn within<S: Scalar>(from: [&State<S>; 2], to: [&State<S>; 2], h: f64, s: f6
     let ([start, k1], [end, k4]) = (from, to);
     let r = 1.0 - s;
     let way = end.advanced(S::of(-1.0), start);
-    let mut state = start
-        .advanced(S::of(s * s * (3.0 - 2.0 * s)), &way)
-        .advanced(S::of(h * s * r * r), k1)
-        .advanced(S::of(-h * s * s * r), k4);
+    let mut state = start.advanced(S::of(s * s * (3.0 - 2.0 * s)), &way);
+    state.add(S::of(h * s * r * r), k1);
+    state.add(S::of(-h * s * s * r), k4);
     state.normalize();
     state
 }
@@ -102,19 +101,19 @@ fn norm(error: &State<f64>, from: &State<f64>, to: &State<f64>, tolerance: &Tole
         let size = a.norm_squared().max(b.norm_squared()).sqrt();
         tolerance.absolute_m_s + tolerance.relative * size
     };
-    sum.add(error.t1, place);
-    sum.add(error.velocity, speed(from.velocity, to.velocity));
-    for i in 0..error.orientation.len() {
+    sum.add(error.t1(), place);
+    sum.add(error.velocity(), speed(from.velocity(), to.velocity()));
+    for i in error.turns() {
         // a small change dq of a unit quaternion turns by 2|dq|
-        let q = error.orientation[i];
+        let q = error.orientation(i);
         sum.add(q.v * 2.0, place);
-        sum.add(error.omega[i], speed(from.omega[i], to.omega[i]));
+        sum.add(error.omega(i), speed(from.omega(i), to.omega(i)));
     }
-    for i in 0..error.hinge.len() {
+    for (i, angle) in error.hinge().iter().enumerate() {
         let scalar = |x: f64| V3 { x, y: 0.0, z: 0.0 };
-        sum.add(scalar(error.hinge[i]), place);
-        let rates = (scalar(from.hinge_rate[i]), scalar(to.hinge_rate[i]));
-        sum.add(scalar(error.hinge_rate[i]), speed(rates.0, rates.1));
+        sum.add(scalar(*angle), place);
+        let [rate, from, to] = [error, from, to].map(|state| scalar(state.hinge_rate()[i]));
+        sum.add(rate, speed(from, to));
     }
     (sum.squares / sum.count).sqrt()
 }
@@ -135,18 +134,24 @@ impl Sum {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::tti12::TTI12;
+    use crate::motion::layout::Layout;
+    use crate::motion::state::{Quat, Shape};
     use crate::motion::vector::v3;
 
     /// T1 swings about the origin with 1 rad/s; all else stands still.
     fn swing(state: &State<f64>) -> State<f64> {
-        State { t1: state.velocity, velocity: state.t1 * -1.0, ..State::zero() }
+        let mut rate = State::zero(state.shape());
+        rate.set_t1(state.velocity());
+        rate.set_velocity(state.t1() * -1.0);
+        rate
     }
 
     fn start() -> State<f64> {
-        let mut state = State::zero();
-        state.t1 = v3(1.0, 0.0, 0.0);
-        for q in &mut state.orientation {
-            q.w = 1.0;
+        let mut state = State::zero(Shape::of(&Layout::of(&TTI12)));
+        state.set_t1(v3(1.0, 0.0, 0.0));
+        for i in state.turns() {
+            state.set_orientation(i, Quat { w: 1.0, v: V3::zero() });
         }
         state
     }
@@ -157,7 +162,7 @@ mod tests {
         let (start, k1) = (start(), swing(&start()));
         let trial = attempt(&start, &k1, h, &tolerance, |_, state| swing(state));
         let middle = within([&start, &k1], [&trial.state, &trial.rate], h, 0.5);
-        [(middle.t1.x - (0.5 * h).cos()).abs(), (trial.state.t1.x - h.cos()).abs(), trial.error]
+        [(middle.t1().x - (0.5 * h).cos()).abs(), (trial.state.t1().x - h.cos()).abs(), trial.error]
     }
 
     #[test]
@@ -176,6 +181,6 @@ mod tests {
         let end = start.advanced(0.1, &k1);
         let (from, to) = ([&start, &k1], [&end, &swing(&end)]);
         assert_eq!(within(from, to, 0.1, 0.0), start);
-        assert_eq!(within(from, to, 0.1, 1.0).t1, end.t1);
+        assert_eq!(within(from, to, 0.1, 1.0).t1(), end.t1());
     }
 }

@@ -21,14 +21,17 @@ pub enum Stage {
 pub fn step<S: Scalar>(state: &State<S>, h: S, mut rate: impl FnMut(Stage, &State<S>) -> State<S>) -> State<S> {
     let half = h * S::of(0.5);
     let two = S::of(2.0);
-    let k1 = rate(Stage::Start, state); // (115), (116)
-    let k2 = rate(Stage::Middle, &state.advanced(half, &k1)); // (117), (118)
-    let mut sum = k1.advanced(two, &k2);
-    let k3 = rate(Stage::Middle, &state.advanced(half, &k2)); // (119), (120)
-    sum = sum.advanced(two, &k3);
-    let k4 = rate(Stage::End, &state.advanced(h, &k3)); // (121), (122)
-    sum = sum.advanced(S::one(), &k4);
-    let mut next = state.advanced(h / S::of(6.0), &sum); // (123), (124), (126), (127)
-    next.normalize();
-    next
+    let mut sum = rate(Stage::Start, state); // (115), (116)
+    let mut at = state.advanced(half, &sum);
+    let k2 = rate(Stage::Middle, &at); // (117), (118)
+    at.advance(state, half, &k2);
+    sum.add(two, &k2);
+    let k3 = rate(Stage::Middle, &at); // (119), (120)
+    at.advance(state, h, &k3);
+    sum.add(two, &k3);
+    let k4 = rate(Stage::End, &at); // (121), (122)
+    sum.add(S::one(), &k4);
+    at.advance(state, h / S::of(6.0), &sum); // (123), (124), (126), (127)
+    at.normalize();
+    at
 }

@@ -5,10 +5,9 @@ use crash_measures::unit::Unit::{
 };
 
 use super::Run;
-use crate::body::Segment;
-use crate::body::tree::Landmarks;
+use crate::body::tree::{Landmarks, Limb, Pair, Segment};
 use crate::quantity::{Axes, Owner, Quantity, Take, to_j211};
-use crate::results::reaction::{femur_axial_n, reaction};
+use crate::results::reaction::{femur_axial_n, upper_neck};
 use crate::results::sample::Sample;
 
 /// A segment.
@@ -69,25 +68,34 @@ fn marks<'a>(s: &Sample<'a>) -> &'a Landmarks {
 }
 
 /// Message `Instruments`: what the load cells of a dummy would read.
-pub(super) const INSTRUMENTS: &[Instrument] = &[
-    Instrument::vector(Newton, Axes::J211, |s| to_j211(reaction(s, marks(s).neck).force_n))
+pub(super) fn instruments(legs: &Pair<Option<Limb>>) -> impl Iterator<Item = Instrument> {
+    let femurs = legs.right.map(|_| RIGHT_FEMUR).into_iter().chain(legs.left.map(|_| LEFT_FEMUR));
+    NECK.into_iter().chain(femurs)
+}
+
+const NECK: [Instrument; 2] = [
+    Instrument::vector(Newton, Axes::J211, |s| to_j211(upper_neck(s).force_n))
         .channel(
             "neck.force",
             "upper neck force on the head at its joint: +x shear that pushes the head ahead, +z tension",
         )
         .field(2, "neck_force", "upper neck force on the head at its joint, SAE J211 axes: +z tension"),
-    Instrument::vector(NewtonMetre, Axes::J211, |s| to_j211(reaction(s, marks(s).neck).moment_n_m))
-        .channel("neck.moment", "upper neck moment on the head at its joint: +y in flexion")
-        .field(3, "neck_moment", "upper neck moment on the head at its joint, SAE J211 axes: +y flexion"),
-    Instrument::number(Newton, |s| femur_axial_n(s, marks(s).legs.right.upper))
-        .channel("right_femur.axial", FEMUR)
-        .field(4, "right_femur_axial", "axial force at the knee end of the right thigh, tension positive"),
-    Instrument::number(Newton, |s| femur_axial_n(s, marks(s).legs.left.upper))
-        .channel("left_femur.axial", FEMUR)
-        .field(5, "left_femur_axial", "axial force at the knee end of the left thigh, tension positive"),
+    Instrument::vector(NewtonMetre, Axes::J211, |s| to_j211(upper_neck(s).moment_n_m))
+        .channel("neck.moment", "upper neck moment on the head at the condyles (at its joint where the body has none): +y in flexion")
+        .field(3, "neck_moment", "upper neck moment on the head at the condyles (at its joint where the body has none), SAE J211 axes: +y flexion"),
 ];
+const RIGHT_FEMUR: Instrument = Instrument::number(Newton, |s| femur_n(s, marks(s).legs.right))
+    .channel("right_femur.axial", FEMUR)
+    .field(4, "right_femur_axial", "axial force at the knee end of the right thigh, tension positive");
+const LEFT_FEMUR: Instrument = Instrument::number(Newton, |s| femur_n(s, marks(s).legs.left))
+    .channel("left_femur.axial", FEMUR)
+    .field(5, "left_femur_axial", "axial force at the knee end of the left thigh, tension positive");
 
 const FEMUR: &str = "axial force at the knee end of the thigh, tension positive";
+
+fn femur_n(s: &Sample<'_>, leg: Option<Limb>) -> f64 {
+    leg.map_or(f64::NAN, |leg| femur_axial_n(s, leg.upper))
+}
 
 /// Message `ReportCoordinates`, on request.
 pub(super) const REPORT_COORDINATES: &[Instrument] = &[

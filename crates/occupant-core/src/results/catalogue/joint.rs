@@ -20,10 +20,9 @@ type Of = Quantity<OfJoint>;
 /// A field of the message `JointAngles`, which has one for each joint: its number is the report's joint number + 1.
 pub(super) fn angle(tree: &Tree, joint: Joint) -> Of {
     let row = &tree[joint];
-    let arms = &tree.landmarks().arms;
     let (history, meaning) = if !row.is_hinge() {
         ("β of the {}", "β, angle between the Z axes of the two segments")
-    } else if [arms.left.lower, arms.right.lower].contains(&row.distal) {
+    } else if tree.landmarks().arms().any(|arm| arm.lower == row.distal) {
         ("α of the {}", "α about Y; negative brings the hand forward")
     } else {
         ("α of the {}", "α about Y; positive brings the heel back")

@@ -6,6 +6,7 @@
 mod body;
 mod energy;
 mod joint;
+mod marker;
 mod sphere;
 mod vehicle;
 
@@ -83,7 +84,7 @@ pub struct Field {
 const ELEMENTS: &str = "";
 
 /// Message types in the order in which a file has them.
-const ORDER: [&str; 10] = [
+const ORDER: [&str; 11] = [
     "VehicleMotion",
     "SegmentState",
     "SphereLoad",
@@ -91,6 +92,7 @@ const ORDER: [&str; 10] = [
     "JointAngles",
     "JointLoad",
     "Instruments",
+    "MarkerMotion",
     "EnergyLedger",
     "SolverState",
     "ReportCoordinates",
@@ -155,7 +157,8 @@ impl Catalogue {
             let place = Place { message: "SegmentState", topic, name, words: &name.replace('_', " ") };
             all.add(&place, body::SEGMENT, move |s| (s, segment));
         }
-        all.whole("Instruments", "/occupant/instruments", "", body::INSTRUMENTS, |s| s);
+        let instruments: Vec<_> = body::instruments(&tree.landmarks().legs).collect();
+        all.whole("Instruments", "/occupant/instruments", "", &instruments, |s| s);
         let names = model.body().spheres.iter().map(|s| s.name.as_str());
         for (i, (name, topic)) in named("/occupant/sphere", names).into_iter().enumerate() {
             let (channel, words) = (format!("sphere.{name}"), format!("sphere {name}"));
@@ -173,6 +176,7 @@ impl Catalogue {
             let place = Place { message: "JointLoad", topic, name: &channel, words: &words };
             all.add(&place, joint::LOAD, move |s| (s, joint));
         }
+        all.markers(model);
         all.energies(model);
         all.whole("SolverState", "/solver", "", energy::EFFORT, |s| s.effort);
         if model.setup().output.report_coordinates {
@@ -181,15 +185,26 @@ impl Catalogue {
         all
     }
 
+    fn markers(&mut self, model: &Model) {
+        let markers = &model.setup().output.markers;
+        let names = named("/occupant/marker", markers.iter().map(|marker| marker.name.as_str()));
+        for (marker, (name, topic)) in markers.iter().zip(names) {
+            let (channel, words) = (format!("marker.{name}"), format!("marker {name}"));
+            let place = Place { message: "MarkerMotion", topic, name: &channel, words: &words };
+            let (site, frame) = (marker.site(model.body()), marker.frame);
+            self.add(&place, &marker::quantities(frame), move |s| marker::motion(s, &site, frame));
+        }
+    }
+
     fn energies(&mut self, model: &Model) {
         for (of, quantity) in energy::MOTION {
             self.energy(quantity, of);
         }
         let forces = &model.system().forces;
-        for StoredEnergy { at, quantity, .. } in STORED.into_iter().filter(|energy| forces.tells_stored(energy.at)) {
+        for StoredEnergy { at, quantity, .. } in STORED.into_iter().filter(|energy| forces.tells(&energy.quantity)) {
             self.energy(quantity, move |ledger| ledger.stored_j[at]);
         }
-        for WorkSum { at, quantity } in SUMS {
+        for WorkSum { at, quantity } in SUMS.into_iter().filter(|energy| forces.tells(&energy.quantity)) {
             self.energy(quantity, move |ledger| ledger.lost_j[at]);
         }
         for (of, quantity) in energy::BALANCE {

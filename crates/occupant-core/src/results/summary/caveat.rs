@@ -4,9 +4,9 @@ use crash_measures::injury::Measure;
 use crash_measures::measure::Dummy;
 use serde::Serialize;
 
-use super::{EnergyCheck, Peak, RunStatus, word};
+use super::{Peak, RunStatus, word};
 use crate::body::{Body, Joint, Limb, Segment};
-use crate::results::outcome::Balance;
+use crate::results::energy::{Balance, EnergyCheck};
 
 /// Why some figures of a run are not to be quoted as they stand.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -20,6 +20,9 @@ pub struct Caveat {
 }
 
 impl Caveat {
+    /// Name of the one on a run whose results mean nothing.
+    pub const BALANCE_LOST: &str = "energy_balance_lost";
+
     fn new(name: impl Into<String>, text: String, figures: Vec<String>) -> Self {
         Caveat { name: name.into(), text, figures }
     }
@@ -29,22 +32,25 @@ impl Caveat {
         self.figures.iter().any(|of| of.strip_suffix('*').map_or(of == figure, |stem| figure.starts_with(stem)))
     }
 
-    /// A run that did not keep its energy; none for one that did, nor for one that failed and says so.
-    pub(super) fn of_balance(energy: &EnergyCheck, status: RunStatus) -> Option<Self> {
-        let error = energy.balance_error;
-        let (name, means) = match Balance::of(error) {
+    /// A run that did not complete; none for one that did.
+    pub(super) fn of_ending(status: RunStatus, reached_s: f64) -> Option<Self> {
+        let (name, ended) = match status {
+            RunStatus::Completed => return None,
+            RunStatus::Interrupted => ("run_interrupted", "was interrupted"),
+            RunStatus::Failed => ("run_failed", "failed"),
+        };
+        let text = format!("the run {ended}: all figures are those up to {:.1} ms", 1e3 * reached_s);
+        Some(Caveat::new(name, text, owned(&["*"])))
+    }
+
+    /// A run that did not keep its energy; none for one that did.
+    pub(super) fn of_balance(energy: &EnergyCheck) -> Option<Self> {
+        let (name, means) = match energy.balance {
             Balance::Kept => return None,
-            _ if status == RunStatus::Failed => return None,
             Balance::Doubtful => ("energy_balance_doubtful", "the results are doubtful"),
-            Balance::Lost => ("energy_balance_lost", "the results mean nothing"),
+            Balance::Lost => (Caveat::BALANCE_LOST, "the results mean nothing"),
         };
-        let found = if error.is_nan() {
-            let kinetic_j = energy.greatest_kinetic_j;
-            format!("not known: a kinetic energy of {kinetic_j:.1e} J in the vehicle is none of an occupant")
-        } else {
-            format!("off by {:.1} %", 100.0 * error.abs())
-        };
-        Some(Caveat::new(name, format!("the energy balance is {found}: {means}"), vec!["*".to_owned()]))
+        Some(Caveat::new(name, format!("the energy balance is {}: {means}", energy.found()), owned(&["*"])))
     }
 
     /// A joint that turned to `turned` beyond the end of a stop.
@@ -115,8 +121,7 @@ impl Caveat {
             worst.label,
             100.0 * most
         );
-        let names = off.iter().flat_map(|(m, _)| [Some(m.name), m.figure]).flatten();
-        Some(Caveat::new("outputs_too_coarse", text, names.map(str::to_owned).collect()))
+        Some(Caveat::new("outputs_too_coarse", text, names_of(off.iter().map(|(m, _)| *m))))
     }
 
     /// A body that the dummy of limits and risks is not.
@@ -128,7 +133,7 @@ impl Caveat {
             dummy.mass_kg()
         );
         let judged = measures.iter().filter(|m| !(m.limits.is_empty() && m.risks.is_empty()));
-        differs.then(|| Caveat::new("other_dummy", text, judged.map(|m| m.name.to_owned()).collect()))
+        differs.then(|| Caveat::new("other_dummy", text, names_of(judged)))
     }
 }
 
@@ -156,6 +161,11 @@ fn mm(length_m: f64) -> String {
     format!("{:.0} mm", 1e3 * length_m)
 }
 
+/// The names of measures, in measures and in figures.
+fn names_of<'a>(measures: impl Iterator<Item = &'a Measure>) -> Vec<String> {
+    measures.flat_map(|m| [Some(m.name), m.figure]).flatten().map(str::to_owned).collect()
+}
+
 fn owned(names: &[&str]) -> Vec<String> {
     names.iter().map(|name| (*name).to_owned()).collect()
 }
@@ -163,16 +173,16 @@ fn owned(names: &[&str]) -> Vec<String> {
 /// What is measured of a segment, and of the spheres on it.
 fn figures_of(body: &Body, segment: Segment) -> Vec<String> {
     let marks = body.tree.landmarks();
-    let is_of = |leg: &Limb| [leg.upper, leg.lower].contains(&segment);
+    let is_of = |leg: Option<Limb>| leg.is_some_and(|leg| body.tree.is_of(segment, &leg));
     let measured: &[&str] = if segment == marks.head {
         &["hic15", "hic36", "gsi", "bric", "damage", "head*", "nij", "neck_*"]
     } else if segment == marks.chest {
         &["chest*", "csi"]
     } else if segment == marks.pelvis {
         &["pelvis*"]
-    } else if is_of(&marks.legs.right) {
+    } else if is_of(marks.legs.right) {
         &["right_femur*"]
-    } else if is_of(&marks.legs.left) {
+    } else if is_of(marks.legs.left) {
         &["left_femur*"]
     } else {
         &[]

@@ -16,6 +16,7 @@ use serde::Serialize;
 use crash_measures::injury::Measure;
 
 use crate::forces::table::Tables;
+use crate::results::energy::EnergyCheck;
 
 pub use caveat::Caveat;
 pub(crate) use excursion::Excursion;
@@ -59,6 +60,14 @@ pub struct Summary {
     pub energy: EnergyCheck,
     /// Work of the integrator.
     pub solver: Solver,
+}
+
+impl Summary {
+    /// The same of a run that ended in this way: all figures of one that did not complete are those up to where it got.
+    pub fn ended(mut self, status: RunStatus, reason: Option<String>) -> Self {
+        self.caveats.splice(..0, Caveat::of_ending(status, self.reached_s));
+        Summary { status, reason, ..self }
+    }
 }
 
 /// How a run ended.
@@ -158,16 +167,6 @@ pub struct SpherePeak {
     pub penetration_time_s: f64,
     /// Greatest penetration of a solid as a fraction of its thickness there; 0 where no solid with an end was touched.
     pub thickness_used: f64,
-}
-
-/// Whether the energies add up.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct EnergyCheck {
-    /// Greatest imbalance among the outputs as a fraction of the greatest kinetic energy relative to the vehicle; not a number,
-    /// `null` in JSON, where it is not known: the run failed, or that energy is none of an occupant.
-    pub balance_error: f64,
-    /// That kinetic energy.
-    pub greatest_kinetic_j: f64,
 }
 
 /// Work of the integrator.

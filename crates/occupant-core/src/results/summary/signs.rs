@@ -114,9 +114,10 @@ impl Signs {
             self.joints[limited.joint.index()].see_limit(limited.excess, time_s);
         }
         for contact in sample.contacts() {
-            match contact.surface < model.faces().len() {
-                true => self.deep[contact.sphere].see(contact.depth_m, contact.surface, time_s),
-                false => self.see_solid(sample, &contact),
+            if contact.surface < model.faces().len() {
+                self.deep[contact.sphere].see(contact.depth_m, contact.surface, time_s);
+            } else {
+                self.see_solid(sample, &contact);
             }
         }
         for touch in &sample.actions.contacts {
@@ -253,10 +254,8 @@ impl Turned {
 /// Both ends of an arm's or a leg's segment, space axes, m; none of the trunk's and the head's.
 fn limb(sample: &Sample<'_>, segment: Segment) -> Option<[V3<f64>; 2]> {
     let (body, k, n) = (sample.model.body(), &sample.evaluation.kinematics, segment.index());
-    let far = k.joint[n] + k.axes[n].z * sample.model.system().skeleton.links[n].far;
-    let marks = body.tree.landmarks();
-    let limbs = [&marks.arms.left, &marks.arms.right, &marks.legs.left, &marks.legs.right];
-    limbs.iter().any(|limb| [limb.upper, limb.lower].contains(&segment)).then_some([k.joint[n], far])
+    let far = k.joint[n] + k.axes[n].z * body.far_m(segment);
+    body.tree.is_limb(segment).then_some([k.joint[n], far])
 }
 
 fn into_frame(sample: &Sample<'_>, frame: usize, point: V3<f64>) -> V3<f64> {

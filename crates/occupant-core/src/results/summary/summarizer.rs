@@ -5,8 +5,8 @@ use nalgebra::{Point3, Vector3};
 use super::elements::ElementPeaks;
 use super::signs::Signs;
 use super::{
-    Acceleration, Accelerations, Caveat, ContactBegin, EnergyCheck, Excursion, FirstContact, Level, Peak, RunStatus,
-    Solver, SpherePeak, Summary,
+    Acceleration, Accelerations, Caveat, ContactBegin, Excursion, FirstContact, Level, Peak, RunStatus, Solver,
+    SpherePeak, Summary,
 };
 use crate::body::{Body, ContactSphere};
 use crate::model::Model;
@@ -86,13 +86,11 @@ impl Summarizer {
         let [head, chest, pelvis] = std::array::from_fn(|i| self.acceleration(i, parts[i], time));
         let contacts = contacts(outcome, case);
         let (status, reason) = ending(&outcome.status);
-        let energy =
-            EnergyCheck { balance_error: outcome.balance_error, greatest_kinetic_j: outcome.greatest_kinetic_j };
         let measures = readings.measures();
-        Some(Summary {
+        let summary = Summary {
             title: case.title.clone(),
-            status,
-            reason,
+            status: RunStatus::Completed,
+            reason: None,
             start_s: time.start_s,
             reached_s: outcome.time_s,
             end_s: time.end_s,
@@ -102,9 +100,9 @@ impl Summarizer {
             contacts,
             sphere_forces: self.sphere_forces(case),
             head_excursion: self.excursion,
-            caveats: Caveat::of_balance(&energy, status).into_iter().chain(self.caveats(case, &measures)).collect(),
+            caveats: Caveat::of_balance(&outcome.energy).into_iter().chain(self.caveats(case, &measures)).collect(),
             measures,
-            energy,
+            energy: outcome.energy,
             solver: Solver {
                 integrator: case.integrator,
                 steps: outcome.effort.steps,
@@ -113,7 +111,8 @@ impl Summarizer {
                 outputs: self.outputs,
                 wall_time_s,
             },
-        })
+        };
+        Some(summary.ended(status, reason))
     }
 
     fn acceleration(&self, i: usize, levels: &injury::Acceleration, time: &TimeSpan) -> Acceleration {

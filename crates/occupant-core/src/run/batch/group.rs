@@ -22,7 +22,6 @@ pub(super) struct Group<L: Machine> {
     kernel: Kernel,
     /// None before the first run.
     bench: Option<Bench<L>>,
-    state: State<L>,
     /// Boxed, as they change hands at every step.
     places: Vec<Option<Box<Place>>>,
 }
@@ -30,7 +29,7 @@ pub(super) struct Group<L: Machine> {
 impl<L: Machine> Group<L> {
     /// No runs yet.
     pub(super) fn new(kernel: Kernel) -> Self {
-        Group { kernel, bench: None, state: State::zero(), places: (0..L::COUNT).map(|_| None).collect() }
+        Group { kernel, bench: None, places: (0..L::COUNT).map(|_| None).collect() }
     }
 
     /// Runs all `jobs`.
@@ -78,8 +77,6 @@ impl<L: Machine> Group<L> {
             }
             (bench, _) if alone => {
                 *bench = new_bench(model);
-                let start = &model.start().state;
-                self.state = start.zip(start, |x, _| L::of(x));
             }
             _ => return false,
         }
@@ -104,12 +101,12 @@ impl<L: Machine> Group<L> {
             for (lanes, t_s) in bench.frames.iter_mut().zip(times_s) {
                 // space stands still
                 let vehicle = place.model.setup().path.motion(t_s, times_s[1], &mut place.run.cursor);
+                lanes.time.set_lane(i, t_s);
                 lanes[VEHICLE].each(&Moving::of(&vehicle), &mut |lanes: &mut L, x: f64| lanes.set_lane(i, x));
             }
         }
         let mut witness = Witness(&mut self.places);
-        let finite;
-        (self.state, finite) = L::step(bench, &self.state, h, &mut witness);
+        let finite = L::step(bench, h, &mut witness);
         for i in 0..L::COUNT {
             if let Some(place) = self.places[i].take() {
                 self.settle(i, place, finite.lane(i) > 0.0, jobs)?;
@@ -126,8 +123,8 @@ impl<L: Machine> Group<L> {
             self.places[i] = Some(place);
             return ControlFlow::Continue(());
         }
-        let state = self.lane_state(i);
-        let next = match place.run.accept(state, place.step) {
+        let state = self.lane_state(i, &place.run);
+        let next = match place.run.accept(&place.model, state, place.step) {
             Err(error) => Next::ended(Status::Failed(error)),
             Ok(()) => {
                 self.fetch_history(i, &mut place.run);
@@ -143,9 +140,8 @@ impl<L: Machine> Group<L> {
         if let Some(bench) = &mut self.bench {
             let put = &mut |lanes: &mut L, x: &mut f64| lanes.set_lane(i, *x);
             bench.history.memory.each(&mut place.run.history.memory, put);
+            bench.state = bench.state.zip(&place.run.state, |lanes, x| lanes.with_lane(i, x));
         }
-        let state = &place.run.state;
-        self.state = self.state.zip(state, |lanes, x| lanes.with_lane(i, x));
         match next {
             Next::GoesOn => {
                 self.places[i] = Some(place);
@@ -166,9 +162,10 @@ impl<L: Machine> Group<L> {
         jobs.end(i, model, outcome, self.kernel)
     }
 
-    /// The state of the run in place `i`.
-    fn lane_state(&self, i: usize) -> State<f64> {
-        self.state.zip(&self.state, |lanes, _| lanes.lane(i))
+    /// The state of `run`, which is in place `i`.
+    fn lane_state(&self, i: usize, run: &Run) -> State<f64> {
+        let bench = self.bench.as_ref();
+        bench.map_or(run.state, |bench| bench.state.zip(&run.state, |lanes, _| lanes.lane(i)))
     }
 
     /// Brings the history of the run in place `i` up to date.
@@ -184,7 +181,7 @@ impl<L: Machine> Group<L> {
     fn finish_the_last(&mut self, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         for i in 0..L::COUNT {
             let Some(mut place) = self.places[i].take() else { continue };
-            place.run.state = self.lane_state(i);
+            place.run.state = self.lane_state(i, &place.run);
             self.fetch_history(i, &mut place.run);
             let status = place.finish(jobs.recorder(i));
             self.hand_out(i, *place, status, jobs)?;
@@ -201,6 +198,8 @@ fn new_bench<L: Machine>(model: &Model) -> Option<Bench<L>> {
     let mut cursor = Default::default();
     let start_s = model.setup().time.start_s;
     let frames = model.frames(start_s, start_s, &mut cursor);
-    let frames = frames.map(|frame| frame.zip(&frame, &|x, _| L::of(x)));
-    Some(Bench { system, history, frames: [frames; 3], scratch: Scratch::blank() })
+    let frames = frames.zip(&frames, &|x, _| L::of(x));
+    let start = &model.start().state;
+    let scratch = Scratch::blank(&system.skeleton);
+    Some(Bench { state: start.zip(start, |x, _| L::of(x)), system, history, frames: [frames; 3], scratch })
 }

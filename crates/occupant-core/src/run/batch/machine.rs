@@ -15,6 +15,7 @@ use crate::motion::state::State;
 /// Everything that acts on the runs side by side, and what it remembers.
 #[derive(Clone, Debug)]
 pub(crate) struct Bench<L: Lanes> {
+    pub state: State<L>,
     pub system: System<L>,
     pub history: History<L>,
     /// At the step's start, middle and end.
@@ -24,9 +25,9 @@ pub(crate) struct Bench<L: Lanes> {
 
 /// Lanes that some processors can compute with.
 pub(crate) trait Machine: Lanes {
-    /// The state after a step, and a 1 for every lane in which it is one of finite numbers. Each lane has its length of step;
+    /// Takes a step; a 1 for every lane in which the state is one of finite numbers then. Each lane has its length of step;
     /// `witness` sees the first evaluation.
-    fn step(bench: &mut Bench<Self>, state: &State<Self>, h: Self, witness: &mut Witness<'_>) -> (State<Self>, Self);
+    fn step(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> Self;
 }
 
 impl<L: Lanes> Bench<L> {
@@ -39,15 +40,10 @@ impl<L: Lanes> Bench<L> {
 
     /// One step, in the instructions of the caller; `rate` is [`Bench::rate`] compiled for them.
     #[inline(always)]
-    fn step(
-        &mut self,
-        state: &State<L>,
-        h: L,
-        mut rate: impl FnMut(&mut Self, Stage, &State<L>) -> State<L>,
-    ) -> (State<L>, L) {
-        let next = rk4::step(state, h, |stage, state| rate(self, stage, state));
-        let finite = L::select(next.finite(), L::one(), L::zero());
-        (next, finite)
+    fn step(&mut self, h: L, mut rate: impl FnMut(&mut Self, Stage, &State<L>) -> State<L>) -> L {
+        let from = self.state;
+        self.state = rk4::step(&from, h, |stage, state| rate(self, stage, state));
+        L::select(self.state.finite(), L::one(), L::zero())
     }
 }
 
@@ -61,25 +57,15 @@ macro_rules! machine {
             use crate::motion::lanes::$lanes;
 
             impl Machine for $lanes {
-                fn step(
-                    bench: &mut Bench<Self>,
-                    state: &State<Self>,
-                    h: Self,
-                    witness: &mut Witness<'_>,
-                ) -> (State<Self>, Self) {
+                fn step(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> Self {
                     // SAFETY: `h` exists, so the processor has the instructions
-                    unsafe { step(bench, state, h, witness) }
+                    unsafe { step(bench, h, witness) }
                 }
             }
 
             #[target_feature(enable = $features)]
-            fn step(
-                bench: &mut Bench<$lanes>,
-                state: &State<$lanes>,
-                h: $lanes,
-                witness: &mut Witness<'_>,
-            ) -> (State<$lanes>, $lanes) {
-                bench.step(state, h, |bench, stage, state| match stage {
+            fn step(bench: &mut Bench<$lanes>, h: $lanes, witness: &mut Witness<'_>) -> $lanes {
+                bench.step(h, |bench, stage, state| match stage {
                     Stage::Start => rate::<true>(bench, stage, state, witness),
                     _ => rate::<false>(bench, stage, state, &mut ()),
                 })
@@ -109,13 +95,8 @@ mod tests {
     use super::*;
 
     impl<const N: usize> Machine for crate::motion::lanes::Plain<N> {
-        fn step(
-            bench: &mut Bench<Self>,
-            state: &State<Self>,
-            h: Self,
-            witness: &mut Witness<'_>,
-        ) -> (State<Self>, Self) {
-            bench.step(state, h, |bench, stage, state| match stage {
+        fn step(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> Self {
+            bench.step(h, |bench, stage, state| match stage {
                 Stage::Start => bench.rate::<true>(stage, state, witness),
                 _ => bench.rate::<false>(stage, state, &mut ()),
             })

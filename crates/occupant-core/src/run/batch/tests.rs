@@ -26,7 +26,24 @@ fn keep(texts: &mut Vec<String>) -> impl Recorder + use<'_> {
 
 #[test]
 fn carts_in_an_array_of_lanes_have_the_bits_of_each_alone() {
-    let models: Vec<Model> = [12.0, 16.0, 20.0, 24.0, 28.0].map(model).into();
+    have_the_bits_of_each_alone([12.0, 16.0, 20.0, 24.0, 28.0].map(model).into());
+}
+
+#[test]
+fn so_have_bodies_that_are_swept_as_any_tree() {
+    let any = |mph: f64| model(mph).without_closed_forms();
+    have_the_bits_of_each_alone([12.0, 20.0, 28.0, 16.0].map(any).into());
+}
+
+#[test]
+fn bodies_with_closed_forms_and_without_do_not_run_side_by_side() {
+    let (closed, any) = (model(20.0), model(20.0).without_closed_forms());
+    assert!(closed.system().zip(closed.system(), |x, _| x).is_ok());
+    let refused = closed.system().zip(any.system(), |x, _| x).map(|_| ());
+    assert_eq!(refused, Err(crate::kernel::OTHER_TREE));
+}
+
+fn have_the_bits_of_each_alone(models: Vec<Model>) {
     let mut texts = vec![Vec::new(); models.len()];
     let jobs = models.iter().zip(&mut texts).map(|(model, texts)| Job {
         tag: model.setup().time.end_s,

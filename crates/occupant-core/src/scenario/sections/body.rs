@@ -1,17 +1,18 @@
 //! `[body]`: its keys, and the [`Body`] they come to.
 
 use indexmap::IndexMap;
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Point3, UnitQuaternion, Vector2, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::body_joints::own_tree;
 use super::builder::Builder;
 use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, point, si_or};
-use super::{Acceleration, Force, Inertia, Length, Mass, Ratio};
-use crate::body::people::{Person, REACH, REFERENCE_PERSON, Sex};
+use super::{Acceleration, Angle, Force, Inertia, Length, Mass, Ratio};
+use crate::body::people::{Division, Person, REACH, REFERENCE_PERSON, Sex};
 use crate::body::tree::SphereRow;
 use crate::body::tti12::TTI12;
-use crate::body::{Body, ContactSphere, SegmentProperties, Tree, shape};
+use crate::body::{Body, ContactSphere, Segment, SegmentProperties, Tree, shape};
 use crate::model::setup::STANDARD_GRAVITY_M_S2;
 use placed_text::{Problem, with_key};
 
@@ -37,10 +38,25 @@ pub(crate) struct BodySection {
     pub(crate) hip_half_width: Option<Length<NOT_NEGATIVE>>,
     /// Height of the neck's joint above the line of the shoulders; 0 if absent, as in the report.
     pub(crate) neck_height: Option<Length<NOT_NEGATIVE>>,
+    /// The occipital condyles, [ahead of, above] the neck's joint in the head: loads of the upper neck are given there, at the
+    /// joint if absent.
+    pub(crate) condyles: Option<[Length; 2]>,
     /// Gravity by which a `weight` is divided to give a mass; standard gravity if absent.
     pub(crate) weighed_at: Option<Acceleration<POSITIVE>>,
-    /// The twelve segments. `upper_arms`, `forearms`, `thighs`, `lower_legs` stand for left and right.
-    pub(crate) segments: Option<Segments>,
+    /// Into how many segments a preset or a person is divided: 12, the report's; 15, with a neck on two joints and feet;
+    /// 17, with hands too. 12 if absent.
+    pub(crate) segment_count: Option<i64>,
+    /// Segments that carry instruments, of a body whose segments have other names.
+    pub(crate) landmarks: Option<LandmarksSection>,
+    /// Segments by name; of twelve `middle_torso`, `upper_torso`, `head`, `lower_torso`, `left_upper_arm`, `left_forearm`,
+    /// `left_thigh`, `left_lower_leg` and those of the right. `upper_arms`, `forearms`, `hands`, `thighs`, `lower_legs`,
+    /// `feet` stand for left and right.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) segments: IndexMap<String, SegmentSection>,
+    /// How the segments of a body of one's own hang on each other, by the names of their joints, or changes of a preset.
+    /// One segment is carried by no joint: its upper end is the reference point T1.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) joints: IndexMap<String, BodyJointSection>,
     /// Which spheres there are besides those of `spheres` that you name yourself; "report" if absent.
     pub(crate) sphere_set: Option<SphereSet>,
     /// Contact spheres by name. The report's 17 (`head`, `chest`, `pelvis`, `left_shoulder`, …) know their place and need
@@ -60,42 +76,42 @@ pub(crate) enum SphereSet {
     Full,
 }
 
-/// The twelve segments of the body.
+/// Segments that carry instruments.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Segments {
-    /// 1.
-    pub(crate) middle_torso: Option<SegmentSection>,
-    /// 2.
-    pub(crate) upper_torso: Option<SegmentSection>,
-    /// 3, with the neck.
-    pub(crate) head: Option<SegmentSection>,
-    /// 4, the pelvis.
-    pub(crate) lower_torso: Option<SegmentSection>,
-    /// 5 and 6.
-    pub(crate) upper_arms: Option<SegmentSection>,
-    /// 5.
-    pub(crate) left_upper_arm: Option<SegmentSection>,
-    /// 6.
-    pub(crate) right_upper_arm: Option<SegmentSection>,
-    /// 7 and 8, with the hands.
-    pub(crate) forearms: Option<SegmentSection>,
-    /// 7, with the hand.
-    pub(crate) left_forearm: Option<SegmentSection>,
-    /// 8, with the hand.
-    pub(crate) right_forearm: Option<SegmentSection>,
-    /// 9 and 10.
-    pub(crate) thighs: Option<SegmentSection>,
-    /// 9.
-    pub(crate) left_thigh: Option<SegmentSection>,
-    /// 10.
-    pub(crate) right_thigh: Option<SegmentSection>,
-    /// 11 and 12, with the feet.
-    pub(crate) lower_legs: Option<SegmentSection>,
-    /// 11, with the foot.
-    pub(crate) left_lower_leg: Option<SegmentSection>,
-    /// 12, with the foot.
-    pub(crate) right_lower_leg: Option<SegmentSection>,
+pub(crate) struct LandmarksSection {
+    /// Carries the head's accelerometer; its joint is the upper neck's load cell. "head" if absent.
+    pub(crate) head: Option<String>,
+    /// Carries the chest's accelerometer. "upper_torso" or "chest" if absent.
+    pub(crate) chest: Option<String>,
+    /// Carries the pelvis' accelerometer and sits on the cushion. "lower_torso" or "pelvis" if absent.
+    pub(crate) pelvis: Option<String>,
+}
+
+/// A joint of the body and its place on both segments.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-at-most-one" = [["axis", "axes_on_proximal"], ["axis", "axes_on_distal"]]))]
+pub(crate) struct BodyJointSection {
+    /// The segment nearer to the one that no joint carries.
+    pub(crate) proximal: Option<String>,
+    /// The segment that it carries.
+    pub(crate) distal: Option<String>,
+    /// How it turns: "ball", any way; "pin", about one axis; "universal", about Y, then X of the joint's axes; "fixed", not
+    /// at all. "ball" if absent.
+    #[schemars(extend("enum" = ["ball", "pin", "universal", "fixed"]))]
+    pub(crate) kind: Option<String>,
+    /// Its place on the proximal segment, from that one's lower end, in its axes (X ahead, Y left, Z up when standing).
+    pub(crate) on_proximal: Option<[Length; 3]>,
+    /// Its place on the distal segment, from that one's lower end, in its axes.
+    pub(crate) on_distal: Option<[Length; 3]>,
+    /// Axis of a pin in the axes of both segments as they stand at the angle 0; Y if absent.
+    pub(crate) axis: Option<[Ratio; 3]>,
+    /// Yaw, pitch and roll that turn the joint's axes into the proximal segment's; none if absent. A pin turns about the
+    /// joint's Y; bend and twist are those of its Z axes.
+    pub(crate) axes_on_proximal: Option<[Angle; 3]>,
+    /// The same for the distal segment.
+    pub(crate) axes_on_distal: Option<[Angle; 3]>,
 }
 
 /// One segment.
@@ -107,12 +123,16 @@ pub(crate) struct SegmentSection {
     pub(crate) length: Option<Length<POSITIVE>>,
     /// ρ, distance of the centre of gravity from the lower end, standing posture (the distal end of a limb).
     pub(crate) cg_from_lower_end: Option<Length>,
+    /// X and Y of the centre of gravity, if it is not on the line between the ends.
+    pub(crate) cg_beside: Option<[Length; 2]>,
     /// Mass. Give this or `weight`.
     pub(crate) mass: Option<Mass<POSITIVE>>,
     /// Weight, a force; divided by `body.weighed_at` to give the mass.
     pub(crate) weight: Option<Force<POSITIVE>>,
     /// I_x, I_y, I_z about the centre of gravity; X ahead, Y left, Z up when standing.
     pub(crate) inertia: Option<[Inertia; 3]>,
+    /// Yaw, pitch and roll that turn the principal axes into the segment's, if `inertia` is about other axes than these.
+    pub(crate) principal_axes: Option<[Angle; 3]>,
 }
 
 /// A contact sphere.
@@ -127,10 +147,6 @@ pub(crate) struct SphereSection {
     /// What its contact forces are multiplied by, for a material that was measured on the whole part; 1 if absent.
     pub(crate) share: Option<Ratio<POSITIVE>>,
     /// Segment that carries it; those of the sphere set know theirs.
-    #[schemars(extend("enum" = [
-        "middle_torso", "upper_torso", "head", "lower_torso", "left_upper_arm", "right_upper_arm",
-        "left_forearm", "right_forearm", "left_thigh", "right_thigh", "left_lower_leg", "right_lower_leg",
-    ]))]
     pub(crate) segment: Option<String>,
     /// Centre from the segment's lower end, in segment axes (X ahead, Y left, Z up when standing).
     pub(crate) centre: Option<[Length; 3]>,
@@ -183,7 +199,7 @@ fn check_person(b: &mut Builder, preset: Option<&str>, section: &BodySection) {
     let size = format!("a person of {:.3} m and {:.1} kg", person.stature_m, person.mass_kg);
     if !person.is_within_reach() {
         b.error("body", size, REACH);
-    } else if let factor @ (..0.9 | 1.1..) = person.body().1 {
+    } else if let factor @ (..0.9 | 1.1..) = person.body(Division::default()).1 {
         let found = format!("{size}, whose segments by volume must weigh {factor:.2} times as much to reach that mass");
         b.report(Problem::warning(
             "body",
@@ -193,36 +209,60 @@ fn check_person(b: &mut Builder, preset: Option<&str>, section: &BodySection) {
     }
 }
 
-/// The body; `section` is explicit, `preset` is the one it came from.
-pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection) -> Body {
+impl BodySection {
+    /// The division that a preset or a person has.
+    pub(crate) fn division(&self) -> Option<Division> {
+        self.segment_count.map_or(Some(Division::default()), Division::of)
+    }
+}
+
+/// The body; `section` is explicit, `preset` is the one it came from. None where its joints make no tree.
+pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection) -> Option<Body> {
     check_person(b, preset, section);
+    check_division(b, preset, section);
     let weighed_at_m_s2 = si_or(&section.weighed_at, STANDARD_GRAVITY_M_S2);
-    let tree = &TTI12;
+    let (tree, places) = if section.joints.is_empty() { (&TTI12, Vec::new()) } else { own_tree(b, section)? };
+    for name in section.segments.keys().filter(|name| tree.segment_named(name).is_none()) {
+        let names: Vec<&str> = tree.segment_rows().iter().map(|row| row.name).collect();
+        b.unknown(&with_key("body.segments", name), "segment", name, &names);
+    }
+    let half_width_m = |b: &mut Builder, key: &str, width: &Option<Length<NOT_NEGATIVE>>| {
+        if section.joints.is_empty() { b.needed("body", key, width) } else { si_or(width, 0.0) }
+    };
     let mut body = Body {
         name: preset.unwrap_or(if section.describes_a_person() { "person" } else { "own" }).to_owned(),
         tree,
-        segments: std::array::from_fn(|i| segment(b, tree.segment_rows()[i].name, weighed_at_m_s2)),
-        shoulder_half_width_m: b.needed("body", "shoulder_half_width", &section.shoulder_half_width),
-        hip_half_width_m: b.needed("body", "hip_half_width", &section.hip_half_width),
+        segments: tree.segment_rows().iter().map(|row| segment(b, row.name, weighed_at_m_s2)).collect(),
+        places,
+        shoulder_half_width_m: half_width_m(b, "shoulder_half_width", &section.shoulder_half_width),
+        hip_half_width_m: half_width_m(b, "hip_half_width", &section.hip_half_width),
         neck_height_m: si_or(&section.neck_height, 0.0),
+        condyles_m: section.condyles.as_ref().map(all_si).map(|[ahead, above]| Vector3::new(ahead, 0.0, above)),
         spheres: Vec::new(),
     };
     body.spheres = spheres(b, section, &body);
-    body
+    Some(body)
+}
+
+fn check_division(b: &mut Builder, preset: Option<&str>, section: &BodySection) {
+    let Some(count) = section.segment_count else { return };
+    if section.division().is_none() {
+        b.error("body.segment_count", format!("{count} segments"), "12, 15 or 17");
+    } else if preset.is_none() && !section.describes_a_person() && section.joints.is_empty() {
+        let expected = "a preset or a person to divide, or `[body.joints]` of one's own";
+        b.error("body.segment_count", "`segment_count` of a body of one's own", expected);
+    } else if preset == Some("male50-1970") && count != 12 {
+        b.error("body.segment_count", format!("male50-1970 in {count} segments"), "12, or preset = \"male50\"");
+    }
 }
 
 fn segment(b: &mut Builder, name: &str, weighed_at_m_s2: f64) -> SegmentProperties {
-    let path = format!("body.segments.{name}");
+    let path = with_key("body.segments", name);
     let Some(section) = b.section::<SegmentSection>(&path) else {
         let found = format!("the body has no segment `{name}`");
         let hint = "body.preset = \"male50\" gives a whole body to change";
         b.report(Problem::error(path, found, "all twelve segments").with_hint(Some(hint)));
-        return SegmentProperties {
-            length_m: f64::NAN,
-            mass_kg: f64::NAN,
-            cg_from_lower_end_m: f64::NAN,
-            inertia_kg_m2: Vector3::zeros(),
-        };
+        return SegmentProperties::new(f64::NAN, f64::NAN, f64::NAN, Vector3::zeros());
     };
     let mass_kg = match (&section.mass, &section.weight) {
         (None, Some(weight)) => weight.si() / weighed_at_m_s2,
@@ -235,12 +275,19 @@ fn segment(b: &mut Builder, name: &str, weighed_at_m_s2: f64) -> SegmentProperti
             Vector3::zeros()
         }
     };
+    let length_m = b.needed(&path, "length", &section.length);
+    let cg_m = b.needed(&path, "cg_from_lower_end", &section.cg_from_lower_end);
     SegmentProperties {
-        length_m: b.needed(&path, "length", &section.length),
-        mass_kg,
-        cg_from_lower_end_m: b.needed(&path, "cg_from_lower_end", &section.cg_from_lower_end),
-        inertia_kg_m2,
+        cg_beside_m: section.cg_beside.as_ref().map_or_else(Vector2::zeros, |beside| all_si(beside).into()),
+        principal: turned(&section.principal_axes),
+        ..SegmentProperties::new(length_m, mass_kg, cg_m, inertia_kg_m2)
     }
+}
+
+/// Yaw, pitch and roll: R_z R_y R_x.
+pub(super) fn turned(angles: &Option<[Angle; 3]>) -> UnitQuaternion<f64> {
+    let [yaw, pitch, roll] = angles.as_ref().map_or([0.0; 3], all_si);
+    UnitQuaternion::from_euler_angles(roll, pitch, yaw)
 }
 
 /// The spheres: those of the set in its order, then others as written.
@@ -279,7 +326,7 @@ fn spheres(b: &mut Builder, body_section: &BodySection, body: &Body) -> Vec<Cont
 /// A sphere of the set with a size, a place or a part of its own.
 fn changed(b: &mut Builder, tree: &Tree, mut sphere: ContactSphere, section: &SphereSection) -> ContactSphere {
     let path = with_key("body.spheres", &sphere.name);
-    let segment = section.segment.as_deref().and_then(|name| tree.segment_named(name));
+    let segment = carrier(b, tree, &path, section);
     if let Some(centre) = &section.centre {
         sphere.centre_from_lower_end_m = point(centre);
         sphere.segment = segment.unwrap_or(sphere.segment);
@@ -298,11 +345,22 @@ fn changed(b: &mut Builder, tree: &Tree, mut sphere: ContactSphere, section: &Sp
     }
 }
 
+/// The segment that a sphere is said to be on.
+fn carrier(b: &mut Builder, tree: &Tree, path: &str, section: &SphereSection) -> Option<Segment> {
+    let name = section.segment.as_deref()?;
+    let segment = tree.segment_named(name);
+    if segment.is_none() {
+        let names: Vec<&str> = tree.segment_rows().iter().map(|row| row.name).collect();
+        b.unknown(&with_key(path, "segment"), "segment", name, &names);
+    }
+    segment
+}
+
 fn own_sphere(b: &mut Builder, tree: &Tree, name: &str, section: &SphereSection) -> Option<ContactSphere> {
     let path = with_key("body.spheres", name);
     let radius_m = b.needed(&path, "radius", &section.radius);
-    let segment = section.segment.as_deref().and_then(|name| tree.segment_named(name));
-    if segment.is_none() {
+    let segment = carrier(b, tree, &path, section);
+    if section.segment.is_none() {
         let found = format!("sphere `{name}` without a segment");
         let hint = format!("only the report's 17 spheres know theirs: {}", tree.sphere_names().join(", "));
         b.report(Problem::error(&path, found, "segment = the segment that carries it").with_hint(Some(hint)));

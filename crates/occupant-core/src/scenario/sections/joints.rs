@@ -1,58 +1,34 @@
 //! `[joints]` and `[joint_sets]`: their keys, and the [`Joints`] they come to.
 
+use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::builder::Builder;
-use super::limits::{BendLimitSection, CentreSection, FrictionSection, RangeLimitSection, limits};
+use super::limits::{BendLimitSection, CentreSection, FrictionSection, LockSection, RangeLimitSection, limits};
 use super::quantity::{NOT_NEGATIVE, si_or};
 use super::{Angle, Ratio, RotationalDamping, RotationalStiffness};
-use crate::body::tti12::TTI12;
+use crate::body::{JointKind, Tree};
 use crate::forces::joint::{AngularSpring, BallJoint, HingeJoint, JointLaw, Joints, Stop};
 use placed_text::{Problem, with_key};
 
-/// The eleven joints. What is said of one joint replaces what is said of its pair, that replaces what is said of `all`,
+/// The joints. What is said of one joint replaces what is said of its pair, that replaces what is said of `all`,
 /// and that replaces the preset. Every joint needs a damping from somewhere.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub(crate) struct JointsSection {
-    /// Joints to start from: "male50", the viscous stops of the report, or "gebod", elastic limits of the GEBOD generator.
-    #[schemars(extend("enum" = ["male50", "gebod"]))]
+    /// Joints to start from: "male50", the viscous stops of the report; "gebod", elastic limits of the GEBOD generator;
+    /// "dummy50-like", "dummy05f-like", "dummy06c-like", what the calibration of dummies asks of neck, trunk and hips.
+    #[schemars(extend("enum" = ["male50", "gebod", "dummy50-like", "dummy05f-like", "dummy06c-like"]))]
     pub(crate) preset: Option<String>,
     /// ε that keeps joint angles smooth where two segments are in line; 0.001 if absent, 0 is the report's formula.
     pub(crate) epsilon: Option<Ratio<NOT_NEGATIVE>>,
-    /// All eleven.
+    /// All joints.
     pub(crate) all: Option<JointSection>,
-    /// 1, between upper torso and head.
-    pub(crate) neck: Option<JointSection>,
-    /// 4, between middle and upper torso.
-    pub(crate) upper_back: Option<JointSection>,
-    /// 7, between middle and lower torso.
-    pub(crate) lower_back: Option<JointSection>,
-    /// Both shoulders.
-    pub(crate) shoulders: Option<JointSection>,
-    /// 3.
-    pub(crate) left_shoulder: Option<JointSection>,
-    /// 2.
-    pub(crate) right_shoulder: Option<JointSection>,
-    /// Both elbows.
-    pub(crate) elbows: Option<JointSection>,
-    /// 5, hinge.
-    pub(crate) left_elbow: Option<JointSection>,
-    /// 6, hinge.
-    pub(crate) right_elbow: Option<JointSection>,
-    /// Both hips.
-    pub(crate) hips: Option<JointSection>,
-    /// 9.
-    pub(crate) left_hip: Option<JointSection>,
-    /// 8.
-    pub(crate) right_hip: Option<JointSection>,
-    /// Both knees.
-    pub(crate) knees: Option<JointSection>,
-    /// 11, hinge.
-    pub(crate) left_knee: Option<JointSection>,
-    /// 10, hinge.
-    pub(crate) right_knee: Option<JointSection>,
+    /// Joints by name: `neck`, `upper_back`, `lower_back`, `left_shoulder`, `left_elbow`, `left_hip`, `left_knee` and those
+    /// of the right; bodies with more segments have others. `shoulders`, `elbows`, `wrists`, `hips`, `knees`, `ankles` stand
+    /// for both sides.
+    #[serde(flatten)]
+    pub(crate) named: IndexMap<String, JointSection>,
 }
 
 /// Properties of a joint.
@@ -85,6 +61,8 @@ pub(crate) struct JointSection {
     pub(crate) angle_limit: Option<Box<RangeLimitSection>>,
     /// Dry friction.
     pub(crate) friction: Option<Box<FrictionSection>>,
+    /// Held until a moment is reached.
+    pub(crate) lock: Option<Box<LockSection>>,
 }
 
 /// Damping that grows towards a limit of travel.
@@ -99,15 +77,20 @@ pub(crate) struct StopSection {
     pub(crate) damping: RotationalDamping<NOT_NEGATIVE>,
 }
 
-/// The eleven joints; `section` is explicit.
-pub(super) fn joints(b: &mut Builder, section: &JointsSection) -> Joints {
-    report_undamped(b);
-    let mut joints = Joints::free(&TTI12);
-    for joint in TTI12.joints() {
-        let row = &TTI12[joint];
+/// The joints of a tree; `section` is explicit.
+pub(super) fn joints(b: &mut Builder, section: &JointsSection, tree: &'static Tree) -> Joints {
+    for name in section.named.keys().filter(|name| tree.joint_named(name).is_none()) {
+        let names: Vec<&str> =
+            tree.joint_rows().iter().map(|row| row.name).chain(["all", "preset", "epsilon"]).collect();
+        b.unknown(&with_key("joints", name), "joint", name, &names);
+    }
+    report_undamped(b, tree);
+    let mut joints = Joints::free(tree);
+    for joint in tree.joints().filter(|joint| tree[*joint].kind != JointKind::Fixed) {
+        let row = &tree[joint];
         let law = if row.is_hinge() { JointLaw::from(hinge(b, row.name)) } else { JointLaw::from(ball(b, row.name)) };
         joints = joints.with(joint, law);
-        joints.limits.extend(said_of(b, row.name).and_then(|section| limits(b, joint, &section)));
+        joints.limits.extend(said_of(b, row.name).and_then(|section| limits(b, joint, row, &section)));
     }
     joints.with_epsilon(si_or(&section.epsilon, Joints::EPSILON))
 }
@@ -119,12 +102,12 @@ fn given(b: &Builder, name: &str) -> Option<JointSection> {
 
 /// What is said of one joint by its own name.
 pub(super) fn said_of(b: &Builder, name: &str) -> Option<JointSection> {
-    b.section(&format!("joints.{name}"))
+    b.section(&with_key("joints", name))
 }
 
 /// One message for all joints that nobody gave a damping.
-fn report_undamped(b: &mut Builder) {
-    let names = TTI12.joint_rows().iter().map(|row| row.name);
+fn report_undamped(b: &mut Builder, tree: &Tree) {
+    let names = tree.joint_rows().iter().filter(|row| row.kind != JointKind::Fixed).map(|row| row.name);
     let undamped: Vec<&str> = names.filter(|name| given(b, name).is_none()).collect();
     let Some((first, others)) = undamped.split_first() else { return };
     let found = match others.len() {
@@ -132,7 +115,7 @@ fn report_undamped(b: &mut Builder) {
         n => format!("joint `{first}` and {n} more have no damping"),
     };
     let hint = "joints.all.damping is that of every joint, joints.preset = \"male50\" gives a starting set";
-    let expected = "a damping for each of the eleven joints";
+    let expected = "a damping for each joint";
     b.report(Problem::error(format!("joints.{first}"), found, expected).with_hint(Some(hint)));
 }
 
@@ -165,7 +148,8 @@ fn hinge(b: &mut Builder, name: &str) -> HingeJoint {
     let Some(section) = given(b, name) else { return HingeJoint::default() };
     let path = format!("joints.{name}");
     let foreign = ["stop", "twist_damping", "stiffness", "rest_angle", "centre", "limit", "twist_limit"];
-    let expected = "`damping`, `lower_stop`, `upper_stop`, `angle_limit`, `friction`: elbows and knees are hinges";
+    let expected =
+        "`damping`, `lower_stop`, `upper_stop`, `angle_limit`, `friction`, `lock`: elbows and knees are hinges";
     b.refuse_keys(&path, &foreign, |key| format!("`{key}` of a hinge"), expected);
     HingeJoint {
         damping_n_m_s: si_or(&section.damping, f64::NAN),

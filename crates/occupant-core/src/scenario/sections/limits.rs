@@ -1,4 +1,4 @@
-//! Elastic limits and dry friction of a joint: their keys, and the [`Limits`] they come to.
+//! Elastic limits, dry friction and lock of a joint: their keys, and the [`Limits`] they come to.
 
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -8,14 +8,16 @@ use super::builder::Builder;
 use super::joints::JointSection;
 use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, all_si, si_or};
 use super::{Angle, AngularVelocity, Moment, MomentPerAngle2, MomentPerAngle3, Ratio, RotationalStiffness};
-use crate::body::tree::Joint;
-use crate::body::tti12::TTI12;
-use crate::forces::joint::limit::{Bend, Centre, Curve, Friction, Limits, Stop, Turn};
+use crate::body::{Joint, JointRow};
+use crate::forces::joint::limit::{Bend, Centre, Curve, Friction, Limits, Lock, Stop, Turn};
 use crate::forces::spring::LEAST_FRACTION;
 use placed_text::{Problem, with_key};
 
 /// Speed of dry friction unless given, rad/s: 0.4 × 30 °/s.
 const FRICTION_RAD_S: f64 = 12.0 * std::f64::consts::PI / 180.0;
+
+/// A lock without a stiffness reaches its moment at this angle, rad: 2°.
+const LOCK_RAD: f64 = 2.0 * std::f64::consts::PI / 180.0;
 
 /// The axis from which a ball joint bends, and the direction of azimuth 0.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -85,9 +87,24 @@ pub(crate) struct FrictionSection {
     pub(crate) speed: Option<AngularVelocity<POSITIVE>>,
 }
 
-/// Limits and friction of a joint, if it has any.
-pub(super) fn limits(b: &mut Builder, joint: Joint, section: &JointSection) -> Option<Limits> {
-    let row = &TTI12[joint];
+/// A lock: a spring in all directions to the posture of the start, which opens when a moment is reached. Without `until` it
+/// never does: a joint of rubber.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-at-most-one" = [["slips", "relock_below"]]))]
+pub(crate) struct LockSection {
+    /// Moment at which it opens; never if absent.
+    pub(crate) until: Option<Moment<POSITIVE>>,
+    /// Moment per angle while it is closed; that which reaches `until` at 2° if absent.
+    pub(crate) stiffness: Option<RotationalStiffness<POSITIVE>>,
+    /// True: instead of opening, the joint slips and the lock keeps that moment.
+    pub(crate) slips: Option<bool>,
+    /// Once open it closes again where the joint has been slower than this for 5 ms; never if absent.
+    pub(crate) relock_below: Option<AngularVelocity<POSITIVE>>,
+}
+
+/// Limits, friction and lock of a joint, if it has any.
+pub(super) fn limits(b: &mut Builder, joint: Joint, row: &JointRow, section: &JointSection) -> Option<Limits> {
     let path = format!("joints.{}", row.name);
     let key = if row.is_hinge() { "angle_limit" } else { "twist_limit" };
     let range = if row.is_hinge() { &section.angle_limit } else { &section.twist_limit };
@@ -101,9 +118,23 @@ pub(super) fn limits(b: &mut Builder, joint: Joint, section: &JointSection) -> O
             .friction
             .as_ref()
             .map(|friction| Friction { torque: friction.torque.si(), speed: si_or(&friction.speed, FRICTION_RAD_S) }),
+        lock: section.lock.as_deref().map(|section| lock(b, &with_key(&path, "lock"), section)),
     };
-    let is_any = limits.bend.is_some() || limits.turn.is_some() || limits.friction.is_some();
+    let is_any = limits.bend.is_some() || limits.turn.is_some() || limits.friction.is_some() || limits.lock.is_some();
     is_any.then_some(limits)
+}
+
+fn lock(b: &mut Builder, path: &str, section: &LockSection) -> Lock<f64> {
+    let stiffness = match &section.until {
+        Some(until) => si_or(&section.stiffness, until.si() / LOCK_RAD),
+        None => b.needed(path, "stiffness", &section.stiffness),
+    };
+    Lock {
+        until: si_or(&section.until, 1e30),
+        stiffness,
+        slips: section.slips == Some(true),
+        relock_below: si_or(&section.relock_below, 0.0),
+    }
 }
 
 fn centre(section: &CentreSection) -> Centre {

@@ -5,10 +5,13 @@
 
 mod belts;
 mod body;
+mod body_joints;
 mod builder;
 mod joints;
 mod limits;
+mod markers;
 mod materials;
+mod muscles;
 mod number_table;
 mod path;
 mod plausible;
@@ -22,6 +25,7 @@ mod sensors;
 mod setup;
 mod solids;
 mod surfaces;
+mod triggers;
 
 use std::sync::OnceLock;
 
@@ -36,7 +40,9 @@ pub(super) use setup::{occupant, setup};
 use self::belts::BeltSection;
 pub(super) use self::body::BodySection;
 use self::joints::{JointSection, JointsSection};
+use self::markers::MarkerSection;
 use self::materials::MaterialSection;
+use self::muscles::MuscleSection;
 use self::path::PathSection;
 use self::posture::{InitialStateSection, PostureSection, SeatSection};
 use self::quantity::ANY;
@@ -44,6 +50,7 @@ use self::run::{IntegratorSection, OutputSection, TimeSection};
 use self::self_contact::SelfContactSection;
 use self::solids::SolidSection;
 use self::surfaces::{ContactSection, SurfaceSection};
+use self::triggers::TriggerSection;
 use super::check::schema::schema_of;
 use super::kind::{self, UnitSystem};
 
@@ -117,6 +124,16 @@ pub struct Scenario {
     /// Joint properties named once, for joints to refer to.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) joint_sets: IndexMap<String, JointSection>,
+    /// Muscles by joint: active torques that hold its posture. `elbows` and the like stand for left and right, `all` for every
+    /// joint; what is said of one joint replaces what is said of its pair, and that what is said of `all`.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) muscles: IndexMap<String, MuscleSection>,
+    /// What sets something off, by name.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) triggers: IndexMap<String, TriggerSection>,
+    /// Points of segments whose motion is recorded, by name.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) markers: IndexMap<String, MarkerSection>,
     /// Belts by name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) belts: IndexMap<String, BeltSection>,

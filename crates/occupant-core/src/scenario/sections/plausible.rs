@@ -7,7 +7,7 @@ use super::builder::Builder;
 use super::joints::said_of;
 use super::posture::PostureSection;
 use super::{Angle, Scenario};
-use crate::body::tti12::TTI12;
+use crate::body::Tree;
 use crate::model::setup::Setup;
 use placed_text::{Problem, Step, child, follow, parse_path, targets, to_text};
 
@@ -68,7 +68,7 @@ pub(super) fn check(b: &mut Builder, setup: &Setup, scenario: &Scenario) {
     if let Some(posture) = &scenario.posture {
         check_posture_angles(b, posture);
     }
-    check_stop_angles(b);
+    check_stop_angles(b, setup.body.tree);
 }
 
 /// SI values and the paths they stand at; a 0 that switches something off is none, nor is what is taken away.
@@ -111,7 +111,7 @@ fn look_like_radians(angles: &[&Angle]) -> bool {
 }
 
 fn check_posture_angles(b: &mut Builder, p: &PostureSection) {
-    let angles = [&p.middle_torso, &p.upper_torso, &p.head, &p.lower_torso, &p.upper_arms, &p.elbows];
+    let angles: Vec<&Angle> = p.angles().map(|(_, angle)| angle).collect();
     if look_like_radians(&angles) {
         let found = "angles of the posture that are all below 3.2°, as if they were radians";
         let hint = "bare angles are degrees; write \"0.26 rad\" for radians";
@@ -119,8 +119,8 @@ fn check_posture_angles(b: &mut Builder, p: &PostureSection) {
     }
 }
 
-fn check_stop_angles(b: &mut Builder) {
-    for joint in TTI12.joint_rows() {
+fn check_stop_angles(b: &mut Builder, tree: &Tree) {
+    for joint in tree.joint_rows() {
         let Some(section) = said_of(b, joint.name) else { continue };
         let stops = [("stop", &section.stop), ("lower_stop", &section.lower_stop), ("upper_stop", &section.upper_stop)];
         for (key, stop) in stops {

@@ -1,6 +1,7 @@
 //! `[seats]`, `[posture]` and `[initial_state]`: their keys, and the [`InitialPosture`] and [`InitialVelocity`] they come
 //! to.
 
+use indexmap::IndexMap;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -8,11 +9,11 @@ use serde::{Deserialize, Serialize};
 use super::builder::{Builder, index_of};
 use super::quantity::{all_si, si_or};
 use super::{Angle, Length, Scenario, Speed};
-use crate::body::Body;
+use crate::body::{Body, Segment, Tree, both_sides};
 use crate::model::seating::{InitialPosture, InitialVelocity, Seating};
 use crate::motion::report_coordinates::{DOF, ReportCoordinates};
 use crate::scenario::check::units_of;
-use placed_text::Problem;
+use placed_text::{Problem, with_key};
 
 /// A place to sit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -28,25 +29,24 @@ pub(crate) struct SeatSection {
 
 /// How the occupant sits. Angles lean the top of a segment back from the vehicle's vertical.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 #[schemars(extend("x-at-most-one" = [["moves_with_vehicle", "velocity"]]))]
 pub(crate) struct PostureSection {
     /// Name of the seat in `seats`.
     pub(crate) seat: String,
     /// γ₁.
-    pub(crate) middle_torso: Angle,
+    pub(crate) middle_torso: Option<Angle>,
     /// γ₂.
-    pub(crate) upper_torso: Angle,
+    pub(crate) upper_torso: Option<Angle>,
     /// γ₃.
-    pub(crate) head: Angle,
+    pub(crate) head: Option<Angle>,
     /// γ₄.
-    pub(crate) lower_torso: Angle,
+    pub(crate) lower_torso: Option<Angle>,
     /// γ₅, both upper arms; positive brings the elbows ahead of the shoulders.
-    pub(crate) upper_arms: Angle,
+    pub(crate) upper_arms: Option<Angle>,
     /// α, both elbows; negative brings the hands forward.
-    pub(crate) elbows: Angle,
+    pub(crate) elbows: Option<Angle>,
     /// [x, z] of both heels, vehicle axes.
-    pub(crate) heels: [Length; 2],
+    pub(crate) heels: Option<[Length; 2]>,
     /// Move the seated body as one piece until cushion, back and belts carry it; true if absent. False is the report's seating.
     pub(crate) settle: Option<bool>,
     /// True: every point starts with the velocity of the vehicle there. False: all start with the velocity of the
@@ -54,6 +54,30 @@ pub(crate) struct PostureSection {
     pub(crate) moves_with_vehicle: Option<bool>,
     /// Velocity of every point at the start, vehicle axes, instead of the vehicle's.
     pub(crate) velocity: Option<[Speed; 3]>,
+    /// Further angles by the names of segments, `neck`, or of pins; `left_upper_arm` and `right_upper_arm` stand for one each.
+    /// A segment of which nothing is said hangs as the one that carries it.
+    #[serde(flatten)]
+    pub(crate) others: IndexMap<String, Angle>,
+}
+
+impl PostureSection {
+    /// The angles that a person who sits is known to need.
+    fn usual(&self) -> [(&'static str, &Option<Angle>); 6] {
+        [
+            ("middle_torso", &self.middle_torso),
+            ("upper_torso", &self.upper_torso),
+            ("head", &self.head),
+            ("lower_torso", &self.lower_torso),
+            ("upper_arms", &self.upper_arms),
+            ("elbows", &self.elbows),
+        ]
+    }
+
+    /// All angles by name.
+    pub(super) fn angles(&self) -> impl Iterator<Item = (&str, &Angle)> {
+        let usual = self.usual().into_iter().filter_map(|(name, angle)| Some((name, angle.as_ref()?)));
+        usual.chain(self.others.iter().map(|(name, angle)| (name.as_str(), angle)))
+    }
 }
 
 /// Position and velocity at the start in the report's generalized coordinates.
@@ -77,26 +101,46 @@ pub(crate) struct InitialStateSection {
 /// Position and velocity at the start.
 pub(super) fn posture(b: &mut Builder, s: &Scenario, body: &Body) -> (Option<InitialPosture>, InitialVelocity) {
     match (&s.posture, &s.initial_state) {
-        (Some(posture), _) => (seating(s, posture).map(InitialPosture::Seated), velocity(posture)),
+        (Some(posture), _) => (seating(b, s, posture, body.tree).map(InitialPosture::Seated), velocity(posture)),
         (None, Some(state)) => (state_of(b, s, state, body), InitialVelocity::default()),
         (None, None) => (None, InitialVelocity::default()),
     }
 }
 
-fn seating(s: &Scenario, p: &PostureSection) -> Option<Seating> {
+fn seating(b: &mut Builder, s: &Scenario, p: &PostureSection, tree: &Tree) -> Option<Seating> {
     let seat = s.seats.get(&p.seat)?;
     let solid = |name: &str| Some(s.surfaces.len() + s.solids.get_index_of(name)?);
     let part = |name: &str| s.surfaces.get_index_of(name).or_else(|| solid(name));
+    check_angles(b, p, tree);
+    if p.heels.is_none() && tree.landmarks().legs().next().is_some() {
+        b.error("posture", "`posture` has no key `heels`", "heels = [x, z], vehicle axes");
+    }
     Some(Seating {
         cushion: part(&seat.cushion)?,
         back: part(&seat.back)?,
         lateral_m: si_or(&seat.y, 0.0),
-        lean_rad: [p.middle_torso.si(), p.upper_torso.si(), p.head.si(), p.lower_torso.si()],
-        upper_arms_rad: p.upper_arms.si(),
-        elbows_rad: p.elbows.si(),
-        heels_m: all_si(&p.heels),
+        angles_rad: p.angles().map(|(name, angle)| (name.to_owned(), angle.si())).collect(),
+        heels_m: p.heels.as_ref().map_or([0.0; 2], all_si),
         settle: p.settle.unwrap_or(true),
     })
+}
+
+/// Angles that are not said although the body asks for them, and said although it knows none of that name.
+fn check_angles(b: &mut Builder, p: &PostureSection, tree: &Tree) {
+    let is_of_leg = |segment: Segment| tree.landmarks().legs().any(|leg| segment == leg.upper || segment == leg.lower);
+    let words = tree.segments().filter(|segment| !is_of_leg(*segment)).flat_map(|segment| {
+        let joint = tree.carrier(segment).map(|joint| &tree[joint]);
+        let name = joint.filter(|row| row.is_hinge()).map_or(tree[segment].name, |row| row.name);
+        both_sides(name).into_iter().chain([name.to_owned()])
+    });
+    let words: Vec<String> = words.collect();
+    for (name, angle) in p.usual().iter().filter(|(name, _)| words.iter().any(|word| word == name)) {
+        b.needed("posture", name, angle);
+    }
+    let known: Vec<&str> = words.iter().map(String::as_str).collect();
+    for (name, _) in p.angles().filter(|(name, _)| !known.contains(name)) {
+        b.unknown(&with_key("posture", name), "segment or pin of the posture", name, &known);
+    }
 }
 
 fn velocity(p: &PostureSection) -> InitialVelocity {

@@ -5,8 +5,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::builder::Builder;
+use super::markers::markers;
 use super::quantity::{NOT_NEGATIVE, POSITIVE, si_or};
 use super::{Length, Ratio, Scenario, Speed, Time};
+use crate::body::Body;
 use crate::model::setup::{DEFAULT_OUTPUT_S, Integrator, OutputOptions, TimeSpan};
 
 /// When the run starts and ends.
@@ -97,6 +99,9 @@ pub(super) fn integrator(b: &mut Builder, s: &Scenario) -> Integrator {
 }
 
 /// Extra outputs.
-pub(super) fn output(s: &Scenario) -> OutputOptions {
-    OutputOptions { report_coordinates: s.output.as_ref().and_then(|o| o.report_coordinates) == Some(true) }
+pub(super) fn output(b: &mut Builder, s: &Scenario, body: &Body) -> OutputOptions {
+    OutputOptions {
+        report_coordinates: s.output.as_ref().and_then(|o| o.report_coordinates) == Some(true),
+        markers: markers(b, &s.markers, body),
+    }
 }

@@ -8,8 +8,8 @@ use serde::Deserialize;
 use super::builder::Builder;
 use super::quantity::si_or;
 use super::{
-    BodySection, JointsSection, Scenario, belts, body, joints, materials, path, plausible, posture, run, self_contact,
-    solids, surfaces,
+    BodySection, JointsSection, Scenario, belts, body, joints, materials, muscles, path, plausible, posture, run,
+    self_contact, solids, surfaces,
 };
 use crate::body::Body;
 use crate::forces::joint::Joints;
@@ -26,8 +26,10 @@ pub(in crate::scenario) fn setup(
     path_table: Option<SourceId>,
 ) -> Result<(Setup, Diagnostics), Diagnostics> {
     let b = &mut Builder { document, problems: Diagnostics::new() };
-    let body = body::body(b, written.body.preset.as_deref(), &explicit.body);
-    let joints = joints::joints(b, &explicit.joints);
+    let Some(body) = body::body(b, written.body.preset.as_deref(), &explicit.body) else {
+        return Err(std::mem::take(&mut b.problems));
+    };
+    let mut joints = joints::joints(b, &explicit.joints, body.tree);
     references(&document.root, None).into_iter().for_each(|problem| b.report(problem));
     let surfaces = surfaces::surfaces(b, explicit, &body);
     let solids = solids::solids(b, explicit, &body);
@@ -36,8 +38,12 @@ pub(in crate::scenario) fn setup(
     let (posture, velocity) = posture::posture(b, explicit, &body);
     let time = run::time(b, explicit);
     let integrator = run::integrator(b, explicit);
+    let output = run::output(b, explicit, &body);
     let gravity_m_s2 = si_or(&explicit.gravity, STANDARD_GRAVITY_M_S2);
     let path = path::path(b, &explicit.path, path_table, gravity_m_s2);
+    if let Some(path) = &path {
+        joints.muscles = muscles::muscles(b, explicit, &body, path, &time);
+    }
     check_provenance(b, written);
     let (Some(path), Some(posture), false) = (path, posture, b.problems.has_errors()) else {
         return Err(std::mem::take(&mut b.problems));
@@ -58,7 +64,7 @@ pub(in crate::scenario) fn setup(
         velocity,
         time,
         integrator,
-        output: run::output(explicit),
+        output,
     };
     plausible::check(b, &setup, explicit);
     Ok((setup, std::mem::take(&mut b.problems)))
@@ -69,8 +75,9 @@ pub(in crate::scenario) fn occupant(preset: &str, document: &Document) -> Option
     let body = BodySection::deserialize(document.root.get("body")?).ok()?;
     let joints = JointsSection::deserialize(document.root.get("joints")?).ok()?;
     let b = &mut Builder { document, problems: Diagnostics::new() };
-    let occupant = (body::body(b, Some(preset), &body), joints::joints(b, &joints));
-    (!b.problems.has_errors()).then_some(occupant)
+    let body = body::body(b, Some(preset), &body)?;
+    let joints = joints::joints(b, &joints, body.tree);
+    (!b.problems.has_errors()).then_some((body, joints))
 }
 
 /// Warns of provenance notes that speak of nothing in the scenario.

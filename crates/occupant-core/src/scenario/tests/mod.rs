@@ -1,9 +1,11 @@
 //! Tests of the scenario format.
 
+mod bodies;
 mod carts;
 mod limits;
 mod meaning;
 mod messages;
+mod muscles;
 mod overrides;
 mod record_file;
 mod robustness;

@@ -5,7 +5,6 @@ use occupant_core::body::Joint;
 use occupant_core::forces::joint::JointLaw;
 use occupant_core::model::Model;
 use occupant_core::motion::kinematics::Kinematics;
-use occupant_core::motion::layout::{BALL_JOINTS, HINGE_JOINTS};
 use occupant_core::motion::state::State;
 
 /// In words: `neck enters the range of its stop`.
@@ -16,19 +15,19 @@ pub(super) fn words(model: &Model, joint: Joint, enters: bool) -> String {
 
 /// Which joints were last seen in the range of a stop.
 #[derive(Default)]
-pub(super) struct Lookout([Option<bool>; BALL_JOINTS.len() + HINGE_JOINTS.len()]);
+pub(super) struct Lookout(Vec<Option<bool>>);
 
 impl Lookout {
     pub fn look<const N: usize>(&mut self, model: &Model, state: &State<f64>, notes: &mut Notes<N>) {
         let system = model.system();
         let k = Kinematics::new(&system.skeleton, state);
-        for (i, joint) in BALL_JOINTS.iter().chain(HINGE_JOINTS).copied().enumerate() {
-            let angle_rad = match i.checked_sub(BALL_JOINTS.len()) {
-                None => system.forces.joints.beta(i, &k),
-                Some(hinge) => state.hinge[hinge],
-            };
+        let joints = &system.forces.joints;
+        let balls = joints.balls.iter().enumerate().map(|(i, ball)| (ball.joint, joints.beta(i, &k)));
+        let hinges = joints.hinges.iter().zip(state.hinge()).map(|(hinge, angle_rad)| (hinge.joint, *angle_rad));
+        self.0.resize(joints.balls.len() + joints.hinges.len(), None);
+        for (seen, (joint, angle_rad)) in self.0.iter_mut().zip(balls.chain(hinges)) {
             let inside = in_stop(&model.setup().joints[joint], angle_rad);
-            let before = self.0[i].replace(inside);
+            let before = seen.replace(inside);
             if before.is_some_and(|b| b != inside) {
                 notes.note(Happening::Stop { joint, enters: inside }, None);
             }

@@ -8,7 +8,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{UnitQuaternion, Vector3};
-use occupant_core::body::{Body, ContactSphere, Landmarks, Segment, SegmentProperties};
+use occupant_core::body::{Body, ContactSphere, Limb, Pair, Segment, SegmentProperties, Tree};
 
 use super::primitive::{cylinder, ellipsoid};
 use super::{Color, entity};
@@ -49,42 +49,43 @@ pub(crate) fn write_spheres(wire: &mut Wire, body: &Body, frames: &FrameNames) {
 fn write_segment(wire: &mut Wire, body: &Body, segment: Segment) {
     let p = body.segment(segment);
     let marks = body.tree.landmarks();
-    let color = Tone::of(marks, segment).color();
+    let color = Tone::of(body.tree, segment).color();
     let length = if segment == marks.head { NECK_LENGTH * p.length_m } else { p.length_m };
-    let (lower, upper) = (-p.cg_from_lower_end_m, length - p.cg_from_lower_end_m);
+    let [lower, upper] = [0.0, length].map(|z| Vector3::z() * z - p.cg_m());
     let (a, b) = half_axes_m(body, segment);
-    let middle = Vector3::z() * (0.5 * (lower + upper));
     let size = Vector3::new(2.0 * a, 2.0 * b, length);
-    cylinder(wire, middle, UnitQuaternion::identity(), size, color);
+    cylinder(wire, (lower + upper) * 0.5, UnitQuaternion::identity(), size, color);
     let cap = Vector3::new(2.0 * a, 2.0 * b, (a + b).min(0.5 * length));
-    ellipsoid(wire, Vector3::z() * lower, cap, color);
-    ellipsoid(wire, Vector3::z() * upper, cap, color);
+    ellipsoid(wire, lower, cap, color);
+    ellipsoid(wire, upper, cap, color);
     if segment == marks.head {
         for s in body.spheres.iter().filter(|s| s.segment == segment) {
             let centre = sphere_centre_m(body, s);
             ellipsoid(wire, centre, Vector3::repeat(2.0 * s.radius_m), SKIN);
         }
-    } else if segment == marks.chest {
-        let arm = half_axes_m(body, marks.arms.left.upper).0;
-        girdle(wire, upper, body.shoulder_half_width_m, arm, color);
-        if body.neck_height_m > 0.0 {
-            let size = Vector3::new(2.0 * arm, 2.0 * arm, body.neck_height_m);
-            let centre = Vector3::z() * (upper + 0.5 * body.neck_height_m);
-            cylinder(wire, centre, UnitQuaternion::identity(), size, color);
+    }
+    if segment == marks.chest {
+        girdle(wire, body, segment, marks.arms, color);
+        let radius = marks.arms().next().map_or(a, |arm| half_axes_m(body, arm.upper).0);
+        if let Some(height_m) = body.neck_above_m(segment).filter(|height_m| *height_m > 0.0) {
+            let size = Vector3::new(2.0 * radius, 2.0 * radius, height_m);
+            cylinder(wire, upper + Vector3::z() * (0.5 * height_m), UnitQuaternion::identity(), size, color);
         }
-    } else if segment == marks.pelvis {
-        let thigh = half_axes_m(body, marks.legs.left.upper).0;
-        girdle(wire, lower, body.hip_half_width_m, thigh, color);
+    }
+    if segment == marks.pelvis {
+        girdle(wire, body, segment, marks.legs, color);
     }
 }
 
 /// A bar along Y that carries shoulders or hips.
-fn girdle(wire: &mut Wire, height_m: f64, half_width_m: f64, radius_m: f64, color: Color) {
+fn girdle(wire: &mut Wire, body: &Body, segment: Segment, limbs: Pair<Option<Limb>>, color: Color) {
+    let (Some(left), Some(right)) = (limbs.left, limbs.right) else { return };
+    let radius_m = half_axes_m(body, left.upper).0;
+    let ends = [left, right].map(|limb| body.socket_m(limb.upper) - body.segment(segment).cg_m());
     let across = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), FRAC_PI_2);
-    let size = Vector3::new(2.0 * radius_m, 2.0 * radius_m, 2.0 * half_width_m);
-    cylinder(wire, Vector3::z() * height_m, across, size, color);
-    for side in [1.0, -1.0] {
-        let joint = Vector3::new(0.0, side * half_width_m, height_m);
+    let size = Vector3::new(2.0 * radius_m, 2.0 * radius_m, ends[0].y - ends[1].y);
+    cylinder(wire, (ends[0] + ends[1]) * 0.5, across, size, color);
+    for joint in ends {
         ellipsoid(wire, joint, Vector3::repeat(2.0 * radius_m), color);
     }
 }
@@ -104,14 +105,13 @@ pub(crate) fn slim_axes_m(p: &SegmentProperties, width: f64) -> (f64, f64) {
 
 /// Centre of a sphere from its segment's centre of gravity, segment axes, m.
 pub(crate) fn sphere_centre_m(body: &Body, sphere: &ContactSphere) -> Vector3<f64> {
-    let cg = body.segment(sphere.segment).cg_from_lower_end_m;
-    sphere.centre_from_lower_end_m.coords - Vector3::z() * cg
+    sphere.centre_from_lower_end_m.coords - body.segment(sphere.segment).cg_m()
 }
 
 /// What a part of the body wears.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Tone {
-    /// Head, forearms.
+    /// Head, neck, forearms, hands.
     Skin,
     /// Upper trunk, upper arms.
     Shirt,
@@ -120,14 +120,14 @@ pub(crate) enum Tone {
 }
 
 impl Tone {
-    pub(crate) fn of(marks: &Landmarks, segment: Segment) -> Self {
-        let arms = &marks.arms;
-        if [marks.head, arms.left.lower, arms.right.lower].contains(&segment) {
-            Tone::Skin
-        } else if [marks.middle, marks.chest, arms.left.upper, arms.right.upper].contains(&segment) {
+    pub(crate) fn of(tree: &Tree, segment: Segment) -> Self {
+        let marks = tree.landmarks();
+        if segment == marks.pelvis || marks.legs().any(|leg| tree.is_of(segment, &leg)) {
+            Tone::Trousers
+        } else if tree.is_trunk(segment) || marks.arms().any(|arm| segment == arm.upper) {
             Tone::Shirt
         } else {
-            Tone::Trousers
+            Tone::Skin
         }
     }
 

@@ -29,7 +29,7 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
         came_to_rest(pages, units, settled);
     }
     let recorded = case.file.checkpoints.first().filter(|c| c.index == 0);
-    if recorded.is_some_and(|c| c.state.to_numbers() != start.state.to_numbers()) {
+    if recorded.is_some_and(|c| c.state != start.state.numbers()) {
         pages.say("*** THE RECORDED START DIFFERS FROM THE ONE COMPUTED HERE: ANOTHER VERSION OF THE PROGRAM ***");
     }
     ELEMENTS.iter().for_each(|element| (element.start)(pages, case, units));
@@ -48,14 +48,8 @@ fn read(pages: &mut Pages, case: &Case, units: Units, seating: &Seating) {
     pages.fact("CUSHION", case.surface(seating.cushion));
     pages.fact("SEAT BACK", case.surface(seating.back));
     pages.fact("LATERAL PLACE", l.say(seating.lateral_m));
-    let [middle, upper, head, lower] = seating.lean_rad.map(|x| angle.show(x));
-    let [arms, elbows] = [seating.upper_arms_rad, seating.elbows_rad].map(|x| angle.show(x));
-    pages.fact(
-        "LEAN (DEG)",
-        format!(
-            "MIDDLE TORSO {middle}, UPPER TORSO {upper}, HEAD {head}, LOWER TORSO {lower}, UPPER ARMS {arms}, ELBOWS {elbows}"
-        ),
-    );
+    let shown = |(name, rad): &(String, f64)| format!("{} {}", name.replace('_', " ").to_uppercase(), angle.show(*rad));
+    pages.fact("LEAN (DEG)", seating.angles_rad.iter().map(shown).collect::<Vec<_>>().join(", "));
     let [x, z] = seating.heels_m;
     pages.fact("HEELS", format!("X {}, Z {}", l.show(x), l.say(z)));
     let v = units.of(MetrePerSecond);

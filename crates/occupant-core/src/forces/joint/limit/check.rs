@@ -3,7 +3,6 @@
 use std::f64::consts::PI;
 
 use super::{Centre, Curve, Joints, LimitLaw, Limits, Stop};
-use crate::body::Place;
 use crate::forces::element::Instant;
 use crate::forces::joint::JointLaw;
 use placed_text::Problems;
@@ -28,7 +27,7 @@ pub(super) fn check(joints: &Joints, limits: &Limits, problems: &mut Problems) {
         problems.error(format!("{path}.centre"), found, "two directions, ahead across the axis");
     }
     if let Some(bend) = &limits.bend {
-        check_bend(&bend.angle, limits.turn.is_some(), !matches!(row.place, Place::Beside(..)), &bend_path, problems);
+        check_bend(&bend.angle, limits.turn.is_some(), row.side().is_none(), &bend_path, problems);
         check_stop(&bend.stop, &bend_path, problems);
     }
     if let Some(turn) = &limits.turn {

@@ -78,7 +78,7 @@ impl<S: Scalar> Curve<S> {
 
     /// Value at x.
     #[inline(always)]
-    pub(super) fn value(&self, x: S) -> S {
+    pub(crate) fn value(&self, x: S) -> S {
         self.piece(x).value(x)
     }
 
@@ -90,7 +90,7 @@ impl<S: Scalar> Curve<S> {
 
     /// Value and slope of a periodic curve at an angle of −π to π.
     #[inline(always)]
-    pub(super) fn around(&self, angle: S) -> (S, S) {
+    pub(crate) fn around(&self, angle: S) -> (S, S) {
         let first = self.pieces.first().map_or(S::zero(), |piece| piece.from);
         let x = S::select(angle.lt(first), angle + S::of(TAU), angle);
         let piece = self.piece(x);

@@ -5,6 +5,7 @@
 //! back the share μ of the work. Stored: μ∫₀^{x*} f. Lost: (1 − μ)∫₀^{χ_m} f, which grows with χ_m only.
 
 use super::curve::Curve;
+use super::lock::{Lock, LockPast, Pair};
 use super::triads::{Pose, Triads};
 use crate::body::Joint;
 use crate::forces::element::Instant;
@@ -72,7 +73,7 @@ impl Turn<f64> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Site {
     Ball,
-    /// The limb.
+    /// Its place among the state's hinges.
     Hinge(usize),
 }
 
@@ -87,12 +88,14 @@ pub struct LimitLaw<S> {
     pub(super) bend: Option<Bend<S>>,
     pub(super) turn: Option<Turn<S>>,
     pub(super) friction: Option<Friction<S>>,
+    pub(super) lock: Option<Lock<S>>,
 }
 
-/// What the two stops of a joint, of bend and of twist or hinge, remember between steps.
+/// What the two stops of a joint, of bend and of twist or hinge, and its lock remember between steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LimitHistory<S> {
     pub(super) stops: [Past<S>; 2],
+    pub(super) lock: LockPast<S>,
 }
 
 /// What a stop remembers between steps.
@@ -115,9 +118,13 @@ pub struct LimitAction<S> {
     pub(crate) excess: S,
     /// Moment of the stops on the outer segment, space axes, N·m.
     pub(crate) stop: V3<S>,
-    /// That with friction.
+    /// That of the lock.
+    pub(super) lock: V3<S>,
+    /// Whether the lock is closed: 1, or 0.
+    pub(super) closed: S,
+    /// That of stops, lock and friction.
     pub(crate) moment: V3<S>,
-    /// Stored in the stops, J.
+    /// Stored in stops and lock, J.
     pub(crate) stored: S,
     /// Lost in them since the start, J.
     pub(crate) lost: S,
@@ -133,10 +140,11 @@ impl<S: Copy> Stop<S> {
 
 impl<S: Copy> LimitLaw<S> {
     /// Laws of equal shape can be computed side by side.
-    pub(super) fn shape(&self) -> (Joint, [usize; 4]) {
+    pub(super) fn shape(&self) -> (Joint, [usize; 4], Option<bool>) {
         let bend = self.bend.as_ref().map_or([0; 2], |bend| [bend.angle.len(), bend.stop.torque.len()]);
         let turn = self.turn.as_ref().map_or(0, |turn| turn.stop.torque.len());
-        (self.joint, [bend[0], bend[1], turn, usize::from(self.friction.is_some())])
+        let slips = self.lock.as_ref().map(|lock| lock.slips);
+        (self.joint, [bend[0], bend[1], turn, usize::from(self.friction.is_some())], slips)
     }
 
     /// f applied to every number and the one in the same place of `other`, which has the same shape.
@@ -161,6 +169,7 @@ impl<S: Copy> LimitLaw<S> {
                 .as_ref()
                 .zip(other.friction.as_ref())
                 .map(|(a, b)| Friction { torque: f(a.torque, b.torque), speed: f(a.speed, b.speed) }),
+            lock: self.lock.as_ref().zip(other.lock.as_ref()).map(|(a, b)| a.zip(b, f)),
         }
     }
 }
@@ -214,7 +223,18 @@ impl<S: Scalar> LimitAction<S> {
     #[inline(always)]
     fn none(joint: Joint) -> Self {
         let (o, none) = (S::zero(), V3::zero());
-        LimitAction { joint, angles: [o; 3], excess: o, stop: none, moment: none, stored: o, lost: o, dissipated: o }
+        LimitAction {
+            joint,
+            angles: [o; 3],
+            excess: o,
+            stop: none,
+            lock: none,
+            closed: o,
+            moment: none,
+            stored: o,
+            lost: o,
+            dissipated: o,
+        }
     }
 
     /// With a stop that pushes along `moment`, what a torque of 1 N·m is, in the lanes where it is `near`.
@@ -238,7 +258,7 @@ impl<S: Scalar> LimitLaw<S> {
         let (k, (inner, outer)) = (at.k, self.segments);
         let mut action = LimitAction::none(self.joint);
         let acts = if let Site::Hinge(limb) = self.site {
-            let (angle, axis) = (at.state.hinge[limb], k.axes[inner].y);
+            let (angle, axis) = (at.state.hinge()[limb], k.hinge_axis[limb]);
             action.angles[0] = angle;
             let act =
                 |turn: &Turn<S>| turn.act::<COMMIT>(S::truth(true), angle, || axis, &mut past.stops[1], &mut action);
@@ -246,15 +266,54 @@ impl<S: Scalar> LimitLaw<S> {
         } else {
             self.act_ball::<COMMIT>(&self.triads.pose(&k.axes[inner], &k.axes[outer]), past, &mut action)
         };
-        action.moment = action.stop;
-        let Some(friction) = &self.friction else { return (action, acts) };
-        // T = −C_f ω/√(|ω|² + ω_f²)
         let omega = k.omega[outer] - k.omega[inner];
+        let locks = self.act_lock::<COMMIT>(at, omega, &mut past.lock, &mut action);
+        action.moment = action.stop + action.lock;
+        let Some(friction) = &self.friction else { return (action, acts | locks) };
+        // T = −C_f ω/√(|ω|² + ω_f²)
         let squared = omega.norm_squared();
         let scale = friction.torque / (squared + friction.speed * friction.speed).sqrt();
         action.moment -= omega * scale;
         action.dissipated = scale * squared;
         (action, S::truth(true))
+    }
+
+    /// The lock.
+    #[inline(always)]
+    fn act_lock<const COMMIT: bool>(
+        &self,
+        at: &Instant<'_, S>,
+        omega: V3<S>,
+        past: &mut LockPast<S>,
+        action: &mut LimitAction<S>,
+    ) -> S::Mask {
+        let Some(lock) = &self.lock else { return S::truth(false) };
+        let pair = self.pair(at, omega);
+        if COMMIT {
+            lock.commit(&pair, past);
+        }
+        let closed = past.is_closed();
+        action.lost += past.lost;
+        if S::any(closed) {
+            let (moment, stored) = lock.respond(&pair, past);
+            (action.lock, action.closed) = (moment, past.closed);
+            action.stored += stored;
+        }
+        closed
+    }
+
+    fn pair<'a>(&self, at: &Instant<'a, S>, omega: V3<S>) -> Pair<'a, S> {
+        let (inner, outer) = self.segments;
+        Pair { axes: (&at.k.axes[inner], &at.k.axes[outer]), omega, time: at.frames.time }
+    }
+
+    /// What it remembers of a body that stands where it is: stops without loss, the lock closed.
+    pub(super) fn start(&self, at: &Instant<'_, S>) -> LimitHistory<S> {
+        let held = |_: &Lock<S>| LockPast::start(&self.pair(at, V3::zero()));
+        LimitHistory {
+            stops: self.excess(at).map(Past::start),
+            lock: self.lock.as_ref().map_or_else(LockPast::none, held),
+        }
     }
 
     /// Stops of bend and twist.
@@ -286,7 +345,7 @@ impl<S: Scalar> LimitLaw<S> {
     pub(super) fn excess(&self, at: &Instant<'_, S>) -> [Option<(&Stop<S>, S)>; 2] {
         let (k, (inner, outer)) = (at.k, self.segments);
         let pose = self.triads.pose(&k.axes[inner], &k.axes[outer]);
-        let angle = if let Site::Hinge(limb) = self.site { at.state.hinge[limb] } else { pose.twist() };
+        let angle = if let Site::Hinge(limb) = self.site { at.state.hinge()[limb] } else { pose.twist() };
         let bend = self.bend.as_ref().map(|b| (&b.stop, pose.bend() - b.angle.around(pose.azimuth()).0));
         [bend, self.turn.as_ref().map(|turn| (&turn.stop, turn.excess(angle).0))]
     }
@@ -342,4 +401,4 @@ impl<S: Scalar> Turn<S> {
 
 #[cfg(test)]
 #[path = "tests.rs"]
-mod tests;
+pub(super) mod tests;

@@ -1,8 +1,9 @@
-//! Elastic limits of joints, by direction, and dry friction: what joints have beyond those of the report.
+//! Elastic limits of joints, by direction, dry friction and locks: what joints have beyond those of the report.
 
 mod check;
 mod curve;
 mod law;
+mod lock;
 mod results;
 mod triads;
 
@@ -13,7 +14,7 @@ use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkS
 use crate::forces::joint::{DAMPING, Joints};
 use crate::forces::list::STORES;
 use crate::forces::rate::Rate;
-use crate::motion::layout::HINGE_JOINTS;
+use crate::motion::layout::Layout;
 use crate::motion::mobility::{Mobility, across, greatest};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
@@ -21,6 +22,8 @@ use crate::quantity::energy;
 pub(crate) use curve::Curve;
 pub(crate) use law::{Bend, Friction, LimitAction, LimitHistory, LimitLaw, Stop, Turn};
 use law::{Past, Site};
+pub(crate) use lock::Lock;
+use lock::LockPast;
 use placed_text::Problems;
 use triads::Triads;
 
@@ -43,7 +46,7 @@ pub(crate) enum Centre {
     Axes { axis: Vector3<f64>, forward: Vector3<f64> },
 }
 
-/// Limits and friction of one joint.
+/// Limits, friction and lock of one joint.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Limits {
     pub(crate) joint: Joint,
@@ -53,9 +56,10 @@ pub(crate) struct Limits {
     /// Of a ball joint's twist or a hinge's angle.
     pub(crate) turn: Option<Turn<f64>>,
     pub(crate) friction: Option<Friction<f64>>,
+    pub(crate) lock: Option<Lock<f64>>,
 }
 
-/// The kind of force element: elastic limits and dry friction of joints.
+/// The kind of force element: elastic limits, dry friction and locks of joints.
 #[derive(Clone, Copy, Debug)]
 pub struct JointLimits;
 
@@ -67,8 +71,8 @@ impl Element for JointLimits {
             quantity: energy(
                 14,
                 "stops",
-                "stored in elastic stops of joints",
-                "recoverable, in elastic stops of joints",
+                "stored in elastic stops and locks of joints",
+                "recoverable, in elastic stops and locks of joints",
             ),
             held_by: None,
         },
@@ -77,8 +81,8 @@ impl Element for JointLimits {
             quantity: energy(
                 15,
                 "lost_stops",
-                "lost in elastic stops of joints",
-                "lost in elastic stops of joints since the start, by what they remember",
+                "lost in elastic stops and locks of joints",
+                "lost in elastic stops and locks of joints since the start, by what they remember",
             ),
             held_by: None,
         },
@@ -96,8 +100,9 @@ impl Element for JointLimits {
         data.limits.iter().for_each(|limits| check::check(data, limits, problems));
     }
 
-    fn new(data: &Joints, _body: &Body) -> Vec<LimitLaw<f64>> {
-        data.limits.iter().map(|limits| law(data, limits)).collect()
+    fn new(data: &Joints, body: &Body) -> Vec<LimitLaw<f64>> {
+        let layout = Layout::of(body.tree);
+        data.limits.iter().map(|limits| law(data, limits, &layout)).collect()
     }
 
     fn begin(law: &mut Vec<LimitLaw<f64>>, data: &Joints, _: &Body, at: &Instant<'_, f64>, problems: &mut Problems) {
@@ -105,7 +110,7 @@ impl Element for JointLimits {
     }
 
     fn start(law: &Vec<LimitLaw<f64>>, at: &Instant<'_, f64>) -> Vec<LimitHistory<f64>> {
-        law.iter().map(|law| LimitHistory { stops: law.excess(at).map(Past::start) }).collect()
+        law.iter().map(|law| law.start(at)).collect()
     }
 
     fn hints<S: Scalar>(_law: &Vec<LimitLaw<S>>) {}
@@ -128,16 +133,18 @@ impl Element for JointLimits {
             f(&mut one.greatest, &mut other.greatest);
             f(&mut one.lost, &mut other.lost);
         }
+        one.lock.each(&mut other.lock, f);
     }
 
     fn map<A: Copy, S>(past: &LimitHistory<A>, f: &mut impl FnMut(A) -> S) -> LimitHistory<S> {
         let mut stop = |past: &Past<A>| Past { greatest: f(past.greatest), lost: f(past.lost) };
         let [bend, turn] = &past.stops;
-        LimitHistory { stops: [stop(bend), stop(turn)] }
+        let stops = [stop(bend), stop(turn)];
+        LimitHistory { stops, lock: past.lock.map(f) }
     }
 
     fn is_possible(_: &Self::Law<f64>, _: usize, past: &LimitHistory<f64>) -> bool {
-        past.stops.iter().all(|stop| stop.greatest >= 0.0)
+        past.stops.iter().all(|stop| stop.greatest >= 0.0) && [0.0, 1.0].contains(&past.lock.closed)
     }
 
     fn confine(past: &mut LimitHistory<f64>) {
@@ -182,27 +189,28 @@ impl Element for JointLimits {
     }
 }
 
-fn law(data: &Joints, limits: &Limits) -> LimitLaw<f64> {
+fn law(data: &Joints, limits: &Limits, layout: &Layout) -> LimitLaw<f64> {
     let row = &data.tree()[limits.joint];
-    let limb = HINGE_JOINTS.iter().position(|joint| *joint == limits.joint);
     LimitLaw {
         joint: limits.joint,
-        site: limb.map_or(Site::Ball, Site::Hinge),
+        site: layout.hinge_slot(row.distal.index()).map_or(Site::Ball, Site::Hinge),
         segments: (row.proximal.index(), row.distal.index()),
         triads: Triads::new(data.tree(), limits.joint, &limits.centre),
         bend: limits.bend.clone(),
         turn: limits.turn.clone(),
         friction: limits.friction,
+        lock: limits.lock,
     }
 }
 
-/// The stops' steepest torque up to [`ESTIMATE_RAD`] and friction at its steepest, about the axes that give way most.
+/// The stops' steepest torque up to [`ESTIMATE_RAD`], friction at its steepest and the lock, about the axes that give way
+/// most.
 fn rates(data: &Joints, limits: &Limits, mobility: &Mobility<'_>) -> Vec<Rate> {
     let row = &data.tree()[limits.joint];
     let (inner, outer) = (row.proximal.index(), row.distal.index());
     let relative = mobility.of_joint(inner, outer);
     let z = mobility.kinematics.axes[outer].z.to_vector();
-    let hinge = HINGE_JOINTS.iter().position(|joint| *joint == limits.joint).map(|limb| mobility.of_hinge(limb));
+    let hinge = mobility.skeleton.layout.hinge_slot(outer).map(|hinge| mobility.of_hinge(hinge));
     let turning = hinge.unwrap_or(z.dot(&(relative * z)));
     let spring = |stop: &Stop<f64>, by: &str, give: f64| {
         let slope = stop.torque.steepness(ESTIMATE_RAD).0 / stop.returned;
@@ -210,9 +218,13 @@ fn rates(data: &Joints, limits: &Limits, mobility: &Mobility<'_>) -> Vec<Rate> {
     };
     let bend = limits.bend.as_ref().map(|bend| spring(&bend.stop, "limit", greatest(across(&relative, &z))));
     let turn = limits.turn.as_ref().map(|turn| spring(&turn.stop, "limit", turning));
+    let give = || hinge.unwrap_or_else(|| greatest(relative));
     let friction = limits.friction.and_then(|friction| {
-        let give = hinge.unwrap_or_else(|| greatest(relative));
-        Rate::of_damper(&format!("{}, friction", row.name), 1.0 / give, friction.torque / friction.speed)
+        Rate::of_damper(&format!("{}, friction", row.name), 1.0 / give(), friction.torque / friction.speed)
     });
-    [bend, turn, friction].into_iter().flatten().filter(|rate| rate.coefficient > 0.0).collect()
+    let lock = limits.lock.map(|l| Rate::of_spring(row.name.to_owned(), "lock".to_owned(), 1.0 / give(), l.stiffness));
+    [bend, turn, friction, lock].into_iter().flatten().filter(|rate| rate.coefficient > 0.0).collect()
 }
+
+#[cfg(test)]
+pub(super) use law::tests::nodding;

@@ -2,20 +2,18 @@
 
 use crash_measures::unit::Unit::{self, NewtonMetre, Radian};
 
-use super::{JointLimits, LimitAction, LimitHistory, Past};
+use super::{JointLimits, LimitAction, LimitHistory, LockPast, Past};
 use crate::forces::shown::{Named, OneOf, Reported, Tracked};
 use crate::forces::stored::Archive;
 use crate::forces::table::Column;
 use crate::motion::scalar::Scalar;
+use crate::motion::vector::V3;
 use crate::quantity::{FieldWords, Quantity};
 
 type Of = Quantity<OneOf<JointLimits>>;
 
-impl LimitAction<f64> {
-    /// Magnitude of the stops' moment, N·m.
-    fn stop_n_m(&self) -> f64 {
-        self.stop.norm_squared().sqrt()
-    }
+fn length(moment: V3<f64>) -> f64 {
+    moment.norm_squared().sqrt()
 }
 
 impl Reported for JointLimits {
@@ -42,10 +40,15 @@ impl Reported for JointLimits {
             "excess",
             "angle beyond the limit, of bend or twist the greater; 0 within",
         ),
-        Of::number(NewtonMetre, |a| a.stop_n_m()).channel("stop_moment", "moment of the stops of the {}").field(
+        Of::number(NewtonMetre, |a| length(a.stop)).channel("stop_moment", "moment of the stops of the {}").field(
             6,
             "stop_moment",
             "magnitude of the moment of the elastic stops",
+        ),
+        Of::number(NewtonMetre, |a| length(a.lock)).channel("lock_moment", "moment of the lock of the {}").field(
+            7,
+            "lock_moment",
+            "magnitude of the moment of the lock; 0 once it is open",
         ),
     ];
 
@@ -61,9 +64,15 @@ impl Reported for JointLimits {
             at_least_zero: true,
         },
         Tracked {
-            of: |a| a.stop_n_m(),
+            of: |a| length(a.stop),
             column: Column::number("stop_peak_n_m", "stop moment, N·m", 1).measure("stop_peak", NewtonMetre),
             time: Some(Column::time("stop_time_s").measure("stop_time", Unit::Second)),
+            at_least_zero: true,
+        },
+        Tracked {
+            of: |a| length(a.lock),
+            column: Column::number("lock_peak_n_m", "lock moment, N·m", 1).measure("lock_peak", NewtonMetre),
+            time: Some(Column::time("lock_time_s").measure("lock_time", Unit::Second)),
             at_least_zero: true,
         },
     ];
@@ -74,11 +83,20 @@ impl Reported for JointLimits {
                        of twist or hinge";
         let list = past.iter().flat_map(|joint| joint.stops).flat_map(|stop| [stop.greatest, stop.lost]).collect();
         let list = file.numbers(FieldWords { number, stem: "joint_limits", meaning }, list);
+        let locks = keep_locks(past, like.is_some(), file);
         let (joints, []) = list.as_chunks() else {
             return file.refuse("a list of joint limits with parts missing");
         };
+        if !locks.is_empty() && locks.len() != joints.len() * LOCK {
+            return file.refuse("a list of joint locks with parts missing");
+        }
         let stop = |greatest, lost| Past { greatest, lost };
-        *past = joints.iter().map(|&[a, b, c, d]| LimitHistory { stops: [stop(a, b), stop(c, d)] }).collect();
+        let mut locks = locks.into_iter();
+        let mut history = |&[a, b, c, d]: &[f64; 4]| LimitHistory {
+            stops: [stop(a, b), stop(c, d)],
+            lock: LockPast::none().map(&mut |none: f64| locks.next().unwrap_or(none)),
+        };
+        *past = joints.iter().map(&mut history).collect();
     }
 
     fn named<'a>(data: Self::Data<'a>) -> Vec<Named<'a>> {
@@ -87,10 +105,34 @@ impl Reported for JointLimits {
 
     fn event<S: Scalar>(before: &LimitAction<S>, now: &LimitAction<S>) -> Option<(&'static str, Option<S>)> {
         let is_beyond = |action: &LimitAction<S>| S::any(action.excess.gt(S::zero()));
+        let is_closed = |action: &LimitAction<S>| S::any(action.closed.gt(S::zero()));
+        match (is_closed(before), is_closed(now)) {
+            (true, false) => return Some(("opens its lock", None)),
+            (false, true) => return Some(("closes its lock", None)),
+            _ => {}
+        }
         match (is_beyond(before), is_beyond(now)) {
             (false, true) => Some(("reaches its elastic limit", None)),
             (true, false) => Some(("leaves its elastic limit", None)),
             _ => None,
         }
     }
+}
+
+/// Numbers of a lock.
+const LOCK: usize = 12;
+
+/// Exchanges what locks remember; nothing is written where there is none.
+fn keep_locks(past: &[LimitHistory<f64>], is_step: bool, file: &mut dyn Archive) -> Vec<f64> {
+    let number = if is_step { 49 } else { 48 };
+    let meaning = "of each joint with limits, if any has a lock: whether it is closed, the posture that it holds (axes of the \
+                   outer segment in the inner one, nine numbers), when it was last closed or turned fast (s), energy lost (J)";
+    let mut list = Vec::new();
+    for joint in past {
+        joint.lock.map(&mut |x| list.push(x));
+    }
+    if list.iter().all(|x| *x == 0.0) {
+        list.clear();
+    }
+    file.numbers(FieldWords { number, stem: "joint_locks", meaning }, list)
 }

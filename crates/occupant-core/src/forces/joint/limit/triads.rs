@@ -8,7 +8,7 @@
 use nalgebra::Vector3;
 
 use super::Centre;
-use crate::body::{Joint, Place, Side, Tree};
+use crate::body::{Joint, Side, Tree};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{M3, V3};
 use crash_measures::trig;
@@ -40,7 +40,7 @@ impl Triads<f64> {
     pub(super) fn new(tree: &Tree, joint: Joint, centre: &Centre) -> Self {
         let row = &tree[joint];
         let along = if tree[row.distal].hangs() { -1.0 } else { 1.0 };
-        let hand = if matches!(row.place, Place::Beside(_, Side::Left)) { -1.0 } else { 1.0 };
+        let hand = if row.side() == Some(Side::Left) { -1.0 } else { 1.0 };
         let (axis, forward) = match *centre {
             Centre::Pitch { pitch_rad } => {
                 let (s, c) = trig::sin_cos(pitch_rad);

@@ -1,14 +1,14 @@
 //! Limbs and leaves of the tree (arms and legs; the head) in the inward sweep, in closed form.
 //!
 //! The lower segment l of a limb turns about Y of the upper segment m, and everything in the limb lies in its X–Z plane, so
-//! in axes of m the matrices of [`crate::motion::dynamics`] have few elements: J and M̃ couple X with Z only, B couples Y with X
+//! in axes of m the matrices of [`super`] have few elements: J and M̃ couple X with Z only, B couples Y with X
 //! and Z only. With P, Q, R the inertias of l about the hinge, σ = M·cg of l, c = cos α, s = sin α, X_l = (c, 0, −s):
 //! the hinge takes the moment about Y, α̈ = −(ŷ·n + Q α_y + σ X_l·a_E)/Q, and leaves the matrix m − (σ²/Q) X_l X_lᵀ.
 
-use crate::body::SEGMENTS;
-use crate::motion::dynamics::{Demand, Wrench};
+use super::{Demand, LIMBS};
+use crate::motion::dynamics::Wrench;
 use crate::motion::kinematics::Kinematics;
-use crate::motion::layout::LIMBS;
+use crate::motion::layout::MOST_SEGMENTS;
 use crate::motion::scalar::Scalar;
 use crate::motion::skeleton::Skeleton;
 use crate::motion::vector::{M3, Sym3, V3, v3};
@@ -79,7 +79,7 @@ pub(crate) fn reduce<S: Scalar>(
     k: &Kinematics<S>,
     i: usize,
     hinge_rate: S,
-    wrench: &[Wrench<S>; SEGMENTS],
+    wrench: &[Wrench<S>; MOST_SEGMENTS],
 ) -> (Demand<S>, Limb<S>) {
     let (upper, lower) = LIMBS[i];
     let (m, l) = (&body.links[upper], &body.links[lower]);
@@ -95,39 +95,43 @@ pub(crate) fn reduce<S: Scalar>(
     let wl = into_lower(w);
     let turning = wl.y + hinge_rate;
     let moment_l = into_lower(moment_l);
-    let hinge_bias = (l.ix - l.iz) * wl.z * wl.x - moment_l.y;
-    let n_x = (l.iz - l.iy) * turning * wl.z - l.ix * hinge_rate * wl.z - moment_l.x;
-    let n_z = (l.iy - l.ix) * wl.x * turning + l.iz * hinge_rate * wl.x - moment_l.z;
-    let swing = v3(wl.x * wl.z, turning * wl.z + hinge_rate * wl.z, -(wl.x * wl.x + turning * turning)) * l.sigma;
-    let hinge_release = l.sigma * l.inverse_iy * hinge_bias;
+    let hinge_bias = (l.inertia.xx - l.inertia.zz) * wl.z * wl.x - moment_l.y;
+    let n_x = (l.inertia.zz - l.inertia.yy) * turning * wl.z - l.inertia.xx * hinge_rate * wl.z - moment_l.x;
+    let n_z = (l.inertia.yy - l.inertia.xx) * wl.x * turning + l.inertia.zz * hinge_rate * wl.x - moment_l.z;
+    let swing = v3(wl.x * wl.z, turning * wl.z + hinge_rate * wl.z, -(wl.x * wl.x + turning * turning)) * l.sigma.z;
+    let hinge_release = l.sigma.z * l.inverse_iy * hinge_bias;
     let f_0 = into_upper(v3(swing.x - hinge_release, swing.y, swing.z)) - force_l;
     let n_0 = into_upper(v3(n_x, S::zero(), n_z));
 
     // both segments, in axes of the upper one
-    let (lambda, kappa) = (m.far, l.sigma * l.sigma * l.inverse_iy);
+    let (lambda, kappa) = (l.joint.z, l.sigma.z * l.sigma.z * l.inverse_iy);
     let centripetal = v3(w.x * w.z, w.y * w.z, -(w.x * w.x + w.y * w.y));
     let at_hinge = centripetal * lambda;
     let along_x = kappa * (c * at_hinge.x - s * at_hinge.z);
     let u = v3(l.mass * at_hinge.x - along_x * c, l.mass * at_hinge.y, l.mass * at_hinge.z + along_x * s) + f_0;
-    let bias_force = centripetal * m.sigma + u - force_m;
-    let gyroscopic = v3((m.iz - m.iy) * w.y * w.z, (m.ix - m.iz) * w.z * w.x, (m.iy - m.ix) * w.x * w.y);
-    let coupled = l.sigma * at_hinge.y;
+    let bias_force = centripetal * m.sigma.z + u - force_m;
+    let gyroscopic = v3(
+        (m.inertia.zz - m.inertia.yy) * w.y * w.z,
+        (m.inertia.xx - m.inertia.zz) * w.z * w.x,
+        (m.inertia.yy - m.inertia.xx) * w.x * w.y,
+    );
+    let coupled = l.sigma.z * at_hinge.y;
     let moment = moment_m - gyroscopic - n_0 - v3(-lambda * u.y - coupled * c, lambda * u.x, coupled * s);
 
-    let first = m.sigma + l.mass * lambda;
+    let first = m.sigma.z + l.mass * lambda;
     let b = Gain {
         xy: kappa * lambda * c * c - first,
         zy: -(kappa * lambda * c * s),
-        yx: first + l.sigma * c,
-        yz: -(l.sigma * s),
+        yx: first + l.sigma.z * c,
+        yz: -(l.sigma.z * s),
     };
     let (cc, ss, cs) = (c * c, s * s, c * s);
     let reach = l.mass * lambda * lambda;
-    let lever = l.sigma * lambda;
-    let j_xx = m.ix + l.ix * cc + l.iz * ss + (lever + lever) * c + reach;
-    let j_zz = m.iz + l.ix * ss + l.iz * cc;
-    let j_xz = (l.iz - l.ix) * cs - lever * s;
-    let j_yy = m.iy + reach - kappa * lambda * lambda * cc;
+    let lever = l.sigma.z * lambda;
+    let j_xx = m.inertia.xx + l.inertia.xx * cc + l.inertia.zz * ss + (lever + lever) * c + reach;
+    let j_zz = m.inertia.zz + l.inertia.xx * ss + l.inertia.zz * cc;
+    let j_xz = (l.inertia.zz - l.inertia.xx) * cs - lever * s;
+    let j_yy = m.inertia.yy + reach - kappa * lambda * lambda * cc;
     let one = S::one();
     let (inv_yy, inv_det) = (one / j_yy, one / (j_xx * j_zz - j_xz * j_xz));
     let (inv_xx, inv_zz, inv_xz) = (j_zz * inv_det, j_xx * inv_det, -(j_xz * inv_det));
@@ -148,7 +152,7 @@ pub(crate) fn reduce<S: Scalar>(
     };
     let bias = bias_force - v3(gain.xy * moment.y, gain.yx * moment.x + gain.yz * moment.z, gain.zy * moment.y);
     let demand = Demand { mass: mass.out(axes), bias: axes.out(bias) };
-    (demand, Limb { alpha_free, gain, hinge_bias, sigma: l.sigma, inverse_iy: l.inverse_iy, sin_cos: (s, c) })
+    (demand, Limb { alpha_free, gain, hinge_bias, sigma: l.sigma.z, inverse_iy: l.inverse_iy, sin_cos: (s, c) })
 }
 
 /// A symmetric matrix that couples X with Z only.
@@ -200,19 +204,24 @@ pub(crate) fn reduce_leaf<S: Scalar>(
     body: &Skeleton<S>,
     k: &Kinematics<S>,
     n: usize,
-    wrench: &[Wrench<S>; SEGMENTS],
+    wrench: &[Wrench<S>; MOST_SEGMENTS],
 ) -> (Demand<S>, Leaf<S>) {
     let (h, axes, wrench) = (&body.links[n], &k.axes[n], &wrench[n]);
     let w = axes.into_frame(k.omega[n]);
     let force = axes.into_frame(wrench.force);
     let moment = axes.into_frame(wrench.moment)
-        - v3((h.iz - h.iy) * w.y * w.z, (h.ix - h.iz) * w.z * w.x, (h.iy - h.ix) * w.x * w.y);
+        - v3(
+            (h.inertia.zz - h.inertia.yy) * w.y * w.z,
+            (h.inertia.xx - h.inertia.zz) * w.z * w.x,
+            (h.inertia.yy - h.inertia.xx) * w.x * w.y,
+        );
     let one = S::one();
-    let inverse_ix = one / h.ix;
-    let gain = Gain { xy: -(h.sigma * h.inverse_iy), zy: S::zero(), yx: h.sigma * inverse_ix, yz: S::zero() };
-    let alpha_free = v3(moment.x * inverse_ix, moment.y * h.inverse_iy, moment.z / h.iz);
-    let mass = PlaneMass { xx: h.mass + gain.xy * h.sigma, xz: S::zero(), zz: h.mass, yy: h.mass - gain.yx * h.sigma };
-    let swing = v3(w.x * w.z, w.y * w.z, -(w.x * w.x + w.y * w.y)) * h.sigma;
+    let inverse_ix = one / h.inertia.xx;
+    let gain = Gain { xy: -(h.sigma.z * h.inverse_iy), zy: S::zero(), yx: h.sigma.z * inverse_ix, yz: S::zero() };
+    let alpha_free = v3(moment.x * inverse_ix, moment.y * h.inverse_iy, moment.z / h.inertia.zz);
+    let mass =
+        PlaneMass { xx: h.mass + gain.xy * h.sigma.z, xz: S::zero(), zz: h.mass, yy: h.mass - gain.yx * h.sigma.z };
+    let swing = v3(w.x * w.z, w.y * w.z, -(w.x * w.x + w.y * w.y)) * h.sigma.z;
     let bias = swing - force - v3(gain.xy * moment.y, gain.yx * moment.x, S::zero());
     (Demand { mass: mass.out(axes), bias: axes.out(bias) }, Leaf { alpha_free, gain })
 }

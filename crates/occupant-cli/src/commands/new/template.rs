@@ -1,0 +1,89 @@
+//! The templates of `occupant new`: a driver's scenario, and what the others change of it, section by section.
+
+/// A scenario to start from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum Template {
+    /// A belted driver, 50 km/h into a stop
+    #[default]
+    Driver,
+    /// The same with the wheel on the right
+    RightHandDrive,
+    /// A belted passenger behind the driver's seat, 50 km/h into a stop
+    RearSeat,
+    /// A belted driver, 30 km/h sideways into a stop on his own side
+    Side,
+    /// A belted driver in a quarter-turn rollover
+    Rollover,
+}
+
+/// Sections and the comments before them.
+struct Section<'a> {
+    /// Empty for what stands before all sections: the head of the scenario with its title.
+    name: &'a str,
+    comments: &'a str,
+    text: &'a str,
+}
+
+impl Template {
+    /// The scenario.
+    pub(super) fn text(self) -> String {
+        let driver = include_str!("driver.toml");
+        match self {
+            Template::Driver => driver.to_owned(),
+            Template::RightHandDrive => changed(&mirrored(driver), include_str!("right-hand-drive.toml")),
+            Template::RearSeat => changed(driver, include_str!("rear-seat.toml")),
+            Template::Side => changed(driver, include_str!("side.toml")),
+            Template::Rollover => changed(driver, include_str!("rollover.toml")),
+        }
+    }
+}
+
+/// The sections of `base`, each as `changes` has it if it does, then what else `changes` has. A changed section keeps the
+/// comments before it unless it brings its own.
+fn changed(base: &str, changes: &str) -> String {
+    let (base, changes) = (sections(base), sections(changes));
+    let as_changed = |old: &Section<'_>| match changes.iter().find(|new| new.name == old.name) {
+        Some(new) if new.comments.trim().is_empty() => old.comments.to_owned() + new.text,
+        Some(new) => new.comments.to_owned() + new.text,
+        None => old.comments.to_owned() + old.text,
+    };
+    let is_new = |new: &&Section<'_>| base.iter().all(|old| old.name != new.name);
+    let added = changes.iter().filter(is_new).map(|new| new.comments.to_owned() + new.text);
+    base.iter().map(as_changed).chain(added).collect()
+}
+
+fn sections(text: &str) -> Vec<Section<'_>> {
+    let mut sections = Vec::new();
+    // where the section under way and its first line begin, where its last key ends, where the line begins
+    let (mut name, mut start, mut head, mut end, mut at) = ("", 0, 0, 0, 0);
+    for line in text.split_inclusive('\n') {
+        if let Some((next, _)) = line.strip_prefix('[').and_then(|header| header.split_once(']')) {
+            sections.push(Section { name, comments: &text[start..head], text: &text[head..end] });
+            (name, start, head) = (next, end, at);
+        }
+        at += line.len();
+        if !line.starts_with('#') && !line.trim().is_empty() {
+            end = at;
+        }
+    }
+    sections.push(Section { name, comments: &text[start..head], text: &text[head..end] });
+    sections
+}
+
+/// The car in a mirror: lateral places change their sign, and what has a side in its name the other one.
+fn mirrored(text: &str) -> String {
+    text.split_inclusive('\n').map(mirrored_line).collect()
+}
+
+fn mirrored_line(line: &str) -> String {
+    // the lateral ones among the numbers of y = 1 and of lists of [x, y, z]
+    let (between, each) = match line.split(" = ").next() {
+        Some("y") => (" = ", 2),
+        Some("anchors" | "centre" | "ends" | "points") => (", ", 3),
+        _ => return line.replace("left_", "\0").replace("right_", "left_").replace('\0', "right_"),
+    };
+    let opposite = |number: &str| number.strip_prefix('-').map_or_else(|| format!("-{number}"), str::to_owned);
+    let numbers = line.split(between).enumerate();
+    let turned: Vec<_> = numbers.map(|(i, n)| if i % each == 1 { opposite(n) } else { n.to_owned() }).collect();
+    turned.join(between)
+}

@@ -1,0 +1,120 @@
+//! Trees made at run time, from joints that name their segments.
+//!
+//! What the report's body says of a segment or a sphere holds for one of the same name: a `left_thigh` below the pelvis is
+//! the upper part of a leg, and the sphere `left_knee` is at its lower end.
+
+use super::tree::{
+    End, Joint, JointKind, JointRow, Landmarks, Limb, Pair, Place, Segment, SegmentRow, SphereRow, Tree,
+};
+use super::tree::{MissingLandmark, kept};
+use super::tti12::TTI12;
+
+/// A joint by the names of its segments.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NamedJoint<'a> {
+    pub name: &'a str,
+    pub kind: JointKind,
+    pub proximal: &'a str,
+    pub distal: &'a str,
+    /// Whether the distal segment hangs from its upper end.
+    pub hangs: bool,
+}
+
+/// Names of the segments that carry head, chest and pelvis, where they are not the usual ones.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct NamedLandmarks<'a> {
+    pub head: Option<&'a str>,
+    pub chest: Option<&'a str>,
+    pub pelvis: Option<&'a str>,
+}
+
+/// Place of the shin's sphere on a shank that ends at the ankle, as a share of its length: where it is on one with a foot.
+const SHIN_ABOVE_ANKLE: f64 = 0.534;
+
+/// The tree of joints of which each hangs a segment on one before it; the first one's proximal segment is the root, which
+/// hangs from T1.
+///
+/// # Errors
+/// The landmark for which there is no segment.
+pub(crate) fn tree(joints: &[NamedJoint<'_>], marks: &NamedLandmarks<'_>) -> Result<&'static Tree, MissingLandmark> {
+    let row = |name: &str, hangs: bool| SegmentRow {
+        name: kept(name),
+        joint_end: if hangs { End::Upper } else { End::Lower },
+    };
+    let root = joints.first().map(|joint| row(joint.proximal, true));
+    let segments: Vec<SegmentRow> =
+        root.into_iter().chain(joints.iter().map(|joint| row(joint.distal, joint.hangs))).collect();
+    let named = |name: &str| segments.iter().position(|row| row.name == name).map(Segment);
+    let joint_rows = joints.iter().filter_map(|joint| {
+        let (proximal, distal) = (named(joint.proximal)?, named(joint.distal)?);
+        Some(JointRow { name: kept(joint.name), kind: joint.kind, proximal, distal, place: Place::Given })
+    });
+    let joint_rows: Vec<JointRow> = joint_rows.collect();
+    let landmarks = landmarks(&joint_rows, marks, &named)?;
+    Ok(Tree::interned(&segments, &joint_rows, &spheres(&named), landmarks))
+}
+
+fn landmarks(
+    joints: &[JointRow],
+    marks: &NamedLandmarks<'_>,
+    named: &impl Fn(&str) -> Option<Segment>,
+) -> Result<Landmarks, MissingLandmark> {
+    let usual = |own: Option<&str>, names: [&str; 2], key: &'static str| {
+        own.map_or_else(|| names.into_iter().find_map(named), named).ok_or(MissingLandmark(key))
+    };
+    let head = usual(marks.head, ["head", "head"], "head")?;
+    let pelvis = usual(marks.pelvis, ["lower_torso", "pelvis"], "pelvis")?;
+    let hung =
+        |distal: Segment, proximal: Segment| joints.iter().find(|j| j.distal == distal && j.proximal == proximal);
+    let limb = |names: [&str; 3]| {
+        let (upper, lower) = (named(names[0])?, named(names[1])?);
+        let end = named(names[2]).filter(|end| hung(*end, lower).is_some());
+        hung(lower, upper).filter(|joint| joint.is_hinge()).map(|_| Limb { upper, lower, end })
+    };
+    let leg = |names| limb(names).filter(|leg| hung(leg.upper, pelvis).is_some());
+    Ok(Landmarks {
+        head,
+        chest: usual(marks.chest, ["upper_torso", "chest"], "chest")?,
+        pelvis,
+        neck: joints.iter().position(|joint| joint.distal == head).map(Joint).ok_or(MissingLandmark("head"))?,
+        arms: Pair {
+            left: limb(["left_upper_arm", "left_forearm", "left_hand"]),
+            right: limb(["right_upper_arm", "right_forearm", "right_hand"]),
+        },
+        legs: Pair {
+            left: leg(["left_thigh", "left_lower_leg", "left_foot"]),
+            right: leg(["right_thigh", "right_lower_leg", "right_foot"]),
+        },
+    })
+}
+
+/// The report's spheres on the segments that there are: on one of the sphere's own name, such as `left_foot`, else on one
+/// of the name of the report's.
+fn spheres(named: &impl Fn(&str) -> Option<Segment>) -> Vec<SphereRow> {
+    let row = |row: &SphereRow| {
+        let segment = named(row.name).or_else(|| named(TTI12[row.segment].name))?;
+        let ends_at_ankle = row.name.strip_suffix("shin").is_some_and(|side| named(&format!("{side}foot")).is_some());
+        let lengths = if ends_at_ankle { SHIN_ABOVE_ANKLE } else { row.lengths };
+        Some(SphereRow { segment, lengths, ..*row })
+    };
+    TTI12.spheres().iter().filter_map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn trees_that_are_alike_are_one() {
+        let arm =
+            |name| NamedJoint { name, kind: JointKind::Ball, proximal: "upper_torso", distal: "head", hangs: false };
+        let marks = NamedLandmarks { pelvis: Some("upper_torso"), ..NamedLandmarks::default() };
+        let first = tree(&[arm("neck")], &marks).expect("a tree");
+        let neck = String::from("neck");
+        assert!(std::ptr::eq(first, tree(&[arm(&neck)], &marks).expect("a tree")));
+        assert!(!std::ptr::eq(first, tree(&[arm("other")], &marks).expect("a tree")));
+        assert_eq!(tree(&[arm("neck")], &NamedLandmarks::default()).map(|_| ()), Err(MissingLandmark("pelvis")));
+        assert_eq!(first.sphere_names(), ["head", "chest", "right_shoulder", "left_shoulder"]);
+        assert_eq!((first[first.landmarks().neck].name, first.landmarks().legs().count()), ("neck", 0));
+    }
+}

@@ -1,0 +1,143 @@
+//! Locks: a joint keeps its posture until a moment is reached.
+//!
+//! A rotational spring to the posture at locking: with ρ, the rotation vector from it, the torque is −Kρ and its potential
+//! ½K|ρ|². Where K|ρ| has reached T_y at an accepted step the lock opens, and what it stored is lost; one that slips keeps
+//! its torque at T_y and its posture follows along ρ so that K|ρ| = T_y, which loses T_y for each radian.
+
+use super::super::posture::{Posture, length};
+use crate::motion::scalar::Scalar;
+use crate::motion::vector::{M3, V3, v3};
+
+/// An open lock closes after a joint was slower than its speed for so long, s.
+const CALM_S: f64 = 5e-3;
+
+/// A lock.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Lock<S> {
+    /// T_y, N·m.
+    pub(crate) until: S,
+    /// K, N·m/rad.
+    pub(crate) stiffness: S,
+    /// Whether it slips where others open.
+    pub(crate) slips: bool,
+    /// It closes again below this speed, rad/s; never at 0.
+    pub(crate) relock_below: S,
+}
+
+/// What a lock remembers between steps; all 0 where there is none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct LockPast<S> {
+    /// 1 if it is closed.
+    pub(super) closed: S,
+    /// The posture that it holds.
+    pub(super) held: Posture<S>,
+    /// When it was last closed or turned fast, s.
+    pub(super) restless: S,
+    /// Lost in it since the start, J.
+    pub(super) lost: S,
+}
+
+/// Two segments that a joint holds together.
+pub(super) struct Pair<'a, S> {
+    /// Axes of the inner and the outer one.
+    pub(super) axes: (&'a M3<S>, &'a M3<S>),
+    /// Of the outer one relative to the inner one, space axes, rad/s.
+    pub(super) omega: V3<S>,
+    pub(super) time: S,
+}
+
+impl<S: Copy> Lock<S> {
+    pub(super) fn zip<A: Copy, T>(&self, other: &Lock<A>, f: &impl Fn(S, A) -> T) -> Lock<T> {
+        Lock {
+            until: f(self.until, other.until),
+            stiffness: f(self.stiffness, other.stiffness),
+            slips: self.slips,
+            relock_below: f(self.relock_below, other.relock_below),
+        }
+    }
+}
+
+impl<S> LockPast<S> {
+    /// f called with every number and the one in the same place of `other`.
+    pub(super) fn each<A>(&mut self, other: &mut LockPast<A>, f: &mut impl FnMut(&mut S, &mut A)) {
+        let (Posture(held), Posture(others)) = (&mut self.held, &mut other.held);
+        f(&mut self.closed, &mut other.closed);
+        for (a, b) in [(&mut held.x, &mut others.x), (&mut held.y, &mut others.y), (&mut held.z, &mut others.z)] {
+            f(&mut a.x, &mut b.x);
+            f(&mut a.y, &mut b.y);
+            f(&mut a.z, &mut b.z);
+        }
+        f(&mut self.restless, &mut other.restless);
+        f(&mut self.lost, &mut other.lost);
+    }
+}
+
+impl<A: Copy> LockPast<A> {
+    /// The same with every number replaced by f of it, in the order of [`LockPast::each`].
+    pub(super) fn map<S>(&self, f: &mut impl FnMut(A) -> S) -> LockPast<S> {
+        let closed = f(self.closed);
+        let Posture(M3 { x, y, z }) = self.held;
+        let mut axis = |v: V3<A>| v3(f(v.x), f(v.y), f(v.z));
+        let held = Posture(M3 { x: axis(x), y: axis(y), z: axis(z) });
+        LockPast { closed, held, restless: f(self.restless), lost: f(self.lost) }
+    }
+}
+
+impl<S: Scalar> LockPast<S> {
+    /// Of no lock.
+    pub(super) fn none() -> Self {
+        let (o, none) = (S::zero(), V3::zero());
+        LockPast { closed: o, held: Posture(M3 { x: none, y: none, z: none }), restless: o, lost: o }
+    }
+
+    /// Closed where the joint is.
+    pub(super) fn start(pair: &Pair<'_, S>) -> Self {
+        let (k, l) = pair.axes;
+        LockPast { closed: S::one(), held: Posture::new(k, l, V3::zero()), ..LockPast::none() }
+    }
+
+    #[inline(always)]
+    pub(super) fn is_closed(&self) -> S::Mask {
+        self.closed.gt(S::zero())
+    }
+}
+
+impl<S: Scalar> Lock<S> {
+    #[inline(always)]
+    pub(super) fn commit(&self, pair: &Pair<'_, S>, past: &mut LockPast<S>) {
+        let ((k, l), closed) = (pair.axes, past.is_closed());
+        let turned = past.held.turned_to(k, l);
+        let (angle, most) = (length(turned), self.until / self.stiffness);
+        let yields = closed & angle.gt(most);
+        if self.slips {
+            let followed = Posture::new(k, l, turned * (most / angle));
+            past.held = followed.zip(&past.held, &|new, old| S::select(yields, new, old));
+            past.lost = S::select(yields, past.lost + self.until * (angle - most), past.lost);
+            return;
+        }
+        past.lost = S::select(yields, past.lost + self.stored(angle), past.lost);
+        let is_fast = !length(pair.omega).lt(self.relock_below);
+        past.restless = S::select(closed | is_fast, pair.time, past.restless);
+        let closes = !closed & !(pair.time - past.restless).lt(S::of(CALM_S));
+        past.held = Posture::new(k, l, V3::zero()).zip(&past.held, &|new, old| S::select(closes, new, old));
+        past.closed = S::select(yields, S::zero(), S::select(closes, S::one(), past.closed));
+    }
+
+    /// Moment on the outer segment, space axes, and what is stored; nothing where the lock is open.
+    #[inline(always)]
+    pub(super) fn respond(&self, pair: &Pair<'_, S>, past: &LockPast<S>) -> (V3<S>, S) {
+        let (k, l) = pair.axes;
+        let (turned, o) = (past.held.turned_to(k, l), S::zero());
+        let angle = length(turned);
+        let most = if self.slips { self.until / angle } else { self.stiffness };
+        let closed = past.is_closed();
+        let moment = -(turned * self.stiffness.min(most));
+        (V3::select(closed, moment, V3::zero()), S::select(closed, self.stored(angle), o))
+    }
+
+    /// ½K|ρ|².
+    #[inline(always)]
+    fn stored(&self, angle: S) -> S {
+        S::of(0.5) * self.stiffness * angle * angle
+    }
+}

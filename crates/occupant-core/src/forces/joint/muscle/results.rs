@@ -1,0 +1,45 @@
+//! Muscles in results.
+
+use crash_measures::unit::Unit::{NewtonMetre, One, Second};
+
+use super::{MuscleAction, Muscles};
+use crate::forces::shown::{Named, OneOf, Reported, Tracked};
+use crate::forces::table::Column;
+use crate::quantity::Quantity;
+
+type Of = Quantity<OneOf<Muscles>>;
+
+impl MuscleAction<f64> {
+    /// Magnitude of its moment, N·m.
+    fn moment_n_m(&self) -> f64 {
+        self.moment.norm_squared().sqrt()
+    }
+}
+
+impl Reported for Muscles {
+    const MESSAGE: &'static str = "Muscle";
+
+    const QUANTITIES: &'static [Of] = &[
+        Of::number(NewtonMetre, |a| a.moment_n_m()).channel("moment", "moment of the {}").field(
+            2,
+            "moment",
+            "magnitude of its moment",
+        ),
+        Of::number(One, |a| a.activation).channel("activation", "activation of the {}").field(
+            3,
+            "activation",
+            "from 0 to 1",
+        ),
+    ];
+
+    const PEAKS: &'static [Tracked<MuscleAction<f64>>] = &[Tracked {
+        of: |a| a.moment_n_m(),
+        column: Column::number("peak_n_m", "moment, N·m", 1).measure("peak", NewtonMetre),
+        time: Some(Column::time("peak_time_s").measure("peak_time", Second)),
+        at_least_zero: true,
+    }];
+
+    fn named<'a>(data: Self::Data<'a>) -> Vec<Named<'a>> {
+        data.muscles.iter().map(|muscle| Named { name: data.tree()[muscle.joint].name, sphere: None }).collect()
+    }
+}

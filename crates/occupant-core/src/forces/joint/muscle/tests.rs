@@ -1,0 +1,80 @@
+//! Activation and torque of muscles.
+
+use super::law::decay;
+use super::*;
+use crate::forces::joint::limit::nodding;
+use crate::model::Model;
+use crate::results::energy::EnergyLedger;
+use crate::results::recorder::Watch;
+use crate::results::sample::Sample;
+use crate::run::simulate::simulate;
+
+#[test]
+fn decay_is_the_exponential() {
+    for i in 0..320 {
+        let x = f64::from(i) * 0.1;
+        assert!((decay(x) / (-x).exp() - 1.0).abs() < 3e-14, "{x}");
+    }
+    assert_eq!((decay(0.0), decay(1e30)), (1.0, decay(32.0)));
+}
+
+/// Time, energies and muscles at an output.
+type Output = (f64, EnergyLedger, Vec<MuscleAction<f64>>);
+
+/// What every output of a run has, and how well the run kept its energy.
+fn run(model: &Model) -> (Vec<Output>, f64) {
+    let mut list = Vec::new();
+    let watch = Watch(|s: &Sample<'_>| list.push((s.time_s, s.energy, s.actions.muscles.clone())));
+    let outcome = simulate(model, watch).unwrap();
+    (list, outcome.energy.balance_error)
+}
+
+const MUSCLES: &str = "muscles.neck = { trigger = \"go\", reaction = 0.03, rise = 0.01, until = 0.08, tone = 0.2, \
+                       stiffness = 60, damping = 1, limit = 12 }\ntriggers.go = { kind = \"time\", at = 0.01 }\n";
+
+/// ȧ = (u − a)/τ, taken in small steps.
+#[test]
+fn the_activation_follows_its_aim() {
+    let (list, _) = run(&nodding(5.0, "", MUSCLES));
+    let (mut a, mut t) = (0.2, 0.0);
+    for (time_s, _, muscles) in &list {
+        while t < time_s - 1e-9 {
+            let aim = |t: f64| if (0.04..0.08).contains(&t) { 1.0 } else { 0.2 };
+            let h = 1e-6;
+            // the exact step of a constant aim
+            a = aim(t + 0.5 * h) + (a - aim(t + 0.5 * h)) * (-h / 0.01_f64).exp();
+            t += h;
+        }
+        assert!((muscles[0].activation - a).abs() < 1e-8, "{time_s}: {} {a}", muscles[0].activation);
+    }
+}
+
+#[test]
+fn no_muscle_is_stronger_than_its_limit_and_its_work_is_kept() {
+    let (list, balance_error) = run(&nodding(20.0, "", MUSCLES));
+    let most = list.iter().map(|(_, _, m)| m[0].moment.norm_squared().sqrt() / m[0].activation).fold(0.0, f64::max);
+    assert!((most - 12.0).abs() < 1e-9, "{most}");
+    assert!(balance_error < 1e-6, "{balance_error:e}");
+    // all that the head has lost went into the muscle
+    let (first, last) = (list[0].1, list.last().unwrap().1);
+    let taken = last.lost_j[WORK];
+    assert!(taken.abs() > 0.5 && (first.kinetic_j - last.kinetic_j - taken).abs() < 1e-5, "{taken}");
+}
+
+/// Wholly active and without a limit it is a spring and a damper.
+#[test]
+fn a_tense_muscle_is_a_spring_and_a_damper() {
+    let muscle = nodding(10.0, "", "muscles.neck = { tone = 1, stiffness = 60, damping = 1 }\n");
+    let spring = nodding(10.0, "damping = 1, twist_damping = 1, lock = { stiffness = 60 }", "");
+    let end = |model: &Model| {
+        let mut omega = Vec::new();
+        let watch = Watch(|s: &Sample<'_>| omega.push(s.evaluation.kinematics.omega[2].y));
+        simulate(model, watch).unwrap();
+        omega
+    };
+    let (one, other) = (end(&muscle), end(&spring));
+    let apart = one.iter().zip(&other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(one[0] == 10.0 && one.iter().any(|omega| *omega < 0.0));
+    // measured: the tolerance of the integration
+    assert!(apart < 1e-6, "{apart:e}");
+}

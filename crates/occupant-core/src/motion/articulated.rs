@@ -1,0 +1,232 @@
+//! The sweeps through any tree.
+//!
+//! With A, J symmetric, a the acceleration of a segment's joint and α its angular acceleration, the segment and all that hangs
+//! on it need at that joint
+//!
+//! ```text
+//! force    f = A a − B α + β_f     A = m1 + ΣAₖ     B = m[r]× + Σ(Bₖ + Aₖ[cₖ]×)
+//! moment   τ = J α − Bᵀ a + β_τ    J = J_own + Σ(Jₖ + (Bₖᵀ[cₖ]×) + (Bₖᵀ[cₖ]×)ᵀ − [cₖ]×Aₖ[cₖ]×)
+//! ```
+//!
+//! where the index k tells what a segment that hangs at cₖ needs for α of the one that carries it. A fixed joint hands that on as
+//! it is. About the axis u of a hinge there is no moment, u·τ = 0, and α grows by u q̈ + ω × u q̇ from inside to outside: q̈ =
+//! g·a − h·α − b with h = Ju/d, g = Bu/d, d = u·Ju takes from A, B and J their parts along u. A universal joint is two hinges
+//! with nothing between them; their axes stand at right angles, so that the second d vanishes as little as the first. About a
+//! ball joint there is no moment at all: what is handed on is a force, f = (A − BJ⁻¹Bᵀ) a + β_f + BJ⁻¹β_τ.
+
+use crate::motion::dynamics::{Accelerations, Wrench};
+use crate::motion::kinematics::Kinematics;
+use crate::motion::layout::{Freedom, MOST_HINGES, MOST_SEGMENTS, Row};
+use crate::motion::scalar::Scalar;
+use crate::motion::skeleton::{Link, Skeleton};
+use crate::motion::vector::{M3, Sym3, V3, v3};
+
+/// What a subtree needs at a joint; the columns of `coupling` are the rows of B, all in space axes.
+#[derive(Clone, Copy, Debug)]
+struct Need<S> {
+    /// A.
+    mass: Sym3<S>,
+    /// Bᵀ.
+    coupling: M3<S>,
+    /// J.
+    inertia: Sym3<S>,
+    /// β_f.
+    force: V3<S>,
+    /// β_τ.
+    moment: V3<S>,
+}
+
+/// A ball joint after the inward sweep: α = `free` + (BJ⁻¹)ᵀ a.
+#[derive(Clone, Copy, Debug)]
+struct Loose<S> {
+    free: V3<S>,
+    gain: M3<S>,
+}
+
+/// A hinge after the inward sweep: q̈ = `by_force`·a − `by_moment`·α − `bias`, and what α gains beside u q̈.
+#[derive(Clone, Copy, Debug)]
+struct Hinge<S> {
+    by_moment: V3<S>,
+    by_force: V3<S>,
+    bias: S,
+    drift: V3<S>,
+}
+
+/// Both sweeps, with what the one outward takes over from the one inward. Every number that is read was written before in the
+/// same call.
+#[derive(Clone, Debug)]
+pub(crate) struct Sweep<S> {
+    needs: [Need<S>; MOST_SEGMENTS],
+    loose: [Loose<S>; MOST_SEGMENTS],
+    hinges: [Hinge<S>; MOST_HINGES],
+}
+
+/// The rows of m[r]× for m r, as columns.
+#[inline(always)]
+fn cross_rows<S: Scalar>(r: V3<S>) -> M3<S> {
+    let o = S::zero();
+    M3 { x: v3(o, -r.z, r.y), y: v3(r.z, o, -r.x), z: v3(-r.y, r.x, o) }
+}
+
+/// The rows of −[c]×M for those of M, as columns.
+#[inline(always)]
+fn levered<S: Scalar>(c: V3<S>, m: &M3<S>) -> M3<S> {
+    M3 { x: m.y * c.z - m.z * c.y, y: m.z * c.x - m.x * c.z, z: m.x * c.y - m.y * c.x }
+}
+
+impl<S: Scalar> Need<S> {
+    #[inline(always)]
+    fn zero() -> Self {
+        let o = V3::zero();
+        let none = Sym3::scaled_identity(S::zero());
+        Need { mass: none, coupling: M3 { x: o, y: o, z: o }, inertia: none, force: o, moment: o }
+    }
+
+    /// That of a segment by itself, which turns with `w`.
+    #[inline(always)]
+    fn of(link: &Link<S>, axes: &M3<S>, w: V3<S>, wrench: &Wrench<S>) -> Self {
+        let inertia = link.inertia.out(axes);
+        let sigma = axes.out(link.sigma);
+        Need {
+            mass: Sym3::scaled_identity(link.mass),
+            coupling: cross_rows(sigma),
+            force: w.cross(w.cross(sigma)) - wrench.force,
+            moment: w.cross(inertia.mul(w)) - wrench.moment,
+            inertia,
+        }
+    }
+
+    /// Takes up what a segment needs that hangs at `c` of this one, which turns with `w`.
+    #[inline(always)]
+    fn carry(&mut self, child: &Need<S>, c: V3<S>, w: V3<S>) {
+        let (m, b) = (&child.mass, &child.coupling);
+        let coupling = M3 { x: b.x + m.row_x().cross(c), y: b.y + m.row_y().cross(c), z: b.z + m.row_z().cross(c) };
+        // what the child needs without a and α here: its joint accelerates by ω×(ω×c)
+        let centripetal = w.cross(w.cross(c));
+        let force = child.force + m.mul(centripetal);
+        self.force += force;
+        self.moment += child.moment - b.out(centripetal) + c.cross(force);
+        let (lever, own) = (levered(c, &coupling), levered(c, b));
+        self.mass += child.mass;
+        self.inertia += Sym3 {
+            xx: child.inertia.xx + lever.x.x + own.x.x,
+            yy: child.inertia.yy + lever.y.y + own.y.y,
+            zz: child.inertia.zz + lever.z.z + own.z.z,
+            xy: child.inertia.xy + lever.x.y + own.y.x,
+            xz: child.inertia.xz + lever.x.z + own.z.x,
+            yz: child.inertia.yz + lever.y.z + own.z.y,
+        };
+        self.coupling =
+            M3 { x: self.coupling.x + coupling.x, y: self.coupling.y + coupling.y, z: self.coupling.z + coupling.z };
+    }
+
+    /// Lets go all moments.
+    #[inline(always)]
+    fn loosen(&mut self) -> Loose<S> {
+        let (inverse, b) = (self.inertia.inverse(), &self.coupling);
+        let gain = M3 { x: inverse.mul(b.x), y: inverse.mul(b.y), z: inverse.mul(b.z) };
+        self.mass -= Sym3 {
+            xx: gain.x.dot(b.x),
+            yy: gain.y.dot(b.y),
+            zz: gain.z.dot(b.z),
+            xy: gain.x.dot(b.y),
+            xz: gain.x.dot(b.z),
+            yz: gain.y.dot(b.z),
+        };
+        let free = -inverse.mul(self.moment);
+        *self = Need { mass: self.mass, force: self.force + gain.into_frame(self.moment), ..Need::zero() };
+        Loose { free, gain }
+    }
+
+    /// Lets go the moment about `axis`, about which the outer side turns with an acceleration that has the part `drift`.
+    #[inline(always)]
+    fn release(&mut self, axis: V3<S>, drift: V3<S>) -> Hinge<S> {
+        self.force -= self.coupling.into_frame(drift);
+        self.moment += self.inertia.mul(drift);
+        let (ju, bu) = (self.inertia.mul(axis), self.coupling.into_frame(axis));
+        let inverse = S::one() / axis.dot(ju);
+        let hinge =
+            Hinge { by_moment: ju * inverse, by_force: bu * inverse, bias: axis.dot(self.moment) * inverse, drift };
+        self.inertia.add_outer(-inverse, ju);
+        self.mass.add_outer(-inverse, bu);
+        let b = &self.coupling;
+        self.coupling =
+            M3 { x: b.x - hinge.by_moment * bu.x, y: b.y - hinge.by_moment * bu.y, z: b.z - hinge.by_moment * bu.z };
+        self.force += bu * hinge.bias;
+        self.moment -= ju * hinge.bias;
+        hinge
+    }
+}
+
+impl<S: Scalar> Sweep<S> {
+    /// Nothing solved yet.
+    #[inline(always)]
+    pub(crate) fn blank() -> Self {
+        let o = V3::zero();
+        Sweep {
+            needs: [Need::zero(); MOST_SEGMENTS],
+            loose: [Loose { free: o, gain: M3 { x: o, y: o, z: o } }; MOST_SEGMENTS],
+            hinges: [Hinge { by_moment: o, by_force: o, bias: S::zero(), drift: o }; MOST_HINGES],
+        }
+    }
+
+    /// Accelerations without gravity; a guided root has those of `root`, of its joint and angular.
+    #[inline(always)]
+    pub(crate) fn solve(
+        &mut self,
+        body: &Skeleton<S>,
+        k: &Kinematics<S>,
+        hinge_rate: &[S],
+        wrench: &[Wrench<S>; MOST_SEGMENTS],
+        root: [V3<S>; 2],
+        out: &mut Accelerations<S>,
+    ) {
+        let rows = body.layout.rows();
+        for (n, link) in body.links.iter().enumerate() {
+            self.needs[n] = Need::of(link, &k.axes[n], k.omega[n], &wrench[n]);
+        }
+        for (n, row) in rows.iter().enumerate().rev() {
+            self.reduce(n, row, k, hinge_rate);
+            if let Some(parent) = row.parent {
+                let need = self.needs[n];
+                self.needs[parent].carry(&need, k.joint[n] - k.joint[parent], k.omega[parent]);
+            }
+        }
+        // no force acts on the joint of a free root
+        let free = &self.needs[0];
+        out.joint[0] = if body.layout.is_guided() { root[0] } else { -free.mass.inverse().mul(free.force) };
+        out.alpha[0] = root[1];
+        for (n, row) in rows.iter().enumerate() {
+            if let Some(parent) = row.parent {
+                out.carry(k, n, parent);
+                out.alpha[n] = out.alpha[parent];
+            }
+            let a = out.joint[n];
+            if matches!(row.freedom, Freedom::Ball) {
+                out.alpha[n] = self.loose[n].free + self.loose[n].gain.out(a);
+            }
+            for i in row.hinges() {
+                let hinge = &self.hinges[i];
+                out.hinge[i] = hinge.by_force.dot(a) - hinge.by_moment.dot(out.alpha[n]) - hinge.bias;
+                out.alpha[n] += k.hinge_axis[i] * out.hinge[i] + hinge.drift;
+            }
+        }
+    }
+
+    /// Reduces what segment `n` and all that it carries need to what its joint hands on.
+    #[inline(always)]
+    fn reduce(&mut self, n: usize, row: &Row, k: &Kinematics<S>, hinge_rate: &[S]) {
+        if matches!(row.freedom, Freedom::Ball) {
+            self.loose[n] = self.needs[n].loosen();
+        }
+        for i in row.hinges().rev() {
+            // the hinges before this one carry its axis round
+            let mut w = k.omega[row.parent.unwrap_or(0)];
+            for (axis, rate) in k.hinge_axis[row.slot..i].iter().zip(&hinge_rate[row.slot..i]) {
+                w += *axis * *rate;
+            }
+            let axis = k.hinge_axis[i];
+            self.hinges[i] = self.needs[n].release(axis, w.cross(axis) * hinge_rate[i]);
+        }
+    }
+}

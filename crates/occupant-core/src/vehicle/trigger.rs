@@ -1,0 +1,36 @@
+//! When a vehicle's motion sets something off.
+
+use super::{Interpolation, PathCursor, VehiclePath};
+
+/// The motion is looked at so often, s (ours).
+const LOOK_S: f64 = 5e-5;
+
+impl VehiclePath {
+    /// Whether its accelerations are known: a table that is read along straight lines has none.
+    pub(crate) fn has_accelerations(&self) -> bool {
+        !matches!(self, VehiclePath::Table(table) if table.interpolation() == Interpolation::Linear)
+    }
+
+    /// The first time of a span, s, at which the acceleration of the vehicle's centre of gravity along its floor has been at
+    /// least `threshold_m_s2` for `for_s` without a break; none if it never is.
+    pub(crate) fn jolt_s(&self, [start_s, end_s]: [f64; 2], threshold_m_s2: f64, for_s: f64) -> Option<f64> {
+        let mut cursor = PathCursor::default();
+        let mut excess = |t_s: f64| {
+            let motion = self.motion(t_s, t_s, &mut cursor);
+            motion.vector_to_frame(motion.acceleration_m_s2).xy().norm() - threshold_m_s2
+        };
+        let (mut before, mut since_s) = (-1.0, start_s);
+        for i in 0..=((end_s - start_s) / LOOK_S) as u64 {
+            let t_s = start_s + i as f64 * LOOK_S;
+            let now = excess(t_s);
+            if before < 0.0 && now >= 0.0 && i > 0 {
+                since_s = t_s - LOOK_S * now / (now - before);
+            }
+            if now >= 0.0 && t_s - since_s >= for_s {
+                return Some(since_s + for_s);
+            }
+            before = now;
+        }
+        None
+    }
+}
