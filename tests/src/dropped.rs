@@ -1,12 +1,10 @@
 //! A limp body that falls in a closed room of solids, in any attitude.
 
 use nalgebra::UnitQuaternion;
-use occupant_core::body::tti12::TTI12;
 use occupant_core::model::Model;
 use occupant_core::model::seating::InitialPosture;
-use occupant_core::motion::layout::Layout;
-use occupant_core::motion::report_coordinates::ReportCoordinates;
-use occupant_core::motion::state::{Quat, Shape, State};
+use occupant_core::motion::report_coordinates::{DOF, EULER_START, ReportCoordinates};
+use occupant_core::motion::state::Quat;
 use occupant_core::motion::vector::V3;
 use occupant_core::results::outcome::Status;
 use occupant_core::results::recorder::Watch;
@@ -36,11 +34,11 @@ pub struct Fall {
 pub fn fall(seed: u64) -> Fall {
     let mut random = Random::new(seed);
     let whole = random.turn();
-    let mut state = State::zero(Shape::of(&Layout::of(&TTI12)));
+    let mut state = ReportCoordinates { q: [0.0; DOF], rates: [0.0; DOF] }.to_state();
     state.set_t1(V3::of(&random.vector(0.05)));
     state.set_velocity(V3::of(&random.vector(2.0)));
     let spin = V3::of(&random.vector(1.0));
-    for slot in state.turns() {
+    for slot in 0..EULER_START.len() {
         let bent = whole * UnitQuaternion::from_scaled_axis(random.vector(0.25));
         state.set_orientation(slot, Quat { w: bent.w, v: V3::of(&bent.imag()) });
         state.set_omega(slot, spin);

@@ -5,7 +5,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Body, ContactSphere, Tree};
+use super::{Body, ContactSphere, Segment, Tree};
 
 /// A sphere beside one of the report's, whose part it belongs to.
 struct Beside {
@@ -95,15 +95,18 @@ fn neck(body: &Body, head: &ContactSphere) -> ContactSphere {
     let (segment, z_m) = match body.tree.segment_named("neck") {
         Some(neck) => (neck, 0.5 * height_m(neck)),
         None => {
-            let above_m = body.neck_above_m(body.tree.landmarks().chest).unwrap_or_default();
+            let above_m = body.neck_above_m(body.tree.landmarks().chest).unwrap_or(0.0);
             (head.segment, NECK * (above_m + height_m(head.segment)) - above_m)
         }
     };
     ContactSphere::new("neck", segment, [0.0, 0.0, z_m].into(), 0.62 * head.radius_m)
 }
 
+/// Between chest and pelvis, where the body has a segment there.
 fn abdomen(body: &Body, pelvis: &ContactSphere) -> Option<ContactSphere> {
-    let middle = body.tree.segment_named("middle_torso")?;
+    let marks = body.tree.landmarks();
+    let is_between = |s: &Segment| body.tree.is_trunk(*s) && ![marks.chest, marks.pelvis].contains(s);
+    let middle = body.tree.segments().find(is_between)?;
     let centre_m = [0.0, 0.0, 0.5 * body.segment(middle).length_m].into();
     Some(ContactSphere::new("abdomen", middle, centre_m, 0.93 * pelvis.radius_m))
 }

@@ -191,7 +191,7 @@ fn plain_keys(layers: &[Node], except: &[&str]) -> Table {
 }
 
 /// Names in the layers that are neither a pair's word nor among `known`, in order of appearance.
-fn other_names(layers: &[Node], known: &[String]) -> Vec<String> {
+fn other_names(layers: &[Node], known: &[&str]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for key in layers.iter().filter_map(Node::as_table).flat_map(Table::keys) {
         let is_known = known.iter().any(|name| name == key || both_sides(name).as_ref() == Some(key));

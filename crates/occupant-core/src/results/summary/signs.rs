@@ -114,9 +114,10 @@ impl Signs {
             self.joints[limited.joint.index()].see_limit(limited.excess, time_s);
         }
         for contact in sample.contacts() {
-            match contact.surface < model.faces().len() {
-                true => self.deep[contact.sphere].see(contact.depth_m, contact.surface, time_s),
-                false => self.see_solid(sample, &contact),
+            if contact.surface < model.faces().len() {
+                self.deep[contact.sphere].see(contact.depth_m, contact.surface, time_s);
+            } else {
+                self.see_solid(sample, &contact);
             }
         }
         for touch in &sample.actions.contacts {

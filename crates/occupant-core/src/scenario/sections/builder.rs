@@ -43,19 +43,13 @@ impl Builder<'_> {
         }
     }
 
-    /// Adds an error about a name that leads nowhere; `names` are those that there are.
-    pub(super) fn unknown(&mut self, path: &str, what: &str, name: &str, names: &[&str]) {
-        let problem = Problem::error(path, format!("no {what} is named \"{name}\""), one_of(names, '"'));
-        self.report(problem.with_hint(did_you_mean(name, names, '"')));
-    }
-
     /// The spheres of the parts, or single ones, that a list at `path` names.
     pub(super) fn spheres(&mut self, path: &str, names: &[String], body: &Body) -> Vec<usize> {
         let mut spheres = Vec::new();
         for (i, name) in names.iter().enumerate() {
             let called = body.spheres_called(name);
             if called.is_empty() {
-                self.no_sphere(&format!("{path}[{i}]"), name, body);
+                self.sphere(&format!("{path}[{i}]"), name, body);
             }
             spheres.extend(called);
         }
@@ -64,16 +58,17 @@ impl Builder<'_> {
 
     /// The sphere that is named at `path`; a whole part is none.
     pub(super) fn sphere(&mut self, path: &str, name: &str, body: &Body) -> usize {
-        let sphere = body.sphere(name);
-        if sphere.is_none() {
-            self.no_sphere(path, name, body);
-        }
-        sphere.unwrap_or(0)
+        body.sphere(name).unwrap_or_else(|| {
+            let names: Vec<&str> = body.spheres.iter().map(|sphere| sphere.name.as_str()).collect();
+            self.unknown(path, "sphere", name, &names);
+            0
+        })
     }
 
-    fn no_sphere(&mut self, path: &str, name: &str, body: &Body) {
-        let names: Vec<&str> = body.spheres.iter().map(|sphere| sphere.name.as_str()).collect();
-        self.unknown(path, "sphere", name, &names);
+    /// Adds an error about a name that leads nowhere; `names` are those that there are.
+    pub(super) fn unknown(&mut self, path: &str, what: &str, name: &str, names: &[&str]) {
+        let problem = Problem::error(path, format!("no {what} is named \"{name}\""), one_of(names, '"'));
+        self.report(problem.with_hint(did_you_mean(name, names, '"')));
     }
 
     /// Adds an error.

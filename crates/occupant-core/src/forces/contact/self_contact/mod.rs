@@ -14,7 +14,7 @@ mod tests;
 
 pub(crate) use law::{SelfPairs, lever};
 
-use crate::body::{Body, Segment};
+use crate::body::Body;
 
 /// Which parts of the body can touch each other, and what they are made of.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,12 +63,13 @@ impl SelfContact {
     /// joint and are no neighbours.
     pub(crate) fn between(body: &Body, parts: impl Iterator<Item = [String; 2]>) -> Vec<[usize; 2]> {
         let standing_m = body.standing_m();
+        let is_of_arm = |segment| body.tree.landmarks().arms().any(|arm| body.tree.is_of(segment, &arm));
         let can_meet = |&[a, b]: &[usize; 2]| {
             let (one, other) = (&body.spheres[a], &body.spheres[b]);
             let is_joint = |[a, b]: [_; 2]| body.tree.carrier(a).is_some_and(|joint| body.tree[joint].proximal == b);
             let (s, t) = (one.segment, other.segment);
             let overlap_m = one.radius_m + other.radius_m - (standing_m[a] - standing_m[b]).norm();
-            let is_near = overlap_m > NEIGHBOURS_M && ![s, t].iter().any(|segment| is_of_arm(body, *segment));
+            let is_near = overlap_m > NEIGHBOURS_M && ![s, t].into_iter().any(is_of_arm);
             s != t && !is_joint([s, t]) && !is_joint([t, s]) && !is_near
         };
         let spheres =
@@ -82,11 +83,4 @@ impl SelfContact {
         pairs.dedup();
         pairs
     }
-}
-
-/// Whether a shoulder carries a segment.
-fn is_of_arm(body: &Body, segment: Segment) -> bool {
-    let carrier = body.tree.carrier(segment).map(|joint| body.tree[joint].proximal);
-    let is_upper = body.tree.landmarks().arms().any(|limb| limb.upper == segment);
-    is_upper || carrier.is_some_and(|proximal| is_of_arm(body, proximal))
 }
