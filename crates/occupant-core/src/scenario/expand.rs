@@ -118,7 +118,7 @@ fn segment_names(joints: &Table) -> Vec<String> {
 /// One merged entry for each of `names` and for every other one in the layers.
 fn all_members(layers: &[Node], names: &[String]) -> Table {
     let known: Vec<&str> = names.iter().map(String::as_str).collect();
-    let others = other_names(layers, names);
+    let others = other_names(layers, &known);
     members(layers, known.iter().copied().chain(others.iter().map(String::as_str)))
 }
 
