@@ -98,12 +98,12 @@ fn foot(body: &str) -> ([f64; 2], String) {
 
 #[test]
 fn feet_that_do_not_reach_stand_nearer_or_lie_on_the_cushion_and_it_is_said() {
-    // heels at x −0.38 m, z 0.31 m; the rear cushion's front edge is at −0.77 m, its top at z 0.02 m
+    // heels at x −0.38 m, z 0.31 m before the body settles, which turns it by 4° to 6°; the cushion's top is at z 0.02 m
     let (of_a_man, said) = foot("male50");
-    assert!((of_a_man[0] + 0.38).abs() < 0.03, "{of_a_man:?}");
+    assert!((of_a_man[0] + 0.38).abs() < 0.07 && (of_a_man[1] - 0.31).abs() < 0.03, "{of_a_man:?}");
     assert!(!said.contains("too short"), "{said}");
     let (of_a_woman, said) = foot("female05");
-    assert!(of_a_woman[0] < -0.40 && (of_a_woman[1] - 0.31).abs() < 0.03, "{of_a_woman:?}");
+    assert!(of_a_woman[0] < -0.55 && (of_a_woman[1] - 0.31).abs() < 0.03, "{of_a_woman:?}");
     assert!(said.contains("the feet stand nearer"), "{said}");
     let (of_a_child, said) = foot("child06");
     assert!(of_a_child[1] < 0.10, "{of_a_child:?}");

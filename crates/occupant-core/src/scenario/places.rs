@@ -11,6 +11,7 @@ use super::expand::expand;
 use super::kind::{Kind, split_number};
 use super::overrides::put;
 use super::sections::schema;
+use crate::body::both_sides;
 use crash_measures::unit::parse;
 use placed_text::{Node, Problem, Step, Value, child, children, did_you_mean, follow, parse_path, targets, to_text};
 
@@ -77,6 +78,7 @@ impl Draft {
             view = match step {
                 Step::Key(key) => match above.property(root, key) {
                     Some(view) if below.is_some() || above.keys().contains(&key.as_str()) => Some(view),
+                    Some(view) if pairs(node).contains(key) => Some(view),
                     _ => return Err(unknown(&above, node, steps, i)),
                 },
                 _ if below.is_some() => above.items(root),
@@ -186,6 +188,12 @@ fn nowhere(explicit: &Node, path: &str, steps: &[Step]) -> Problem {
     misplaced(format!("`{path}` matches nothing in the base scenario"), "a path to at least one value").with_hint(hint)
 }
 
+/// Words for both sides of what stands in a table.
+fn pairs(node: Option<&Node>) -> Vec<String> {
+    let table = node.and_then(Node::as_table);
+    table.into_iter().flat_map(|table| table.keys()).filter_map(|name| both_sides(name)).collect()
+}
+
 /// The case of a table with a `kind` that its own `kind` names; else the view itself.
 fn at_hand(view: View, root: &'static Json, node: Option<&Node>) -> View {
     let tag = node.and_then(|n| n.get("kind")).and_then(Node::as_str);
@@ -233,7 +241,9 @@ fn unknown(view: &View, node: Option<&Node>, steps: &[Step], at: usize) -> Probl
         };
         return misplaced(found, "an index that exists, from 0");
     };
+    let pairs = pairs(node);
     let mut names = view.keys();
+    names.extend(pairs.iter().map(String::as_str));
     let own = node.and_then(Node::as_table);
     names.extend(own.into_iter().flat_map(|table| table.keys().map(String::as_str)));
     let hint = did_you_mean(key, &names, '`');

@@ -209,7 +209,7 @@ fn what_no_person_and_no_vehicle_does_is_said() {
     let belt = |y: &str| {
         let belt = |name, y| {
             format!(
-                "{name} = {{ sphere = \"{name}\", anchors = [[-0.15, {y}, 0.05], [-0.25, 0.3, 0.2]], k1 = 60000 }}\n"
+                "{name} = {{ sphere = \"{name}\", anchors = [[-0.11, {y}, 0.05], [-0.25, 0.3, 0.2]], k1 = 60000 }}\n"
             )
         };
         format!("[belts]\n{}{}[body]", belt("pelvis", "-0.3"), belt("chest", y))

@@ -60,7 +60,7 @@ fn the_body_meets_itself_only_where_a_scenario_says_so() {
         let found = with(&[OWN, change]).unwrap_err();
         assert!(found.contains(expected), "{change}: {found}");
     }
-    let soft = with(&[OWN, "materials.foam={ k1 = 8400, delta_b = 0.01, k2 = 0, mu1 = 0.5 }"]).unwrap();
+    let soft = with(&[OWN, "materials.foam={ k1 = 8400, delta_b = 0.01, k2 = 0, mu1 = 0.5, friction = 0.3 }"]).unwrap();
     let refused = crate::model::Model::new(soft).err().unwrap().to_string();
     assert!(refused.contains("the skin foam has no stiffness"), "{refused}");
 }
