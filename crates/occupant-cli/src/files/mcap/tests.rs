@@ -194,7 +194,7 @@ fn a_small_file_takes_little_memory_whatever_it_holds() {
     let channel = [&[1, 0, 0, 0][..], &text(super::checkpoint::TOPIC), &text(""), &text("")].concat();
     let mut records = record(op::CHANNEL, &channel);
     let mut wire = super::wire::Wire::default();
-    for index in 0..300_000 {
+    for index in 0..700_000 {
         wire.bytes.clear();
         wire.count(2, index);
         records.extend(record(op::MESSAGE, &[&[1, 0][..], &[0; 20], &wire.bytes].concat()));
