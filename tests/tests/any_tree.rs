@@ -99,10 +99,10 @@ fn free_flight_keeps_momentum_and_energy() {
         };
         let mut state = start;
         for _ in 0..400 {
-            state = rk4::step(&state, 2.5e-4, |_, state| {
+            state = rk4::step(&state, 2.5e-4, |_, state, rate| {
                 let k = Kinematics::new(&skeleton, state);
                 let loads = [Wrench::zero(); MOST_SEGMENTS];
-                solve(&skeleton, &k, state.hinge_rate(), &loads).rate(&skeleton.layout, state, Work::zero())
+                *rate = solve(&skeleton, &k, state.hinge_rate(), &loads).rate(&skeleton.layout, state, Work::zero());
             });
         }
         let (before, after) = (kept(&start), kept(&state));

@@ -125,19 +125,21 @@ impl Instant {
     /// One step in a vehicle whose motion stands still: four evaluations and the sums of the integrator.
     pub fn step(&mut self) -> State<f64> {
         let (system, frames, history) = (&self.system, &self.frames, &mut self.history);
-        rk4::step(&self.state, STEP_S, |stage, state| match stage {
-            Stage::Start => system.rate_alone::<true>(state, frames, history, &mut ()),
-            Stage::Middle | Stage::End => system.rate_alone::<false>(state, frames, history, &mut ()),
+        rk4::step(&self.state, STEP_S, |stage, state, rate| {
+            *rate = match stage {
+                Stage::Start => system.rate_alone::<true>(state, frames, history, &mut ()),
+                Stage::Middle | Stage::End => system.rate_alone::<false>(state, frames, history, &mut ()),
+            }
         })
     }
 
     /// A step of the skeleton alone under given loads.
     pub fn bare_step(&self, loads: &[Wrench<f64>; MOST_SEGMENTS]) -> State<f64> {
         let skeleton = &self.system.skeleton;
-        rk4::step(&self.state, STEP_S, |_, state| {
+        rk4::step(&self.state, STEP_S, |_, state, rate| {
             let kinematics = Kinematics::new(skeleton, state);
             let motion = dynamics::solve(skeleton, &kinematics, state.hinge_rate(), loads);
-            motion.rate(&skeleton.layout, state, Work::zero())
+            *rate = motion.rate(&skeleton.layout, state, Work::zero());
         })
     }
 

@@ -214,6 +214,13 @@ impl<S: Scalar> Load<S> {
     pub(crate) fn zero() -> Self {
         Load { wrench: [Wrench::zero(); MOST_SEGMENTS], power: Work::zero() }
     }
+
+    /// None of as many segments.
+    #[inline(always)]
+    pub(crate) fn clear(&mut self, segments: usize) {
+        self.wrench[..segments].fill(Wrench::zero());
+        self.power = Work::zero();
+    }
 }
 
 /// What keeps two systems from being computed side by side, in words.

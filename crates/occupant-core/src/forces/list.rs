@@ -206,17 +206,16 @@ macro_rules! kinds {
                 at: &Instant<'_, S>,
                 history: &mut History<S>,
                 observer: &mut impl Observer<S>,
-            ) -> Load<S> {
-                let mut load = Load::zero();
+                load: &mut Load<S>,
+            ) {
                 $($Kind::apply::<S, COMMIT>(
                     &self.$kind,
                     at,
                     &mut history.memory.$kind,
                     &mut history.hints.$kind,
-                    &mut load,
+                    load,
                     &mut |action| observer.$kind(action),
                 );)+
-                load
             }
         }
 

@@ -135,6 +135,13 @@ impl<S: Scalar> Accelerations<S> {
     #[inline(always)]
     pub fn rate(&self, layout: &Layout, state: &State<S>, power: Work<S>) -> State<S> {
         let mut rate = State::zero(state.shape());
+        self.write_rate(layout, state, power, &mut rate);
+        rate
+    }
+
+    /// [`Accelerations::rate`] to a state of the same shape, of which no own number of a force element is touched.
+    #[inline(always)]
+    pub(crate) fn write_rate(&self, layout: &Layout, state: &State<S>, power: Work<S>, rate: &mut State<S>) {
         rate.set_t1(state.velocity());
         rate.set_velocity(self.joint[0]);
         for (slot, &n) in layout.free().iter().enumerate() {
@@ -146,6 +153,5 @@ impl<S: Scalar> Accelerations<S> {
             *rate = *acceleration;
         }
         rate.set_work(power);
-        rate
     }
 }

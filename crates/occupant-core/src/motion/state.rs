@@ -56,7 +56,7 @@ impl<S: Scalar> Work<S> {
 }
 
 /// Most numbers that force elements have in a state.
-const MOST_OWN: usize = 40;
+const MOST_OWN: usize = 0;
 /// Most numbers of a state.
 const MOST_NUMBERS: usize = 6 + 7 * MOST_SEGMENTS + WORK_SUMS + 1 + MOST_OWN;
 

@@ -89,10 +89,12 @@ impl Run {
             let (history, seen) = (&mut self.history, &mut self.seen);
             let time_s = step.start_s;
             let mut observer = SeenAt { model, seen, time_s };
-            let next = rk4::step(&self.state, step.length_s(), |stage, state| match stage {
-                Stage::Start => system.rate_alone::<true>(state, &at_start, history, &mut observer),
-                Stage::Middle => system.rate_alone::<false>(state, &at_middle, history, &mut ()),
-                Stage::End => system.rate_alone::<false>(state, &at_end, history, &mut ()),
+            let next = rk4::step(&self.state, step.length_s(), |stage, state, rate| {
+                *rate = match stage {
+                    Stage::Start => system.rate_alone::<true>(state, &at_start, history, &mut observer),
+                    Stage::Middle => system.rate_alone::<false>(state, &at_middle, history, &mut ()),
+                    Stage::End => system.rate_alone::<false>(state, &at_end, history, &mut ()),
+                }
             });
             self.effort.evaluations += 4;
             self.accept(model, next, step)?;

@@ -93,10 +93,12 @@ impl<'a, const N: usize> Tangent<'a, N> {
         let (system, history) = (&self.system, &mut self.history);
         let h = Dual::new(step.length_s(), [0.0; N]);
         scene.begin(step.start_s, &self.state);
-        self.state = rk4::step(&self.state, h, |stage, state| match stage {
-            rk4::Stage::Start => rate_at_start(system, state, &start, history, &mut scene.actions),
-            rk4::Stage::Middle => rate_within(system, state, &middle, history),
-            rk4::Stage::End => rate_within(system, state, &end, history),
+        self.state = rk4::step(&self.state, h, |stage, state, rate| {
+            *rate = match stage {
+                rk4::Stage::Start => rate_at_start(system, state, &start, history, &mut scene.actions),
+                rk4::Stage::Middle => rate_within(system, state, &middle, history),
+                rk4::Stage::End => rate_within(system, state, &end, history),
+            }
         });
     }
 

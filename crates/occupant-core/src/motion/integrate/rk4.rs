@@ -16,21 +16,24 @@ pub enum Stage {
     End,
 }
 
-/// The state after a step `h` (s); `rate` is called four times, first with [`Stage::Start`].
+/// The state after a step `h` (s); `rate` is called four times, first with [`Stage::Start`], and writes what it finds to its
+/// last argument.
 #[inline(always)]
-pub fn step<S: Scalar>(state: &State<S>, h: S, mut rate: impl FnMut(Stage, &State<S>) -> State<S>) -> State<S> {
+pub fn step<S: Scalar>(state: &State<S>, h: S, mut rate: impl FnMut(Stage, &State<S>, &mut State<S>)) -> State<S> {
     let half = h * S::of(0.5);
     let two = S::of(2.0);
-    let mut sum = rate(Stage::Start, state); // (115), (116)
+    let mut sum = *state;
+    rate(Stage::Start, state, &mut sum); // (115), (116)
     let mut at = state.advanced(half, &sum);
-    let k2 = rate(Stage::Middle, &at); // (117), (118)
-    at.advance(state, half, &k2);
-    sum.add(two, &k2);
-    let k3 = rate(Stage::Middle, &at); // (119), (120)
-    at.advance(state, h, &k3);
-    sum.add(two, &k3);
-    let k4 = rate(Stage::End, &at); // (121), (122)
-    sum.add(S::one(), &k4);
+    let mut k = sum;
+    rate(Stage::Middle, &at, &mut k); // k₂ (117), (118)
+    at.advance(state, half, &k);
+    sum.add(two, &k);
+    rate(Stage::Middle, &at, &mut k); // k₃ (119), (120)
+    at.advance(state, h, &k);
+    sum.add(two, &k);
+    rate(Stage::End, &at, &mut k); // k₄ (121), (122)
+    sum.add(S::one(), &k);
     at.advance(state, h / S::of(6.0), &sum); // (123), (124), (126), (127)
     at.normalize();
     at

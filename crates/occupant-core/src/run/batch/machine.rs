@@ -33,16 +33,22 @@ pub(crate) trait Machine: Lanes {
 impl<L: Lanes> Bench<L> {
     /// The rate at a stage of a step, in the instructions of the caller; with `START` the history takes over the state.
     #[inline(always)]
-    fn rate<const START: bool>(&mut self, stage: Stage, state: &State<L>, observer: &mut impl Observer<L>) -> State<L> {
+    fn rate<const START: bool>(
+        &mut self,
+        stage: Stage,
+        state: &State<L>,
+        observer: &mut impl Observer<L>,
+        rate: &mut State<L>,
+    ) {
         let frames = &self.frames[stage as usize];
-        self.system.rate_with::<START>(&mut self.scratch, state, frames, &mut self.history, observer)
+        self.system.rate_with::<START>(&mut self.scratch, state, frames, &mut self.history, observer, rate);
     }
 
     /// One step, in the instructions of the caller; `rate` is [`Bench::rate`] compiled for them.
     #[inline(always)]
-    fn step(&mut self, h: L, mut rate: impl FnMut(&mut Self, Stage, &State<L>) -> State<L>) -> L {
+    fn step(&mut self, h: L, mut rate: impl FnMut(&mut Self, Stage, &State<L>, &mut State<L>)) -> L {
         let from = self.state;
-        self.state = rk4::step(&from, h, |stage, state| rate(self, stage, state));
+        self.state = rk4::step(&from, h, |stage, state, k| rate(self, stage, state, k));
         L::select(self.state.finite(), L::one(), L::zero())
     }
 }
@@ -65,9 +71,9 @@ macro_rules! machine {
 
             #[target_feature(enable = $features)]
             fn step(bench: &mut Bench<$lanes>, h: $lanes, witness: &mut Witness<'_>) -> $lanes {
-                bench.step(h, |bench, stage, state| match stage {
-                    Stage::Start => rate::<true>(bench, stage, state, witness),
-                    _ => rate::<false>(bench, stage, state, &mut ()),
+                bench.step(h, |bench, stage, state, k| match stage {
+                    Stage::Start => rate::<true>(bench, stage, state, witness, k),
+                    _ => rate::<false>(bench, stage, state, &mut (), k),
                 })
             }
 
@@ -78,8 +84,9 @@ macro_rules! machine {
                 stage: Stage,
                 state: &State<$lanes>,
                 observer: &mut impl Observer<$lanes>,
-            ) -> State<$lanes> {
-                bench.rate::<START>(stage, state, observer)
+                k: &mut State<$lanes>,
+            ) {
+                bench.rate::<START>(stage, state, observer, k);
             }
         }
     };
@@ -96,9 +103,9 @@ mod tests {
 
     impl<const N: usize> Machine for crate::motion::lanes::Plain<N> {
         fn step(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> Self {
-            bench.step(h, |bench, stage, state| match stage {
-                Stage::Start => bench.rate::<true>(stage, state, witness),
-                _ => bench.rate::<false>(stage, state, &mut ()),
+            bench.step(h, |bench, stage, state, k| match stage {
+                Stage::Start => bench.rate::<true>(stage, state, witness, k),
+                _ => bench.rate::<false>(stage, state, &mut (), k),
             })
         }
     }
