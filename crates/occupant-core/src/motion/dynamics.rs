@@ -1,7 +1,7 @@
 //! Equations of motion: D·u̇ = E + F_p + F_s + Q_f + R (Eq. 53) solved by one sweep in and one sweep out of the tree.
 //!
 //! Seen from its joint a subtree is a few small matrices and vectors: what force and moment it needs there for an
-//! acceleration of the joint. [`super::articulated`] finds them for any tree, [`super::closed`] for that of the report. Gravity
+//! acceleration of the joint. `articulated` finds them for any tree, `closed` for that of the report. Gravity
 //! is uniform: it only shifts every acceleration, and is added at the end. The result is the report's.
 
 use crate::motion::frame::Moving;
