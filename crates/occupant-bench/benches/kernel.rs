@@ -22,7 +22,7 @@ fn evaluation(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("evaluation");
     let loads = scene::no_loads();
     group.bench_function("bare", |b| b.iter(|| full.bare(black_box(&loads))));
-    let mut held = full.held(&model);
+    let mut held = full.held();
     group.bench_function("joints and belts", |b| b.iter(|| _ = black_box(black_box(&mut held).rate())));
     let mut within = full.clone();
     group.bench_function("full, within a step", |b| {

@@ -3,7 +3,7 @@
 //! Three sizes of the same problem: *bare* (the skeleton under given loads), *held* (joint moments and belts as well), *full*
 //! (all 17 × 25 contact pairs as well).
 
-use occupant_core::forces::contact::{ContactData, ContactSystem, Touch};
+use occupant_core::forces::contact::{ContactSystem, Touch};
 use occupant_core::forces::{History, Memory, Observer};
 use occupant_core::kernel::{Scratch, System};
 use occupant_core::model::Model;
@@ -93,19 +93,9 @@ impl Instant {
     }
 
     /// The same instant without surfaces.
-    pub fn held(&self, model: &Model) -> Instant {
-        let setup = model.setup();
+    pub fn held(&self) -> Instant {
         let mut now = self.clone();
-        let nothing = ContactData {
-            surfaces: &[],
-            faces: &[],
-            solids: &[],
-            self_contact: None,
-            materials: &[],
-            edge_force: setup.edge_force,
-            longest_step_s: STEP_S,
-        };
-        now.system.forces.contacts = ContactSystem::new(&setup.body, &nothing);
+        now.system.forces.contacts = ContactSystem::default();
         let memory = Memory { contacts: Vec::new(), ..self.history.memory.clone() };
         now.history = History::new(&now.system.forces, memory);
         now
