@@ -132,12 +132,14 @@ struct Reader<'a> {
     separator: Separator,
     /// For each column of the table, the wanted column and SI units in one of its own.
     columns: Vec<Option<(usize, f64)>>,
+    /// Those of the table that are not looked at.
+    left_out: Vec<usize>,
     problems: Diagnostics,
 }
 
 impl<'a> Reader<'a> {
     fn new(sources: &'a Sources, wanted: &'a [Column], separator: Separator) -> Self {
-        Reader { sources, wanted, separator, columns: Vec::new(), problems: Diagnostics::new() }
+        Reader { sources, wanted, separator, columns: Vec::new(), left_out: Vec::new(), problems: Diagnostics::new() }
     }
 
     fn finish(self, mut table: NumberTable) -> Result<NumberTable, Diagnostics> {
@@ -187,7 +189,8 @@ impl<'a> Reader<'a> {
     fn column(&mut self, cell: &Cell, unit_below: Option<&str>) -> Option<(usize, f64)> {
         let (name, unit) = name_and_unit(cell.text);
         let unit_text = unit.or(unit_below);
-        if matches!(name, "" | "-") {
+        if name == "-" {
+            self.left_out.push(self.columns.len());
             return None;
         }
         let Some(i) = self.place(name) else {
@@ -212,7 +215,7 @@ impl<'a> Reader<'a> {
 
     /// The number of column `i` in a line.
     fn number(&mut self, i: usize, cell: &Cell) -> f64 {
-        let is_left_out = matches!(self.columns.get(i), Some(None));
+        let is_left_out = self.left_out.contains(&i);
         self.separator.number(cell).unwrap_or_else(|found| {
             if is_left_out {
                 return f64::NAN;

@@ -136,7 +136,11 @@ error: `gravity` with a record of velocity changes
             "t[s],q[g]\n0,x\n",
             "error: unknown column `q`
  --> record.csv:1:6
-  = expected: `t`, `ax`, `ay`, `az`, `wx`, `wy`, `wz`, `dvx` or `dvy`",
+  = expected: `t`, `ax`, `ay`, `az`, `wx`, `wy`, `wz`, `dvx` or `dvy`
+
+error: `x`
+ --> record.csv:2:3
+  = expected: a number",
         ),
         (
             format!("{SENSORS}\ngravity = \"removed\""),
