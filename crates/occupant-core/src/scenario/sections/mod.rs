@@ -7,6 +7,7 @@ mod belts;
 mod body;
 mod body_joints;
 mod builder;
+mod heading;
 mod joints;
 mod limits;
 mod markers;
