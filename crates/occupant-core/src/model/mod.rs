@@ -205,16 +205,12 @@ fn begin(setup: &Setup, faces: &[FlatFace], problems: &mut Problems) -> Option<(
     forces.lay(&data, &setup.body, &at);
     forces.begin(&data, &setup.body, &at, problems);
     let mut history = forces.start(&at);
-    if settled.is_some() {
-        let rest = state.still();
-        let still = frames(start_s, &vehicle.held());
-        let k = Kinematics::new(&system.skeleton, &rest);
-        carry(&mut system, &Instant { k: &k, state: &rest, frames: &still, spheres: &[] }, &history);
-    }
-    let forces = &mut system.forces;
     if let InitialPosture::Continued { passed, .. } = &setup.posture {
         history.memory.contacts = forces.contacts.continued(&at, passed);
         warn_apart(setup, forces, &history, passed, problems);
+    }
+    if settled.is_some() {
+        carry(&mut system, &state.still(), &frames(start_s, &vehicle.held()), &history);
     }
     Some((system, Start { state, history, seated, settled, unsettled }))
 }

@@ -12,7 +12,7 @@ use crate::kernel::System;
 use crate::model::frames;
 use crate::model::setup::Setup;
 use crate::motion::dynamics::Wrench;
-use crate::motion::frame::VEHICLE;
+use crate::motion::frame::{Frames, VEHICLE};
 use crate::motion::kinematics::Kinematics;
 use crate::motion::report_coordinates::quaternion;
 use crate::motion::state::State;
@@ -177,11 +177,10 @@ fn load(
     Vector6::new(force.x, force.y, force.z, moment.x * lever, moment.y * lever, moment.z * lever)
 }
 
-/// Gives muscles at the start of a body that has settled what their joints carry there: `at` is the start at rest in frames
-/// that stand still, with `history`.
-pub(crate) fn carry(system: &mut System<f64>, at: &Instant<'_, f64>, history: &History<f64>) {
-    let k = at.k;
-    let e = system.evaluate::<false>(at.state, at.frames, &mut history.clone(), &mut ());
+/// Gives muscles at the start of a body that has settled what their joints carry there, at rest in frames that stand still.
+pub(crate) fn carry(system: &mut System<f64>, state: &State<f64>, still: &Frames<f64>, history: &History<f64>) {
+    let e = system.evaluate::<false>(state, still, &mut history.clone(), &mut ());
+    let k = &e.kinematics;
     // force and moment at its joint that each segment with all that hangs on it feels, from the tips inwards
     let mut loads = e.wrench;
     for (n, row) in system.skeleton.layout.rows().iter().enumerate().rev() {
