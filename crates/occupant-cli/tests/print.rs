@@ -242,7 +242,7 @@ fn last_state() -> (Vec<(String, String)>, f64) {
     let (mut passed, mut q1) = (Vec::new(), f64::NAN);
     let watch = Watch(|sample: &Sample<'_>| {
         passed.clear();
-        q1 = sample.report_coordinates().q[0];
+        q1 = sample.report_coordinates().unwrap().q[0];
         let contacts = &model.system().forces.contacts;
         for group in &contacts.groups {
             for at in group.pairs.clone() {

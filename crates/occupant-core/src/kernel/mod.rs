@@ -157,7 +157,11 @@ impl<S: Scalar> System<S> {
         load.clear(self.skeleton.layout.len());
         self.forces.apply::<COMMIT>(&at, history, observer, load); // Q_f + R (48), and F_s
         // q̈ from q̇ and q (114)
-        sweep.solve(&self.skeleton, k, state.hinge_rate(), &load.wrench, root.as_ref());
+        let by_mount = sweep.solve(&self.skeleton, k, state.hinge_rate(), &load.wrench, root.as_ref());
+        if root.is_some() {
+            // of a mount in space, which stands still, it is 0
+            load.power.vehicle += by_mount;
+        }
     }
 
     /// A sphere's centre seen from its segment's joint, in space, and its velocity; all in space axes.

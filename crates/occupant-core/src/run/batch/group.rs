@@ -101,7 +101,7 @@ impl<L: Machine> Group<L> {
             let times_s = step.times_s();
             for (lanes, t_s) in bench.around.frames.iter_mut().zip(times_s) {
                 // space stands still
-                let vehicle = place.model.setup().path.motion(t_s, times_s[1], &mut place.run.cursor);
+                let vehicle = place.model.vehicle(t_s, times_s[1], &mut place.run.cursor);
                 lanes.time.set_lane(i, t_s);
                 lanes[VEHICLE].each(&Moving::of(&vehicle), &mut |lanes: &mut L, x: f64| lanes.set_lane(i, x));
             }
