@@ -48,7 +48,7 @@ pub fn fall(seed: u64) -> Fall {
         *angle = if limb < 2 { -bend } else { bend };
     }
     let mut setup = setup(CELL, &[]);
-    setup.posture = InitialPosture::Coordinates(Box::new(ReportCoordinates::from_state(&state)));
+    setup.posture = InitialPosture::Coordinates(Box::new(ReportCoordinates::from_state(&state).unwrap()));
     let model = Model::new(setup).unwrap();
     let (mut beyond_m, mut kinetic_j, mut most_j) = (f64::NEG_INFINITY, 0.0, 0.0_f64);
     let look = |s: &Sample<'_>| {

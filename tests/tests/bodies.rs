@@ -30,7 +30,7 @@ fn seen<T>(model: &Model, look: impl Fn(&Sample<'_>) -> T) -> Vec<T> {
 }
 
 fn head_m(s: &Sample<'_>) -> Vector3<f64> {
-    s.cg_m(s.model.body().tree.landmarks().head).coords
+    s.cg_m(s.model.body().tree.landmarks().head.unwrap()).coords
 }
 
 #[test]

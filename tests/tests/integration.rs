@@ -279,7 +279,7 @@ fn whole_run(scenario: &str, integrator: Integrator) -> (Vec<(f64, Vector3<f64>)
     (setup.integrator, setup.time.output_s) = (integrator, 1e-3);
     let (mut path, mut peak) = (Vec::new(), 0.0_f64);
     let watch = Watch(|s: &Sample<'_>| {
-        let head = s.model.body().tree.landmarks().head;
+        let head = s.model.body().tree.landmarks().head.unwrap();
         path.push((s.time_s, s.cg_m(head).coords));
         peak = peak.max(s.specific_force_m_s2(head).norm());
     });

@@ -14,6 +14,7 @@ use occupant_core::run::batch::{Ended, Job, Kernel, simulate_many};
 use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Format, Scenario};
 use occupant_tests::cart::lap;
+use occupant_tests::room::setup;
 
 /// Everything in the outputs of a run as text, which shows every bit.
 #[derive(Clone, Default)]
@@ -183,6 +184,23 @@ fn locks_and_muscles_side_by_side_have_the_bits_of_each_alone() {
     for kernel in kernels() {
         let results = compare(&cases, kernel);
         assert!(results.iter().all(|((outcome, _), used)| outcome.is_ok() && *used == kernel));
+    }
+}
+
+/// Bodies of 17 segments on a seat, and a head and neck of 15 on a rig: trees that are swept as any is.
+#[test]
+fn other_trees_side_by_side_have_the_bits_of_each_alone() {
+    let [sled, rig] = [include_str!("../../scenarios/sled-17-segments.toml"), include_str!("../data/rig.toml")];
+    for (text, end) in [(sled, "time.end=0.02"), (rig, "time.end=0.12")] {
+        let case = |i: usize| Case {
+            setup: setup(text, &[end, &format!("body.segments.head.mass={}", 4.0 + 0.1 * i as f64)]),
+            texts: Texts::default(),
+        };
+        let cases: Vec<Case> = (0..5).map(case).collect();
+        for kernel in kernels() {
+            let results = compare(&cases, kernel);
+            assert!(results.iter().all(|((outcome, _), used)| outcome.is_ok() && *used == kernel));
+        }
     }
 }
 

@@ -225,6 +225,20 @@ fn a_checkpoint_with_an_impossible_step_is_refused() {
     assert_eq!(refused(broken), Err(CheckpointError::Memory(Misfit::NotFinite)));
 }
 
+/// Files of 0.1.0 have no work of muscles in a state, one number less: they go on as if nothing was missing.
+#[test]
+fn a_checkpoint_of_the_first_version_goes_on() {
+    let (model, whole, _) = run(&lap(RK4));
+    let mut from = whole.checkpoints[110].clone();
+    assert_eq!((from.state.len(), from.state.remove(74)), (76, 0.0));
+    let mut rest = Outputs::default();
+    resume(&model, &from, &mut rest).unwrap();
+    assert!(rest.texts[1..] == whole.texts[111..]);
+    from.state.pop();
+    let misfit = Misfit::Count { of: "numbers of the state", found: 74, expected: 76 };
+    assert_eq!(from.check(&model), Err(CheckpointError::Memory(misfit)));
+}
+
 /// The proofs above mean something only if there is history to lose.
 #[test]
 fn without_its_history_a_run_goes_on_differently() {
@@ -257,7 +271,8 @@ fn where_cards_tell_the_pairs_these_have_passed_and_all_others_touch() {
     assert!(one.len() > 5 && other.len() > 5);
     let mut setup = model.setup().clone();
     setup.time.start_s = from.time_s;
-    let coordinates = Box::new(ReportCoordinates::from_state(&Checkpoint::state_of(&model, &from.state).unwrap()));
+    let coordinates =
+        Box::new(ReportCoordinates::from_state(&Checkpoint::state_of(&model, &from.state).unwrap()).unwrap());
     setup.posture = InitialPosture::Continued { coordinates, passed: one.iter().map(|(_, names)| *names).collect() };
     let continued = Model::new(setup).unwrap();
     let pairs = &continued.start().history.memory.contacts;

@@ -17,7 +17,7 @@ fn fingerprint(model: &Model) -> Vec<u64> {
     let outcome = simulate(
         model,
         Watch(|s: &Sample<'_>| {
-            let q = s.report_coordinates();
+            let q = s.report_coordinates().unwrap();
             bits.extend(q.q.iter().chain(&q.rates).map(|x| x.to_bits()));
             bits.extend(s.actions.contacts.iter().map(|t| t.normal_force.to_bits()));
             bits.extend(s.actions.belts.iter().map(|b| b.loop_force.to_bits()));

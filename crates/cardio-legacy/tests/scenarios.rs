@@ -112,7 +112,7 @@ fn run_end(toml: &str) -> RunEnd {
     let (mut rest, mut end) = (None, None);
     let watch = Watch(|sample: &occupant_core::results::sample::Sample<'_>| {
         let rest = *rest.get_or_insert_with(|| spine_rest(sample));
-        end = Some(RunEnd::after(rest, sample, &layout));
+        end = RunEnd::after(rest, sample, &layout);
     });
     simulate(&model(toml), watch).expect("a closure records");
     end.expect("samples")
@@ -173,7 +173,7 @@ fn run_passed(model: &Model) -> Vec<(u32, u32)> {
     let layout = CompartmentLayout::reconstruction().expect("sound");
     let mut passed = None;
     let first = Watch(|sample: &occupant_core::results::sample::Sample<'_>| {
-        let at_start = || RunEnd::after([0.0; 2], sample, &layout).passed;
+        let at_start = || RunEnd::after([0.0; 2], sample, &layout).unwrap().passed;
         passed.get_or_insert_with(at_start);
     });
     simulate(model, first).expect("a closure records");

@@ -44,6 +44,7 @@ pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
                 );
             }
         }
+        InitialPosture::Mounted(_) => back.misfit("mount: cards have no rig"),
     }
     if let InitialPosture::Continued { passed, .. } = &back.setup.posture {
         passed_on(back, layout, passed);
@@ -158,7 +159,9 @@ pub struct RunEnd {
 
 impl RunEnd {
     /// The end of a run from its last sample and β₀ of the two back joints, [`spine_rest`] of the first sample.
-    pub fn after(spine_rest_rad: [f64; 2], last: &Sample<'_>, layout: &CompartmentLayout) -> Self {
+    ///
+    /// None of a body that is not the report's.
+    pub fn after(spine_rest_rad: [f64; 2], last: &Sample<'_>, layout: &CompartmentLayout) -> Option<Self> {
         let model = last.model;
         let loops_round =
             |belt: &Belt, sphere: &str| model.body().spheres.get(belt.sphere).is_some_and(|s| s.name == sphere);
@@ -166,13 +169,13 @@ impl RunEnd {
             let at = model.setup().belts.iter().position(|belt| loops_round(belt, sphere))?;
             Some(model.system().forces.belts.get(at)?.rest_length)
         };
-        Self {
+        Some(Self {
             time_s: last.time_s,
-            coordinates: last.report_coordinates(),
+            coordinates: last.report_coordinates()?,
             spine_rest_rad,
             belt_lengths_m: BELTS.map(|(_, _, sphere)| length(sphere)),
             passed: passed(last, layout),
-        }
+        })
     }
 
     /// What series 6 says of it: fields and SI numbers.

@@ -72,7 +72,7 @@ pub(crate) fn extend_run(
     let broke = |error: &dyn std::error::Error| Failure::broke_off(format!("{name}: {error}"));
     let (mut rest, mut end) = ([0.0; 2], None);
     simulate(&model, (Watch(|s: &Sample<'_>| rest = spine_rest(s)), FirstOutput)).map_err(|e| broke(&e))?;
-    let mut watch = Watch(|s: &Sample<'_>| end = Some(RunEnd::after(rest, s, &layout)));
+    let mut watch = Watch(|s: &Sample<'_>| end = RunEnd::after(rest, s, &layout));
     replay(&model, last, &mut watch).map_err(|e| broke(&e))?;
     let end = end.ok_or_else(|| Failure::plain(format!("{name} holds no checkpoint")))?;
     let next = cards.deck.extended(&end, final_s);
@@ -110,7 +110,7 @@ fn run_end(model: &Model, layout: &CompartmentLayout) -> Result<RunEnd, Failure>
     let (mut rest, mut end) = (None, None);
     let watch = Watch(|sample: &Sample<'_>| {
         let rest = *rest.get_or_insert_with(|| spine_rest(sample));
-        end = Some(RunEnd::after(rest, sample, layout));
+        end = RunEnd::after(rest, sample, layout);
     });
     let outcome = simulate(model, watch).map_err(Failure::broke_off)?;
     match (outcome.status, end) {

@@ -155,7 +155,7 @@ fn solver(s: &Sample<'_>) -> Fields {
 }
 
 fn coordinates(s: &Sample<'_>) -> Fields {
-    let c = s.report_coordinates();
+    let c = s.report_coordinates().unwrap();
     vec![("time_s", vec![s.time_s]), ("q_m_or_rad", c.q.to_vec()), ("q_rate_m_s_or_rad_s", c.rates.to_vec())]
 }
 

@@ -3,6 +3,7 @@
 //! Report: "Body Geometry and Coordinate Systems", Figs 1 and 5. Segment axes are X ahead, Y to the
 //! occupant's left and Z up when the occupant stands upright with hanging arms; they are principal axes.
 
+mod mounted;
 pub(crate) mod named;
 pub(crate) mod people;
 pub(crate) mod shape;
@@ -164,10 +165,10 @@ impl Body {
     pub(crate) fn standing_m(&self) -> Vec<Point3<f64>> {
         let mut placed = vec![(UnitQuaternion::identity(), Vector3::zeros()); self.segments.len()];
         for segment in self.tree.segments() {
-            if let Some(carrier) = self.tree.carrier(segment) {
-                let (turn, joint_m) = placed[self.tree[carrier].proximal.index()];
-                let JointPlace { proximal, distal } = self.place(carrier);
-                let turned = turn * proximal.axes * distal.axes.inverse();
+            if let Some(bearer) = self.tree.bearer(segment) {
+                let (turn, joint_m) = placed[self.tree[bearer].carrying()[0].index()];
+                let [carrying, carried] = self.sites(bearer);
+                let turned = turn * carrying.axes * carried.axes.inverse();
                 placed[segment.index()] = (turned, joint_m + turn * self.offset_m(segment));
             }
         }
@@ -204,17 +205,20 @@ impl Body {
         JointPlace { proximal, distal: JointSite::at(self.end_m(row.distal)) }
     }
 
+    /// Where a joint is on the segment nearer to the first one, and on the one that it carries.
+    pub(crate) fn sites(&self, joint: Joint) -> [JointSite; 2] {
+        let JointPlace { proximal, distal } = self.place(joint);
+        if self.tree[joint].is_reversed() { [distal, proximal] } else { [proximal, distal] }
+    }
+
     /// The point of a segment that the kernel calls its joint, from its lower end, segment axes, m: where the joint is that
     /// carries it; of the first segment the end that is T1.
     pub fn joint_m(&self, segment: Segment) -> Vector3<f64> {
-        match self.tree.carrier(segment) {
-            Some(joint) => self.place(joint).distal.point_m,
-            None => self.end_m(segment),
-        }
+        self.tree.bearer(segment).map_or_else(|| self.end_m(segment), |joint| self.sites(joint)[1].point_m)
     }
 
-    /// Where the joint that carries a segment is on the segment that it hangs from, from that one's lower end, m; zero for
-    /// the first segment.
+    /// Where the joint of which a segment is the distal one is on the proximal one, from that one's lower end, m; zero for the
+    /// middle of the trunk.
     pub fn socket_m(&self, segment: Segment) -> Vector3<f64> {
         self.tree.carrier(segment).map_or_else(Vector3::zeros, |joint| self.place(joint).proximal.point_m)
     }
@@ -222,15 +226,15 @@ impl Body {
     /// Height over the upper end of a segment at which it carries what leads to the head, m.
     pub fn neck_above_m(&self, segment: Segment) -> Option<f64> {
         let joint = |n: &Segment| self.tree.carrier(*n).is_some_and(|joint| self.tree[joint].proximal == segment);
-        let next = self.tree.inwards(self.tree.landmarks().head).find(joint)?;
+        let next = self.tree.inwards(self.tree.landmarks().head?).find(joint)?;
         Some(self.socket_m(next).z - self.segment(segment).length_m)
     }
 
     /// Where the joint is that carries a segment, seen from the joint of the segment that it hangs from, along that one's
     /// axes, m; zero for the first segment.
     pub(crate) fn offset_m(&self, segment: Segment) -> Vector3<f64> {
-        let Some(joint) = self.tree.carrier(segment) else { return Vector3::zeros() };
-        self.socket_m(segment) - self.joint_m(self.tree[joint].proximal)
+        let Some(joint) = self.tree.bearer(segment) else { return Vector3::zeros() };
+        self.sites(joint)[0].point_m - self.joint_m(self.tree[joint].carrying()[0])
     }
 
     /// Z of the far end of a segment, seen from its joint end, m.

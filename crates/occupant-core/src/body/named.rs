@@ -26,6 +26,8 @@ pub(crate) struct NamedLandmarks<'a> {
     pub head: Option<&'a str>,
     pub chest: Option<&'a str>,
     pub pelvis: Option<&'a str>,
+    /// Whether the body is a part, which may lack any.
+    pub is_part: bool,
 }
 
 /// Place of the shin's sphere on a shank that ends at the ankle, as a share of its length: where it is on one with a foot.
@@ -60,10 +62,15 @@ fn landmarks(
     named: &impl Fn(&str) -> Option<Segment>,
 ) -> Result<Landmarks, MissingLandmark> {
     let usual = |own: Option<&str>, names: [&str; 2], key: &'static str| {
-        own.map_or_else(|| names.into_iter().find_map(named), named).ok_or(MissingLandmark(key))
+        let found = own.map_or_else(|| names.into_iter().find_map(named), named);
+        if found.is_none() && (own.is_some() || !marks.is_part) { Err(MissingLandmark(key)) } else { Ok(found) }
     };
     let head = usual(marks.head, ["head", "head"], "head")?;
     let pelvis = usual(marks.pelvis, ["lower_torso", "pelvis"], "pelvis")?;
+    let neck = joints.iter().position(|joint| Some(joint.distal) == head).map(Joint);
+    if neck.is_none() && !marks.is_part {
+        return Err(MissingLandmark("head"));
+    }
     let hung =
         |distal: Segment, proximal: Segment| joints.iter().find(|j| j.distal == distal && j.proximal == proximal);
     let limb = |names: [&str; 3]| {
@@ -71,12 +78,12 @@ fn landmarks(
         let end = named(names[2]).filter(|end| hung(*end, lower).is_some());
         hung(lower, upper).filter(|joint| joint.is_hinge()).map(|_| Limb { upper, lower, end })
     };
-    let leg = |names| limb(names).filter(|leg| hung(leg.upper, pelvis).is_some());
+    let leg = |names| limb(names).filter(|leg| pelvis.and_then(|pelvis| hung(leg.upper, pelvis)).is_some());
     Ok(Landmarks {
         head,
         chest: usual(marks.chest, ["upper_torso", "chest"], "chest")?,
         pelvis,
-        neck: joints.iter().position(|joint| joint.distal == head).map(Joint).ok_or(MissingLandmark("head"))?,
+        neck,
         arms: Pair {
             left: limb(["left_upper_arm", "left_forearm", "left_hand"]),
             right: limb(["right_upper_arm", "right_forearm", "right_hand"]),
@@ -115,6 +122,9 @@ mod tests {
         assert!(!std::ptr::eq(first, tree(&[arm("other")], &marks).expect("a tree")));
         assert_eq!(tree(&[arm("neck")], &NamedLandmarks::default()).map(|_| ()), Err(MissingLandmark("pelvis")));
         assert_eq!(first.sphere_names(), ["head", "chest", "right_shoulder", "left_shoulder"]);
-        assert_eq!((first[first.landmarks().neck].name, first.landmarks().legs().count()), ("neck", 0));
+        assert_eq!(
+            (first.landmarks().neck.map(|neck| first[neck].name), first.landmarks().legs().count()),
+            (Some("neck"), 0)
+        );
     }
 }

@@ -488,8 +488,9 @@ mod tests {
                 }
             }
             let marks = fifteen.tree.landmarks();
-            assert_eq!((fifteen.tree[marks.head].name, fifteen.tree[marks.neck].name), ("head", "neck"));
-            assert_eq!(fifteen.tree[fifteen.tree[marks.neck].proximal].name, "neck");
+            let (head, neck) = (marks.head.unwrap(), marks.neck.unwrap());
+            assert_eq!((fifteen.tree[head].name, fifteen.tree[neck].name), ("head", "neck"));
+            assert_eq!(fifteen.tree[fifteen.tree[neck].proximal].name, "neck");
             assert_eq!((marks.legs().count(), marks.arms().filter(|arm| arm.end.is_some()).count()), (2, 0));
             assert_eq!(seventeen.tree.landmarks().arms().filter(|arm| arm.end.is_some()).count(), 2);
         }

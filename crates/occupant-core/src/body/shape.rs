@@ -95,7 +95,7 @@ fn neck(body: &Body, head: &ContactSphere) -> ContactSphere {
     let (segment, z_m) = match body.tree.segment_named("neck") {
         Some(neck) => (neck, 0.5 * height_m(neck)),
         None => {
-            let above_m = body.neck_above_m(body.tree.landmarks().chest).unwrap_or(0.0);
+            let above_m = body.tree.landmarks().chest.and_then(|chest| body.neck_above_m(chest)).unwrap_or(0.0);
             (head.segment, NECK * (above_m + height_m(head.segment)) - above_m)
         }
     };
@@ -105,7 +105,7 @@ fn neck(body: &Body, head: &ContactSphere) -> ContactSphere {
 /// Between chest and pelvis, where the body has a segment there.
 fn abdomen(body: &Body, pelvis: &ContactSphere) -> Option<ContactSphere> {
     let marks = body.tree.landmarks();
-    let is_between = |s: &Segment| body.tree.is_trunk(*s) && ![marks.chest, marks.pelvis].contains(s);
+    let is_between = |s: &Segment| body.tree.is_trunk(*s) && ![marks.chest, marks.pelvis].contains(&Some(*s));
     let middle = body.tree.segments().find(is_between)?;
     let centre_m = [0.0, 0.0, 0.5 * body.segment(middle).length_m].into();
     Some(ContactSphere::new("abdomen", middle, centre_m, 0.93 * pelvis.radius_m))

@@ -137,6 +137,23 @@ impl JointRow {
         }
     }
 
+    /// Whether the body hangs the other way on this joint, from a mount beyond it: its distal segment carries the proximal.
+    pub(crate) fn is_reversed(&self) -> bool {
+        self.proximal > self.distal
+    }
+
+    /// The segment nearer to the first one, and the one that it carries. Laws speak of proximal and distal segments, which stay
+    /// what they are whatever a body is mounted by.
+    pub(crate) fn carrying(&self) -> [Segment; 2] {
+        if self.is_reversed() { [self.distal, self.proximal] } else { [self.proximal, self.distal] }
+    }
+
+    /// Inner and outer segment of its laws: the proximal and the distal one, but of a hinge, whose axis is that of what it
+    /// carries, [`JointRow::carrying`].
+    pub(crate) fn between(&self) -> [Segment; 2] {
+        if self.is_hinge() { self.carrying() } else { [self.proximal, self.distal] }
+    }
+
     /// True for elbows and knees, and where two axes are free.
     pub(crate) const fn is_hinge(&self) -> bool {
         matches!(self.kind, JointKind::Hinge | JointKind::Universal)
@@ -179,17 +196,17 @@ pub struct Pair<T> {
     pub right: T,
 }
 
-/// The parts that instruments are fixed to and that seating asks for.
+/// The parts that instruments are fixed to and that seating asks for; on a mount a body may lack any.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Landmarks {
     /// Carries the accelerometer of the head.
-    pub head: Segment,
+    pub head: Option<Segment>,
     /// Carries the accelerometer of the chest.
-    pub chest: Segment,
+    pub chest: Option<Segment>,
     /// Sits on the cushion.
-    pub pelvis: Segment,
+    pub pelvis: Option<Segment>,
     /// Its load is that of the upper neck.
-    pub neck: Joint,
+    pub neck: Option<Joint>,
     /// Arms.
     pub arms: Pair<Option<Limb>>,
     /// Legs.
@@ -334,7 +351,13 @@ impl Tree {
         self.joints().find(|j| self[*j].name == name)
     }
 
-    /// The joint that carries a segment; nothing carries the first.
+    /// The joint by which a segment hangs on one nearer to the first, which hangs on none: [`Tree::carrier`] but where the way
+    /// to a mount goes against it.
+    pub(crate) fn bearer(&self, segment: Segment) -> Option<Joint> {
+        self.joints().find(|joint| self[*joint].carrying()[1] == segment)
+    }
+
+    /// The joint of which a segment is the distal one; the trunk's middle is that of none.
     pub(crate) const fn carrier(&self, segment: Segment) -> Option<Joint> {
         let mut j = 0;
         while j < self.joints.len() {
@@ -348,7 +371,7 @@ impl Tree {
 }
 
 impl Tree {
-    /// A segment and those between it and the root, the root last.
+    /// A segment and those between it and the middle of the trunk, that last.
     pub(crate) fn inwards(&self, segment: Segment) -> impl Iterator<Item = Segment> + Clone + '_ {
         let proximal = |n: &Segment| Some(self[self.carrier(*n)?].proximal);
         std::iter::successors(Some(segment), proximal)
@@ -366,7 +389,10 @@ impl Tree {
 
     /// Whether a segment lies between chest and pelvis or is one of them.
     pub fn is_trunk(&self, segment: Segment) -> bool {
-        let [from_chest, from_pelvis] = [self.landmarks.chest, self.landmarks.pelvis].map(|n| self.inwards(n));
+        let (Some(chest), Some(pelvis)) = (self.landmarks.chest, self.landmarks.pelvis) else {
+            return [self.landmarks.chest, self.landmarks.pelvis].contains(&Some(segment));
+        };
+        let [from_chest, from_pelvis] = [chest, pelvis].map(|n| self.inwards(n));
         let meet = from_chest.clone().find(|n| from_pelvis.clone().any(|m| m == *n));
         let [above, below] = [from_chest, from_pelvis].map(|mut way| way.any(|n| n == segment));
         meet == Some(segment) || above != below

@@ -184,7 +184,7 @@ fn body(model: &Model) -> BodyFigures {
         name: body.name.clone(),
         mass_kg: body.mass_kg(),
         segments: body.tree.segments().map(segment).collect(),
-        degrees_of_freedom: body.tree.degrees_of_freedom(),
+        degrees_of_freedom: body.tree.degrees_of_freedom() - if model.setup().mounting().is_some() { 6 } else { 0 },
         spheres: body.spheres.len(),
         weak: None,
     }

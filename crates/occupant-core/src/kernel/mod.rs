@@ -71,9 +71,9 @@ pub struct Evaluation<S> {
     pub power: Work<S>,
 }
 
-/// What an evaluation writes on its way.
+/// What an evaluation writes on its way: a place that the next one uses again.
 #[derive(Clone, Debug)]
-pub(crate) struct Scratch<S> {
+pub struct Scratch<S> {
     kinematics: Kinematics<S>,
     load: Load<S>,
     sweep: Sweep<S>,
@@ -82,7 +82,7 @@ pub(crate) struct Scratch<S> {
 impl<S: Scalar> Scratch<S> {
     /// Nothing written yet of a body like `body`.
     #[inline(always)]
-    pub(crate) fn blank(body: &Skeleton<S>) -> Self {
+    pub fn blank(body: &Skeleton<S>) -> Self {
         Scratch { kinematics: Kinematics::blank(), load: Load::zero(), sweep: Sweep::blank(body) }
     }
 }
@@ -157,7 +157,11 @@ impl<S: Scalar> System<S> {
         load.clear(self.skeleton.layout.len());
         self.forces.apply::<COMMIT>(&at, history, observer, load); // Q_f + R (48), and F_s
         // q̈ from q̇ and q (114)
-        sweep.solve(&self.skeleton, k, state.hinge_rate(), &load.wrench, root.as_ref());
+        let by_mount = sweep.solve(&self.skeleton, k, state.hinge_rate(), &load.wrench, root.as_ref());
+        if root.is_some() {
+            // of a mount in space, which stands still, it is 0
+            load.power.vehicle += by_mount;
+        }
     }
 
     /// A sphere's centre seen from its segment's joint, in space, and its velocity; all in space axes.

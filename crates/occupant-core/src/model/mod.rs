@@ -1,5 +1,6 @@
 //! The model: a checked [`Setup`] with all that can be computed before the first step. Immutable, shared by all threads.
 
+mod pose;
 pub mod seat;
 pub mod seating;
 pub mod settle;
@@ -13,16 +14,17 @@ use crate::forces::contact::solid::Solids;
 use crate::forces::sphere::Site;
 use crate::forces::{Forces, History, Instant};
 use crate::kernel::System;
+use crate::model::pose::hang;
 use crate::model::seat::{Seat, SeatPlane, Seated, seat};
 use crate::model::seating::{InitialPosture, InitialVelocity, Seating};
-use crate::model::settle::{Settled, kept, settle};
+use crate::model::settle::{Settled, carry, kept, settle};
 use crate::model::setup::Setup;
 use crate::motion::frame::{Frames, Moving};
 use crate::motion::kinematics::Kinematics;
 use crate::motion::skeleton::Skeleton;
 use crate::motion::state::State;
 use crate::motion::vector::V3;
-use crate::vehicle::{FrameMotion, PathCursor};
+use crate::vehicle::{FrameMotion, PathCursor, VehiclePath};
 use nalgebra::Vector3;
 use placed_text::Problems;
 
@@ -139,7 +141,15 @@ impl Model {
 
     /// Frames at `t_s` within a step whose middle is `step_middle_s`.
     pub fn frames(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> Frames<f64> {
-        frames(t_s, &self.setup.path.motion(t_s, step_middle_s, cursor))
+        frames(t_s, &self.vehicle(t_s, step_middle_s, cursor))
+    }
+
+    /// Motion of the vehicle at `t_s` within a step whose middle is `step_middle_s`.
+    pub(crate) fn vehicle(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> FrameMotion {
+        let path = &self.setup.path;
+        // only a mount feels accelerations
+        let motion = if self.setup.mounting().is_some() { VehiclePath::motion_within } else { VehiclePath::motion };
+        motion(path, t_s, step_middle_s, cursor)
     }
 }
 
@@ -152,13 +162,22 @@ pub fn frames(time_s: f64, vehicle: &FrameMotion) -> Frames<f64> {
 fn begin(setup: &Setup, faces: &[FlatFace], problems: &mut Problems) -> Option<(System<f64>, Start)> {
     let start_s = setup.time.start_s;
     let vehicle = setup.path.motion(start_s, start_s, &mut PathCursor::default());
-    let skeleton = Skeleton::new(&setup.body, setup.gravity_m_s2);
+    let mut skeleton = Skeleton::new(&setup.body, setup.gravity_m_s2);
+    if let Some(mounting) = setup.mounting() {
+        skeleton = skeleton.mounted(mounting.mount(setup.body.joint_m(setup.body.tree.segment(0))));
+    }
     let data = setup.forces(faces);
     let forces = Forces::new(&data, &setup.body);
     let mut system = System { skeleton, spheres: Site::all(&setup.body), forces };
     let (mut state, seated, settled, unsettled) = match &setup.posture {
         InitialPosture::Coordinates(q) | InitialPosture::Continued { coordinates: q, .. } => {
             (q.to_state(), None, None, None)
+        }
+        InitialPosture::Mounted(mounting) => {
+            let carrier = mounting.carrier(&vehicle);
+            let mut state = hang(&setup.body, mounting, &carrier);
+            set_velocity(&mut state, &InitialVelocity::WithVehicle, &carrier);
+            (state, None, None, None)
         }
         InitialPosture::Seated(seating) => {
             let place = seat_of(setup, faces, &system.forces.contacts.solids, seating, &vehicle, problems)?;
@@ -189,6 +208,9 @@ fn begin(setup: &Setup, faces: &[FlatFace], problems: &mut Problems) -> Option<(
     if let InitialPosture::Continued { passed, .. } = &setup.posture {
         history.memory.contacts = forces.contacts.continued(&at, passed);
         warn_apart(setup, forces, &history, passed, problems);
+    }
+    if settled.is_some() {
+        carry(&mut system, &state.still(), &frames(start_s, &vehicle.held()), &history);
     }
     Some((system, Start { state, history, seated, settled, unsettled }))
 }

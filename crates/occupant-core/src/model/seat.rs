@@ -7,16 +7,14 @@
 //! the cushion and the feet stand as high as they were to, nearer; where they do not reach down to there either, the legs lie
 //! stretched along the cushion.
 
-use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 use crate::body::tree::Limb;
-use crate::body::{Body, Joint, Segment};
+use crate::body::{Body, Segment};
 use crate::forces::spring::{BilinearSpring, Spring};
-use crate::model::seating::Seating;
-use crate::motion::layout::Layout;
-use crate::motion::report_coordinates::quaternion;
-use crate::motion::state::{Shape, State};
-use crate::motion::vector::V3;
+use crate::model::pose::{Pose, along, leaned};
+use crate::model::seating::{Seating, angle_of};
+use crate::motion::state::State;
 use crate::vehicle::FrameMotion;
 use placed_text::Problems;
 
@@ -73,19 +71,20 @@ pub(crate) fn seat(
         return None;
     };
     let marks = body.tree.landmarks();
-    if pelvis.segment != marks.pelvis {
+    if Some(pelvis.segment) != marks.pelvis {
         problems.error("body.spheres.pelvis", "not on the lower torso", "the lower torso");
         return None;
     }
     if marks.legs().next().is_none() {
         let expected = "segments `left_thigh` and `left_lower_leg` or the right ones, whose heels stand on the floor";
-        problems.error("posture.seat", "a body without legs", expected);
+        let hint = "a part of a body is held by `[mount]` instead of sitting";
+        problems.error_with_hint("posture.seat", "a body without legs", expected, hint);
         return None;
     }
     let sink_m = sink(body, seat, vehicle, gravity_m_s2, problems)?;
     let pelvis_m = place_pelvis(seat, pelvis.radius_m, sink_m, seating.lateral_m, problems)?;
 
-    let lean = leaned(seating.angle_of(body.tree[marks.pelvis].name).unwrap_or_default());
+    let lean = leaned(angle_of(&seating.angles_rad, body.tree[pelvis.segment].name).unwrap_or_default());
     let lower_end = pelvis_m - lean * pelvis.centre_from_lower_end_m.coords;
     let hip = |limb: &Limb| lower_end + lean * body.socket_m(limb.upper);
     let legs: Vec<_> = marks
@@ -93,102 +92,21 @@ pub(crate) fn seat(
         .map(|limb| (limb, leg(body, &limb, hip(&limb), &seat.cushion.normal, seating, problems)))
         .collect();
     let legs: Vec<(Limb, Leg)> = legs.into_iter().map(|(limb, leg)| Some((limb, leg?))).collect::<Option<_>>()?;
-    let pose = Pose::new(body, seating, &legs);
+    let pose = {
+        let of_leg = |segment| legs.iter().find_map(|(limb, leg)| leg.angle_rad(limb, segment));
+        Pose::new(body, &seating.angles_rad, of_leg, None, leaned(0.0))
+    };
     let (first, Leg { thigh, shank }) = &legs[0];
     let knee_m = hip(first) + pose.axes[first.upper.index()] * link_m(body, first.upper, first.lower);
     let heel_m = knee_m + pose.axes[first.lower.index()] * to_heel_m(body, first);
     warn_short(seating, heel_m, problems);
-    let state = pose.state(body, pose.t1_m(body, marks.pelvis, lower_end), vehicle);
+    let state = pose.state(body, pose.t1_m(body, pelvis.segment, lower_end), vehicle);
     Some((state, Seated { sink_m, pelvis_m, knee_m, legs_rad: [*thigh, *shank] }))
-}
-
-/// How the segments are turned, vehicle axes, and the angles of the hinges.
-struct Pose {
-    axes: Vec<Matrix3<f64>>,
-    /// By segment; 0 of one that is on no hinge.
-    hinge_rad: Vec<f64>,
-}
-
-impl Pose {
-    fn new(body: &Body, seating: &Seating, legs: &[(Limb, Leg)]) -> Self {
-        let count = body.segments.len();
-        let mut pose = Pose { axes: vec![leaned(0.0); count], hinge_rad: vec![0.0; count] };
-        for segment in body.tree.segments() {
-            let of_leg = legs.iter().find_map(|(limb, leg)| leg.angle_rad(limb, segment));
-            let carrier = body.tree.carrier(segment);
-            let row = carrier.map(|joint| &body.tree[joint]);
-            let hinge = row.filter(|row| row.is_hinge());
-            let said = of_leg.or_else(|| seating.angle_of(hinge.map_or(body.tree[segment].name, |row| row.name)));
-            let axes = match (carrier, said) {
-                (Some(joint), angle_rad) if hinge.is_some() => {
-                    pose.hinge_rad[segment.index()] = angle_rad.unwrap_or_default();
-                    pose.carried(body, joint, angle_rad.unwrap_or_default())
-                }
-                (_, Some(angle_rad)) => leaned(angle_rad),
-                (Some(joint), None) => pose.carried(body, joint, 0.0),
-                (None, None) => leaned(0.0),
-            };
-            pose.axes[segment.index()] = axes;
-        }
-        pose
-    }
-
-    /// Axes of the distal segment of a joint that is turned about its Y axis.
-    fn carried(&self, body: &Body, joint: Joint, angle_rad: f64) -> Matrix3<f64> {
-        let place = body.place(joint);
-        let turn = place.proximal.axes
-            * UnitQuaternion::from_axis_angle(&Vector3::y_axis(), angle_rad)
-            * place.distal.axes.inverse();
-        self.axes[body.tree[joint].proximal.index()] * turn.to_rotation_matrix().into_inner()
-    }
-
-    /// T1 where the lower end of `from` is at `lower_end`, vehicle axes.
-    fn t1_m(&self, body: &Body, from: Segment, lower_end: Vector3<f64>) -> Vector3<f64> {
-        let mut place = lower_end;
-        for segment in body.tree.inwards(from) {
-            place += self.axes[segment.index()] * body.joint_m(segment);
-            if let Some(joint) = body.tree.carrier(segment) {
-                let proximal = body.tree[joint].proximal.index();
-                place -= self.axes[proximal] * body.place(joint).proximal.point_m;
-            }
-        }
-        place
-    }
-
-    fn state(&self, body: &Body, t1_m: Vector3<f64>, vehicle: &FrameMotion) -> State<f64> {
-        let layout = Layout::of(body.tree);
-        let mut state = State::zero(Shape::of(&layout));
-        state.set_t1(V3::of(&vehicle.point_to_space(t1_m)));
-        for (slot, &n) in layout.free().iter().enumerate() {
-            // Bⁿ (111), which is Tⁿ at the start: X′ = Bⁿ X_n (110)
-            state.set_orientation(slot, quaternion(&(vehicle.rotation * self.axes[n])));
-        }
-        for (slot, &n) in layout.hinged().iter().enumerate() {
-            // of two axes the posture speaks of the first
-            if layout.hinge_slot(n) == Some(slot) {
-                state.hinge_mut()[slot] = self.hinge_rad[n];
-            }
-        }
-        state
-    }
 }
 
 /// From the joint that carries a segment to the one by which it carries `next`, m.
 fn link_m(body: &Body, segment: Segment, next: Segment) -> Vector3<f64> {
     body.socket_m(next) - body.joint_m(segment)
-}
-
-/// Z of a segment that leans back by γ, vehicle axes (Eq. 109).
-fn along(gamma: f64) -> Vector3<f64> {
-    let (s, c) = crash_measures::trig::sin_cos(gamma);
-    Vector3::new(-s, 0.0, -c)
-}
-
-/// Axes of a segment that leans back by γ, vehicle axes: X ahead, Y to the left.
-fn leaned(gamma: f64) -> Matrix3<f64> {
-    let z = along(gamma);
-    let y = -Vector3::y();
-    Matrix3::from_columns(&[y.cross(&z), y, z])
 }
 
 /// Depth at which the cushion carries the weight that rests on it.

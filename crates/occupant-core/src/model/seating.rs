@@ -2,10 +2,15 @@
 //!
 //! Report: "Initial Position of Passenger", Figs 19 and 20.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::body::both_sides;
+use crate::forces::contact::surface::Frame;
+use crate::motion::frame::{SPACE, VEHICLE};
 use crate::motion::report_coordinates::ReportCoordinates;
+use crate::motion::skeleton::Mount;
+use crate::motion::vector::{M3, V3};
+use crate::vehicle::{Attitude, FrameMotion};
 
 /// Where on what the body sits and how it holds itself. Angles as in Fig. 19: γ > 0 leans the top back.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,11 +40,55 @@ impl Seating {
     pub fn angle_rad(&self, name: &str) -> Option<f64> {
         self.angles_rad.iter().find(|(own, _)| own == name).map(|(_, angle_rad)| *angle_rad)
     }
+}
 
-    /// The angle of what has this name, said of it alone or of both sides.
-    pub(crate) fn angle_of(&self, name: &str) -> Option<f64> {
-        self.angle_rad(name).or_else(|| self.angle_rad(&both_sides(name)?))
+/// A body whose first segment is fixed to a frame: the vehicle, whose path is then that of a pendulum or a sled, or space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mounting {
+    /// The frame.
+    pub frame: Frame,
+    /// The point of the segment that it is held by, from the segment's lower end, segment axes, m.
+    pub point_m: Vector3<f64>,
+    /// Where that point is in the frame, m.
+    pub place_m: Vector3<f64>,
+    /// How the segment is turned from facing forward upright, as a vehicle is.
+    pub attitude: Attitude,
+    /// Angles under the names of the other segments and of hinges as in [`Seating::angles_rad`], in the plane that the mount
+    /// faces.
+    pub angles_rad: Vec<(String, f64)>,
+}
+
+impl Mounting {
+    /// Motion of its frame; `vehicle` is the vehicle's.
+    pub(crate) fn carrier(&self, vehicle: &FrameMotion) -> FrameMotion {
+        if self.frame == Frame::Vehicle { *vehicle } else { FrameMotion::space() }
     }
+
+    /// Turns what faces forward in a vehicle into axes of the frame, where the mount is turned by `attitude`.
+    pub(crate) fn facing(&self, attitude: &Attitude) -> Matrix3<f64> {
+        // of a vehicle that stands in space: F·A
+        let axes = if self.frame == Frame::Vehicle { Matrix3::identity() } else { upright() };
+        axes * attitude.matrix()
+    }
+
+    /// What the kernel has of it for a segment whose joint is at `joint_m` from its lower end.
+    pub(crate) fn mount(&self, joint_m: Vector3<f64>) -> Mount<f64> {
+        let frame = if self.frame == Frame::Vehicle { VEHICLE } else { SPACE };
+        let axes = self.facing(&self.attitude) * upright();
+        let place = self.place_m + axes * (joint_m - self.point_m);
+        Mount { frame, place: V3::of(&place), axes: M3::of(&axes) }
+    }
+}
+
+/// F: axes of an upright body that faces forward (X ahead, Y left, Z up) in those of a vehicle, and the other way round.
+fn upright() -> Matrix3<f64> {
+    Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0))
+}
+
+/// The angle under a name, said of it alone or of both sides.
+pub(crate) fn angle_of(angles_rad: &[(String, f64)], name: &str) -> Option<f64> {
+    let said = |name: &str| angles_rad.iter().find(|(own, _)| own == name).map(|(_, angle_rad)| *angle_rad);
+    said(name).or_else(|| said(&both_sides(name)?))
 }
 
 /// Position of the body at the start.
@@ -47,6 +96,8 @@ impl Seating {
 pub enum InitialPosture {
     /// Seated by the rules of the report.
     Seated(Seating),
+    /// Held by a rig.
+    Mounted(Box<Mounting>),
     /// Given in the report's generalized coordinates; their rates replace [`InitialVelocity`].
     Coordinates(Box<ReportCoordinates>),
     /// Where an earlier run ended, as far as cards tell it (series 6 and 14). They carry no greatest deformation.

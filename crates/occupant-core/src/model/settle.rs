@@ -7,15 +7,16 @@
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use serde::{Serialize, Serializer};
 
-use crate::forces::{Data, Instant};
+use crate::forces::{Data, History, Instant};
 use crate::kernel::System;
 use crate::model::frames;
 use crate::model::setup::Setup;
-use crate::motion::frame::VEHICLE;
+use crate::motion::dynamics::Wrench;
+use crate::motion::frame::{Frames, VEHICLE};
 use crate::motion::kinematics::Kinematics;
 use crate::motion::report_coordinates::quaternion;
 use crate::motion::state::State;
-use crate::motion::vector::V3;
+use crate::motion::vector::{V3, v3};
 use crate::vehicle::FrameMotion;
 use crash_measures::trig;
 use placed_text::Problems;
@@ -174,6 +175,33 @@ fn load(
     }
     let lever = 1.0 / LEVER_M;
     Vector6::new(force.x, force.y, force.z, moment.x * lever, moment.y * lever, moment.z * lever)
+}
+
+/// Gives muscles at the start of a body that has settled what their joints carry there, at rest in frames that stand still.
+pub(crate) fn carry(system: &mut System<f64>, state: &State<f64>, still: &Frames<f64>, history: &History<f64>) {
+    let e = system.evaluate::<false>(state, still, &mut history.clone(), &mut ());
+    let k = &e.kinematics;
+    // force and moment at its joint that each segment with all that hangs on it feels, from the tips inwards
+    let mut loads = e.wrench;
+    for (n, row) in system.skeleton.layout.rows().iter().enumerate().rev() {
+        let link = &system.skeleton.links[n];
+        let weight = v3(0.0, 0.0, -link.mass * system.skeleton.gravity);
+        loads[n].force += weight;
+        loads[n].moment += (k.cg(&system.skeleton, n) - k.joint[n]).cross(weight);
+        if let Some(parent) = row.parent {
+            let Wrench { force, moment } = loads[n];
+            loads[parent].force += force;
+            loads[parent].moment += moment + (k.joint[n] - k.joint[parent]).cross(force);
+        }
+    }
+    for muscle in &mut system.forces.muscles {
+        muscle.carry(k, |outer| {
+            // of a pin the segments themselves carry what does not bend it
+            let hinge = system.skeleton.layout.hinge_slot(outer).map(|hinge| k.hinge_axis[hinge]);
+            let needed = -loads[outer].moment;
+            hinge.map_or(needed, |axis| axis * axis.dot(needed))
+        });
+    }
 }
 
 /// Central differences over a hundredth of a millimetre to either side (or the like in rotation).

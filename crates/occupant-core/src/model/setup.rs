@@ -17,7 +17,7 @@ use crate::forces::contact::surface::Surface;
 use crate::forces::contact::{ContactData, EdgeForce};
 use crate::forces::joint::Joints;
 use crate::forces::sphere::Site;
-use crate::model::seating::{InitialPosture, InitialVelocity};
+use crate::model::seating::{InitialPosture, InitialVelocity, Mounting};
 use crate::motion::report_coordinates::{DOF, ReportCoordinates};
 use crate::vehicle::VehiclePath;
 
@@ -184,6 +184,11 @@ impl Setup {
             Integrator::Rk4 { step_s } => Some(step_s.min(longest_s)),
             Integrator::Adaptive { .. } => None,
         }
+    }
+
+    /// What holds the body's first segment; none of a body that is free.
+    pub fn mounting(&self) -> Option<&Mounting> {
+        if let InitialPosture::Mounted(mounting) = &self.posture { Some(mounting) } else { None }
     }
 
     /// Names of surfaces, then of solids, then of spheres that can be touched by others.

@@ -213,6 +213,17 @@ impl<S: Scalar> Sweep<S> {
         }
     }
 
+    /// Force and moment that the first segment needs at its joint of the last tree solved, where a frame carries it.
+    #[inline(always)]
+    pub(crate) fn at_root(&self, a: V3<S>, alpha: V3<S>) -> Wrench<S> {
+        let Need { mass, coupling, inertia, force, moment } = &self.needs[0];
+        // f = A a − B α + β_f, τ = J α − Bᵀ a + β_τ
+        Wrench {
+            force: mass.mul(a) - coupling.into_frame(alpha) + *force,
+            moment: inertia.mul(alpha) - coupling.out(a) + *moment,
+        }
+    }
+
     /// Reduces what segment `n` and all that it carries need to what its joint hands on.
     #[inline(always)]
     fn reduce(&mut self, n: usize, row: &Row, k: &Kinematics<S>, hinge_rate: &[S]) {

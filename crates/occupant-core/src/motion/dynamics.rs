@@ -87,7 +87,7 @@ impl<S: Scalar> Sweep<S> {
         Sweep { by, accelerations }
     }
 
-    /// As [`solve`]; a guided root accelerates as `root` does.
+    /// As [`solve`]; a guided root accelerates as `root` does, which gives the power that comes back, W.
     #[inline(always)]
     pub(crate) fn solve(
         &mut self,
@@ -96,21 +96,27 @@ impl<S: Scalar> Sweep<S> {
         hinge_rate: &[S],
         wrench: &[Wrench<S>; MOST_SEGMENTS],
         root: Option<&Moving<S>>,
-    ) {
-        let out = &mut self.accelerations;
+    ) -> S {
+        let (out, mut power) = (&mut self.accelerations, S::zero());
         let gravity = v3(S::zero(), S::zero(), -body.gravity);
         match &mut self.by {
             By::ClosedForms(sweep) => sweep.solve(body, k, hinge_rate, wrench, out),
             By::Any(sweep) => {
                 let still = Moving::space();
-                let root = root.unwrap_or(&still);
-                sweep.solve(body, k, hinge_rate, wrench, [root.acceleration - gravity, root.alpha], out);
+                let carrier = root.unwrap_or(&still);
+                let a = carrier.acceleration - gravity;
+                sweep.solve(body, k, hinge_rate, wrench, [a, carrier.alpha], out);
+                if let Some(root) = root {
+                    let Wrench { force, moment } = sweep.at_root(a, root.alpha);
+                    power = force.dot(root.velocity) + moment.dot(root.omega);
+                }
             }
         }
         // F_p (51a), (56): a uniform acceleration of all joints
         for a in &mut out.joint[..body.links.len()] {
             *a += gravity;
         }
+        power
     }
 }
 

@@ -119,9 +119,9 @@ impl Layout {
             JointKind::Universal => Freedom::Hinges(&[Axis::Y, Axis::X]),
             JointKind::Fixed => Freedom::Hinges(&[]),
         };
-        let rows = tree.segments().map(|segment| tree.carrier(segment).map(|joint| &tree[joint]));
+        let rows = tree.segments().map(|segment| tree.bearer(segment).map(|joint| &tree[joint]));
         Layout::of_rows(
-            rows.map(|joint| (joint.map(|joint| joint.proximal.index()), joint.map_or(Freedom::Ball, freedom))),
+            rows.map(|joint| (joint.map(|joint| joint.carrying()[0].index()), joint.map_or(Freedom::Ball, freedom))),
         )
     }
 
@@ -138,6 +138,12 @@ impl Layout {
             layout.rows.push(Row { parent, freedom, slot });
         }
         layout
+    }
+
+    /// The same with a root that follows a given path.
+    pub(crate) fn guided(mut self) -> Self {
+        self.rows[0].freedom = Freedom::Guided;
+        self
     }
 
     /// By segment.

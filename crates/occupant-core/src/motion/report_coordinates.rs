@@ -79,8 +79,11 @@ impl ReportCoordinates {
         state
     }
 
-    /// The coordinates of a state.
-    pub fn from_state(state: &State<f64>) -> Self {
+    /// The coordinates of a state; none of one that has other numbers than the report's body.
+    pub fn from_state(state: &State<f64>) -> Option<Self> {
+        if state.shape() != Shape::of(&Layout::of(&TTI12)) {
+            return None;
+        }
         let (mut q, mut rates) = ([0.0; DOF], [0.0; DOF]);
         q[..3].copy_from_slice(&state.numbers()[..3]);
         rates[..3].copy_from_slice(state.velocity().to_vector().as_slice());
@@ -94,7 +97,7 @@ impl ReportCoordinates {
             q[at] = state.hinge()[slot];
             rates[at] = state.hinge_rate()[slot];
         }
-        ReportCoordinates { q, rates }
+        Some(ReportCoordinates { q, rates })
     }
 }
 

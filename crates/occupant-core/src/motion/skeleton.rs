@@ -183,6 +183,11 @@ impl Skeleton<f64> {
         Skeleton { layout, links, gravity: gravity_m_s2, mount: None, is_closed }
     }
 
+    /// The same, carried by a frame.
+    pub fn mounted(self, mount: Mount<f64>) -> Self {
+        Skeleton { layout: self.layout.guided(), mount: Some(mount), is_closed: false, ..self }
+    }
+
     /// The same, computed as any tree is: to the rounding what the closed forms give.
     pub fn without_closed_forms(self) -> Self {
         Skeleton { is_closed: false, ..self }
@@ -192,11 +197,13 @@ impl Skeleton<f64> {
 fn part(body: &Body, segment: Segment) -> Part {
     let p = body.segment(segment);
     let turn = p.principal.to_rotation_matrix().into_inner();
-    let triads = body
-        .tree
-        .carrier(segment)
-        .map(|joint| body.place(joint))
-        .map(|place| [place.proximal, place.distal].map(|site| site.axes.to_rotation_matrix().into_inner()));
+    let triads = body.tree.bearer(segment).map(|joint| {
+        let triads = body.sites(joint).map(|site| site.axes.to_rotation_matrix().into_inner());
+        let row = &body.tree[joint];
+        // a pin on which the proximal segment hangs turns by the same angle the other way, about −Y
+        let turned = Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0));
+        if row.is_reversed() && row.is_hinge() { triads.map(|triad| triad * turned) } else { triads }
+    });
     Part {
         mass_kg: p.mass_kg,
         cg_m: p.cg_m() - body.joint_m(segment),

@@ -3,11 +3,21 @@
 use crash_measures::injury::{Components, Signals};
 use nalgebra::Vector3;
 
+use crate::body::Segment;
 use crate::model::Model;
 use crate::quantity::to_j211;
 use crate::results::reaction::Loads;
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
+
+/// What is read at a segment; no numbers where a part of a body lacks it.
+fn reading<'a>(
+    sample: &Sample<'a>,
+    segment: Option<Segment>,
+    read: impl Fn(&Sample<'a>, Segment) -> Vector3<f64>,
+) -> Vector3<f64> {
+    segment.map_or_else(|| Vector3::repeat(f64::NAN), |segment| read(sample, segment))
+}
 
 /// Adds a vector of segment axes in J211 axes.
 fn push(into: &mut Components, v: Vector3<f64>) {
@@ -37,11 +47,11 @@ impl Recorder for Signals {
             self.start_s = s.time_s;
         }
         let marks = s.model.body().tree.landmarks();
-        push(&mut self.head_m_s2, s.specific_force_m_s2(marks.head));
-        push(&mut self.chest_m_s2, s.specific_force_m_s2(marks.chest));
-        push(&mut self.pelvis_m_s2, s.specific_force_m_s2(marks.pelvis));
-        push(&mut self.head_rad_s, s.angular_velocity_rad_s(marks.head));
-        push(&mut self.head_rad_s2, s.angular_acceleration_rad_s2(marks.head));
+        push(&mut self.head_m_s2, reading(s, marks.head, Sample::specific_force_m_s2));
+        push(&mut self.chest_m_s2, reading(s, marks.chest, Sample::specific_force_m_s2));
+        push(&mut self.pelvis_m_s2, reading(s, marks.pelvis, Sample::specific_force_m_s2));
+        push(&mut self.head_rad_s, reading(s, marks.head, Sample::angular_velocity_rad_s));
+        push(&mut self.head_rad_s2, reading(s, marks.head, Sample::angular_acceleration_rad_s2));
         let loads = Loads::new(s);
         let neck = loads.upper_neck();
         push(&mut self.neck_n, neck.force_n);

@@ -51,8 +51,9 @@ impl<'s, 'a> Loads<'s, 'a> {
         let muscles = sample.actions.muscles.iter().map(|action| (action.joint, action.moment));
         for (joint, moment) in limits.chain(muscles) {
             let row = &sample.model.body().tree[joint];
-            passive[row.distal.index()].moment += moment;
-            passive[row.proximal.index()].moment -= moment;
+            let [inner, outer] = row.between().map(Segment::index);
+            passive[outer].moment += moment;
+            passive[inner].moment -= moment;
         }
         Loads { sample, passive }
     }
@@ -88,18 +89,39 @@ impl<'s, 'a> Loads<'s, 'a> {
 
     /// [`reaction`] of `joint`.
     pub(super) fn reaction(&self, joint: Joint) -> Reaction {
-        let distal = self.sample.model.body().tree[joint].distal.index();
-        let (load, axes) = (self.at(distal), &self.sample.evaluation.kinematics.axes[distal]);
-        Reaction {
-            force_n: axes.into_frame(load.force).to_vector(),
-            moment_n_m: axes.into_frame(load.moment).to_vector(),
-        }
+        self.along(self.sample.model.body().tree[joint].distal, self.on_distal(joint))
+    }
+
+    /// What the proximal segment of a joint exerts on the distal one, at the joint, space axes.
+    fn on_distal(&self, joint: Joint) -> Wrench<f64> {
+        let row = &self.sample.model.body().tree[joint];
+        let load = self.at(row.carrying()[1].index());
+        if row.is_reversed() { Wrench { force: -load.force, moment: -load.moment } } else { load }
+    }
+
+    /// A load along the axes of a segment.
+    fn along(&self, segment: Segment, load: Wrench<f64>) -> Reaction {
+        let (force, moment) = load.into_frame(&self.sample.evaluation.kinematics.axes[segment.index()]);
+        Reaction { force_n: force.to_vector(), moment_n_m: moment.to_vector() }
+    }
+
+    /// [`mount_load`].
+    fn mount(&self) -> Option<Reaction> {
+        let body = self.sample.model.body();
+        let mounting = self.sample.model.setup().mounting()?;
+        let root = body.tree.segment(0);
+        let at_joint = self.along(root, self.at(root.index()));
+        let arm = mounting.point_m - body.joint_m(root);
+        Some(Reaction { moment_n_m: at_joint.moment_n_m - arm.cross(&at_joint.force_n), ..at_joint })
     }
 
     /// [`upper_neck`].
     pub(super) fn upper_neck(&self) -> Reaction {
         let body = self.sample.model.body();
-        let at_joint = self.reaction(body.tree.landmarks().neck);
+        let Some(neck) = body.tree.landmarks().neck else {
+            return Reaction { force_n: Vector3::repeat(f64::NAN), moment_n_m: Vector3::repeat(f64::NAN) };
+        };
+        let at_joint = self.reaction(neck);
         let Some(condyles_m) = body.condyles_m else { return at_joint };
         Reaction { moment_n_m: at_joint.moment_n_m - condyles_m.cross(&at_joint.force_n), ..at_joint }
     }
@@ -108,10 +130,9 @@ impl<'s, 'a> Loads<'s, 'a> {
     pub(super) fn femur_axial_n(&self, thigh: Segment) -> f64 {
         let sample = self.sample;
         let k = &sample.evaluation.kinematics;
-        let layout = &sample.model.system().skeleton.layout;
-        let shanks = layout.children(thigh.index()).map(|shank| self.at(shank).force);
-        let carried = shanks.reduce(|a, b| a + b).unwrap_or(V3::zero());
         let body = sample.model.body();
+        let shanks = body.tree.joints().filter(|joint| body.tree[*joint].proximal == thigh);
+        let carried = shanks.map(|joint| self.on_distal(joint).force).reduce(|a, b| a + b).unwrap_or(V3::zero());
         let half_m = 0.5 * body.segment(thigh).length_m;
         let at_knee = |s: &usize| {
             let sphere = &body.spheres[*s];
@@ -127,9 +148,15 @@ impl<'s, 'a> Loads<'s, 'a> {
 
 /// What the neck carries at the occipital condyles, where limits of necks hold: M − c × F with M and F at the neck's joint and
 /// c the condyles seen from there. It follows from the head's motion and what touches it, wherever the joint is. Of a body
-/// that does not say where they are, what its neck's joint carries.
+/// that does not say where they are, what its neck's joint carries; of one without a neck no numbers.
 pub(crate) fn upper_neck(sample: &Sample<'_>) -> Reaction {
     Loads::new(sample).upper_neck()
+}
+
+/// What a mount exerts on the segment that it holds, at the point that it holds it by, in axes of that segment; none of a body
+/// that is on no mount. The segment's own weight and inertia are part of it.
+pub fn mount_load(sample: &Sample<'_>) -> Option<Reaction> {
+    Loads::new(sample).mount()
 }
 
 /// Axial force in a thigh at its knee end, tension positive as a load cell in the femur reports it, N: what the shank, the

@@ -4,6 +4,7 @@ use nalgebra::{Point3, UnitQuaternion, Vector3};
 
 use crate::body::Joint;
 use crate::body::Segment;
+use crate::body::tti12::TTI12;
 use crate::forces::contact::Touch;
 use crate::forces::{Actions, History};
 use crate::kernel::Evaluation;
@@ -223,9 +224,9 @@ impl<'a> Sample<'a> {
         }
     }
 
-    /// The report's generalized coordinates and rates.
-    pub fn report_coordinates(&self) -> ReportCoordinates {
-        ReportCoordinates::from_state(self.state)
+    /// The report's generalized coordinates and rates; none of a body that is not the report's 12 segments.
+    pub fn report_coordinates(&self) -> Option<ReportCoordinates> {
+        ReportCoordinates::from_state(self.state).filter(|_| *self.model.body().tree == TTI12)
     }
 
     fn contact(&self, t: &Touch<f64>) -> Contact {

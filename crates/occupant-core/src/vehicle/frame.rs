@@ -88,7 +88,7 @@ impl FrameMotion {
     }
 
     /// The same pose, at rest.
-    pub(super) fn held(&self) -> Self {
+    pub(crate) fn held(&self) -> Self {
         FrameMotion { origin_m: self.origin_m, rotation: self.rotation, ..FrameMotion::space() }
     }
 }

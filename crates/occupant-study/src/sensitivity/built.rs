@@ -128,7 +128,7 @@ impl Path {
         let mut values = [[0.0; MOTION]; POINTS];
         let paths = self.paths.iter().zip(&mut self.cursors);
         for (values, (path, cursor)) in values.iter_mut().zip(paths) {
-            *values = motion_numbers(&frames(t_s, &path.motion(t_s, middle_s, cursor))[VEHICLE]);
+            *values = motion_numbers(&frames(t_s, &path.motion_within(t_s, middle_s, cursor))[VEHICLE]);
         }
         let count = self.paths.len();
         from_fn(|i| {

@@ -80,7 +80,9 @@ fn accelerations(summary: &Summary, marks: &Marks) -> String {
     let heads = ["peak, g", "at, ms", "3 ms held, g", "from–to, ms", "3 ms in total, g"];
     let a = &summary.accelerations;
     let parts = [("head", &a.head), ("chest", &a.chest), ("pelvis", &a.pelvis)];
-    let rows = parts.map(|(name, part)| acceleration(name, part, marks));
+    // a part of a body on a mount lacks some
+    let there = parts.into_iter().filter(|(_, part)| !part.peak_g.is_nan());
+    let rows = there.map(|(name, part)| acceleration(name, part, marks));
     table(&[(Left, &["acceleration"]), (Right, &heads)], rows)
 }
 

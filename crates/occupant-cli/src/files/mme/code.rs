@@ -104,7 +104,7 @@ pub(crate) fn place_of(model: &Model, channel: &Channel) -> Option<Place> {
     let segment = model.body().spheres.get(round).map(|s| s.segment);
     let (segment, marks) = (segment?, model.body().tree.landmarks());
     let webbing = match segment {
-        _ if segment == marks.pelvis => Some("B6"),
+        _ if Some(segment) == marks.pelvis => Some("B6"),
         _ if model.body().tree.is_trunk(segment) => Some("B3"),
         _ => return None,
     };

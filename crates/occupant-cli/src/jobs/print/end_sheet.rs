@@ -67,8 +67,8 @@ fn extension(pages: &mut Pages, case: &Case, units: Units, checkpoint: &Checkpoi
         &format!("PAIRS WITH NARRY(J,K) = 0: THE SPHERE HAS PASSED THE SURFACE'S EDGE ({numbers})"),
         &case.passed(&checkpoint.memory.contacts),
     );
-    if let Ok(state) = Checkpoint::state_of(&case.model, &checkpoint.state) {
-        let q = ReportCoordinates::from_state(&state);
+    let state = Checkpoint::state_of(&case.model, &checkpoint.state);
+    if let Some(q) = state.ok().and_then(|state| ReportCoordinates::from_state(&state)) {
         coordinates(pages, units, "GENERALIZED COORDINATES AT THE END", &q);
     }
     pages.say("");

@@ -21,9 +21,10 @@ const MOST_NAMED: usize = 5;
 /// A head whose path differs by so much, m, says that the motion makes much of little.
 const CHAOTIC_M: f64 = 5e-3;
 
-/// Where the head's c.g. is, m, in vehicle axes.
+/// Where the c.g. of the head is, or of the last segment of a part without one, m, in vehicle axes.
 pub(crate) fn head_m(sample: &Sample<'_>) -> Point3<f64> {
-    sample.cg_m(sample.model.body().tree.landmarks().head)
+    let tree = sample.model.body().tree;
+    sample.cg_m(tree.landmarks().head.unwrap_or_else(|| tree.segment(tree.segments().len() - 1)))
 }
 
 /// How far a run is from one with a finer integration.

@@ -49,9 +49,9 @@ pub(crate) fn parts(body: &Body) -> Vec<Part> {
     let of_segment = |segment| {
         let marks = body.tree.landmarks();
         let ends = match segment {
-            _ if segment == marks.head => head(body, segment),
-            _ if segment == marks.chest => upper_torso(body, segment),
-            _ if segment == marks.pelvis => lower_torso(body, segment),
+            _ if Some(segment) == marks.head => head(body, segment),
+            _ if Some(segment) == marks.chest => upper_torso(body, segment),
+            _ if Some(segment) == marks.pelvis => lower_torso(body, segment),
             _ if body.tree.is_trunk(segment) => vec![trunk(body, segment)],
             _ => limb(body, segment),
         };
@@ -86,8 +86,10 @@ fn head(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
 /// The chest, the bar that carries the shoulders, and as much of the neck as does not turn with the head.
 fn upper_torso(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
     let p = body.segment(segment);
-    let arms = &body.tree.landmarks().arms;
-    let shoulder = limb_radius(body, arms.left.or(arms.right).map_or(segment, |arm| arm.upper));
+    let marks = body.tree.landmarks();
+    let arms = &marks.arms;
+    let neck = || marks.head.map_or(0.0, |head| NECK * limb_radius(body, head));
+    let shoulder = arms.left.or(arms.right).map_or_else(neck, |arm| limb_radius(body, arm.upper));
     let mut parts = vec![trunk(body, segment)];
     parts.extend(bar(body, segment, arms, shoulder));
     if let Some(above_m) = body.neck_above_m(segment).filter(|above_m| *above_m > 0.0) {
@@ -135,7 +137,16 @@ fn limb(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
         stations.push((upper, last.1));
     }
     let at = |&(z, r): &(f64, f64)| ball(on_axis(p, z), r);
-    stations.windows(2).map(|two| [at(&two[0]), at(&two[1])]).collect()
+    let along = stations.windows(2).map(|two| [at(&two[0]), at(&two[1])]);
+    along.chain(sole(p, radius)).collect()
+}
+
+/// What lies ahead of a segment that is longer ahead than it is high: a foot, from the heel to as far beyond its centre of gravity.
+fn sole(p: &SegmentProperties, radius: f64) -> Option<[Lump; 2]> {
+    let half_m = p.cg_beside_m.x;
+    let height_m = radius - p.cg_from_lower_end_m;
+    let end = |x: f64| ball(Vector3::new(x, -p.cg_beside_m.y, height_m), radius);
+    (half_m.abs() > 0.5 * p.length_m).then(|| [end(-half_m), end(half_m)])
 }
 
 /// Heights and radii of the spheres on a segment's long axis, from the lower end up.

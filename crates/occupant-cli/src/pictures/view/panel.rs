@@ -77,9 +77,10 @@ pub(crate) fn draw(svg: &mut Svg, pen: &Pen<'_>, moment: &Snapshot, view: View, 
 /// A surface, or a side of a solid.
 type Polygon = Vec<Point3<f64>>;
 
-/// Those before the pelvis and the others.
+/// Those before the pelvis, or the first segment of a part without one, and the others.
 fn surfaces(pen: &Pen<'_>, moment: &Snapshot, view: View) -> (Vec<Polygon>, Vec<Polygon>) {
-    let pelvis = moment.poses[pen.strip.model.body().tree.landmarks().pelvis.index()].translation.vector;
+    let at = pen.strip.model.body().tree.landmarks().pelvis.map_or(0, |pelvis| pelvis.index());
+    let pelvis = moment.poses[at].translation.vector;
     let own = view.depth(&pelvis.into());
     moment.polygons_m(pen.strip.model).into_iter().partition(|corners| {
         let sum: f64 = corners.iter().map(|c| view.depth(c)).sum();

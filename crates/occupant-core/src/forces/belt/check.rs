@@ -103,7 +103,7 @@ fn holds(belt: &Belt, body: &Body, centre: Vector3<f64>, path: &str, problems: &
             "an anchor on either side",
             "check the seat's lateral place and the anchors' signs of y",
         );
-    } else if sphere.segment == body.tree.landmarks().pelvis {
+    } else if Some(sphere.segment) == body.tree.landmarks().pelvis {
         let slopes = to_anchors.map(|to| trig::atan2(to.z, -to.x).to_degrees());
         if let Some(slope) = slopes.iter().find(|slope| !(20.0..=80.0).contains(*slope)) {
             warn(

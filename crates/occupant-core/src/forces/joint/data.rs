@@ -121,6 +121,22 @@ impl Joints {
         Joints { tree, laws, limits: Vec::new(), muscles: Vec::new(), epsilon: Joints::EPSILON }
     }
 
+    /// Those of them that a tree has which is a part of this one.
+    pub(crate) fn of_tree(self, tree: &'static Tree) -> Self {
+        if std::ptr::eq(self.tree, tree) {
+            return self;
+        }
+        let of = |joint: Joint| tree.joint_named(self.tree[joint].name);
+        let law = |joint: Joint| self.tree.joint_named(tree[joint].name).map(|whole| self.laws[whole.index()]);
+        Joints {
+            tree,
+            laws: tree.joints().filter_map(law).collect(),
+            limits: self.limits.iter().filter_map(|l| Some(Limits { joint: of(l.joint)?, ..l.clone() })).collect(),
+            muscles: self.muscles.iter().filter_map(|m| Some(Muscle { joint: of(m.joint)?, ..*m })).collect(),
+            epsilon: self.epsilon,
+        }
+    }
+
     /// With another law in one joint; one of the other kind changes nothing.
     #[must_use]
     pub fn with(mut self, joint: Joint, law: impl Into<JointLaw>) -> Self {

@@ -4,7 +4,7 @@
 //! axes of its triads, in the report's body of the segments, n = Z_k × Z_l, s = |n|, ω = ω_l − ω_k. Our decision: β = atan2(√(s² + ε²), Z_k·Z_l), which has no singular posture; then
 //! β̇ = n·ω/√(s² + ε²), exactly.
 
-use crate::body::Joint;
+use crate::body::{Joint, Segment};
 use nalgebra::Vector3;
 
 use crate::forces::joint::{Joints, Stop};
@@ -74,7 +74,7 @@ pub struct Ball<S> {
 pub struct Hinge<S> {
     /// The joint.
     pub joint: Joint,
-    /// Proximal and distal segment.
+    /// Inner and outer segment.
     pub segments: (usize, usize),
     damping: S,
     lower: Limit<S>,
@@ -153,7 +153,7 @@ impl JointSystem<f64> {
     pub fn new(joints: &Joints, skeleton: &Skeleton<f64>, rest_rad: impl Fn(usize) -> f64) -> Self {
         let (tree, layout) = (joints.tree(), &skeleton.layout);
         let balls = tree.joints().filter(|joint| !tree[*joint].is_hinge()).enumerate();
-        let carriers = layout.hinged().iter().filter_map(|&n| tree.carrier(tree.segment(n)));
+        let carriers = layout.hinged().iter().filter_map(|&n| tree.bearer(tree.segment(n)));
         JointSystem {
             balls: balls.map(|(i, joint)| ball(joints, joint, skeleton, rest_rad(i))).collect(),
             hinges: carriers.map(|joint| hinge(joints, joint)).collect(),
@@ -283,8 +283,11 @@ impl<S: Scalar> Hinge<S> {
 
 fn ball(joints: &Joints, joint: Joint, skeleton: &Skeleton<f64>, rest_rad: f64) -> Ball<f64> {
     let row = &joints.tree()[joint];
-    let segments = (row.proximal.index(), row.distal.index());
-    let z = skeleton.links[segments.1].triads.map(|triad| triad.z);
+    let segments = row.between().map(Segment::index).into();
+    let mut z = skeleton.links[row.carrying()[1].index()].triads.map(|triad| triad.z);
+    if row.is_reversed() {
+        z.reverse();
+    }
     let (data, epsilon) = (joints[joint].ball().copied().unwrap_or_default(), joints.epsilon);
     let (stiffness, rest) = data.spring.map_or((0.0, 0.0), |s| (s.stiffness_n_m, s.rest_rad.unwrap_or(rest_rad)));
     Ball {
@@ -306,7 +309,7 @@ fn hinge(joints: &Joints, joint: Joint) -> Hinge<f64> {
     let data = joints[joint].hinge().copied().unwrap_or_default();
     Hinge {
         joint,
-        segments: (row.proximal.index(), row.distal.index()),
+        segments: row.between().map(Segment::index).into(),
         damping: data.damping_n_m_s,
         lower: Limit::new(data.lower_stop, data.damping_n_m_s, -1.0),
         upper: Limit::new(data.upper_stop, data.damping_n_m_s, 1.0),

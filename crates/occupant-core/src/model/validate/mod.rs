@@ -37,7 +37,7 @@ fn check_coordinates(setup: &Setup, problems: &mut Problems) {
         return;
     }
     let found = format!("the report's coordinates of a body of {} segments", setup.body.segments.len());
-    if !matches!(setup.posture, InitialPosture::Seated(_)) {
+    if !matches!(setup.posture, InitialPosture::Seated(_) | InitialPosture::Mounted(_)) {
         problems.error("initial_state", found.clone(), "`posture`, or the report's 12 segments");
     }
     if setup.output.report_coordinates {
@@ -47,8 +47,12 @@ fn check_coordinates(setup: &Setup, problems: &mut Problems) {
 
 /// Angles of more than half a turn, which a slip of the pen makes.
 fn check_posture(posture: &InitialPosture, problems: &mut Problems) {
-    let InitialPosture::Seated(seating) = posture else { return };
-    for (key, angle_rad) in seating.angles_rad.iter().filter(|(_, angle)| angle.is_nan() || angle.abs() > PI) {
-        problems.error(format!("posture.{key}"), format!("{}°", angle_rad.to_degrees()), "an angle from −180° to 180°");
+    let (path, angles_rad) = match posture {
+        InitialPosture::Seated(seating) => ("posture", &seating.angles_rad),
+        InitialPosture::Mounted(mounting) => ("mount.posture", &mounting.angles_rad),
+        InitialPosture::Coordinates(_) | InitialPosture::Continued { .. } => return,
+    };
+    for (key, angle_rad) in angles_rad.iter().filter(|(_, angle)| angle.is_nan() || angle.abs() > PI) {
+        problems.error(format!("{path}.{key}"), format!("{}°", angle_rad.to_degrees()), "an angle from −180° to 180°");
     }
 }

@@ -1,5 +1,6 @@
 //! Place and pace of the vehicle during the run.
 
+use crate::forces::contact::surface::Frame;
 use crate::model::setup::{STANDARD_GRAVITY_M_S2, Setup};
 use crate::vehicle::{FrameMotion, PathCursor};
 use placed_text::{Problem, Problems};
@@ -50,6 +51,7 @@ pub(in crate::model) fn check_path(setup: &Setup, problems: &mut Problems) {
     if let Err(problem) = path.check_span(time.start_s, time.end_s) {
         return problems.error("path", problem.to_string(), "a path for the whole run");
     }
+    check_jumps(setup, problems);
     let mut cursor = PathCursor::default();
     let motions: Vec<(f64, FrameMotion)> =
         instants(setup).into_iter().map(|t_s| (t_s, path.motion(t_s, t_s, &mut cursor))).collect();
@@ -78,4 +80,31 @@ fn instants(setup: &Setup) -> Vec<f64> {
     all.sort_by(f64::total_cmp);
     let middles = all.windows(2).map(|pair| f64::midpoint(pair[0], pair[1]));
     middles.chain(all.iter().copied()).collect()
+}
+
+/// A mount's velocity may change by so much, m/s and rad/s, from one instant to the next.
+const JUMP: f64 = 1e-3;
+
+/// Reports a jump of velocity in the path of a mount, whose force would have no bound.
+fn check_jumps(setup: &Setup, problems: &mut Problems) {
+    let time = &setup.time;
+    if setup.mounting().is_none_or(|mounting| mounting.frame == Frame::Space) {
+        return;
+    }
+    let jump = |t_s: f64| {
+        let by_s = 1e-9 * (time.end_s - time.start_s);
+        let [before, after] =
+            [t_s - by_s, t_s + by_s].map(|middle_s| setup.path.motion(t_s, middle_s, &mut PathCursor::default()));
+        let turning = (after.angular_velocity_rad_s - before.angular_velocity_rad_s).norm();
+        (after.velocity_m_s - before.velocity_m_s).norm().max(turning)
+    };
+    let within = setup.path.breaks_s().into_iter().filter(|t_s| *t_s > time.start_s && *t_s < time.end_s);
+    if let Some(t_s) = within.into_iter().find(|t_s| jump(*t_s) > JUMP) {
+        problems.error_with_hint(
+            "path",
+            format!("the velocity of the mount jumps by {:.3} m/s or rad/s at t = {t_s} s", jump(t_s)),
+            "a velocity without jumps: what is mounted cannot give way",
+            "splines between the times of a table, `after = \"coast\"`, or an end of the run before",
+        );
+    }
 }

@@ -3,11 +3,12 @@
 use crash_measures::unit::Unit::{
     Metre, MetrePerSecond, MetrePerSecondSquared, Newton, NewtonMetre, One, RadianPerSecond, RadianPerSecondSquared,
 };
+use nalgebra::Vector3;
 
 use super::Run;
-use crate::body::tree::{Landmarks, Limb, Pair, Segment};
+use crate::body::tree::{Landmarks, Limb, Segment};
 use crate::quantity::{Axes, Owner, Quantity, Take, to_j211};
-use crate::results::reaction::{femur_axial_n, upper_neck};
+use crate::results::reaction::{Reaction, femur_axial_n, mount_load, upper_neck};
 use crate::results::sample::Sample;
 
 /// A segment.
@@ -68,9 +69,24 @@ fn marks<'a>(s: &Sample<'a>) -> &'a Landmarks {
 }
 
 /// Message `Instruments`: what the load cells of a dummy would read.
-pub(super) fn instruments(legs: &Pair<Option<Limb>>) -> impl Iterator<Item = Instrument> {
-    let femurs = legs.right.map(|_| RIGHT_FEMUR).into_iter().chain(legs.left.map(|_| LEFT_FEMUR));
-    NECK.into_iter().chain(femurs)
+pub(super) fn instruments(marks: &Landmarks) -> impl Iterator<Item = Instrument> {
+    let femurs = marks.legs.right.map(|_| RIGHT_FEMUR).into_iter().chain(marks.legs.left.map(|_| LEFT_FEMUR));
+    marks.neck.map(|_| NECK).into_iter().flatten().chain(femurs)
+}
+
+/// Message `MountLoad`, of a body on a mount.
+pub(super) const MOUNT: &[Instrument] = &[
+    Instrument::vector(Newton, Axes::J211, |s| to_j211(at_mount(s).force_n))
+        .channel("mount.force", "force of the mount on the segment that it holds, along that segment's SAE J211 axes")
+        .field(2, "force", "force on the segment that is held, along its SAE J211 axes"),
+    Instrument::vector(NewtonMetre, Axes::J211, |s| to_j211(at_mount(s).moment_n_m))
+        .channel("mount.moment", "moment of the mount on the segment that it holds, at the point where it holds it")
+        .field(3, "moment", "moment on the segment that is held, at the point where it is held"),
+];
+
+fn at_mount(s: &Sample<'_>) -> Reaction {
+    let none = Vector3::repeat(f64::NAN);
+    mount_load(s).unwrap_or(Reaction { force_n: none, moment_n_m: none })
 }
 
 const NECK: [Instrument; 2] = [
@@ -99,14 +115,12 @@ fn femur_n(s: &Sample<'_>, leg: Option<Limb>) -> f64 {
 
 /// Message `ReportCoordinates`, on request.
 pub(super) const REPORT_COORDINATES: &[Instrument] = &[
-    Instrument::new(One, Axes::None, Take::Numbers(|s| s.report_coordinates().q.to_vec())).field(
-        2,
-        "q_m_or_rad",
-        "q1 to q31 in the report's order: q1 to q3 in m, the angles in rad",
-    ),
-    Instrument::new(One, Axes::None, Take::Numbers(|s| s.report_coordinates().rates.to_vec())).field(
-        3,
-        "q_rate_m_s_or_rad_s",
-        "their rates",
-    ),
+    Instrument::new(One, Axes::None, Take::Numbers(|s| s.report_coordinates().map_or_else(Vec::new, |c| c.q.to_vec())))
+        .field(2, "q_m_or_rad", "q1 to q31 in the report's order: q1 to q3 in m, the angles in rad"),
+    Instrument::new(
+        One,
+        Axes::None,
+        Take::Numbers(|s| s.report_coordinates().map_or_else(Vec::new, |c| c.rates.to_vec())),
+    )
+    .field(3, "q_rate_m_s_or_rad_s", "their rates"),
 ];

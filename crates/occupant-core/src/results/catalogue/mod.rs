@@ -84,7 +84,7 @@ pub struct Field {
 const ELEMENTS: &str = "";
 
 /// Message types in the order in which a file has them.
-const ORDER: [&str; 11] = [
+const ORDER: [&str; 12] = [
     "VehicleMotion",
     "SegmentState",
     "SphereLoad",
@@ -92,6 +92,7 @@ const ORDER: [&str; 11] = [
     "JointAngles",
     "JointLoad",
     "Instruments",
+    "MountLoad",
     "MarkerMotion",
     "EnergyLedger",
     "SolverState",
@@ -157,8 +158,11 @@ impl Catalogue {
             let place = Place { message: "SegmentState", topic, name, words: &name.replace('_', " ") };
             all.add(&place, body::SEGMENT, move |s| (s, segment));
         }
-        let instruments: Vec<_> = body::instruments(&tree.landmarks().legs).collect();
+        let instruments: Vec<_> = body::instruments(tree.landmarks()).collect();
         all.whole("Instruments", "/occupant/instruments", "", &instruments, |s| s);
+        if model.setup().mounting().is_some() {
+            all.whole("MountLoad", "/occupant/mount", "", body::MOUNT, |s| s);
+        }
         let names = model.body().spheres.iter().map(|s| s.name.as_str());
         for (i, (name, topic)) in named("/occupant/sphere", names).into_iter().enumerate() {
             let (channel, words) = (format!("sphere.{name}"), format!("sphere {name}"));

@@ -56,7 +56,7 @@ impl Caveat {
     /// A joint that turned to `turned` beyond the end of a stop.
     pub(super) fn beyond_stop(body: &Body, joint: Joint, turned: &Turned) -> Self {
         let row = &body.tree[joint];
-        let is_neck = body.tree.landmarks().neck == joint;
+        let is_neck = body.tree.landmarks().neck == Some(joint);
         let figures = if is_neck { owned(&["nij", "neck_*"]) } else { figures_of(body, row.distal) };
         let [angle, stop] = [turned.angle_rad, turned.stop_rad].map(f64::to_degrees);
         let (at, name) = (at(turned.beyond), row.name.replace('_', " "));
@@ -174,11 +174,11 @@ fn owned(names: &[&str]) -> Vec<String> {
 fn figures_of(body: &Body, segment: Segment) -> Vec<String> {
     let marks = body.tree.landmarks();
     let is_of = |leg: Option<Limb>| leg.is_some_and(|leg| body.tree.is_of(segment, &leg));
-    let measured: &[&str] = if segment == marks.head {
+    let measured: &[&str] = if Some(segment) == marks.head {
         &["hic15", "hic36", "gsi", "bric", "damage", "head*", "nij", "neck_*"]
-    } else if segment == marks.chest {
+    } else if Some(segment) == marks.chest {
         &["chest*", "csi"]
-    } else if segment == marks.pelvis {
+    } else if Some(segment) == marks.pelvis {
         &["pelvis*"]
     } else if is_of(marks.legs.right) {
         &["right_femur*"]

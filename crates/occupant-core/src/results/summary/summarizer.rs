@@ -83,7 +83,7 @@ impl Summarizer {
         let time = &case.time;
         let readings = Readings::new(&self.signals, &self.options);
         let parts = [&readings.head, &readings.chest, &readings.pelvis];
-        let [head, chest, pelvis] = std::array::from_fn(|i| self.acceleration(i, parts[i], time));
+        let [head, chest, pelvis] = std::array::from_fn(|i| self.acceleration(i, parts[i]));
         let contacts = contacts(outcome, case);
         let (status, reason) = ending(&outcome.status);
         let measures = readings.measures();
@@ -115,8 +115,9 @@ impl Summarizer {
         Some(summary.ended(status, reason))
     }
 
-    fn acceleration(&self, i: usize, levels: &injury::Acceleration, time: &TimeSpan) -> Acceleration {
-        let peak = self.accelerations[i].unwrap_or(Peak { value: 0.0, time_s: time.start_s });
+    fn acceleration(&self, i: usize, levels: &injury::Acceleration) -> Acceleration {
+        // no numbers of what a part of a body lacks
+        let peak = self.accelerations[i].unwrap_or(Peak { value: f64::NAN, time_s: f64::NAN });
         let level = |held: &ThreeMs| Level {
             level_m_s2: held.level_mps2,
             level_g: in_g(held.level_mps2),
@@ -164,7 +165,9 @@ impl Summarizer {
     fn see_accelerations(&mut self, sample: &Sample<'_>) {
         let marks = sample.model.body().tree.landmarks();
         for (peak, segment) in self.accelerations.iter_mut().zip([marks.head, marks.chest, marks.pelvis]) {
-            peak.get_or_insert(Peak::NONE).see(sample.specific_force_m_s2(segment).norm(), sample.time_s);
+            if let Some(segment) = segment {
+                peak.get_or_insert(Peak::NONE).see(sample.specific_force_m_s2(segment).norm(), sample.time_s);
+            }
         }
     }
 

@@ -216,12 +216,13 @@ impl BodySection {
     }
 }
 
-/// The body; `section` is explicit, `preset` is the one it came from. None where its joints make no tree.
-pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection) -> Option<Body> {
+/// The body; `section` is explicit, `preset` is the one it came from. One that `is_part` needs no head, chest or pelvis. None
+/// where its joints make no tree.
+pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection, is_part: bool) -> Option<Body> {
     check_person(b, preset, section);
     check_division(b, preset, section);
     let weighed_at_m_s2 = si_or(&section.weighed_at, STANDARD_GRAVITY_M_S2);
-    let (tree, places) = if section.joints.is_empty() { (&TTI12, Vec::new()) } else { own_tree(b, section)? };
+    let (tree, places) = if section.joints.is_empty() { (&TTI12, Vec::new()) } else { own_tree(b, section, is_part)? };
     for name in section.segments.keys().filter(|name| tree.segment_named(name).is_none()) {
         let names: Vec<&str> = tree.segment_rows().iter().map(|row| row.name).collect();
         b.unknown(&with_key("body.segments", name), "segment", name, &names);

@@ -19,7 +19,7 @@ struct Hung<'a> {
 }
 
 /// The tree of a body's joints, and their places in its order; none where they make no tree.
-pub(super) fn own_tree(b: &mut Builder, body: &BodySection) -> Option<(&'static Tree, Vec<JointPlace>)> {
+pub(super) fn own_tree(b: &mut Builder, body: &BodySection, is_part: bool) -> Option<(&'static Tree, Vec<JointPlace>)> {
     let hung: Vec<Hung<'_>> = body.joints.iter().filter_map(|(name, section)| named(b, body, name, section)).collect();
     if hung.len() < body.joints.len() {
         return None;
@@ -38,8 +38,12 @@ pub(super) fn own_tree(b: &mut Builder, body: &BodySection) -> Option<(&'static 
         hangs: place.distal.point_m.z > half_m(joint.distal),
     });
     let own = body.landmarks.clone().unwrap_or_default();
-    let marks =
-        NamedLandmarks { head: own.head.as_deref(), chest: own.chest.as_deref(), pelvis: own.pelvis.as_deref() };
+    let marks = NamedLandmarks {
+        head: own.head.as_deref(),
+        chest: own.chest.as_deref(),
+        pelvis: own.pelvis.as_deref(),
+        is_part,
+    };
     match tree(&joints.collect::<Vec<_>>(), &marks) {
         Ok(tree) => Some((tree, places)),
         Err(missing) => {

@@ -7,10 +7,12 @@ mod belts;
 mod body;
 mod body_joints;
 mod builder;
+mod heading;
 mod joints;
 mod limits;
 mod markers;
 mod materials;
+mod mount;
 mod muscles;
 mod number_table;
 mod path;
@@ -42,6 +44,7 @@ pub(super) use self::body::BodySection;
 use self::joints::{JointSection, JointsSection};
 use self::markers::MarkerSection;
 use self::materials::MaterialSection;
+use self::mount::MountSection;
 use self::muscles::MuscleSection;
 use self::path::PathSection;
 use self::posture::{InitialStateSection, PostureSection, SeatSection};
@@ -87,7 +90,7 @@ type MomentPerAngle3<const RANGE: usize = ANY> = Quantity<{ kind::MOMENT_PER_ANG
 /// such as "20 mph", "48 lbf/in", "5.73 in·lbf·s/rad".
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("x-exactly-one" = [["posture", "initial_state"]]))]
+#[schemars(extend("x-exactly-one" = [["posture", "initial_state", "mount"]]))]
 pub struct Scenario {
     /// One line that names the case.
     pub title: String,
@@ -116,6 +119,8 @@ pub struct Scenario {
     pub(crate) posture: Option<PostureSection>,
     /// Exact position and velocity at the start, instead of a posture.
     pub(crate) initial_state: Option<InitialStateSection>,
+    /// A rig that holds a segment of the occupant, or of a part of one.
+    pub(crate) mount: Option<MountSection>,
     /// Seats by name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) seats: IndexMap<String, SeatSection>,

@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::builder::{Builder, index_of};
+use super::mount::mounting;
 use super::quantity::{all_si, si_or};
 use super::{Angle, Length, Scenario, Speed};
 use crate::body::{Body, Segment, Tree, both_sides};
@@ -100,6 +101,10 @@ pub(crate) struct InitialStateSection {
 
 /// Position and velocity at the start.
 pub(super) fn posture(b: &mut Builder, s: &Scenario, body: &Body) -> (Option<InitialPosture>, InitialVelocity) {
+    if let Some(mount) = &s.mount {
+        let mounting = Box::new(mounting(b, mount, body));
+        return (Some(InitialPosture::Mounted(mounting)), InitialVelocity::default());
+    }
     match (&s.posture, &s.initial_state) {
         (Some(posture), _) => (seating(b, s, posture, body.tree).map(InitialPosture::Seated), velocity(posture)),
         (None, Some(state)) => (state_of(b, s, state, body), InitialVelocity::default()),
@@ -128,18 +133,28 @@ fn seating(b: &mut Builder, s: &Scenario, p: &PostureSection, tree: &Tree) -> Op
 /// Angles that are not said although the body asks for them, and said although it knows none of that name.
 fn check_angles(b: &mut Builder, p: &PostureSection, tree: &Tree) {
     let is_of_leg = |segment: Segment| tree.landmarks().legs().any(|leg| segment == leg.upper || segment == leg.lower);
-    let words = tree.segments().filter(|segment| !is_of_leg(*segment)).flat_map(|segment| {
-        let joint = tree.carrier(segment).map(|joint| &tree[joint]);
-        let name = joint.filter(|row| row.is_hinge()).map_or(tree[segment].name, |row| row.name);
-        both_sides(name).into_iter().chain([name.to_owned()])
-    });
-    let words: Vec<String> = words.collect();
+    let words = angle_words(tree, |segment| !is_of_leg(segment));
     for (name, angle) in p.usual().iter().filter(|(name, _)| words.iter().any(|word| word == name)) {
         b.needed("posture", name, angle);
     }
+    unknown_angles(b, "posture", p.angles().map(|(name, _)| name), &words);
+}
+
+/// The words for angles of these segments: their names or those of the hinges that they hang on, and those of both sides.
+pub(super) fn angle_words(tree: &Tree, is_asked: impl Fn(Segment) -> bool) -> Vec<String> {
+    let words = tree.segments().filter(|segment| is_asked(*segment)).flat_map(|segment| {
+        let joint = tree.bearer(segment).map(|joint| &tree[joint]);
+        let name = joint.filter(|row| row.is_hinge()).map_or(tree[segment].name, |row| row.name);
+        both_sides(name).into_iter().chain([name.to_owned()])
+    });
+    words.collect()
+}
+
+/// Reports the names at `path` that are none of these words.
+pub(super) fn unknown_angles<'n>(b: &mut Builder, path: &str, names: impl Iterator<Item = &'n str>, words: &[String]) {
     let known: Vec<&str> = words.iter().map(String::as_str).collect();
-    for (name, _) in p.angles().filter(|(name, _)| !known.contains(name)) {
-        b.unknown(&with_key("posture", name), "segment or pin of the posture", name, &known);
+    for name in names.filter(|name| !known.contains(name)) {
+        b.unknown(&with_key(path, name), "segment or pin of the posture", name, &known);
     }
 }
 

@@ -8,8 +8,8 @@ use serde::Deserialize;
 use super::builder::Builder;
 use super::quantity::si_or;
 use super::{
-    BodySection, JointsSection, Scenario, belts, body, joints, materials, muscles, path, plausible, posture, run,
-    self_contact, solids, surfaces,
+    BodySection, JointsSection, Scenario, belts, body, joints, materials, mount, muscles, path, plausible, posture,
+    run, self_contact, solids, surfaces,
 };
 use crate::body::Body;
 use crate::forces::joint::Joints;
@@ -26,10 +26,18 @@ pub(in crate::scenario) fn setup(
     path_table: Option<SourceId>,
 ) -> Result<(Setup, Diagnostics), Diagnostics> {
     let b = &mut Builder { document, problems: Diagnostics::new() };
-    let Some(body) = body::body(b, written.body.preset.as_deref(), &explicit.body) else {
+    let is_part = explicit.mount.is_some();
+    let whole = body::body(b, written.body.preset.as_deref(), &explicit.body, is_part);
+    // what is said of joints that are left out is as good as what is said of all
+    let joints = whole.as_ref().map(|whole| joints::joints(b, &explicit.joints, whole.tree));
+    let held = |whole: Body| match &explicit.mount {
+        Some(section) => mount::held(b, section, &whole),
+        None => Some(whole),
+    };
+    let (Some(body), Some(joints)) = (whole.and_then(held), joints) else {
         return Err(std::mem::take(&mut b.problems));
     };
-    let mut joints = joints::joints(b, &explicit.joints, body.tree);
+    let mut joints = joints.of_tree(body.tree);
     references(&document.root, None).into_iter().for_each(|problem| b.report(problem));
     let surfaces = surfaces::surfaces(b, explicit, &body);
     let solids = solids::solids(b, explicit, &body);
@@ -75,7 +83,7 @@ pub(in crate::scenario) fn occupant(preset: &str, document: &Document) -> Option
     let body = BodySection::deserialize(document.root.get("body")?).ok()?;
     let joints = JointsSection::deserialize(document.root.get("joints")?).ok()?;
     let b = &mut Builder { document, problems: Diagnostics::new() };
-    let body = body::body(b, Some(preset), &body)?;
+    let body = body::body(b, Some(preset), &body, false)?;
     let joints = joints::joints(b, &joints, body.tree);
     (!b.problems.has_errors()).then_some((body, joints))
 }

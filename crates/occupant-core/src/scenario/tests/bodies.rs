@@ -21,7 +21,7 @@ fn a_preset_and_a_person_are_divided_into_fifteen_and_seventeen() {
     assert_relative_eq!(fifteen.mass_kg(), Body::male50().mass_kg(), max_relative = 1e-12);
     let foot = fifteen.sphere("left_foot").map(|i| &fifteen.spheres[i]).unwrap();
     assert_eq!(fifteen.tree[foot.segment].name, "left_foot");
-    let head = fifteen.segment(fifteen.tree.landmarks().head);
+    let head = fifteen.segment(fifteen.tree.landmarks().head.unwrap());
     assert_relative_eq!(head.principal.angle(), 36_f64.to_radians(), max_relative = 1e-12);
     let person = "sex = \"female\"\nstature = \"1.55 m\"\nmass = \"52 kg\"\nsegment_count = 17";
     let seventeen = build(&body_of(person)).body;
@@ -86,11 +86,11 @@ fn a_body_of_ones_own_hangs_together_whatever_the_order_of_its_joints() {
     let body = &setup.body;
     assert_eq!(names(body), ["trunk", "stalk", "skull"]);
     let marks = body.tree.landmarks();
-    assert_eq!((body.tree[marks.head].name, body.tree[marks.neck].name), ("skull", "top"));
+    assert_eq!((body.tree[marks.head.unwrap()].name, body.tree[marks.neck.unwrap()].name), ("skull", "top"));
     assert_eq!((body.segments[2].cg_m().x, body.segments[2].cg_m().z), (0.01, 0.1));
     assert_eq!(body.joint_m(body.tree.segment(0)).z, 0.6);
     assert_eq!(body.sphere("pelvis"), Some(1));
-    assert!(setup.joints[marks.neck].hinge().is_some_and(|law| law.damping_n_m_s > 0.0));
+    assert!(setup.joints[marks.neck.unwrap()].hinge().is_some_and(|law| law.damping_n_m_s > 0.0));
 }
 
 #[test]

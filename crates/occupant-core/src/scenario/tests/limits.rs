@@ -1,6 +1,9 @@
 //! Elastic limits and dry friction of joints: what can be wrong with them, and what a change leaves of a preset.
 
 use super::*;
+use crate::diagnosis::tests::model_of;
+use crate::results::channel::{Series, matching};
+use crate::run::simulate::simulate;
 use crate::scenario::Draft;
 
 /// Problems of the short scenario with the joints of GEBOD and this change.
@@ -53,5 +56,43 @@ fn a_change_leaves_the_rest_of_a_presets_limit() {
         "*.limit.torque.returned=0.5",
     ] {
         assert_eq!(said(&format!("joints.{change}")), "", "{change}");
+    }
+}
+
+/// A bob on a ball joint whose axes are turned on both of its segments.
+fn bob(axes: &str, lean_deg: f64) -> String {
+    format!(
+        "title = \"bob\"\ntime.end = 0.5\nintegrator = {{ kind = \"rk4\", step = 0.0005 }}\npath = {{ kind = \"fixed\" }}\n\
+         mount = {{ segment = \"arm\", posture = {{ bob = {lean_deg:?} }} }}\n[body]\n\
+         segments.arm = {{ length = 0.2, cg_from_lower_end = 0.1, mass = 2, inertia = [0.01, 0.01, 0.005] }}\n\
+         segments.bob = {{ length = 0.3, cg_from_lower_end = 0.2, mass = 4, inertia = [0.03, 0.02, 0.02] }}\n\
+         joints.ball = {{ proximal = \"arm\", distal = \"bob\", on_proximal = [0, 0, 0.2], on_distal = [0, 0, 0], {axes} }}\n\
+         [joints.ball]\ndamping = 0\n\
+         limit = {{ azimuths = [0, 90, 180, 270], angles = [15, 10, 25, 20], torque = {{ c1 = 60, returned = 1 }} }}\n\
+         twist_limit = {{ range = [-5, 10], torque = {{ c1 = 20, returned = 1 }} }}\n"
+    )
+}
+
+#[test]
+fn limits_are_about_the_axes_of_the_joint() {
+    let of = |axes: &str, lean_deg: f64| {
+        let model = model_of(&bob(axes, lean_deg));
+        let mut series = Series::new(matching(&model, "joint.ball.*"));
+        let balance = simulate(&model, &mut series).unwrap().energy.balance_error;
+        let value = |name: &str| series.of(&format!("joint.ball.{name}")).unwrap();
+        assert!(value("excess").iter().any(|x| *x > 0.1) && balance < 1e-6, "{axes}: {balance:e}");
+        ["bend", "azimuth"].map(|name| value(name)[0].to_degrees())
+    };
+    // (axes, lean of the bob) → bend from the joint's centre axis and its direction: back is 180°, forward 0°, left 90°
+    for (axes, lean_deg, bend, azimuth) in [
+        ("kind = \"ball\"", -4.0, 4.0, 0.0),
+        ("axes_on_proximal = [0, 20, 0], axes_on_distal = [0, 20, 0]", -4.0, 4.0, 0.0),
+        ("axes_on_proximal = [0, 20, 0]", -4.0, 16.0, 180.0),
+        ("axes_on_distal = [0, 20, 0]", -4.0, 24.0, 0.0),
+        ("axes_on_proximal = [90, 0, 0], axes_on_distal = [90, 0, 0]", -4.0, 4.0, -90.0),
+    ] {
+        let found = of(axes, lean_deg);
+        assert!((found[0] - bend).abs() < 1e-9, "{axes}: {found:?}");
+        assert!((found[1].abs() - f64::abs(azimuth)).abs() < 1e-6 && found[1] * azimuth >= 0.0, "{axes}: {found:?}");
     }
 }

@@ -5,6 +5,7 @@ mod carts;
 mod limits;
 mod meaning;
 mod messages;
+mod mount;
 mod muscles;
 mod overrides;
 mod record_file;

@@ -27,7 +27,7 @@ fn what_is_wrong_with_muscles_triggers_markers_and_locks_is_said_at_its_place() 
         (&[go, "muscles.nek={ tone = 1, stiffness = 3 }"], "did you mean \"neck\"?"),
         (&[go, "muscles.neck={ trigger = \"go\", stiffness = 3 }"], "`trigger` without `rise`"),
         (&[go, NECK, "muscles.neck.until=0.02"], "a muscle that relaxes at 0.02 s and begins to act at 0.05 s"),
-        (&[go, "muscles.neck={ tone = 1 }"], "a muscle without stiffness and damping"),
+        (&[go, "muscles.neck={ tone = 1 }"], "a muscle without stiffness, damping and torque"),
         (&[NECK, "triggers.go={ kind = \"time\", at = 9 }"], "a trigger that never fires in this run"),
         (&[NECK, "triggers.go={ kind = \"vehicle_acceleration\", threshold = \"900 g\" }"], "never fires"),
         (&["markers.t1={ segment = \"torso\", place = [0, 0, 0] }"], "no segment is named \"torso\""),
@@ -90,4 +90,36 @@ fn joints_of_dummies_carry_what_their_calibration_asks() {
     let joints = ["upper_back", "lower_back"].map(|joint| limits(&setup, joint).lock.unwrap().stiffness);
     let moment = 40_f64.to_radians() / joints.iter().map(|stiffness| 1.0 / stiffness).sum::<f64>();
     assert!((moment / (52.0 * 15.0 / 12.0 * lbf_ft) - 1.0).abs() < 1e-3, "{moment}");
+}
+
+/// A forearm on a pin, held by its upper arm: what its muscle holds and what it pulls with, at rest at last.
+#[test]
+fn a_muscle_holds_the_angle_that_it_is_told() {
+    for (side, arm, muscle, expected_deg) in [
+        ("left", "left_upper_arm", "tone = 1, stiffness = 30, damping = 3, hold = [0, -60, 0]", -60.0),
+        ("right", "right_forearm", "tone = 1, stiffness = 30, damping = 3, hold = [0, -60, 0]", -60.0),
+        (
+            "left",
+            "left_upper_arm",
+            "tone = 0.5, stiffness = 30, damping = 6, torque = [0, -15, 0]",
+            -15.0 / 30.0 / 1.0_f64.to_radians(),
+        ),
+        (
+            "left",
+            "left_forearm",
+            "tone = 0.5, stiffness = 30, damping = 6, torque = [0, -15, 0]",
+            -15.0 / 30.0 / 1.0_f64.to_radians(),
+        ),
+    ] {
+        let model = crate::diagnosis::tests::model_of(&format!(
+            "title = \"arm\"\ngravity = 0\ntime.end = 1.5\nintegrator = {{ kind = \"rk4\", step = 0.001 }}\n\
+             path = {{ kind = \"fixed\" }}\nbody.preset = \"male50\"\njoints.all.damping = 0\n\
+             mount = {{ segment = \"{arm}\", without = [\"upper_torso\"] }}\nmuscles.{side}_elbow = {{ {muscle} }}\n"
+        ));
+        let mut series =
+            crate::results::channel::Series::new(crate::results::channel::matching(&model, "joint.*.angle"));
+        crate::run::simulate::simulate(&model, &mut series).unwrap();
+        let last = series.values[0].last().unwrap().to_degrees();
+        assert!((last - expected_deg).abs() < 0.01, "{arm} {muscle}: {last}");
+    }
 }

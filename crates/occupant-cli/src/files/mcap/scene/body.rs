@@ -50,7 +50,7 @@ fn write_segment(wire: &mut Wire, body: &Body, segment: Segment) {
     let p = body.segment(segment);
     let marks = body.tree.landmarks();
     let color = Tone::of(body.tree, segment).color();
-    let length = if segment == marks.head { NECK_LENGTH * p.length_m } else { p.length_m };
+    let length = if Some(segment) == marks.head { NECK_LENGTH * p.length_m } else { p.length_m };
     let [lower, upper] = [0.0, length].map(|z| Vector3::z() * z - p.cg_m());
     let (a, b) = half_axes_m(body, segment);
     let size = Vector3::new(2.0 * a, 2.0 * b, length);
@@ -58,13 +58,13 @@ fn write_segment(wire: &mut Wire, body: &Body, segment: Segment) {
     let cap = Vector3::new(2.0 * a, 2.0 * b, (a + b).min(0.5 * length));
     ellipsoid(wire, lower, cap, color);
     ellipsoid(wire, upper, cap, color);
-    if segment == marks.head {
+    if Some(segment) == marks.head {
         for s in body.spheres.iter().filter(|s| s.segment == segment) {
             let centre = sphere_centre_m(body, s);
             ellipsoid(wire, centre, Vector3::repeat(2.0 * s.radius_m), SKIN);
         }
     }
-    if segment == marks.chest {
+    if Some(segment) == marks.chest {
         girdle(wire, body, segment, marks.arms, color);
         let radius = marks.arms().next().map_or(a, |arm| half_axes_m(body, arm.upper).0);
         if let Some(height_m) = body.neck_above_m(segment).filter(|height_m| *height_m > 0.0) {
@@ -72,7 +72,7 @@ fn write_segment(wire: &mut Wire, body: &Body, segment: Segment) {
             cylinder(wire, upper + Vector3::z() * (0.5 * height_m), UnitQuaternion::identity(), size, color);
         }
     }
-    if segment == marks.pelvis {
+    if Some(segment) == marks.pelvis {
         girdle(wire, body, segment, marks.legs, color);
     }
 }
@@ -92,7 +92,7 @@ fn girdle(wire: &mut Wire, body: &Body, segment: Segment, limbs: Pair<Option<Lim
 
 /// a and b as drawn.
 fn half_axes_m(body: &Body, segment: Segment) -> (f64, f64) {
-    let width = if segment == body.tree.landmarks().head { SLIM * NECK } else { SLIM };
+    let width = if Some(segment) == body.tree.landmarks().head { SLIM * NECK } else { SLIM };
     slim_axes_m(body.segment(segment), width)
 }
 
@@ -122,7 +122,7 @@ pub(crate) enum Tone {
 impl Tone {
     pub(crate) fn of(tree: &Tree, segment: Segment) -> Self {
         let marks = tree.landmarks();
-        if segment == marks.pelvis || marks.legs().any(|leg| tree.is_of(segment, &leg)) {
+        if Some(segment) == marks.pelvis || marks.legs().any(|leg| tree.is_of(segment, &leg)) {
             Tone::Trousers
         } else if tree.is_trunk(segment) || marks.arms().any(|arm| segment == arm.upper) {
             Tone::Shirt

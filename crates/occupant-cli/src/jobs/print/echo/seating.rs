@@ -15,6 +15,7 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
     let (setup, start) = (case.model.setup(), case.model.start());
     match &setup.posture {
         InitialPosture::Seated(seating) => read(pages, case, units, seating),
+        InitialPosture::Mounted(_) => pages.say("THE FIRST SEGMENT IS HELD BY A MOUNT; NOBODY WAS SEATED"),
         InitialPosture::Coordinates(_) => {
             pages.say("THE START IS GIVEN BY GENERALIZED COORDINATES; NOBODY WAS SEATED");
         }
@@ -34,11 +35,13 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
     }
     ELEMENTS.iter().for_each(|element| (element.start)(pages, case, units));
     let q = match &setup.posture {
-        InitialPosture::Seated(_) => &ReportCoordinates::from_state(&start.state),
+        InitialPosture::Seated(_) | InitialPosture::Mounted(_) => ReportCoordinates::from_state(&start.state),
         // as read: the angles of a state are normalised
-        InitialPosture::Coordinates(q) | InitialPosture::Continued { coordinates: q, .. } => q,
+        InitialPosture::Coordinates(q) | InitialPosture::Continued { coordinates: q, .. } => Some(**q),
     };
-    coordinates(pages, units, "GENERALIZED COORDINATES AT THE START", q);
+    if let Some(q) = &q {
+        coordinates(pages, units, "GENERALIZED COORDINATES AT THE START", q);
+    }
     let passed = case.passed(&start.history.memory.contacts);
     pairs(pages, case, "PAIRS WITH NARRY(J,K) = 0 AT THE START", &passed);
 }

@@ -9,7 +9,7 @@ mod triads;
 
 use nalgebra::Vector3;
 
-use crate::body::{Body, Joint};
+use crate::body::{Body, Joint, Segment};
 use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkSum};
 use crate::forces::joint::{DAMPING, Joints};
 use crate::forces::list::STORES;
@@ -102,7 +102,7 @@ impl Element for JointLimits {
 
     fn new(data: &Joints, body: &Body) -> Vec<LimitLaw<f64>> {
         let layout = Layout::of(body.tree);
-        data.limits.iter().map(|limits| law(data, limits, &layout)).collect()
+        data.limits.iter().map(|limits| law(body, limits, &layout)).collect()
     }
 
     fn begin(law: &mut Vec<LimitLaw<f64>>, data: &Joints, _: &Body, at: &Instant<'_, f64>, problems: &mut Problems) {
@@ -189,13 +189,14 @@ impl Element for JointLimits {
     }
 }
 
-fn law(data: &Joints, limits: &Limits, layout: &Layout) -> LimitLaw<f64> {
-    let row = &data.tree()[limits.joint];
+fn law(body: &Body, limits: &Limits, layout: &Layout) -> LimitLaw<f64> {
+    let row = &body.tree[limits.joint];
+    let [_, carried] = row.carrying();
     LimitLaw {
         joint: limits.joint,
-        site: layout.hinge_slot(row.distal.index()).map_or(Site::Ball, Site::Hinge),
-        segments: (row.proximal.index(), row.distal.index()),
-        triads: Triads::new(data.tree(), limits.joint, &limits.centre),
+        site: layout.hinge_slot(carried.index()).map_or(Site::Ball, Site::Hinge),
+        segments: row.between().map(Segment::index).into(),
+        triads: Triads::new(body, limits.joint, &limits.centre),
         bend: limits.bend.clone(),
         turn: limits.turn.clone(),
         friction: limits.friction,
@@ -207,10 +208,10 @@ fn law(data: &Joints, limits: &Limits, layout: &Layout) -> LimitLaw<f64> {
 /// most.
 fn rates(data: &Joints, limits: &Limits, mobility: &Mobility<'_>) -> Vec<Rate> {
     let row = &data.tree()[limits.joint];
-    let (inner, outer) = (row.proximal.index(), row.distal.index());
+    let [inner, outer] = row.between().map(Segment::index);
     let relative = mobility.of_joint(inner, outer);
     let z = mobility.kinematics.axes[outer].z.to_vector();
-    let hinge = mobility.skeleton.layout.hinge_slot(outer).map(|hinge| mobility.of_hinge(hinge));
+    let hinge = mobility.skeleton.layout.hinge_slot(row.carrying()[1].index()).map(|hinge| mobility.of_hinge(hinge));
     let turning = hinge.unwrap_or(z.dot(&(relative * z)));
     let spring = |stop: &Stop<f64>, by: &str, give: f64| {
         let slope = stop.torque.steepness(ESTIMATE_RAD).0 / stop.returned;

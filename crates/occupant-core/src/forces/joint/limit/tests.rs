@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use super::*;
-use crate::body::tti12::{LEFT_HIP, LEFT_KNEE, LEFT_SHOULDER, LOWER_BACK, NECK, RIGHT_HIP, RIGHT_SHOULDER, TTI12};
+use crate::body::Body;
+use crate::body::tti12::{LEFT_HIP, LEFT_KNEE, LEFT_SHOULDER, LOWER_BACK, NECK, RIGHT_HIP, RIGHT_SHOULDER};
 use crate::body::tti12::{RIGHT_ELBOW, UPPER_BACK};
 use crate::diagnosis::tests::model_of;
 use crate::forces::joint::DAMPING;
@@ -52,7 +53,7 @@ fn twisting() -> Turn<f64> {
 }
 
 fn pose(joint: Joint, pitch_rad: f64, k: &Matrix3<f64>, l: &Matrix3<f64>) -> Pose<f64> {
-    Triads::new(&TTI12, joint, &Centre::Pitch { pitch_rad }).pose(&M3::of(k), &M3::of(l))
+    Triads::new(&Body::male50(), joint, &Centre::Pitch { pitch_rad }).pose(&M3::of(k), &M3::of(l))
 }
 
 /// Both limits of a ball joint.
@@ -61,7 +62,7 @@ fn both(joint: Joint) -> LimitLaw<f64> {
         joint,
         site: Site::Ball,
         segments: (0, 1),
-        triads: Triads::new(&TTI12, joint, &Centre::Pitch { pitch_rad: 0.3 }),
+        triads: Triads::new(&Body::male50(), joint, &Centre::Pitch { pitch_rad: 0.3 }),
         bend: Some(azimuthal()),
         turn: Some(twisting()),
         friction: None,
@@ -185,7 +186,7 @@ fn nothing_jumps_where_the_azimuth_does() {
 fn straight_and_folded_joints_have_finite_torques_and_slopes() {
     let one = M3::of(&Matrix3::identity());
     let flat = M3::of(&Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0)));
-    let law = Triads::new(&TTI12, NECK, &Centre::Pitch { pitch_rad: 0.0 });
+    let law = Triads::new(&Body::male50(), NECK, &Centre::Pitch { pitch_rad: 0.0 });
     let dual = |x: f64, _: f64| Dual::<1>::new(x, [0.0]);
     let [bend, turn] = [azimuthal(), azimuthal()].map(|bend| Bend {
         angle: bend.angle.zip(&bend.angle, &dual),

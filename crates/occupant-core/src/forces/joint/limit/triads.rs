@@ -5,10 +5,10 @@
 //! left of the turn from (x̂, ŷ, ĉ) to (x̂_l, ŷ_l, ẑ) when ĉ has been swung straight to ẑ:
 //! τ = atan2(x̂_l·ŷ − ŷ_l·x̂, x̂_l·x̂ + ŷ_l·ŷ). Left joints mirror the right ones: ŷ and ŷ_l are turned round.
 
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 
 use super::Centre;
-use crate::body::{Joint, Side, Tree};
+use crate::body::{Body, Joint, JointSite, Side};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{M3, V3};
 use crash_measures::trig;
@@ -36,10 +36,11 @@ pub(super) struct Pose<S> {
 }
 
 impl Triads<f64> {
-    /// Those of a joint. ĉ and ẑ point along the outer segment away from the joint unless the centre says otherwise.
-    pub(super) fn new(tree: &Tree, joint: Joint, centre: &Centre) -> Self {
-        let row = &tree[joint];
-        let along = if tree[row.distal].hangs() { -1.0 } else { 1.0 };
+    /// Those of a joint of `body`, in the joint's axes on both segments. ĉ and ẑ point along the outer one's Z away from the joint
+    /// unless the centre says otherwise.
+    pub(super) fn new(body: &Body, joint: Joint, centre: &Centre) -> Self {
+        let (row, place) = (&body.tree[joint], body.place(joint));
+        let along = if body.tree[row.distal].hangs() { -1.0 } else { 1.0 };
         let hand = if row.side() == Some(Side::Left) { -1.0 } else { 1.0 };
         let (axis, forward) = match *centre {
             Centre::Pitch { pitch_rad } => {
@@ -51,12 +52,16 @@ impl Triads<f64> {
                 (mirrored(axis), mirrored(forward))
             }
         };
-        let triad = |axis: Vector3<f64>, forward: Vector3<f64>| {
+        let triad = |site: JointSite, axis: Vector3<f64>, forward: Vector3<f64>| {
             let c = axis.normalize();
             let x = (forward - c * c.dot(&forward)).normalize();
-            M3 { x: V3::of(&x), y: V3::of(&(c.cross(&x) * hand)), z: V3::of(&c) }
+            // no turn keeps even the signs of zeros
+            let turned = |v: Vector3<f64>| if site.axes == UnitQuaternion::identity() { v } else { site.axes * v };
+            let [x, y, z] = [x, c.cross(&x) * hand, c].map(|v| V3::of(&turned(v)));
+            M3 { x, y, z }
         };
-        Triads { inner: triad(axis, forward), outer: triad(Vector3::z() * along, Vector3::x()), hand }
+        let outer = triad(place.distal, Vector3::z() * along, Vector3::x());
+        Triads { inner: triad(place.proximal, axis, forward), outer, hand }
     }
 }
 

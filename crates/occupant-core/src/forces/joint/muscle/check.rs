@@ -14,7 +14,7 @@ pub(super) fn check(joints: &Joints, muscle: &Muscle, problems: &mut Problems) {
         let found = format!("a muscle that relaxes at {off} s and begins to act at {on} s");
         problems.error(format!("{path}.until"), found, "an end after its trigger and reaction time");
     }
-    if muscle.stiffness_n_m == 0.0 && muscle.damping_n_m_s == 0.0 {
-        problems.warning(path, "a muscle without stiffness and damping", "one of them: it does nothing");
+    if muscle.stiffness_n_m == 0.0 && muscle.damping_n_m_s == 0.0 && muscle.torque_n_m.norm() == 0.0 {
+        problems.warning(path, "a muscle without stiffness, damping and torque", "one of them: it does nothing");
     }
 }

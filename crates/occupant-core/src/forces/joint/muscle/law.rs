@@ -1,7 +1,8 @@
 //! The torque of a muscle and its activation.
 //!
-//! T = −a(t)·sat(Kρ + Dω, T_max) on the outer segment, ρ the rotation vector from the posture that is held, ω the relative
-//! angular velocity, sat by length. The activation follows ȧ = (u − a)/τ. Its aim u is the tone a₀, and 1 from when the
+//! T = −a(t)·(sat(Kρ + Dω, T_max) − T₀) on the outer segment, ρ the rotation vector from the posture that is held, ω the relative
+//! angular velocity, sat by length, T₀ a torque of its own that goes with the inner segment. In a body that has settled a muscle
+//! with tone also carries, whatever its activation, what its joint has to carry at the start: T_w in axes of the inner segment. The activation follows ȧ = (u − a)/τ. Its aim u is the tone a₀, and 1 from when the
 //! reaction time is over until the muscle relaxes: both are known before the run, so that a is closed:
 //!
 //! ```text
@@ -10,12 +11,13 @@
 //!
 //! There is no delay of the feedback: the reaction time is a single lag. What muscles do is work from outside.
 
-use super::unknown;
-use crate::body::{Joint, Tree};
+use crate::body::{Body, Joint, JointPlace, Segment};
 use crate::forces::element::Instant;
 use crate::forces::joint::posture::{Posture, length};
+use crate::motion::kinematics::Kinematics;
 use crate::motion::scalar::Scalar;
-use crate::motion::vector::V3;
+use crate::motion::vector::{M3, V3};
+use nalgebra::{UnitQuaternion, Vector3};
 
 /// A muscle as data.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +29,11 @@ pub(crate) struct Muscle {
     pub(crate) damping_n_m_s: f64,
     /// T_max, N·m.
     pub(crate) most_n_m: f64,
+    /// The posture that is held, from the joint's axes on the proximal segment to those on the distal one; that of the start if
+    /// none.
+    pub(crate) hold: Option<UnitQuaternion<f64>>,
+    /// T₀ on the distal segment, along the joint's axes on the proximal one, N·m.
+    pub(crate) torque_n_m: Vector3<f64>,
     /// a₀, 0 to 1.
     pub(crate) tone: f64,
     /// τ, s.
@@ -45,9 +52,15 @@ pub struct MuscleLaw<S> {
     /// Inner and outer segment.
     pub(super) segments: (usize, usize),
     pub(super) held: Posture<S>,
+    /// Whether it holds the posture of the start and nothing else.
+    holds_start: bool,
     stiffness: S,
     damping: S,
     most: S,
+    /// T₀, axes of the inner segment.
+    torque: V3<S>,
+    /// T_w, axes of the inner segment.
+    carried: V3<S>,
     tone: S,
     rise: S,
     times: [S; 2],
@@ -67,19 +80,42 @@ pub struct MuscleAction<S> {
 }
 
 impl MuscleLaw<f64> {
-    /// One whose posture is not known yet.
-    pub(super) fn new(tree: &Tree, muscle: &Muscle) -> Self {
-        let row = &tree[muscle.joint];
+    /// One that holds the posture that it is told to; that of the start is not known yet.
+    pub(super) fn new(body: &Body, muscle: &Muscle) -> Self {
+        let (row, JointPlace { proximal, distal }) = (&body.tree[muscle.joint], body.place(muscle.joint));
+        let posture = proximal.axes * muscle.hold.unwrap_or_default() * distal.axes.inverse();
+        // of a pin that is turned round the proximal segment is the outer one
+        let is_turned = row.between() != [row.proximal, row.distal];
+        let (posture, torque_n_m) = if is_turned {
+            (posture.inverse(), -(distal.axes * muscle.torque_n_m))
+        } else {
+            (posture, proximal.axes * muscle.torque_n_m)
+        };
         MuscleLaw {
             joint: muscle.joint,
-            segments: (row.proximal.index(), row.distal.index()),
-            held: unknown(),
+            segments: row.between().map(Segment::index).into(),
+            held: Posture(M3::of(&posture.to_rotation_matrix().into_inner())),
+            holds_start: muscle.hold.is_none() && muscle.torque_n_m == Vector3::zeros(),
             stiffness: muscle.stiffness_n_m,
             damping: muscle.damping_n_m_s,
             most: muscle.most_n_m,
+            torque: V3::of(&torque_n_m),
+            carried: V3::zero(),
             tone: muscle.tone,
             rise: muscle.rise_s,
             times: muscle.times_s,
+        }
+    }
+}
+
+impl MuscleLaw<f64> {
+    /// Takes over, at the start of a body that has settled, the moment that its outer segment needs there to rest: one that
+    /// holds the posture of the start by its tone.
+    pub(crate) fn carry(&mut self, k: &Kinematics<f64>, moment: impl Fn(usize) -> V3<f64>) {
+        let (inner, outer) = self.segments;
+        if self.holds_start && self.tone > 0.0 {
+            let needed = k.axes[inner].into_frame(moment(outer));
+            self.carried = needed * (self.most / self.most.max(length(needed)));
         }
     }
 }
@@ -90,9 +126,12 @@ impl<S: Copy> MuscleLaw<S> {
             joint: self.joint,
             segments: self.segments,
             held: self.held.zip(&other.held, f),
+            holds_start: self.holds_start,
             stiffness: f(self.stiffness, other.stiffness),
             damping: f(self.damping, other.damping),
             most: f(self.most, other.most),
+            torque: self.torque.zip(&other.torque, f),
+            carried: self.carried.zip(&other.carried, f),
             tone: f(self.tone, other.tone),
             rise: f(self.rise, other.rise),
             times: std::array::from_fn(|i| f(self.times[i], other.times[i])),
@@ -107,7 +146,8 @@ impl<S: Scalar> MuscleLaw<S> {
         let activation = self.activation(at.frames.time);
         let omega = k.omega[outer] - k.omega[inner];
         let wanted = self.held.turned_to(&k.axes[inner], &k.axes[outer]) * self.stiffness + omega * self.damping;
-        let moment = -(wanted * (activation * self.most / self.most.max(length(wanted))));
+        let own = k.axes[inner].out(self.carried + self.torque * activation);
+        let moment = own - wanted * (activation * self.most / self.most.max(length(wanted)));
         MuscleAction { joint: self.joint, activation, moment, power: moment.dot(omega) }
     }
 

@@ -4,7 +4,7 @@ mod check;
 mod law;
 mod results;
 
-use crate::body::Body;
+use crate::body::{Body, Segment};
 use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkSum};
 use crate::forces::joint::Joints;
 use crate::forces::joint::posture::Posture;
@@ -12,7 +12,7 @@ use crate::forces::list::STORES;
 use crate::forces::rate::Rate;
 use crate::motion::mobility::{Mobility, greatest};
 use crate::motion::scalar::Scalar;
-use crate::motion::vector::{M3, V3};
+use crate::motion::vector::V3;
 use crate::quantity::Quantity;
 use crash_measures::unit::Unit;
 pub(crate) use law::{Muscle, NEVER_S};
@@ -50,13 +50,13 @@ impl Element for Muscles {
         data.muscles.iter().for_each(|muscle| check::check(data, muscle, problems));
     }
 
-    fn new(data: &Joints, _body: &Body) -> Vec<MuscleLaw<f64>> {
-        data.muscles.iter().map(|muscle| MuscleLaw::new(data.tree(), muscle)).collect()
+    fn new(data: &Joints, body: &Body) -> Vec<MuscleLaw<f64>> {
+        data.muscles.iter().map(|muscle| MuscleLaw::new(body, muscle)).collect()
     }
 
-    /// The posture that is held is that of the start.
-    fn begin(law: &mut Vec<MuscleLaw<f64>>, _: &Joints, _: &Body, at: &Instant<'_, f64>, _: &mut Problems) {
-        for muscle in law {
+    /// The posture that is held is that of the start unless a muscle is told another.
+    fn begin(law: &mut Vec<MuscleLaw<f64>>, data: &Joints, _: &Body, at: &Instant<'_, f64>, _: &mut Problems) {
+        for (muscle, _) in law.iter_mut().zip(&data.muscles).filter(|(_, said)| said.hold.is_none()) {
             let (inner, outer) = muscle.segments;
             muscle.held = Posture::new(&at.k.axes[inner], &at.k.axes[outer], V3::zero());
         }
@@ -124,17 +124,12 @@ impl Element for Muscles {
 
 fn rates(data: &Joints, muscle: &Muscle, mobility: &Mobility<'_>) -> Vec<Rate> {
     let row = &data.tree()[muscle.joint];
-    let (inner, outer) = (row.proximal.index(), row.distal.index());
-    let hinge = mobility.skeleton.layout.hinge_slot(outer).map(|hinge| mobility.of_hinge(hinge));
+    let [inner, outer] = row.between().map(Segment::index);
+    let hinge = mobility.skeleton.layout.hinge_slot(row.carrying()[1].index()).map(|hinge| mobility.of_hinge(hinge));
     let give = hinge.unwrap_or_else(|| greatest(mobility.of_joint(inner, outer)));
     let spring = Rate::of_spring(row.name.to_owned(), "muscle".to_owned(), 1.0 / give, muscle.stiffness_n_m);
     let damper = Rate::of_damper(&format!("{}, muscle", row.name), 1.0 / give, muscle.damping_n_m_s);
     [Some(spring).filter(|spring| spring.coefficient > 0.0), damper].into_iter().flatten().collect()
-}
-
-/// No posture yet.
-fn unknown() -> Posture<f64> {
-    Posture(M3::identity())
 }
 
 #[cfg(test)]
