@@ -1,7 +1,7 @@
 //! What is known of how people differ from the body of a scenario.
 
 use super::BodyFigures;
-use crate::body::people::{Division, Person, REFERENCE_PERSON};
+use crate::body::people::{Person, REFERENCE_PERSON};
 use crate::scenario::Loaded;
 
 /// Of the presets of children.
@@ -20,7 +20,7 @@ impl BodyFigures {
             return;
         }
         let person = section.person(named.unwrap_or(REFERENCE_PERSON));
-        let body = person.body(section.division().unwrap_or(Division::default())).0;
+        let body = person.body(section.division().unwrap_or_default()).0;
         for (row, made) in body.tree.segment_rows().iter().zip(&body.segments) {
             let found = self.segments.iter_mut().find(|figures| figures.segment == row.name);
             let Some(figures) = found.filter(|f| (f.length_m - made.length_m).abs() < 1e-9) else { continue };
