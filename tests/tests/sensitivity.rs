@@ -18,6 +18,8 @@ use occupant_tests::measure::assert_below;
 
 const CART: &str = include_str!("../../scenarios/cart-lap-torso.toml");
 const UNBELTED: &str = include_str!("../../scenarios/cart-unbelted.toml");
+const SLED: &str = include_str!("../../scenarios/sled-17-segments.toml");
+const RIG: &str = include_str!("../data/rig.toml");
 const FREE: &str = include_str!("../../scenarios/free-fall.toml");
 
 fn no_files(name: &str) -> Result<Vec<u8>, String> {
@@ -222,6 +224,28 @@ fn the_values_of_a_run_in_duals_are_those_of_the_plain_run_to_the_bit() {
             assert_eq!(trajectory.outcome, outcome);
         }
     }
+}
+
+/// The same of trees that are swept as any is: 17 segments on a seat, and a head and neck on a rig.
+#[test]
+fn on_other_trees_too_the_values_in_duals_are_those_of_the_plain_run() {
+    for (text, set) in [(SLED, ["time.end=0.01", "gravity=9.81"]), (RIG, ["time.end=0.12", "gravity=9.81"])] {
+        let draft = draft(text, &set);
+        let model = model_of(&draft);
+        let mut plain: Vec<Checkpoint> = Vec::new();
+        simulate(&model, Watch(|s: &occupant_core::results::sample::Sample<'_>| plain.push(s.checkpoint()))).unwrap();
+        let gravity = parameter(&draft, "gravity", &no_files).unwrap();
+        let mut built = vec![Built::new(&model, &gravity).unwrap()];
+        assert_eq!(follow(&model, &mut built).unwrap().checkpoints, plain);
+    }
+}
+
+/// A rig that is turned, moved or heavier moves its head and neck as differences of runs say, and so do the loads of its mount.
+#[test]
+fn on_a_mount_duals_are_the_limit_of_differences_of_runs() {
+    // before the neck meets its limits
+    let draft = draft(RIG, &["time.end=0.03", "gravity=9.81", "mount.posture={ neck = 10, head = 10 }"]);
+    against_runs(&draft, &["gravity", "mount.pitch", "mount.place[0]"], &[1e-3, 1e-4, 1e-5], 1e-6);
 }
 
 /// The lap case with everything that a force or an inertia hangs on multiplied by λ.

@@ -62,7 +62,7 @@ fn a_change_leaves_the_rest_of_a_presets_limit() {
 /// A bob on a ball joint whose axes are turned on both of its segments.
 fn bob(axes: &str, lean_deg: f64) -> String {
     format!(
-        "title = \"bob\"\ntime.end = 0.5\nintegrator = {{ kind = \"rk4\", step = 0.0005 }}\npath = {{ kind = \"fixed\" }}\n\
+        "title = \"bob\"\ntime.end = 0.5\nintegrator = {{ kind = \"rk4\", step = 0.0001 }}\npath = {{ kind = \"fixed\" }}\n\
          mount = {{ segment = \"arm\", posture = {{ bob = {lean_deg:?} }} }}\n[body]\n\
          segments.arm = {{ length = 0.2, cg_from_lower_end = 0.1, mass = 2, inertia = [0.01, 0.01, 0.005] }}\n\
          segments.bob = {{ length = 0.3, cg_from_lower_end = 0.2, mass = 4, inertia = [0.03, 0.02, 0.02] }}\n\
