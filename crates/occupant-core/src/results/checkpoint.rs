@@ -252,6 +252,7 @@ impl Checkpoint {
     pub fn check(&self, model: &Model) -> Result<(), CheckpointError> {
         let forces = &model.system().forces;
         self.memory.check_count(forces)?;
+        Self::state_of(model, &self.state)?;
         let expected_s = model.output_time_s(self.index);
         // to the bit: a step from another time is another step
         if expected_s.map(f64::to_bits) != Some(self.time_s.to_bits()) {
@@ -260,6 +261,7 @@ impl Checkpoint {
         self.check_touches(model)?;
         if let Some(step) = &self.under_way {
             step.memory.check_count(forces)?;
+            Self::state_of(model, &step.state)?;
             self.check_step(step, forces)?;
         }
         self.check_numbers(forces)
