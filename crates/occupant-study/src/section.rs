@@ -81,8 +81,8 @@ pub struct ParameterSection {
     /// Several places that are varied together.
     #[schemars(extend("minItems" = 1))]
     pub paths: Option<Vec<String>>,
-    /// Stands for one parameter a segment of the body, left and right together, such as `segments.thigh`: a factor on its mass and
-    /// moments of inertia, evenly between 1 minus and 1 plus this. By "15 %" tables of people differ.
+    /// Stands for one parameter a segment of the body, left and right together, such as `segments.thigh`: a factor on
+    /// its mass and moments of inertia, evenly between 1 minus and 1 plus this. By "15 %" tables of people differ.
     pub segments: Option<Ratio<FRACTION>>,
     /// What is done with the number; "value" if absent.
     pub apply: Option<ApplyChoice>,
@@ -173,8 +173,8 @@ pub struct EnsembleSection {
     pub path: Option<Ratio<FRACTION>>,
     /// Tolerance of the stiffness of each material and each belt, such as "2 %".
     pub stiffness: Option<Ratio<FRACTION>>,
-    /// Tolerance of mass and inertia of each segment of the body, left and right together, such as "15 %", by which tables of
-    /// people differ.
+    /// Tolerance of mass and inertia of each segment of the body, left and right together, such as "15 %", by which
+    /// tables of people differ.
     pub segments: Option<Ratio<FRACTION>>,
     /// Further changes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

@@ -163,7 +163,8 @@ impl VehiclePath {
         }
     }
 
-    /// Times at which the path is given, s, in increasing order: stations, samples, corners. Between two of them it is smooth.
+    /// Times at which the path is given, s, in increasing order: stations, samples, corners. Between two of them it is
+    /// smooth.
     pub(crate) fn given_s(&self) -> Vec<f64> {
         match self {
             VehiclePath::Table(table) => table.stations().iter().map(|station| station.time_s).collect(),

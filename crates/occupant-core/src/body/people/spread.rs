@@ -2,8 +2,9 @@
 
 use super::{CT, F, H, LA, LL, LT, MEASURES, N, PARTS, Person, Sex, UA, UL, UT};
 
-/// Standard errors of the regressions behind the length of each part, mm, of men and of women: of a difference of two heights both,
-/// as if the residuals were independent. The survey's own differences are not published; 0 where a length is one measure.
+/// Standard errors of the regressions behind the length of each part, mm, of men and of women: of a difference of two
+/// heights both, as if the residuals were independent. The survey's own differences are not published; 0 where a length
+/// is one measure.
 const ERRORS_MM: [[[f64; 2]; 2]; PARTS] = {
     let trunk = [[10.8, 25.8], [10.5, 23.0]];
     [
