@@ -310,6 +310,16 @@ fn pairs_and_slack_of_an_exact_state_come_back_as_they_were_punched() {
 }
 
 #[test]
+fn every_number_of_a_belt_that_is_not_worn_is_told_of() {
+    let mut lines = crate::support::lines(EXTENSION);
+    let belts = crate::support::first_card(&lines, "13");
+    crate::support::punch(&mut lines[belts + 1], 71, "       .25");
+    let (decks, _) = crate::support::parse(&(lines.join("\n") + "\n"));
+    let report = decks[0].to_scenario(&options(EXTENSION)).expect("converts").report;
+    assert_eq!(report.ignored, ["series 13: numbers of the torso belt, which NOPBLT = 1 does not use"], "{report}");
+}
+
+#[test]
 fn passed_pairs_that_do_not_overlap_are_named() {
     let mut lines = crate::support::lines(EXTENSION);
     let at = crate::support::first_card(&lines, "14");

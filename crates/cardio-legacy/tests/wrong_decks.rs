@@ -302,7 +302,13 @@ fn a_blank_card_before_the_titles_is_shown_where_it_stands() {
 
 #[test]
 fn plots_of_data_that_go_to_no_disk_are_doubted() {
-    assert_eq!(warnings(&punched("3", 0, 61, "        1.")), [found(Rule::Inconsistent, 3, "NDISK")]);
+    let undrawn = punched("3", 0, 61, "        1.");
+    assert_eq!(warnings(&undrawn), [found(Rule::Inconsistent, 3, "NDISK")]);
+    let report = parse(&undrawn).0[0].to_scenario(&Default::default()).expect("converts").report.to_string();
+    assert!(
+        !report.contains("plots were drawn") && report.contains("NDISK = 1 (card 3) kept off the disk"),
+        "{report}"
+    );
     let none = driver(|lines| {
         punch(&mut lines[2], 61, "        1.");
         lines[117] = "NONE".into();

@@ -537,7 +537,7 @@ apply = "factor"
 range = { from = 0.5, to = 2, scale = "log" }
 [[parameters]]
 name = "friction"
-path = "materials.seat.friction"
+path = "materials.foam.friction"
 range = { from = 0.2, to = 1 }
 """
 ENSEMBLE = """[ensemble]
@@ -549,7 +549,7 @@ stiffness = "2 %"
 """
 FIT = """[[parameters]]
 name = "friction"
-path = "materials.seat.friction"
+path = "materials.foam.friction"
 range = { from = 0.2, to = 1 }
 [fit]
 objective = "rms"

@@ -22,7 +22,7 @@ import time
 from pathlib import Path
 
 STUDY = 'base = "case.toml"\nseed = 1\n[set]\n"time.end" = "{end}"\n"output.interval" = "1 ms"\n'
-FRICTION = '[[parameters]]\nname = "friction"\npath = "materials.seat.friction"\nrange = {{ from = 0.2, to = 1 }}\n'
+FRICTION = '[[parameters]]\nname = "friction"\npath = "materials.foam.friction"\nrange = {{ from = 0.2, to = 1 }}\n'
 SWEEP = STUDY + "keep = [0, 7]\n[design]\nkind = \"latin_hypercube\"\nsamples = {count}\n" + FRICTION
 ENSEMBLE = STUDY + '[ensemble]\nmembers = {count}\nposture = "1 deg"\nplace = "5 mm"\n'
 FIT = STUDY + FRICTION + '[fit]\nobjective = "rms"\nbudget = {count}\n[[fit.channels]]\nchannel = "lower_torso.acceleration.x"\n'

@@ -43,7 +43,7 @@ fn a_strip_has_a_panel_for_each_time_and_view() {
     let folder = folder_with_run();
     let words = ["view", "run.mcap", "-o", "v.svg", "--times", "0,2,4 ms", "--views", "side,front"];
     let output = answer(folder.path(), &words);
-    assert_eq!((code(&output), err(&output)), (0, String::new()));
+    assert_eq!((code(&output), err(&output)), (0, "wrote v.svg\n".to_owned()));
     let svg = read(folder.path(), "v.svg");
     assert_eq!(svg.matches("<clipPath").count(), 6);
     for label in [">0 ms<", ">2 ms<", ">4 ms<", ">side<", ">front<", "from the right"] {
@@ -58,11 +58,29 @@ fn a_strip_has_a_panel_for_each_time_and_view() {
 }
 
 #[test]
+fn what_is_made_of_a_run_has_a_name_beside_it_and_is_told() {
+    let folder = folder_with_run();
+    for (words, name) in [
+        (&["view", "run.mcap", "--times", "0"][..], "run-view.svg"),
+        (&["plot", "run.mcap"], "run-plot.svg"),
+        (&["report", "run.mcap"], "run.html"),
+        (&["export", "run.mcap"], "run.csv"),
+    ] {
+        let output = answer(folder.path(), words);
+        assert_eq!(code(&output), 0, "{}", err(&output));
+        assert!(err(&output).contains("wrote ") && err(&output).ends_with(&format!("{name}\n")), "{}", err(&output));
+        assert!(folder.path().join(name).exists(), "{name}");
+        // nothing that is there is replaced
+        assert_eq!(code(&answer(folder.path(), words)), 2, "{name}");
+    }
+}
+
+#[test]
 fn a_strip_becomes_a_png_of_twice_its_size() {
     let folder = folder_with_run();
     for name in ["v.svg", "v.png"] {
         let output = answer(folder.path(), &["view", "run.mcap", "-o", name, "--times", "0"]);
-        assert_eq!((code(&output), err(&output)), (0, String::new()));
+        assert_eq!((code(&output), err(&output)), (0, format!("wrote {name}\n")));
     }
     let png = fs::read(folder.path().join("v.png")).expect("a picture");
     assert!(png.starts_with(b"\x89PNG\r\n\x1a\n"));
@@ -79,14 +97,13 @@ fn a_strip_becomes_a_png_of_twice_its_size() {
 #[test]
 fn wrong_words_for_a_view_are_answered() {
     let folder = folder_with_run();
-    let cases: [(&[&str], &str); 7] = [
+    let cases: [(&[&str], &str); 6] = [
         (&["view", "run.mcap", "-o", "v.pdf"], "ends with .svg or .png"),
         (&["view", "run.mcap", "-o", "v.svg", "--times", "9 s"], "the outputs go from"),
         (&["view", "run.mcap", "-o", "v.svg", "--times", "soon"], "is not a time"),
         (&["view", "run.mcap", "-o", "v.svg", "--views", "back"], "possible values"),
         (&["view", "case.toml", "-o", "v.svg"], "holds no results"),
         (&["view", "none.mcap", "-o", "v.svg"], "cannot be read"),
-        (&["view", "run.mcap"], "--output"),
     ];
     for (words, said) in cases {
         let output = answer(folder.path(), words);
@@ -116,7 +133,7 @@ fn nothing_is_replaced_unasked() {
 fn a_report_is_one_file_whose_data_stay_data() {
     let folder = folder_with_run();
     let output = answer(folder.path(), &["report", "run.mcap", "-o", "r.html"]);
-    assert_eq!((code(&output), err(&output)), (0, String::new()));
+    assert_eq!((code(&output), err(&output)), (0, "wrote r.html\n".to_owned()));
     let html = read(folder.path(), "r.html");
     // the program of the page, the data and the licences: three elements, whatever the title says
     assert_eq!(html.matches("</script>").count(), 3);
@@ -140,7 +157,7 @@ fn a_report_against_another_run_holds_both() {
     let folder = folder_with_run();
     let words = ["report", "run.mcap", "-o", "r.html", "--against", "run.mcap"];
     let output = answer(folder.path(), &words);
-    assert_eq!((code(&output), err(&output)), (0, String::new()));
+    assert_eq!((code(&output), err(&output)), (0, "wrote r.html\n".to_owned()));
     assert_eq!(read(folder.path(), "r.html").matches("\"poses\":").count(), 2);
     for (words, said) in [
         (&["report", "run.mcap", "-o", "r.txt"][..], "ends with .html"),

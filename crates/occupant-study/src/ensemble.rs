@@ -22,12 +22,20 @@ pub struct Tolerances {
     pub path: f64,
     /// Of the stiffness of each material and each belt, as a part of it.
     pub stiffness: f64,
+    /// Of mass and inertia of each segment of the body, as a part of them.
+    pub segments: f64,
 }
 
 impl Default for Tolerances {
-    /// As well as a test can be set up: 1°, 5 mm, 1 %, 2 %.
+    /// As well as a test can be set up: 1°, 5 mm, 1 %, 2 %, and always the same body.
     fn default() -> Self {
-        Tolerances { posture_rad: std::f64::consts::PI / 180.0, place_m: 0.005, path: 0.01, stiffness: 0.02 }
+        Tolerances {
+            posture_rad: std::f64::consts::PI / 180.0,
+            place_m: 0.005,
+            path: 0.01,
+            stiffness: 0.02,
+            segments: 0.0,
+        }
     }
 }
 
@@ -146,6 +154,12 @@ pub(super) fn stiffness(base: &Draft, most: f64) -> Vec<Perturbation> {
         .collect()
 }
 
+/// A change of mass and inertia of each segment of the body, left and right together.
+pub(super) fn segments(base: &Draft, most: f64) -> Vec<Perturbation> {
+    let of = |(_, targets)| Perturbation { change: Change::Factor(most), targets };
+    super::segments::segments(base).into_iter().map(of).collect()
+}
+
 /// All standard changes that the scenario has a place for.
 pub(super) fn standard(base: &Draft, parameters: &[Parameter], most: &Tolerances) -> Vec<Perturbation> {
     [
@@ -153,6 +167,7 @@ pub(super) fn standard(base: &Draft, parameters: &[Parameter], most: &Tolerances
         seat_place(base, most.place_m),
         path(base, parameters, most.path),
         stiffness(base, most.stiffness),
+        if most.segments > 0.0 { segments(base, most.segments) } else { Vec::new() },
     ]
     .concat()
 }

@@ -69,6 +69,7 @@ pub mod risk;
 mod saltelli;
 pub mod search;
 mod section;
+mod segments;
 pub mod sensitivity;
 mod sobol;
 pub mod spread;

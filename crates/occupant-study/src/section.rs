@@ -68,8 +68,10 @@ pub struct StudySection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend(
-    "x-exactly-one" = [["path", "paths"]],
-    "x-at-most-one" = [["grid", "list", "range", "distribution"]],
+    "x-exactly-one" = [["path", "paths", "segments"]],
+    "x-at-most-one" = [
+        ["grid", "list", "range", "distribution", "segments"], ["name", "segments"], ["apply", "segments"],
+    ],
 ))]
 pub struct ParameterSection {
     /// Name of its column in the table of results; its path if absent.
@@ -79,6 +81,9 @@ pub struct ParameterSection {
     /// Several places that are varied together.
     #[schemars(extend("minItems" = 1))]
     pub paths: Option<Vec<String>>,
+    /// Stands for one parameter a segment of the body, left and right together, such as `segments.thigh`: a factor on its mass and
+    /// moments of inertia, evenly between 1 minus and 1 plus this. By "15 %" tables of people differ.
+    pub segments: Option<Ratio<FRACTION>>,
     /// What is done with the number; "value" if absent.
     pub apply: Option<ApplyChoice>,
     /// Evenly spaced values.
@@ -168,6 +173,9 @@ pub struct EnsembleSection {
     pub path: Option<Ratio<FRACTION>>,
     /// Tolerance of the stiffness of each material and each belt, such as "2 %".
     pub stiffness: Option<Ratio<FRACTION>>,
+    /// Tolerance of mass and inertia of each segment of the body, left and right together, such as "15 %", by which tables of
+    /// people differ.
+    pub segments: Option<Ratio<FRACTION>>,
     /// Further changes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub perturbations: Vec<PerturbationSection>,

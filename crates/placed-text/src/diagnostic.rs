@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::problem::{Problem, Severity};
-use crate::shown::{blanked, shown};
+use crate::shown::{quoted, shown};
 use crate::source::{Position, Sources, Span};
 
 /// A problem and where it is.
@@ -55,12 +55,12 @@ impl Diagnostic {
 fn excerpt(line: &str, start: usize, words: usize) -> (String, [usize; 2]) {
     let is_long = line.chars().nth(2 * CONTEXT_CHARS).is_some();
     let from = if is_long { start.saturating_sub(CONTEXT_CHARS) } else { 0 };
-    let mut rest = blanked(line).skip(from);
+    let mut rest = line.chars().skip(from);
     let most = start - from + words.min(CONTEXT_CHARS) + CONTEXT_CHARS;
-    let text: String = rest.by_ref().take(if is_long { most } else { usize::MAX }).collect();
+    let kept: Vec<char> = rest.by_ref().take(if is_long { most } else { usize::MAX }).collect();
     let (lead, tail) = (if from > 0 { "…" } else { "" }, if rest.next().is_some() { "…" } else { "" });
-    let [start, end] = [start, start + words].map(|at| (at - from).min(text.chars().count()) + lead.chars().count());
-    (format!("{lead}{text}{tail}").trim_end().to_owned(), [start, end])
+    let column = |at: usize| quoted(&kept[..(at - from).min(kept.len())]).chars().count() + lead.chars().count();
+    (format!("{lead}{}{tail}", quoted(&kept)).trim_end().to_owned(), [column(start), column(start + words)])
 }
 
 impl fmt::Display for Diagnostic {
@@ -187,3 +187,26 @@ impl fmt::Display for Diagnostics {
 }
 
 impl std::error::Error for Diagnostics {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_hidden_in_a_quoted_line_is_shown_and_the_carets_stand_below_its_words() {
+        let mut sources = Sources::new();
+        let source = sources.add("f", "a\u{1b}\t= \"\u{202e}b\"\n");
+        let at = Diagnostic::at(&sources, Span { source, start: 5, end: 11 }, Problem::error("b", "no word", "one"));
+        let expected = "1 | a\\u001b = \"\\u202eb\"\n  |           ^^^^^^^^^\n";
+        assert!(at.to_string().contains(expected), "{at}");
+    }
+
+    #[test]
+    fn a_long_line_is_cut_round_its_words_in_what_was_written() {
+        let line = format!("{}word{}", "\u{1b}".repeat(100), "x".repeat(100));
+        let (text, words) = excerpt(&line, 100, 4);
+        let (lead, tail) = ("\\u001b".repeat(CONTEXT_CHARS), "x".repeat(CONTEXT_CHARS));
+        assert_eq!(text, format!("…{lead}word{tail}…"));
+        assert_eq!(words, [1 + 6 * CONTEXT_CHARS, 5 + 6 * CONTEXT_CHARS]);
+    }
+}

@@ -31,9 +31,9 @@ pub fn shortened(text: &str, most: usize) -> String {
     escaped(ends, is_hidden)
 }
 
-/// The characters of a line, each hidden one as a blank, so that columns stay where they are.
-pub(crate) fn blanked(line: &str) -> impl Iterator<Item = char> + '_ {
-    line.chars().map(|c| if is_hidden(c) { ' ' } else { c })
+/// Characters of a quoted line: hidden ones as in [`plain`], a tab as a blank, which is one column wide.
+pub(crate) fn quoted(line: &[char]) -> String {
+    escaped(line.iter().map(|c| if *c == '\t' { ' ' } else { *c }), is_hidden)
 }
 
 fn escaped(chars: impl Iterator<Item = char>, is_hidden: impl Fn(char) -> bool) -> String {

@@ -50,13 +50,17 @@ fn times(w: &mut Writer<'_>) {
 
 /// Switches whose meaning today is another one.
 fn switches(w: &mut Writer<'_>) {
+    let on_disk = w.value("NDISK") == 0.0;
     let plots = match w.deck.plot() {
-        Plot::Standard => {
+        Plot::Standard if on_disk => {
             "STAN (card 16): 14 plots were drawn, of variables that the report does not name; `occupant plot RUN.mcap -o plots.svg` draws fourteen of our choice from any run"
+        }
+        Plot::Standard => {
+            "STAN (card 16) asks for 14 plots of data that NDISK = 1 (card 3) kept off the disk; `occupant plot RUN.mcap -o plots.svg` draws fourteen of our choice from any run"
         }
         Plot::None => "NONE (card 16): no plots were drawn; `occupant plot` can draw them from any run nevertheless",
     };
-    let disk = if w.value("NDISK") == 0.0 {
+    let disk = if on_disk {
         "NDISK = 0 (card 3): plot data went to disk; the report's coordinates are recorded as well"
     } else {
         "NDISK = 1 (card 3): no plot data went to disk; the results are written nevertheless"

@@ -93,8 +93,9 @@ fn belts(w: &mut Writer<'_>) {
             belt(w, number, name, sphere);
             continue;
         }
-        let says_something = [format!("SK1({number})"), format!("P1({number},1)"), format!("P2({number},1)")];
-        if says_something.iter().any(|field| w.value(field) != 0.0) {
+        let places = (1..=3).flat_map(|axis| ["P1", "P2"].map(|point| format!("{point}({number},{axis})")));
+        let numbers = ["SK1", "SK2", "DELC", "SLACK"].map(|name| format!("{name}({number})"));
+        if places.chain(numbers).any(|field| w.value(&field) != 0.0) {
             let text = format!("series 13: numbers of the {name} belt, which NOPBLT = {used} does not use");
             w.report.ignored.push(text);
         }

@@ -10,6 +10,7 @@ use std::io::{self, BufWriter, ErrorKind, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
+use super::talk::say;
 
 /// What happens to files that stand where ours goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -311,7 +312,17 @@ pub(crate) fn publish(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Fail
     Ok(write_whole(path, Existing::by(force), bytes).map(|_| ())?)
 }
 
-/// The same, with the reason alone.
+/// The same, and says so.
+///
+/// # Errors
+/// As [`publish`].
+pub(crate) fn deliver(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Failure> {
+    publish(path, force, bytes)?;
+    say(&format!("wrote {}", path.display()));
+    Ok(())
+}
+
+/// As [`publish`], with the reason alone.
 ///
 /// # Errors
 /// As [`publish`].

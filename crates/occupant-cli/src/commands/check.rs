@@ -26,7 +26,8 @@ pub(crate) struct Args {
 pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
     let opened = scenario::open(&args.scenario)?;
     scenario::warn(&opened.warnings);
-    let diagnosis = diagnose(&opened.model);
+    let mut diagnosis = diagnose(&opened.model);
+    diagnosis.body.compare_with_people(&opened.loaded);
     if args.json {
         talk::print(&talk::json(&diagnosis)?)?;
     } else if !args.quiet {

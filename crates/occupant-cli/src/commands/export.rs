@@ -1,6 +1,6 @@
 //! `occupant export`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::flags::history::{code_letter, interval};
 use crate::base::{Existing, Failure, ending, file_name, note, program, say};
@@ -22,9 +22,9 @@ pub(crate) struct Args {
     #[arg(value_name = "RUN.mcap")]
     run: PathBuf,
 
-    /// The file to write: NAME.csv, NAME.parquet or NAME.mme
+    /// The file to write: NAME.csv, NAME.parquet or NAME.mme; RUN.csv beside the run if absent
     #[arg(short, long, value_name = "FILE")]
-    output: PathBuf,
+    output: Option<PathBuf>,
 
     /// Channels by name or pattern, such as 'head.*,belt.*'; all if absent
     #[arg(long, value_name = "NAMES")]
@@ -55,10 +55,11 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn export(args: &Args) -> Result<(), Failure> {
-    let is_mme = ending(&args.output) == "mme";
-    let form = (!is_mme).then(|| Form::of(&args.output)).flatten();
+    let output = args.output.clone().unwrap_or_else(|| args.run.with_extension("csv"));
+    let is_mme = ending(&output) == "mme";
+    let form = (!is_mme).then(|| Form::of(&output)).flatten();
     if !is_mme && form.is_none() {
-        return Err(Failure::ending(&args.output, ".csv, .parquet or .mme"));
+        return Err(Failure::ending(&output, ".csv, .parquet or .mme"));
     }
     let treatment = Treatment { interval_s: args.interval, ..args.treatment };
     let results = Results::open(&args.run)?;
@@ -66,16 +67,18 @@ pub(crate) fn export(args: &Args) -> Result<(), Failure> {
     let histories = load(&results, channels, treatment)?;
     histories.notes.iter().for_each(note);
     let Some(form) = form else {
-        return export_mme(args, &results, &histories);
+        return export_mme(args, &output, &results, &histories);
     };
     let coefficients = (treatment.filter != Filter::None).then(|| family_name(treatment.family));
     let about = About::new(&results, &histories, args.units, treatment.filter.words(), coefficients);
-    let files = TableFiles::begin(&args.output, form, &args.run, Existing::by(args.force))?;
-    files.write(&histories, &about, args.units)
+    let files = TableFiles::begin(&output, form, &args.run, Existing::by(args.force))?;
+    files.write(&histories, &about, args.units)?;
+    say(&format!("wrote {} channels: {}", histories.columns.len(), output.display()));
+    Ok(())
 }
 
-fn export_mme(args: &Args, results: &Results, histories: &Histories) -> Result<(), Failure> {
-    let name = args.output.file_stem().and_then(|n| n.to_str());
+fn export_mme(args: &Args, output: &Path, results: &Results, histories: &Histories) -> Result<(), Failure> {
+    let name = output.file_stem().and_then(|n| n.to_str());
     let name = name.ok_or_else(|| Failure::plain("-o: the name of an ISO-MME test must be text"))?;
     let mut remarks = vec![
         format!("result file {}, SHA-256 {}", file_name(&args.run), results.sha256),
@@ -91,9 +94,9 @@ fn export_mme(args: &Args, results: &Results, histories: &Histories) -> Result<(
         remarks,
     };
     let (files, without) = files(&results.model, histories, &labels)
-        .map_err(|reason| Failure::plain(format!("{} cannot be made: {reason}", args.output.display())))?;
-    let folder = args.output.with_extension("");
-    publish_folder(&folder, &file_name(&args.output), &files, args.force)?;
+        .map_err(|reason| Failure::plain(format!("{} cannot be made: {reason}", output.display())))?;
+    let folder = output.with_extension("");
+    publish_folder(&folder, &file_name(output), &files, args.force)?;
     say(&format!("wrote {} channels: {}", files.len() - 2, folder.join(format!("{name}.mme")).display()));
     if !without.is_empty() {
         let shown: Vec<&str> = without.iter().take(4).map(String::as_str).collect();

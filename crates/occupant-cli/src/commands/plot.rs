@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::flags::history::{TestArgs, WindowArgs};
-use crate::base::{Failure, file_name, note, program, publish, refuse_input, say};
+use crate::base::{Failure, file_name, note, program, publish, refuse_input, say, with_word};
 use crate::files::history::{Treatment, UnitChoice};
 use crate::files::results::Results;
 use crate::jobs::plot::{Request, plots};
@@ -23,8 +23,8 @@ pub(crate) struct Args {
     #[arg(value_name = "RUN.mcap", required = true)]
     runs: Vec<PathBuf>,
 
-    /// The file to write, all plots on one sheet: NAME.svg or NAME.png
-    #[arg(short, long, value_name = "FILE", required_unless_present = "each")]
+    /// The file to write, all plots on one sheet: NAME.svg or NAME.png; RUN-plot.svg beside the first run if absent
+    #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
     /// A folder for a file for each plot
@@ -82,7 +82,9 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn plot(args: &Args) -> Result<(), Failure> {
-    let kind = match &args.output {
+    let beside = |run: &PathBuf| with_word(&run.with_extension("svg"), "-plot");
+    let output = args.output.clone().or_else(|| args.runs.first().map(beside).filter(|_| args.each.is_none()));
+    let kind = match &output {
         Some(output) => Format::of_output(output)?,
         None => args.format,
     };
@@ -103,8 +105,12 @@ pub(crate) fn plot(args: &Args) -> Result<(), Failure> {
     })?;
     notes.iter().for_each(note);
     let words = words(args, &runs);
-    match (&args.output, &args.each) {
-        (Some(output), _) => write(args, output, kind, &sheet(&words, &figures)),
+    match (&output, &args.each) {
+        (Some(output), _) => {
+            write(args, output, kind, &sheet(&words, &figures))?;
+            say(&format!("wrote {}", output.display()));
+            Ok(())
+        }
         (None, Some(folder)) => write_each(args, folder, kind, &words, &figures),
         (None, None) => Ok(()),
     }

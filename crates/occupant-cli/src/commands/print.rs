@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use occupant_core::scenario::kind::UnitSystem;
 
 use super::flags::history::interval;
-use crate::base::{Failure, note, one_of, print, publish, refuse_input, say};
+use crate::base::{Failure, deliver, note, one_of, print, refuse_input, say};
 use crate::jobs::print::{Case, printout, uneven};
 
 /// Print a run as paged text, as the report's program did
@@ -49,7 +49,7 @@ pub(crate) fn print_run(args: &Args) -> Result<(), Failure> {
     match &args.output {
         Some(path) => {
             refuse_input(path, &args.run)?;
-            publish(path, args.force, text.as_bytes())?;
+            deliver(path, args.force, text.as_bytes())?;
         }
         None => print(&text)?,
     }

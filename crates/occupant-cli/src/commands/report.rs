@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::base::{Failure, is_page, note, publish, refuse_input};
+use crate::base::{Failure, deliver, is_page, note, refuse_input};
 use crate::files::results::Results;
 use crate::jobs::report::page;
 
@@ -15,9 +15,9 @@ pub(crate) struct Args {
     #[arg(value_name = "RUN.mcap")]
     run: PathBuf,
 
-    /// The page
+    /// The page; RUN.html beside the run if absent
     #[arg(short, long, value_name = "FILE.html")]
-    output: PathBuf,
+    output: Option<PathBuf>,
 
     /// Replace a file that exists
     #[arg(short, long)]
@@ -29,14 +29,15 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn report(args: &Args) -> Result<(), Failure> {
-    if !is_page(&args.output) {
-        return Err(Failure::ending(&args.output, ".html"));
+    let output = args.output.clone().unwrap_or_else(|| args.run.with_extension("html"));
+    if !is_page(&output) {
+        return Err(Failure::ending(&output, ".html"));
     }
     for input in std::iter::once(&args.run).chain(&args.against) {
-        refuse_input(&args.output, input)?;
+        refuse_input(&output, input)?;
     }
     let run = Results::open(&args.run)?;
     let against = args.against.as_deref().map(Results::open).transpose()?;
     std::iter::once(&run).chain(&against).flat_map(Results::notes).for_each(|text| note(&text));
-    publish(&args.output, args.force, page(&run, against.as_ref())?.as_bytes())
+    deliver(&output, args.force, page(&run, against.as_ref())?.as_bytes())
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::flags::history::seconds;
-use crate::base::{Failure, file_name, note, publish, refuse_input};
+use crate::base::{Failure, deliver, file_name, note, refuse_input, with_word};
 use crate::files::results::Results;
 use crate::pictures::Format;
 use crate::pictures::body::Snapshot;
@@ -28,9 +28,9 @@ pub(crate) struct Args {
     #[arg(value_name = "RUN.mcap")]
     run: PathBuf,
 
-    /// The picture: NAME.svg or NAME.png
+    /// The picture: NAME.svg or NAME.png; RUN-view.svg beside the run if absent
     #[arg(short, long, value_name = "FILE")]
-    output: PathBuf,
+    output: Option<PathBuf>,
 
     /// Replace a file that exists
     #[arg(short, long)]
@@ -53,8 +53,9 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn view(args: &Args) -> Result<(), Failure> {
-    let format = Format::of_output(&args.output)?;
-    refuse_input(&args.output, &args.run)?;
+    let output = args.output.clone().unwrap_or_else(|| with_word(&args.run.with_extension("svg"), "-view"));
+    let format = Format::of_output(&output)?;
+    refuse_input(&output, &args.run)?;
     let results = Results::open(&args.run)?;
     results.notes().iter().for_each(note);
     let outputs = outputs(&results, args.times.as_ref())?;
@@ -67,7 +68,7 @@ pub(crate) fn view(args: &Args) -> Result<(), Failure> {
     let strip = Strip { model: &results.model, moments: moments(&results, &outputs)?, views, origin: origin(&results) };
     let bytes = format.encode(&draw(&strip), PIXELS);
     let bytes = bytes.map_err(|e| Failure::with_help(e, "draw fewer times"))?;
-    publish(&args.output, args.force, &bytes)
+    deliver(&output, args.force, &bytes)
 }
 
 /// Times, s.

@@ -28,6 +28,26 @@ fn its_json_tells_the_same() {
 }
 
 #[test]
+fn it_says_how_far_people_differ_and_whose_lengths_are_weak() {
+    let folder = folder_with_case();
+    let check = |set: &str| out(&answer(folder.path(), &["check", "case.toml", "--set", set]));
+    let text = check("body.segments.head.length=0.25 m");
+    let numbers: Vec<f64> = row(&text, "left_thigh")[2..].iter().filter_map(|cell| cell.parse().ok()).collect();
+    let [length_m, least_m, most_m] = numbers[..] else { panic!("{numbers:?}") };
+    assert!(
+        (1.0 - least_m / length_m - 0.1154).abs() < 5e-4 && (most_m / length_m - 1.1154).abs() < 5e-4,
+        "{numbers:?}"
+    );
+    assert_eq!(row(&text, "head")[2..], ["0.2500", "–"], "a length of one's own has no band");
+    assert!(!text.contains("child"));
+    let child = check("body.preset=child06");
+    assert!(child.contains("lengths of a child's segments") && !child.contains("90 % of such people"), "{child}");
+    let json = json(&answer(folder.path(), &["check", "case.toml", "--json"]));
+    let thigh = json["body"]["segments"].as_array().unwrap().iter().find(|s| s["segment"] == "left_thigh").unwrap();
+    assert!((thigh["length_band_m"][0].as_f64().unwrap() - least_m).abs() < 1e-4, "{thigh}");
+}
+
+#[test]
 fn a_step_that_is_too_long_fails_the_check() {
     let folder = folder_with_case();
     let words = ["check", "case.toml", "-q", "--set", "integrator.step=20 ms"];

@@ -64,6 +64,12 @@ fn a_parameter_without_ends_and_a_missing_test_are_told() {
     let folder = folder_with(STUDY);
     let said = refusal(folder.path(), &["fit", "study.toml", "-o", "out"]);
     assert!(said.contains("no test to fit to") && said.contains("--to test.csv"), "{said}");
+    let study = STUDY.replace("case.toml", "none.toml") + "[[fit.tests]]\nfile = \"gone.csv\"\n";
+    let said = refusal(folder_with(&study).path(), &["fit", "study.toml", "-o", "out"]);
+    let base = study.lines().position(|line| line.starts_with("base")).expect("it has one") + 1;
+    assert!(said.contains("none.toml cannot be read") && said.contains(&format!("study.toml:{base}:")), "{said}");
+    let file = study.lines().count();
+    assert!(said.contains("gone.csv cannot be read") && said.contains(&format!("study.toml:{file}:")), "{said}");
 }
 
 #[test]

@@ -82,7 +82,6 @@ fn what_cannot_be_plotted_is_said() {
     let run = run.to_str().unwrap();
     for (words, expected) in [
         (vec!["plot", run, "-o", "p.pdf"], ".svg or .png"),
-        (vec!["plot", run], "--output"),
         (vec!["plot", run, "-o", "p.svg", "--channel", "head.*"], "one plot has one axis"),
         (vec!["plot", run, "-o", "p.svg", "--channel", "hed.acceleration.x"], "did you mean"),
         (vec!["plot", run, "-o", "p.svg", "--limit", "neck.force.z=4 kN"], "no plot shows"),

@@ -71,4 +71,13 @@ fn flags_that_make_no_sense_are_refused_in_words() {
     let output = answer(at, &["sweep", "nowhere.toml", "-o", "out"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(err(&output).contains("nowhere.toml cannot be read"), "{}", err(&output));
+    fs::write(
+        at.join("astray.toml"),
+        "seed = 1\nbase = \"none.toml\"\n[design]\nkind = \"latin_hypercube\"\nsamples = 1\n",
+    )
+    .expect("written");
+    let output = answer(at, &["sweep", "astray.toml", "-o", "out"]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = err(&output);
+    assert!(said.contains("none.toml cannot be read") && said.contains("astray.toml:2:"), "{said}");
 }

@@ -13,6 +13,7 @@
 
 mod divided;
 mod merged;
+mod spread;
 
 use super::Body;
 

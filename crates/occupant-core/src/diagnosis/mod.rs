@@ -3,6 +3,7 @@
 //! All figures are those of the start of the run. Ours; the report prints the seating only.
 
 mod friction;
+mod people;
 mod rates;
 mod start;
 
@@ -71,6 +72,8 @@ pub struct BodyFigures {
     pub degrees_of_freedom: usize,
     /// Contact spheres.
     pub spheres: usize,
+    /// What is weak about its numbers.
+    pub weak: Option<&'static str>,
 }
 
 /// A segment in figures.
@@ -82,6 +85,8 @@ pub struct SegmentFigures {
     pub mass_kg: f64,
     /// Length.
     pub length_m: f64,
+    /// Between which lengths 90 % of people of the body's sex, stature and mass are, if it is such a person's.
+    pub length_band_m: Option<[f64; 2]>,
 }
 
 /// The run in figures.
@@ -173,6 +178,7 @@ fn body(model: &Model) -> BodyFigures {
         segment: body.tree[s].name,
         mass_kg: body.segment(s).mass_kg,
         length_m: body.segment(s).length_m,
+        length_band_m: None,
     };
     BodyFigures {
         name: body.name.clone(),
@@ -180,6 +186,7 @@ fn body(model: &Model) -> BodyFigures {
         segments: body.tree.segments().map(segment).collect(),
         degrees_of_freedom: body.tree.degrees_of_freedom() - if model.setup().mounting().is_some() { 6 } else { 0 },
         spheres: body.spheres.len(),
+        weak: None,
     }
 }
 

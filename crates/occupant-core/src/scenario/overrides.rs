@@ -12,7 +12,8 @@ pub(super) fn needs_explicit(root: &Node, steps: &[Step]) -> bool {
 
 /// Puts `value` at a path without wildcards. Of two keys that say the same thing in two ways, such as the `peak` and the
 /// `delta_v` of a pulse, the one that is put replaces the other. Tables on the way are made where they are missing; a list
-/// on the way that only the explicit form has (a preset's inertia, say) is copied from there first.
+/// on the way that only the explicit form has (a preset's inertia, say) is copied from there first. The word null takes away
+/// what stands there.
 ///
 /// # Errors
 /// The part of the path that leads nowhere.
@@ -25,6 +26,10 @@ pub(super) fn put(root: &mut Node, explicit: Option<&Node>, steps: &[Step], valu
         let above = path.clone();
         shadow = shadow.and_then(|s| child(s, step));
         path = with_step(&path, step);
+        if let (Step::Key(key), Value::Table(table), true) = (step, &mut node.value, last && is_null(&value)) {
+            let taken = table.shift_remove(key);
+            return taken.map(|_| ()).ok_or_else(|| format!("nothing at `{path}` to be taken away"));
+        }
         if let (Step::Key(key), Value::Table(table)) = (step, &mut node.value)
             && table.get(key).is_none()
         {
@@ -42,6 +47,10 @@ pub(super) fn put(root: &mut Node, explicit: Option<&Node>, steps: &[Step], valu
         }
     }
     Err("an empty path".to_owned())
+}
+
+fn is_null(value: &Node) -> bool {
+    matches!(&value.value, Value::Null) || value.as_str() == Some("null")
 }
 
 fn path_end(step: &Step) -> &str {

@@ -112,6 +112,10 @@ impl Draft {
         let marked = expand(&mut self.document.sources.clone(), &root);
         let mut found = Vec::new();
         collect(&marked, &mark, &mut Vec::new(), &mut found);
+        if found.is_empty() && matches!(steps.last(), Some(Step::Key(key)) if key == "preset") {
+            // the explicit scenario has what it stands for; that such a name changes nothing cannot be seen from a mark
+            return Ok(vec![Place { value: follow(&self.document.root, steps).map(|n| n.value.clone()), ..place }]);
+        }
         if found.is_empty() {
             let found = format!("`{}` changes nothing in this scenario", place.path);
             let hint = "what is said of a single joint, segment or sphere wins over what is said of a group";

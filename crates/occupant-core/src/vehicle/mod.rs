@@ -162,6 +162,15 @@ impl VehiclePath {
             VehiclePath::Fixed(_) => Vec::new(),
         }
     }
+
+    /// Times at which the path is given, s, in increasing order: stations, samples, corners. Between two of them it is smooth.
+    pub(crate) fn given_s(&self) -> Vec<f64> {
+        match self {
+            VehiclePath::Table(table) => table.stations().iter().map(|station| station.time_s).collect(),
+            VehiclePath::Sensors(sensors) => sensors.given_s(),
+            _ => self.breaks_s(),
+        }
+    }
 }
 
 /// Adds a problem for every number of `pose` that is not finite.

@@ -165,6 +165,11 @@ impl SensorPath {
         vec![self.pieces[0].start_s, self.end_s]
     }
 
+    /// Times of the samples that the path uses, s.
+    pub(crate) fn given_s(&self) -> Vec<f64> {
+        self.pieces.iter().map(|piece| piece.start_s).chain([self.end_s]).collect()
+    }
+
     fn piece_at(&self, t_s: f64, cursor: &mut PathCursor) -> &Piece {
         &self.pieces[cursor.locate(self.pieces.len(), t_s, |piece| self.pieces[piece].start_s)]
     }

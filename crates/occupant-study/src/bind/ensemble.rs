@@ -15,11 +15,16 @@ pub(super) fn bind(binder: &mut Binder, base: &Draft, parameters: &[Parameter]) 
     let place = section.place.as_ref().map(|most| ensemble::seat_place(base, most.si()));
     let path = section.path.as_ref().map(|most| ensemble::path(base, parameters, most.si()));
     let stiffness = section.stiffness.as_ref().map(|most| ensemble::stiffness(base, most.si()));
+    let segments = section.segments.as_ref().map(|most| ensemble::segments(base, most.si()));
+    if segments.is_some() {
+        binder.refuse_size(parameters, "ensemble.segments");
+    }
     let groups = [
         ("posture", posture, "a posture"),
         ("place", place, "a posture"),
         ("path", path, "a pulse with `peak` or `delta_v`"),
         ("stiffness", stiffness, "materials or belts"),
+        ("segments", segments, "a body"),
     ];
     let says_nothing = section.perturbations.is_empty() && groups.iter().all(|(_, found, _)| found.is_none());
     let mut perturbations = Vec::new();

@@ -111,16 +111,15 @@ impl Binder<'_> {
 
     /// Tells of parameters that have no ends between which to look.
     pub(super) fn have_ends(&mut self, parameters: &[Parameter]) {
-        // a broken parameter shifts the others, and has been reported
-        if parameters.len() != self.text.section.parameters.len() {
-            return;
-        }
+        // a broken parameter shifts the others, and so does one that stands for several
+        let written = self.text.section.parameters.len();
         for (i, parameter) in parameters.iter().enumerate() {
             if parameter.law.bounds().is_none() {
+                let at = if parameters.len() == written { format!("parameters[{i}]") } else { "parameters".to_owned() };
                 let found = format!("`{}` has no ends between which to look", parameter.name);
                 let expected = "a `range`, a `grid`, or a distribution with `from` and `to`";
                 let hint = "range = { from = …, to = … }".to_owned();
-                self.error(&format!("parameters[{i}]"), found, expected, Some(hint));
+                self.error(&at, found, expected, Some(hint));
             }
         }
     }

@@ -3,9 +3,10 @@
 use super::Binder;
 use super::law::{Quantities, kind_of};
 use crate::design::Design;
-use crate::law::Law;
+use crate::law::{Distribution, Law};
 use crate::parameter::{Parameter, Target, si_unit};
 use crate::section::{ApplyChoice, ParameterSection};
+use crate::segments::{segments, size};
 use occupant_core::scenario::{Place, Wanted};
 
 impl Binder<'_> {
@@ -15,12 +16,46 @@ impl Binder<'_> {
         let mut found: Vec<Parameter> = Vec::new();
         for (i, section) in sections.iter().enumerate() {
             let at = format!("parameters[{i}]");
-            if let Some(parameter) = self.parameter(section, &at) {
+            let ready = section.segments.as_ref().map(|most| self.segments(most.si(), &at));
+            for parameter in ready.unwrap_or_else(|| self.parameter(section, &at).into_iter().collect()) {
                 self.clash(&parameter, &found, &at);
                 found.push(parameter);
             }
         }
+        let at = sections.iter().position(|section| section.segments.is_some());
+        if let Some(at) = at.map(|i| format!("parameters[{i}].segments")) {
+            self.refuse_size(&found, &at);
+        }
         found
+    }
+
+    /// A factor for each segment of the body, between 1 minus and 1 plus `most`.
+    fn segments(&mut self, most: f64, at: &str) -> Vec<Parameter> {
+        let found = self.base.map(segments).unwrap_or_default();
+        if found.is_empty() {
+            self.error(at, "a body without segments that have a mass", "a body", None);
+        }
+        if self.has_table() {
+            self.error(at, "`segments` beside a table of samples", "columns such as body.segments.head.mass", None);
+        }
+        let law = Law::Distribution(Distribution::Uniform { from: 1.0 - most, to: 1.0 + most });
+        let of = |(name, targets)| Parameter {
+            name: format!("segments.{name}"),
+            unit: "",
+            apply: ApplyChoice::Factor,
+            law: law.clone(),
+            targets,
+        };
+        found.into_iter().map(of).collect()
+    }
+
+    /// Tells of parameters that make another body, beside `segments` at a place of the study, which are those of the base.
+    pub(super) fn refuse_size(&mut self, parameters: &[Parameter], at: &str) {
+        if let Some(path) = size(parameters.iter().flat_map(|parameter| &parameter.targets)) {
+            let found = format!("`{path}` is varied, and with it all segments of the base scenario's body");
+            let hint = "`mass` of a person alone is varied well enough by `segments`".to_owned();
+            self.error(at, found, "a body of one size beside `segments`", Some(hint));
+        }
     }
 
     pub(super) fn parameter(&mut self, section: &ParameterSection, at: &str) -> Option<Parameter> {
@@ -98,6 +133,11 @@ impl Binder<'_> {
         false
     }
 
+    /// Whether a table says the values of all parameters.
+    fn has_table(&self) -> bool {
+        self.test.is_none() && matches!(self.text.section.design, Some(Design::Table { .. }))
+    }
+
     pub(super) fn law(
         &mut self,
         section: &ParameterSection,
@@ -105,7 +145,7 @@ impl Binder<'_> {
         apply: ApplyChoice,
         wanted: &Wanted,
     ) -> Option<Law> {
-        let by_table = self.test.is_none() && matches!(self.text.section.design, Some(Design::Table { .. }));
+        let by_table = self.has_table();
         let given = section.grid.is_some()
             || section.list.is_some()
             || section.range.is_some()

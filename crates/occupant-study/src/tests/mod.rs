@@ -8,6 +8,7 @@ mod messages;
 mod paths;
 mod robustness;
 mod screening;
+mod segments;
 mod tables;
 
 use super::{Study, StudyText, Value};

@@ -35,8 +35,8 @@ pub(crate) struct EnsembleArgs {
     #[arg(long, value_name = "N", requires = "ensemble")]
     threads: Option<NonZeroUsize>,
 
-    /// How far the members are changed: posture='1 deg', place='5 mm', path='1 %', stiffness='2 %' if absent; may be
-    /// repeated
+    /// How far the members are changed: posture='1 deg', place='5 mm', path='1 %', stiffness='2 %' if absent; also
+    /// segments='15 %', mass and inertia of each of the body. May be repeated
     #[arg(long, value_name = "WHAT=AMOUNT", requires = "ensemble")]
     change: Vec<String>,
 
@@ -106,6 +106,9 @@ fn band_file(path: &Path) -> Result<BandFile, Failure> {
     }
 }
 
+/// A segment keeps some of its mass.
+const MOST_OF_A_SEGMENT: f64 = 0.99;
+
 /// The standard changes, with what the flags say instead.
 fn changes(given: &[String]) -> Result<Tolerances, Failure> {
     let mut changes = Tolerances::default();
@@ -113,7 +116,7 @@ fn changes(given: &[String]) -> Result<Tolerances, Failure> {
         let refused = |found: &str| {
             Failure::with_help(
                 format!("--change {text}: {found}"),
-                "give posture='1 deg', place='5 mm', path='1 %' or stiffness='2 %'",
+                "give posture='1 deg', place='5 mm', path='1 %', stiffness='2 %' or segments='15 %'",
             )
         };
         let (what, amount) = text.split_once('=').ok_or_else(|| refused("it has no ="))?;
@@ -126,6 +129,7 @@ fn changes(given: &[String]) -> Result<Tolerances, Failure> {
             "place" => (&mut changes.place_m, si(measured(kind::LENGTH, amount))?, f64::INFINITY),
             "path" => (&mut changes.path, si(ratio(amount))?, 1.0),
             "stiffness" => (&mut changes.stiffness, si(ratio(amount))?, 1.0),
+            "segments" => (&mut changes.segments, si(ratio(amount))?, MOST_OF_A_SEGMENT),
             other => return Err(refused(&format!("nothing is called `{other}`"))),
         };
         if !(0.0..=most).contains(&value) {

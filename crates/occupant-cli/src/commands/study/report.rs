@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::base::{Existing, Failure, FileProblem, is_page, publish, say};
+use crate::base::{Existing, Failure, FileProblem, deliver, is_page, say};
 use crate::jobs::study::{Report, Tables, page, write_tables};
 use crate::jobs::sweep::stored::{MadeBy, open};
 
@@ -44,7 +44,7 @@ pub(crate) fn report(args: &ReportArgs) -> Result<(), Failure> {
     }
     let existing = Existing::by(args.force);
     write_tables(&report, &tables, existing)?;
-    publish(&page_at, args.force, page(&report).as_bytes())
+    deliver(&page_at, args.force, page(&report).as_bytes())
 }
 
 /// Refuses names that are no page, files of the sweep itself, and files that are there.

@@ -1,6 +1,6 @@
 //! The tables of `occupant check`.
 
-use occupant_core::diagnosis::{Diagnosis, Rate, SeatStart};
+use occupant_core::diagnosis::{Diagnosis, Rate, SeatStart, SegmentFigures};
 use placed_text::shown;
 
 use super::elements;
@@ -71,9 +71,17 @@ fn overview(d: &Diagnosis) -> String {
 }
 
 fn segments(d: &Diagnosis) -> String {
-    let rows = d.body.segments.iter();
-    let rows = rows.map(|s| [s.segment.to_owned(), format!("{:.3}", s.mass_kg), format!("{:.4}", s.length_m)]);
-    table(&[(Left, &["segment"]), (Right, &["mass, kg", "length, m"])], rows)
+    let all = &d.body.segments;
+    let mut columns = vec!["mass, kg", "length, m"];
+    let has_bands = all.iter().any(|s| s.length_band_m.is_some());
+    columns.extend(has_bands.then_some("of 90 % of such people"));
+    let row = |s: &SegmentFigures| {
+        let band = s.length_band_m.map_or(NONE.to_owned(), |[least, most]| format!("{least:.4} to {most:.4}"));
+        let cells = [s.segment.to_owned(), format!("{:.3}", s.mass_kg), format!("{:.4}", s.length_m), band];
+        cells.into_iter().take(1 + columns.len()).collect::<Vec<_>>()
+    };
+    let weak = d.body.weak.map_or(String::new(), |words| format!("note: {words}\n"));
+    table(&[(Left, &["segment"]), (Right, &columns)], all.iter().map(row)) + &weak
 }
 
 fn seating(seat: &SeatStart) -> String {

@@ -67,12 +67,14 @@ fn what(report: &Report) -> String {
 }
 
 fn changes(most: &Tolerances, seed: u64) -> String {
+    let segments = (most.segments > 0.0).then(|| format!(", {} % of each segment", percent(most.segments)));
     format!(
-        "{}° of each angle, {} mm of place, {} % of the pulse, {} % of each stiffness (seed {seed})",
+        "{}° of each angle, {} mm of place, {} % of the pulse, {} % of each stiffness{} (seed {seed})",
         trimmed(most.posture_rad.to_degrees(), 3),
         trimmed(most.place_m * 1e3, 3),
         percent(most.path),
-        percent(most.stiffness)
+        percent(most.stiffness),
+        segments.unwrap_or_default()
     )
 }
 

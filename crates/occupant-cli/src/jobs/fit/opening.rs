@@ -1,6 +1,7 @@
 //! From the names of a study and of tests to everything that a fit needs. All problems are reported at once.
 
 use std::collections::BTreeSet;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use occupant_core::results::channel::{Channel, channels, find};
@@ -14,7 +15,7 @@ use crate::files::measured::{self, MapArgument, Pair, Wanted, pairs};
 use crate::files::scenario::{Tables, format_of};
 use crate::files::signals::Recording;
 use crate::files::study_folder::{NamedBy, Texts};
-use crate::jobs::sweep::plan::named_file;
+use crate::jobs::sweep::plan::{named_file, unread};
 
 /// Tests that the command line gives.
 pub(crate) struct Given<'a> {
@@ -71,7 +72,7 @@ impl<'a> Opening<'a> {
         if open != files.len() {
             let found = match files.len() {
                 0 => format!("{open} of the study's tests have no file"),
-                n => format!("{n} files with --to for {open} tests that leave theirs to it"),
+                n => format!("--to gives {n} of the {open} files that the study leaves to it"),
             };
             let hint = "--to gives the files of the tests without `file`, in their order";
             self.complain("fit.tests", found, "a file for each test", Some(hint));
@@ -157,13 +158,14 @@ impl<'a> Opening<'a> {
 
     fn new_experiment(&mut self, named: &Named) -> Result<Experiment, String> {
         let base = named.test.base.as_deref().unwrap_or(self.text.base());
-        let by = match named.test.base {
-            Some(_) => NamedBy::Study,
-            None => NamedBy::StudyAsBase,
+        let (by, at) = match named.test.base {
+            Some(_) => (NamedBy::Study, format!("{}.base", named.at)),
+            None => (NamedBy::StudyAsBase, "base".to_owned()),
         };
         let path = self.folder.join(base);
         let shown = path.display().to_string();
-        let bytes = self.texts.get(by, base).map_err(|e| format!("error: the scenario {shown} cannot be read: {e}"))?;
+        let bytes = self.texts.get(by, base);
+        let bytes = bytes.map_err(|e| unread(self.text, &at, &format!("the scenario {shown}"), &e).to_string())?;
         let draft = Draft::read_bytes(&bytes, format_of(&path), &shown);
         let draft = draft.map_err(|e| e.to_string())?;
         let at = format!("{}.set", named.at);
@@ -196,8 +198,14 @@ impl<'a> Opening<'a> {
     }
 
     fn recording(&mut self, named: &Named) -> Option<Recording> {
-        let read = measured::read(&named.file).map_err(|failure| self.problems.push(failure.words()));
-        let recording = read.ok()?;
+        let read = measured::read(&named.file).map_err(|failure| match (&named.test.file, fs::metadata(&named.file)) {
+            (Some(_), Err(error)) => {
+                let (at, file) = (format!("{}.file", named.at), named.file.display().to_string());
+                unread(self.text, &at, &file, &error).to_string()
+            }
+            _ => failure.words(),
+        });
+        let recording = read.map_err(|problem| self.problems.push(problem)).ok()?;
         self.warnings.extend(recording.notes.iter().map(|note| format!("note: {note}")));
         // a copy for the folder; of an ISO-MME test its checksum only
         let single = named.file.is_file() && ending(&named.file) != "mme";

@@ -1,5 +1,6 @@
 //! From the name of a study to samples that can be run.
 
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use occupant_core::model::Model;
@@ -46,16 +47,16 @@ impl Plan {
     /// Everything that is wrong with it, in words.
     pub(crate) fn open(name: &Path, overrides: &[String], texts: &Texts, program: String) -> Result<Plan, Failure> {
         let text = study_text(name, texts)?;
+        let shown = name.display().to_string();
         let scenario = name.parent().unwrap_or(Path::new("")).join(text.base());
-        let bytes = texts.get(NamedBy::StudyAsBase, text.base()).map_err(|e| {
-            let base = scenario.display();
-            Failure::plain(format!("the scenario {base} cannot be read: {e}"))
+        let bytes = texts.get(NamedBy::StudyAsBase, text.base());
+        let bytes = bytes.map_err(|e| {
+            refused(&shown, &unread(&text, "base", &format!("the scenario {}", scenario.display()), &e))
         })?;
         let scenario_name = scenario.display().to_string();
         let draft = Draft::read_bytes(&bytes, format_of(&scenario), &scenario_name)
             .map_err(|problems| refused(&scenario_name, &problems))?;
         let beside = |file: &str| texts.get(NamedBy::Study, file);
-        let shown = name.display().to_string();
         let study = text.bind(draft, overrides, &beside).map_err(|problems| refused(&shown, &problems))?;
         let mut changes = changes_of(&text);
         changes.extend(overrides.iter().cloned());
@@ -205,6 +206,11 @@ pub(crate) fn study_text(name: &Path, texts: &Texts) -> Result<StudyText, Failur
     let bytes = texts.get(NamedBy::CommandLine, &file_name(name));
     let bytes = bytes.map_err(|e| Failure::plain(format!("the study {shown} cannot be read: {e}")))?;
     StudyText::read_bytes(&bytes, format_of(name), &shown).map_err(|problems| refused(&shown, &problems))
+}
+
+/// What is wrong with a study that names, at this place, a file that cannot be read.
+pub(crate) fn unread(text: &StudyText, at: &str, file: &str, error: &dyn Display) -> Diagnostics {
+    text.complaint(at, format!("{file} cannot be read: {error}"), "a file, by its path from that of the study", None)
 }
 
 /// What the study puts into its scenario in all samples, as `--set` writes it.

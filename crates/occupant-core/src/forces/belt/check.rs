@@ -1,8 +1,8 @@
 //! What is wrong with belts: with their data, and with how they lie at the start.
 
 use crate::body::Body;
-use crate::forces::belt::Belt;
 use crate::forces::belt::law::BeltLaw;
+use crate::forces::belt::{Belt, RestLength};
 use crate::motion::vector::V3;
 use crash_measures::trig;
 use nalgebra::Vector3;
@@ -24,18 +24,12 @@ pub(super) fn data(belts: &[Belt], body: &Body, problems: &mut Problems) {
     }
 }
 
-/// A belt as it lies at the start, among the spheres that belts go round and their centres, vehicle axes.
-pub(super) fn laid(
-    law: &BeltLaw<f64>,
-    belt: &Belt,
-    body: &Body,
-    spheres: &[(usize, V3<f64>)],
-    problems: &mut Problems,
-) {
+/// A belt as it lies at the start, among the spheres of the body with these centres, vehicle axes.
+pub(super) fn laid(law: &BeltLaw<f64>, belt: &Belt, body: &Body, centres: &[V3<f64>], problems: &mut Problems) {
     let path = format!("belts.{}", belt.name);
     for (i, anchor) in belt.anchors_m.iter().enumerate() {
-        for (index, centre) in spheres {
-            let (sphere, distance) = (&body.spheres[*index], (anchor.coords - centre.to_vector()).norm());
+        for (index, (sphere, centre)) in body.spheres.iter().zip(centres).enumerate() {
+            let distance = (anchor.coords - centre.to_vector()).norm();
             if distance > sphere.radius_m {
                 continue;
             }
@@ -45,7 +39,7 @@ pub(super) fn laid(
                 sphere.name,
                 sphere.radius_m
             );
-            let problem = if *index == belt.sphere {
+            let problem = if index == belt.sphere {
                 let problem = Problem::error(&path, found, "an anchor outside the sphere that the belt goes round");
                 problem.with_hint(Some("move the anchor, or check the seat's lateral place and the anchor's sign of y"))
             } else {
@@ -55,14 +49,39 @@ pub(super) fn laid(
             problems.push(Problem { path: format!("{path}.anchors"), ..problem });
         }
     }
-    let own = spheres.iter().find(|(index, _)| *index == belt.sphere);
-    if let Some((_, centre)) = own {
+    if let Some(centre) = centres.get(belt.sphere) {
         holds(belt, body, centre.to_vector(), &path, problems);
+        fits(law, belt, *centre, &path, problems);
     }
     let rest_length_m = law.rest_length;
     if !(rest_length_m.is_finite() && rest_length_m > 0.0) {
         problems.error(path, format!("an unstretched length of {rest_length_m} m"), "a positive length");
     }
+}
+
+/// More slack than any belt is worn with, m.
+const LOOSE_M: f64 = 0.2;
+/// More than any belt pulls when it is put on, N; retractors pull 5 to 20.
+const TIGHT_N: f64 = 500.0;
+
+/// Warns of a belt that is too long or too short for the body, such as one whose length was that of another body.
+fn fits(law: &BeltLaw<f64>, belt: &Belt, centre: V3<f64>, path: &str, problems: &mut Problems) {
+    let action = law.act(centre, &law.initial_history(centre));
+    let key = if matches!(belt.rest, RestLength::Given { .. }) { "length" } else { "slack" };
+    let found = if action.elongation < -LOOSE_M {
+        format!("the belt has {:.2} m of slack round this body", -action.elongation)
+    } else if action.loop_force > TIGHT_N {
+        format!(
+            "the belt is {:.0} mm too short for this body and pulls {:.0} N",
+            1e3 * action.elongation,
+            action.loop_force
+        )
+    } else {
+        return;
+    };
+    let expected = "at most 0.2 m of slack and a pull of 500 N, unless the run begins within a crash";
+    let hint = "`slack` in place of `length` lets a belt fit every body";
+    problems.push(Problem::warning(format!("{path}.{key}"), found, expected).with_hint(Some(hint)));
 }
 
 /// Warns of a belt that does not go across the body, and of one round the pelvis that would not stay there: from the pelvis

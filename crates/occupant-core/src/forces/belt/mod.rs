@@ -109,10 +109,7 @@ impl Element for Belts {
     }
 
     fn begin(law: &mut Vec<BeltLaw<f64>>, data: &[Belt], body: &Body, at: &Instant<'_, f64>, problems: &mut Problems) {
-        let mut spheres: Vec<usize> = data.iter().map(|belt| belt.sphere).collect();
-        spheres.sort_unstable();
-        spheres.dedup();
-        let spheres: Vec<_> = spheres.iter().map(|&sphere| (sphere, at.centre_in(sphere, VEHICLE))).collect();
+        let spheres: Vec<_> = (0..body.spheres.len()).map(|sphere| at.centre_in(sphere, VEHICLE)).collect();
         for (law, belt) in law.iter().zip(data) {
             check::laid(law, belt, body, &spheres, problems);
         }

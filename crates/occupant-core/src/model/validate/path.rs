@@ -42,7 +42,7 @@ const fn pace(
     Pace { of, what, unit, usual, most, slip }
 }
 
-/// So many instants of a run are looked at.
+/// So many instants of a run are looked at, beside those at which its path is given.
 const INSTANTS: u32 = 256;
 
 /// Reports a path that does not reach as far as the run, and one that no vehicle takes.
@@ -53,9 +53,8 @@ pub(in crate::model) fn check_path(setup: &Setup, problems: &mut Problems) {
     }
     check_jumps(setup, problems);
     let mut cursor = PathCursor::default();
-    let instants =
-        (0..=INSTANTS).map(|i| time.start_s + (time.end_s - time.start_s) * f64::from(i) / f64::from(INSTANTS));
-    let motions: Vec<(f64, FrameMotion)> = instants.map(|t_s| (t_s, path.motion(t_s, t_s, &mut cursor))).collect();
+    let motions: Vec<(f64, FrameMotion)> =
+        instants(setup).into_iter().map(|t_s| (t_s, path.motion(t_s, t_s, &mut cursor))).collect();
     for Pace { of, what, unit: (unit, si), usual, most, slip } in PACES {
         let greatest = motions.iter().map(|(t_s, motion)| (*t_s, of(motion))).max_by(|a, b| a.1.total_cmp(&b.1));
         let Some((t_s, value)) = greatest.filter(|(_, value)| value.is_nan() || *value > usual.min(most)) else {
@@ -69,6 +68,18 @@ pub(in crate::model) fn check_path(setup: &Setup, problems: &mut Problems) {
         };
         problems.push(problem.with_hint(Some(slip)));
     }
+}
+
+/// Instants spread over the run, those in it at which the path is given, and the middles between all of them.
+fn instants(setup: &Setup) -> Vec<f64> {
+    let time = &setup.time;
+    let spread =
+        (0..=INSTANTS).map(|i| time.start_s + (time.end_s - time.start_s) * f64::from(i) / f64::from(INSTANTS));
+    let given = setup.path.given_s().into_iter().filter(|t_s| (time.start_s..=time.end_s).contains(t_s));
+    let mut all: Vec<f64> = spread.chain(given).collect();
+    all.sort_by(f64::total_cmp);
+    let middles = all.windows(2).map(|pair| f64::midpoint(pair[0], pair[1]));
+    middles.chain(all.iter().copied()).collect()
 }
 
 /// A mount's velocity may change by so much, m/s and rad/s, from one instant to the next.

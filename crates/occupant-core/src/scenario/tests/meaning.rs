@@ -214,6 +214,8 @@ fn what_no_person_and_no_vehicle_does_is_said() {
         };
         format!("[belts]\n{}{}[body]", belt("pelvis", "-0.3"), belt("chest", y))
     };
+    let spike = "kind = \"table\"\ninterpolation = \"linear\"\ncolumns = [\"t[s]\", \"x[m]\"]\n\
+        rows = [[0, 0], [0.1004, 1], [0.1005, 1.1], [0.2, 2]]";
     let rows =
         |x: &str| format!("kind = \"table\"\ncolumns = [\"t[s]\", \"x[m]\"]\nrows = [[0, 0], [0.1, {x}], [0.2, 2]]");
     for (old, new, said) in [
@@ -228,10 +230,15 @@ fn what_no_person_and_no_vehicle_does_is_said() {
         ("elbows = -60", "elbows = 90".to_owned(), "warning: 90 ° is unusual for the angle of elbows"),
         ("[body]", belt("-0.3"), ""),
         ("[body]", belt("0.0"), "warning: anchor 1 lies 0."),
+        ("[-0.15, -0.23, 0.23]", "[0.08, -0.1, 0.03]".to_owned(), "of the sphere left_thigh of radius 0."),
+        ("k1 = \"70 kN/m\"", "k1 = \"70 kN/m\"\nlength = 0.9".to_owned(), ""),
+        ("k1 = \"70 kN/m\"", "k1 = \"70 kN/m\"\nlength = 0.75".to_owned(), "warning: the belt is 75 mm too short"),
+        ("k1 = \"70 kN/m\"", "k1 = \"70 kN/m\"\nlength = 1.2".to_owned(), "warning: the belt has 0.38 m of slack"),
         (super::tables::PULSE, rows("1"), ""),
         (super::tables::PULSE, rows("20"), "warning: the vehicle's speed is "),
         (super::tables::PULSE, rows("20"), "warning: the vehicle's acceleration is "),
         (super::tables::PULSE, rows("1e7"), "error: the vehicle's speed is "),
+        (super::tables::PULSE, spike.to_owned(), "warning: the vehicle's speed is 1.000e3 m/s at t = 0.1004"),
         (super::tables::PULSE, rows("1e12"), "error: station 2: found x = 1000000000000"),
     ] {
         let found = match load(&short_with(old, &new)).and_then(|loaded| loaded.model()) {

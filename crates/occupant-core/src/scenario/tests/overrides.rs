@@ -36,6 +36,15 @@ fn values_are_toml_or_plain_text() {
 }
 
 #[test]
+fn null_takes_away_what_stands_there() {
+    let setup = changed(&["belts.lap=null"]).unwrap();
+    assert_eq!(setup.belts.len(), changed(&[]).unwrap().belts.len() - 1);
+    assert!(setup.belts.iter().all(|belt| belt.name != "lap"));
+    let refused = changed(&["belts.nothing=null"]).unwrap_err();
+    assert!(refused.contains("nothing at `belts.nothing` to be taken away"), "{refused}");
+}
+
+#[test]
 fn wildcards_reach_what_a_preset_says() {
     let setup = changed(&["joints.*.damping=0.5", "surfaces.*.half_width=0.3"]).unwrap();
     assert_eq!(setup.joints[tti12::NECK].ball().unwrap().damping_n_m_s, 0.5);
