@@ -236,7 +236,7 @@ fn a_checkpoint_of_the_first_version_goes_on() {
     assert!(rest.texts[1..] == whole.texts[111..]);
     from.state.pop();
     let misfit = Misfit::Count { of: "numbers of the state", found: 74, expected: 76 };
-    assert_eq!(from.check(&model), Err(CheckpointError::Memory(misfit)));
+    assert_eq!(Checkpoint::state_of(&model, &from.state).err(), Some(CheckpointError::Memory(misfit)));
 }
 
 /// The proofs above mean something only if there is history to lose.

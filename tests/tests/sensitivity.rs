@@ -243,8 +243,8 @@ fn on_other_trees_too_the_values_in_duals_are_those_of_the_plain_run() {
 /// A rig that is turned, moved or heavier moves its head and neck as differences of runs say, and so do the loads of its mount.
 #[test]
 fn on_a_mount_duals_are_the_limit_of_differences_of_runs() {
-    // before the neck meets its limits
-    let draft = draft(RIG, &["time.end=0.03", "gravity=9.81", "mount.posture={ neck = 10, head = 10 }"]);
+    // bent all the time, for straight joints have no azimuth, and before the neck meets its limits
+    let draft = draft(RIG, &["time.end=0.02", "gravity=9.81", "mount.posture={ neck = 30, head = 45 }"]);
     against_runs(&draft, &["gravity", "mount.pitch", "mount.place[0]"], &[1e-3, 1e-4, 1e-5], 1e-6);
 }
 

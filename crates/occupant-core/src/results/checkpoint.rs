@@ -148,9 +148,10 @@ fn other_time(index: usize, found_s: f64, expected_s: Option<f64>) -> String {
 }
 
 /// How `state` is written.
-const STATE: &str = "76 numbers in space axes, SI: T1; w, x, y, z of the 8 free segments (middle_torso, upper_torso, head, \
-lower_torso, left_upper_arm, right_upper_arm, left_thigh, right_thigh); 4 hinges (left_forearm, right_forearm, left_lower_leg, \
-right_lower_leg); velocity of T1; angular velocities of the 8; hinge rates; work of contacts, friction, joints, belts, muscles, vehicle";
+const STATE: &str = "in space axes, SI: T1; w, x, y, z of the free segments, the first and those on ball joints (of 12: middle_torso, \
+upper_torso, head, lower_torso, left_upper_arm, right_upper_arm, left_thigh, right_thigh); hinges (of 12: left_forearm, right_forearm, \
+left_lower_leg, right_lower_leg); velocity of T1; angular velocities of the free segments; hinge rates; work of contacts, friction, \
+joints, belts, muscles, vehicle: of 12 segments 76 numbers, 75 without the muscles in files of 0.1.0";
 
 const STEP: &str =
     "start and end of the step in which the output lies, if it goes on beyond it; the columns below tell its start";
