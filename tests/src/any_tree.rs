@@ -4,8 +4,6 @@
 
 use crate::random::Random;
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
-use occupant_core::forces::contact::{ContactData, ContactSystem, EdgeForce};
-use occupant_core::forces::joint::JointSystem;
 use occupant_core::forces::{Forces, History, Memory};
 use occupant_core::kernel::System;
 use occupant_core::motion::layout::{Axis, Freedom, Layout, MOST_HINGES};
@@ -15,21 +13,8 @@ use occupant_core::motion::vector::{V3, v3};
 
 /// A kernel with nothing but a tree.
 pub fn bare(skeleton: Skeleton<f64>) -> (System<f64>, History<f64>) {
-    let nothing = ContactData {
-        surfaces: &[],
-        faces: &[],
-        solids: &[],
-        self_contact: None,
-        materials: &[],
-        edge_force: EdgeForce::default(),
-        longest_step_s: 1e-3,
-    };
-    let contacts = ContactSystem::new(&Random::new(0).body(), &nothing);
-    let forces =
-        Forces { contacts, belts: Vec::new(), joints: JointSystem::default(), limits: Vec::new(), muscles: Vec::new() };
-    let memory =
-        Memory { contacts: Vec::new(), belts: Vec::new(), joints: Vec::new(), limits: Vec::new(), muscles: Vec::new() };
-    let history = History::new(&forces, memory);
+    let forces = Forces::none();
+    let history = History::new(&forces, Memory::none());
     (System { skeleton, spheres: Vec::new(), forces }, history)
 }
 

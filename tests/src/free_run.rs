@@ -3,8 +3,6 @@
 use crate::core_side;
 use crate::reference::System;
 use nalgebra::Vector3;
-use occupant_core::forces::contact::EdgeForce;
-use occupant_core::forces::contact::{ContactData, ContactSystem};
 use occupant_core::forces::joint::{DAMPING, JointSystem};
 use occupant_core::forces::sphere::Site;
 use occupant_core::forces::{Forces, History, Memory};
@@ -40,31 +38,10 @@ impl FreeRun {
     /// `system` without its forces.
     pub fn new(system: &System) -> FreeRun {
         assert_eq!(system.gravity.xy().norm(), 0.0);
-        let nothing = ContactData {
-            surfaces: &[],
-            faces: &[],
-            solids: &[],
-            self_contact: None,
-            materials: &[],
-            edge_force: EdgeForce::default(),
-            longest_step_s: 1e-3,
-        };
         let skeleton = Skeleton::new(&system.body, -system.gravity.z);
-        let forces = Forces {
-            contacts: ContactSystem::new(&system.body, &nothing),
-            belts: Vec::new(),
-            joints: JointSystem::new(&system.joints, &skeleton, |_| f64::NAN),
-            limits: Vec::new(),
-            muscles: Vec::new(),
-        };
-        let memory = Memory {
-            contacts: Vec::new(),
-            belts: Vec::new(),
-            joints: Vec::new(),
-            limits: Vec::new(),
-            muscles: Vec::new(),
-        };
-        let history = History::new(&forces, memory);
+        let joints = JointSystem::new(&system.joints, &skeleton, |_| f64::NAN);
+        let forces = Forces { joints, ..Forces::none() };
+        let history = History::new(&forces, Memory::none());
         let system = kernel::System { skeleton, spheres: Site::all(&system.body), forces };
         FreeRun { system, history, frames: Frames { time: 0.0, moving: [Moving::space(); 2] } }
     }

@@ -1,10 +1,14 @@
 //! A body among solids.
 
+use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
 use occupant_core::results::checkpoint::Checkpoint;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
+use occupant_core::run::batch::{Ended, Job, Kernel, simulate_many};
+use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Draft, Format};
+use std::ops::ControlFlow;
 
 const ROOM: &str = include_str!("../data/room.toml");
 
@@ -19,6 +23,27 @@ pub fn setup(text: &str, set: &[&str]) -> Setup {
 /// A body that falls tumbling through a room of twenty solids, with these assignments.
 pub fn room(set: &[&str]) -> Setup {
     setup(ROOM, set)
+}
+
+/// Runs five models, numbered from 0, alone and in every kind of lanes that the processor has: all must end in the same bits.
+pub fn ends_alike_side_by_side(model: impl Fn(u32) -> Model) {
+    let models = || (0..5).map(&model);
+    let last_alone = |model: Model| {
+        let mut last = Last::default();
+        simulate(&model, &mut last).unwrap();
+        last.0
+    };
+    let alone: Vec<_> = models().map(last_alone).collect();
+    for kernel in [Kernel::Lanes4, Kernel::Lanes8].into_iter().filter(|kernel| kernel.is_available()) {
+        let jobs = models().enumerate().map(|(tag, model)| Job { tag, model, recorder: Last::default() });
+        let mut in_lanes = 0;
+        simulate_many(kernel, jobs, |ended: Ended<usize, Last>| {
+            assert!(ended.recorder.0 == alone[ended.tag], "run {} has other bits", ended.tag);
+            in_lanes += usize::from(ended.kernel == kernel);
+            ControlFlow::Continue(())
+        });
+        assert!(in_lanes >= 4, "{in_lanes}");
+    }
 }
 
 /// Keeps the last checkpoint.

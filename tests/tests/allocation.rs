@@ -2,11 +2,13 @@
 
 use allocation_counter::{AllocationInfo, measure};
 use occupant_core::forces::History;
+use occupant_core::kernel::Scratch;
 use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
 use occupant_core::motion::frame::{Frames, Moving};
 use occupant_core::motion::integrate::rk4;
 use occupant_core::motion::layout::Freedom;
+use occupant_core::motion::state::State;
 use occupant_core::results::summary::Summarizer;
 use occupant_core::run::simulate::simulate;
 use occupant_tests::any_tree::{AnyTree, bare};
@@ -41,7 +43,11 @@ fn a_step_of_any_tree_allocates_nothing() {
     let (state, (kernel, mut history)) = (tree.state(&mut random), bare(tree.skeleton()));
     let frames = Frames { time: 0.0, moving: [Moving::space(); 2] };
     let step = |history: &mut History<f64>| {
-        rk4::step(&state, 1e-4, |_, s, rate| *rate = kernel.rate_alone::<true>(s, &frames, history, &mut ()))
+        let scratch = &mut Scratch::blank(&kernel.skeleton);
+        let rate = |_, s: &State<f64>, rate: &mut State<f64>| {
+            kernel.rate_alone::<true>(scratch, s, &frames, history, &mut (), rate);
+        };
+        rk4::step(&state, 1e-4, rate)
     };
     let info = measure(|| assert!(step(&mut history) != state));
     assert_eq!(info.count_total, 0);

@@ -1,7 +1,5 @@
 //! A body that touches itself: momentum, energy, the same bits in lanes and when resumed, and limbs that do not go through.
 
-use std::ops::ControlFlow;
-
 use nalgebra::Vector3;
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
@@ -10,10 +8,9 @@ use occupant_core::results::outcome::{Outcome, Status};
 use occupant_core::results::recorder::{Recorder, Watch};
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{Summarizer, Summary};
-use occupant_core::run::batch::{Ended, Job, Kernel, simulate_many};
 use occupant_core::run::simulate::{resume, simulate};
 use occupant_tests::measure::assert_below;
-use occupant_tests::room::{Last, setup};
+use occupant_tests::room::{Last, ends_alike_side_by_side, setup};
 
 /// A body afloat that brings hands, elbows and knees together.
 const CLAP: &str = include_str!("../data/clap.toml");
@@ -124,28 +121,10 @@ fn a_run_resumed_while_the_body_touches_itself_has_the_bits_of_the_whole_run() {
 
 #[test]
 fn bodies_that_touch_themselves_side_by_side_have_the_bits_of_bodies_alone() {
-    let models = || {
-        (0..5).map(|i| {
-            let stiff = format!("materials.flesh.k1={}", 1.5e5 + 1e4 * f64::from(i));
-            Model::new(clap(&[&stiff, "integrator.step=\"0.2 ms\""])).unwrap()
-        })
-    };
-    let last_alone = |model: Model| {
-        let mut last = Last::default();
-        simulate(&model, &mut last).unwrap();
-        last.0
-    };
-    let alone: Vec<_> = models().map(last_alone).collect();
-    for kernel in [Kernel::Lanes4, Kernel::Lanes8].into_iter().filter(|kernel| kernel.is_available()) {
-        let jobs = models().enumerate().map(|(tag, model)| Job { tag, model, recorder: Last::default() });
-        let mut in_lanes = 0;
-        simulate_many(kernel, jobs, |ended: Ended<usize, Last>| {
-            assert!(ended.recorder.0 == alone[ended.tag], "run {} has other bits", ended.tag);
-            in_lanes += usize::from(ended.kernel == kernel);
-            ControlFlow::Continue(())
-        });
-        assert!(in_lanes >= 4, "{in_lanes}");
-    }
+    ends_alike_side_by_side(|i| {
+        let stiff = format!("materials.flesh.k1={}", 1.5e5 + 1e4 * f64::from(i));
+        Model::new(clap(&[&stiff, "integrator.step=\"0.2 ms\""])).unwrap()
+    });
 }
 
 #[test]

@@ -1,7 +1,5 @@
 //! Whole runs among solids: energy, the same forces as other descriptions of the same bodies, resuming, runs side by side.
 
-use std::ops::ControlFlow;
-
 use allocation_counter::measure;
 use nalgebra::Point3;
 use occupant_core::model::Model;
@@ -11,9 +9,8 @@ use occupant_core::results::outcome::{Outcome, Status};
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::Summarizer;
-use occupant_core::run::batch::{Ended, Job, Kernel, simulate_many};
 use occupant_core::run::simulate::{resume, simulate};
-use occupant_tests::room::{Last, room, setup};
+use occupant_tests::room::{ends_alike_side_by_side, room, setup};
 
 const FREE: &str = include_str!("../../scenarios/free-fall.toml");
 const SOIL: &str = "materials.soil={ k1 = 50000, mu1 = 0.5, friction = 0 }";
@@ -89,29 +86,11 @@ fn among_solids_a_run_resumed_from_a_checkpoint_has_the_bits_of_the_whole_run() 
 
 #[test]
 fn among_solids_runs_side_by_side_have_the_bits_of_runs_alone() {
-    let models = || {
-        (0..5).map(|i| {
-            let bench = format!("solids.bench.half_width={}", 0.5 + 0.01 * f64::from(i));
-            let speed = format!("initial_state.rates[1]={}", 0.5 + 0.05 * f64::from(i));
-            Model::new(room(&[&bench, &speed, "time.end=0.42", "integrator.step=\"0.2 ms\""])).unwrap()
-        })
-    };
-    let last_alone = |model: Model| {
-        let mut last = Last::default();
-        simulate(&model, &mut last).unwrap();
-        last.0
-    };
-    let alone: Vec<_> = models().map(last_alone).collect();
-    for kernel in [Kernel::Lanes4, Kernel::Lanes8].into_iter().filter(|kernel| kernel.is_available()) {
-        let jobs = models().enumerate().map(|(tag, model)| Job { tag, model, recorder: Last::default() });
-        let mut in_lanes = 0;
-        simulate_many(kernel, jobs, |ended: Ended<usize, Last>| {
-            assert!(ended.recorder.0 == alone[ended.tag], "run {} has other bits", ended.tag);
-            in_lanes += usize::from(ended.kernel == kernel);
-            ControlFlow::Continue(())
-        });
-        assert!(in_lanes >= 4, "{in_lanes}");
-    }
+    ends_alike_side_by_side(|i| {
+        let bench = format!("solids.bench.half_width={}", 0.5 + 0.01 * f64::from(i));
+        let speed = format!("initial_state.rates[1]={}", 0.5 + 0.05 * f64::from(i));
+        Model::new(room(&[&bench, &speed, "time.end=0.42", "integrator.step=\"0.2 ms\""])).unwrap()
+    });
 }
 
 #[test]

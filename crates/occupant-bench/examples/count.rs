@@ -49,7 +49,7 @@ fn bare(count: usize) {
 
 fn held(count: usize) {
     let model = scene::model();
-    let mut now = Instant::full(&model, TOUCHING_S).held(&model);
+    let mut now = Instant::full(&model, TOUCHING_S).held();
     for _ in 0..count {
         black_box(black_box(&mut now).rate());
     }

@@ -53,7 +53,7 @@ fn report(name: &str, value: f64) {
 /// Everything that is timed, by name.
 fn works(model: &Model) -> Vec<Work<'static>> {
     let full = Instant::full(model, TOUCHING_S);
-    let held = full.held(model);
+    let held = full.held();
     let loads = scene::no_loads();
     let (bare, mut committed, mut within) = (full.clone(), full.clone(), full.clone());
     let bare_step = full.clone();

@@ -3,13 +3,13 @@
 //! Three sizes of the same problem: *bare* (the skeleton under given loads), *held* (joint moments and belts as well), *full*
 //! (all 17 × 25 contact pairs as well).
 
-use occupant_core::forces::contact::{ContactData, ContactSystem, Touch};
+use occupant_core::forces::contact::{ContactSystem, Touch};
 use occupant_core::forces::{History, Memory, Observer};
-use occupant_core::kernel::System;
+use occupant_core::kernel::{Scratch, System};
 use occupant_core::model::Model;
 use occupant_core::motion::dynamics::{self, Accelerations, Wrench};
 use occupant_core::motion::frame::Frames;
-use occupant_core::motion::integrate::rk4::{self, Stage};
+use occupant_core::motion::integrate::rk4::{self, Stage, Stages};
 use occupant_core::motion::kinematics::Kinematics;
 use occupant_core::motion::layout::MOST_SEGMENTS;
 use occupant_core::motion::state::{State, Work};
@@ -64,6 +64,9 @@ pub struct Instant {
     pub frames: Frames<f64>,
     /// What contacts and belts remember.
     pub history: History<f64>,
+    scratch: Scratch<f64>,
+    stages: Stages<f64>,
+    rate: State<f64>,
 }
 
 impl Instant {
@@ -75,11 +78,14 @@ impl Instant {
             state: start.state,
             frames: model.frames(0.0, 0.0, &mut cursor),
             history: start.history.clone(),
+            scratch: Scratch::blank(&model.system().skeleton),
+            stages: Stages::new(start.state.shape()),
+            rate: start.state,
         };
         for i in 0..(time_s / STEP_S).round() as usize {
             let t = i as f64 * STEP_S;
             now.frames = model.frames(t, t + 0.5 * STEP_S, &mut cursor);
-            now.state = now.step();
+            now.state = *now.step();
         }
         now.frames = model.frames(time_s, time_s + 0.5 * STEP_S, &mut cursor);
         now.commit();
@@ -87,32 +93,26 @@ impl Instant {
     }
 
     /// The same instant without surfaces.
-    pub fn held(&self, model: &Model) -> Instant {
-        let setup = model.setup();
+    pub fn held(&self) -> Instant {
         let mut now = self.clone();
-        let nothing = ContactData {
-            surfaces: &[],
-            faces: &[],
-            solids: &[],
-            self_contact: None,
-            materials: &[],
-            edge_force: setup.edge_force,
-            longest_step_s: STEP_S,
-        };
-        now.system.forces.contacts = ContactSystem::new(&setup.body, &nothing);
+        now.system.forces.contacts = ContactSystem::default();
         let memory = Memory { contacts: Vec::new(), ..self.history.memory.clone() };
         now.history = History::new(&now.system.forces, memory);
         now
     }
 
     /// The rate of change, the history committed.
-    pub fn commit(&mut self) -> State<f64> {
-        self.system.rate_alone::<true>(&self.state, &self.frames, &mut self.history, &mut ())
+    pub fn commit(&mut self) -> &State<f64> {
+        let Instant { system, state, frames, history, scratch, rate, .. } = self;
+        system.rate_alone::<true>(scratch, state, frames, history, &mut (), rate);
+        rate
     }
 
     /// The rate of change within a step.
-    pub fn rate(&mut self) -> State<f64> {
-        self.system.rate_alone::<false>(&self.state, &self.frames, &mut self.history, &mut ())
+    pub fn rate(&mut self) -> &State<f64> {
+        let Instant { system, state, frames, history, scratch, rate, .. } = self;
+        system.rate_alone::<false>(scratch, state, frames, history, &mut (), rate);
+        rate
     }
 
     /// The skeleton alone: accelerations under given loads, which is what an articulated-body algorithm answers.
@@ -123,13 +123,11 @@ impl Instant {
     }
 
     /// One step in a vehicle whose motion stands still: four evaluations and the sums of the integrator.
-    pub fn step(&mut self) -> State<f64> {
-        let (system, frames, history) = (&self.system, &self.frames, &mut self.history);
-        rk4::step(&self.state, STEP_S, |stage, state, rate| {
-            *rate = match stage {
-                Stage::Start => system.rate_alone::<true>(state, frames, history, &mut ()),
-                Stage::Middle | Stage::End => system.rate_alone::<false>(state, frames, history, &mut ()),
-            }
+    pub fn step(&mut self) -> &State<f64> {
+        let Instant { system, state, frames, history, scratch, stages, .. } = self;
+        stages.step(state, STEP_S, |stage, state, rate| match stage {
+            Stage::Start => system.rate_alone::<true>(scratch, state, frames, history, &mut (), rate),
+            Stage::Middle | Stage::End => system.rate_alone::<false>(scratch, state, frames, history, &mut (), rate),
         })
     }
 

@@ -189,6 +189,27 @@ fn uneven_and_coarse_samples_are_refused_with_a_remedy() {
     assert!(said.contains("half the sample rate, 250 Hz") && said.contains("--cfc 60"), "{said}");
     let (code, _, said) = occupant(folder.path(), &["risk", "a.csv", "--cfc", "60"]);
     assert!(code == 0 && said.contains("less than ten times the class"), "{code} {said}");
+
+    steady(folder.path(), "ax[g],ay[g]", "-10,0", 200);
+    let (_, _, said) = occupant(folder.path(), &["risk", "a.csv"]);
+    assert!(said.contains("no class fits so few samples; --cfc none"), "{said}");
+}
+
+#[test]
+fn gravity_that_seems_to_be_in_a_record_or_not_is_told() {
+    let folder = folder();
+    for (az, flags, words) in [
+        ("-1", &[][..], "say --gravity-included"),
+        ("1", &[], "say --z-up"),
+        ("0", &["--gravity-included"], "leave --gravity-included out"),
+        ("-1", &["--gravity-included"], ""),
+        ("0", &[], ""),
+    ] {
+        steady(folder.path(), "ax[g],az[g]", &format!("-10,{az}"), 10_000);
+        let (code, _, said) = occupant(folder.path(), &[&["risk", "a.csv"], flags].concat());
+        assert_eq!((code, said.contains("az begins at")), (0, !words.is_empty()), "{said}");
+        assert!(said.contains(words), "{said}");
+    }
 }
 
 #[test]

@@ -6,7 +6,7 @@ use occupant_core::body::SEGMENTS;
 use occupant_core::body::tti12::TTI12;
 use occupant_core::forces::joint::JointSystem;
 use occupant_core::forces::joint::{HingeJoint, JointLaw, Joints};
-use occupant_core::forces::{History, Memory};
+use occupant_core::forces::{Forces, History, Memory};
 use occupant_core::model::Model;
 use occupant_core::motion::frame::VEHICLE;
 use occupant_core::motion::integrate::rk4;
@@ -80,12 +80,10 @@ fn alone(model: &Model, now: &Instant) -> Instant {
             joints = joints.with(joint, HingeJoint { damping_n_m_s, ..HingeJoint::default() });
         }
     }
-    let mut now = now.held(model);
-    now.system.forces.belts = Vec::new();
-    now.system.forces.joints = JointSystem::new(&joints, &now.system.skeleton, |_| 0.0);
-    let memory =
-        Memory { contacts: Vec::new(), belts: Vec::new(), joints: Vec::new(), limits: Vec::new(), muscles: Vec::new() };
-    now.history = History::new(&now.system.forces, memory);
+    let mut now = now.held();
+    let joints = JointSystem::new(&joints, &now.system.skeleton, |_| 0.0);
+    now.system.forces = Forces { joints, ..Forces::none() };
+    now.history = History::new(&now.system.forces, Memory::none());
     now
 }
 

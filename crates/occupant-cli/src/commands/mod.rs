@@ -10,6 +10,7 @@ mod check;
 mod compare;
 mod completions;
 mod convert;
+mod explain;
 mod export;
 mod fit;
 mod flags;
@@ -67,6 +68,7 @@ commands! {
     Fit: fit::fit,
     Check: check::check,
     New: new::new,
+    Explain: explain::explain,
     Schema: schema::print,
     Convert: convert::convert,
     Print: print::print_run,

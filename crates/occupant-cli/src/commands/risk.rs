@@ -18,8 +18,8 @@ use options::{flight, preparation};
 /// Measure the risk to occupants from the vehicle's motion alone
 ///
 /// OIV, ORA, THIV, PHD, ASI, 50 ms averages, angles, velocity changes, OLC, and what rules say of them. FILE is recorded data
-/// (a CSV with `t` and any of `ax`, `ay`, `az`, `wx`, `wy`, `wz` with their units, such as t[s],ax[g],wz[deg/s]; x forward,
-/// y right, z down), a scenario, or a run.mcap. Exit code 1 if a rule named by --rule is broken.
+/// (a table with `t` and any of `ax`, `ay`, `az`, `wx`, `wy`, `wz` with their units, such as t[s],ax[g],wz[deg/s], or with a
+/// recorder's headings, such as Time (ms); x forward, y right, z down), a scenario, or a run.mcap. Exit code 1 if a rule named by --rule is broken.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// Recorded data (.csv), a scenario (.toml, .json) or the results of a run (.mcap)

@@ -40,3 +40,34 @@ fn words_that_mean_nothing_are_refused() {
         assert_eq!(code(&answer(folder.path(), words)), 2, "{words:?}");
     }
 }
+
+#[test]
+fn keys_are_explained_wherever_they_stand() {
+    let folder = folder_with_case();
+    let told = |words: &[&str]| {
+        let output = answer(folder.path(), &[&["explain"], words].concat());
+        (code(&output), out(&output), err(&output))
+    };
+    let (exit, sections, _) = told(&[]);
+    assert_eq!(exit, 0);
+    assert!(sections.contains("  path: table, needed\n      Motion of the vehicle.\n"), "{sections}");
+    for path in ["path.delta_v", "delta_v"] {
+        let (_, key, _) = told(&[path]);
+        assert!(key.starts_with("path.delta_v   (kind = \"pulse\")\n") && key.contains("(in/s with units"), "{key}");
+    }
+    let (_, key, _) = told(&["belts.my-own.slack"]);
+    assert!(key.starts_with("belts.NAME.slack\n"), "{key}");
+    let (_, key, _) = told(&["shape"]);
+    assert!(key.contains("\"half_sine\""), "{key}");
+    let (exit, _, said) = told(&["path.kindd"]);
+    assert!(exit == 2 && said.contains("did you mean `kind`?"), "{said}");
+    let (_, key, _) = told(&["--of", "study", "parameters.path"]);
+    assert!(key.starts_with("parameters[].path\n"), "{key}");
+    // every key of both schemas has words
+    for of in ["scenario", "study"] {
+        let (_, page, _) = told(&["--of", of, "--markdown"]);
+        let rows = page.lines().filter(|line| line.starts_with("| `"));
+        let silent: Vec<&str> = rows.filter(|row| row.ends_with("|  |") && !row.contains("NAME")).collect();
+        assert!(silent.iter().all(|row| row.contains("`kind`") || row.contains("`method`")), "{silent:#?}");
+    }
+}

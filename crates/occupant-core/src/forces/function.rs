@@ -37,8 +37,9 @@ struct Piece<S> {
     returned: S,
     /// M(x₀).
     way: S,
-    /// ∫μf up to x₀.
+    /// ∫μf and ∫(1 − μ)f up to x₀.
     energy: S,
+    lost: S,
 }
 
 impl Function {
@@ -90,8 +91,8 @@ impl FunctionLaw<f64> {
             let ([from, force], [to, next]) = (points[0], points[1]);
             let slope = (next - force) / (to - from);
             let give = if slope > 0.0 { 1.0 / slope } else { 0.0 };
-            let [way, energy] = pieces.last().map_or([0.0; 2], |before| before.returned_to(from));
-            pieces.push(Piece { from, force, slope, give, returned: mu.max(LEAST_FRACTION), way, energy });
+            let [way, energy, lost] = pieces.last().map_or([0.0; 3], |before| before.returned_to(from));
+            pieces.push(Piece { from, force, slope, give, returned: mu.max(LEAST_FRACTION), way, energy, lost });
         }
         FunctionLaw { pieces }
     }
@@ -108,17 +109,18 @@ impl<S: Copy> Piece<S> {
             returned: f(self.returned, other.returned),
             way: f(self.way, other.way),
             energy: f(self.energy, other.energy),
+            lost: f(self.lost, other.lost),
         }
     }
 }
 
 impl<S: Scalar> Piece<S> {
-    /// M and ∫μf up to x.
+    /// M, ∫μf and ∫(1 − μ)f up to x.
     #[inline(always)]
-    fn returned_to(&self, x: S) -> [S; 2] {
+    fn returned_to(&self, x: S) -> [S; 3] {
         let s = x - self.from;
-        let share = self.returned * s;
-        [self.way + share, self.energy + share * (self.force + self.slope * s * S::of(0.5))]
+        let (share, work) = (self.returned * s, s * (self.force + self.slope * s * S::of(0.5)));
+        [self.way + share, self.energy + self.returned * work, self.lost + (S::one() - self.returned) * work]
     }
 }
 
@@ -145,7 +147,7 @@ impl<S: Scalar> FunctionLaw<S> {
     #[inline(always)]
     fn piece(&self, begins: impl Fn(&Piece<S>) -> S::Mask) -> Piece<S> {
         let o = S::zero();
-        let none = Piece { from: o, force: o, slope: o, give: o, returned: o, way: o, energy: o };
+        let none = Piece { from: o, force: o, slope: o, give: o, returned: o, way: o, energy: o, lost: o };
         let Some((first, others)) = self.pieces.split_first() else { return none };
         let later = |found: Piece<S>, next: &Piece<S>| {
             let mask = begins(next);
@@ -154,9 +156,9 @@ impl<S: Scalar> FunctionLaw<S> {
         others.iter().fold(*first, later)
     }
 
-    /// M and the recoverable energy up to x*.
+    /// M, the recoverable energy, and what is lost up to x*.
     #[inline(always)]
-    pub(crate) fn returned_to(&self, loading: S) -> [S; 2] {
+    pub(crate) fn returned_to(&self, loading: S) -> [S; 3] {
         self.piece(|next| next.from.lt(loading)).returned_to(loading)
     }
 

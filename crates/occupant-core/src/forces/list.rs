@@ -150,6 +150,11 @@ macro_rules! kinds {
         }
 
         impl Forces<f64> {
+            /// No elements.
+            pub fn none() -> Self {
+                Forces { $($kind: Default::default()),+ }
+            }
+
             /// Laws for a body that has no place yet.
             pub(crate) fn new(data: &Data<'_>, body: &Body) -> Self {
                 Forces { $($kind: $Kind::new(data.$kind, body)),+ }
@@ -222,7 +227,7 @@ macro_rules! kinds {
 
         impl<S> Memory<S> {
             /// That of no elements.
-            pub(crate) fn none() -> Self {
+            pub fn none() -> Self {
                 Memory { $($kind: Vec::new()),+ }
             }
 

@@ -71,9 +71,9 @@ pub struct Evaluation<S> {
     pub power: Work<S>,
 }
 
-/// What an evaluation writes on its way.
+/// What an evaluation writes on its way: a place that the next one uses again.
 #[derive(Clone, Debug)]
-pub(crate) struct Scratch<S> {
+pub struct Scratch<S> {
     kinematics: Kinematics<S>,
     load: Load<S>,
     sweep: Sweep<S>,
@@ -82,7 +82,7 @@ pub(crate) struct Scratch<S> {
 impl<S: Scalar> Scratch<S> {
     /// Nothing written yet of a body like `body`.
     #[inline(always)]
-    pub(crate) fn blank(body: &Skeleton<S>) -> Self {
+    pub fn blank(body: &Skeleton<S>) -> Self {
         Scratch { kinematics: Kinematics::blank(), load: Load::zero(), sweep: Sweep::blank(body) }
     }
 }

@@ -75,7 +75,17 @@ pub struct Shape {
 impl Shape {
     /// That of a body whose force elements own no numbers.
     pub fn of(layout: &Layout) -> Self {
-        Shape { free: layout.free().len(), hinges: layout.hinged().len(), own: 0 }
+        Shape::new(layout.free().len(), layout.hinged().len())
+    }
+
+    /// That of a body with as many orientations and angles of hinges, whose force elements own no numbers.
+    pub(crate) const fn new(free: usize, hinges: usize) -> Self {
+        Shape { free, hinges, own: 0 }
+    }
+
+    /// The same with `own` numbers that force elements own.
+    pub(crate) const fn with_own(self, own: usize) -> Self {
+        Shape { own, ..self }
     }
 
     #[inline(always)]

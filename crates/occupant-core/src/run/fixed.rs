@@ -1,9 +1,10 @@
 //! Whole steps from output to output.
 
 use super::Run;
+use crate::kernel::Scratch;
 use crate::model::Model;
 use crate::motion::frame::Frames;
-use crate::motion::integrate::rk4::{self, Stage};
+use crate::motion::integrate::rk4::{Stage, Stages};
 use crate::results::outcome::StepError;
 use crate::run::observers::SeenAt;
 use crate::vehicle::PathCursor;
@@ -84,17 +85,16 @@ impl Run {
     /// All steps of `stretch`.
     pub(crate) fn advance_rk4(&mut self, model: &Model, stretch: Stretch) -> Result<(), StepError> {
         let system = model.system();
+        let (scratch, stages) = (&mut Scratch::blank(&system.skeleton), &mut Stages::new(self.state.shape()));
         for step in stretch {
             let [at_start, at_middle, at_end] = step.frames(model, &mut self.cursor);
             let (history, seen) = (&mut self.history, &mut self.seen);
             let time_s = step.start_s;
             let mut observer = SeenAt { model, seen, time_s };
-            let next = rk4::step(&self.state, step.length_s(), |stage, state, rate| {
-                *rate = match stage {
-                    Stage::Start => system.rate_alone::<true>(state, &at_start, history, &mut observer),
-                    Stage::Middle => system.rate_alone::<false>(state, &at_middle, history, &mut ()),
-                    Stage::End => system.rate_alone::<false>(state, &at_end, history, &mut ()),
-                }
+            let next = *stages.step(&self.state, step.length_s(), |stage, state, rate| match stage {
+                Stage::Start => system.rate_alone::<true>(scratch, state, &at_start, history, &mut observer, rate),
+                Stage::Middle => system.rate_alone::<false>(scratch, state, &at_middle, history, &mut (), rate),
+                Stage::End => system.rate_alone::<false>(scratch, state, &at_end, history, &mut (), rate),
             });
             self.effort.evaluations += 4;
             self.accept(model, next, step)?;

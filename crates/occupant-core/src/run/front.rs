@@ -10,6 +10,7 @@ use super::corner::{Crossing, Touching};
 use crate::forces::History;
 use crate::forces::Observer;
 use crate::forces::contact::Touch;
+use crate::kernel::Scratch;
 use crate::model::Model;
 use crate::motion::integrate::bogacki_shampine::{Stage, Tolerance, Trial, attempt, within};
 use crate::motion::state::State;
@@ -38,11 +39,12 @@ pub(super) struct Front {
     met: Vec<Touching>,
     /// What touches at the end of a trial.
     met_in_trial: Vec<Touching>,
+    scratch: Scratch<f64>,
 }
 
 impl Front {
     /// Standing at `state`, before any step.
-    pub(super) fn new(time_s: f64, state: &State<f64>, history: &History<f64>) -> Self {
+    pub(super) fn new(model: &Model, time_s: f64, state: &State<f64>, history: &History<f64>) -> Self {
         Front {
             step: Step { start_s: time_s, end_s: time_s },
             from: *state,
@@ -55,13 +57,14 @@ impl Front {
             trial: history.clone(),
             met: Vec::with_capacity(history.memory.contacts.len()),
             met_in_trial: Vec::with_capacity(history.memory.contacts.len()),
+            scratch: Scratch::blank(&model.system().skeleton),
         }
     }
 
     /// Within the step that a checkpoint tells the start of, at `state`.
     pub(super) fn within(model: &Model, start: &StepStart, state: &State<f64>) -> Self {
         let history = History::new(&model.system().forces, start.memory.clone());
-        let mut front = Front::new(start.start_s, state, &history);
+        let mut front = Front::new(model, start.start_s, state, &history);
         front.step.end_s = start.end_s;
         front.is_half_known = true;
         front
@@ -89,7 +92,8 @@ impl Front {
         let system = model.system();
         self.met.clear();
         let mut met = Met(&mut self.met);
-        self.rates[1] = system.rate_alone::<true>(&self.to, &frames, &mut self.after, &mut met);
+        let rate = &mut self.rates[1];
+        system.rate_alone::<true>(&mut self.scratch, &self.to, &frames, &mut self.after, &mut met, rate);
     }
 
     /// Tries `step`, which begins where the front stands.
@@ -105,14 +109,15 @@ impl Front {
         self.trial.take_over(&self.after);
         self.met_in_trial.clear();
         let (history, met) = (&mut self.trial, &mut self.met_in_trial);
-        attempt(&self.to, &self.rates[1], h, tolerance, |stage, state| match stage {
+        let scratch = &mut self.scratch;
+        attempt(&self.to, &self.rates[1], h, tolerance, |stage, state, rate| match stage {
             Stage::Within(s) => {
                 let frames = model.frames(step.start_s + s * h, middle_s, cursor);
-                system.rate_alone::<false>(state, &frames, history, &mut ())
+                system.rate_alone::<false>(scratch, state, &frames, history, &mut (), rate);
             }
             Stage::End => {
                 let frames = model.frames(step.end_s, middle_s, cursor);
-                system.rate_alone::<true>(state, &frames, history, &mut Met(met))
+                system.rate_alone::<true>(scratch, state, &frames, history, &mut Met(met), rate);
             }
         })
     }

@@ -73,7 +73,7 @@ impl Run {
             front: match integrator {
                 Integrator::Rk4 { .. } => None,
                 Integrator::Adaptive { .. } => {
-                    let front = Front::new(time_s, &start.state, &start.history);
+                    let front = Front::new(model, time_s, &start.state, &start.history);
                     Some(Box::new(front))
                 }
             },
@@ -105,7 +105,7 @@ impl Run {
             let step = from.under_way.as_ref();
             run.front = Some(Box::new(match step {
                 Some(start) => Front::within(model, start, &state(&start.state)?),
-                None => Front::new(run.time_s, &run.state, &run.history),
+                None => Front::new(model, run.time_s, &run.state, &run.history),
             }));
         }
         run.energy_start = Some(progress.energy_start);

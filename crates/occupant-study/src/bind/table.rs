@@ -7,7 +7,7 @@ use crate::parameter::{Parameter, Target, si_unit};
 use crate::section::ApplyChoice;
 use occupant_core::scenario::kind::Kind;
 use occupant_core::scenario::{Diagnostic, Resolver, Wanted};
-use placed_text::{Cell, Problem, Sources, Span, cells, lines, name_and_unit, number, one_of, text_of};
+use placed_text::{Cell, Problem, Separator, Sources, Span, lines, name_and_unit, one_of, text_of};
 
 /// How the cells of a column are read.
 struct Column {
@@ -41,8 +41,9 @@ pub(super) fn rows(
     };
     let mut sources = Sources::new();
     let id = sources.add_named(file, text);
-    let mut reader = Reader { sources: &sources, binder };
-    let mut lines = lines(&sources, id);
+    let mut lines = lines(&sources, id).peekable();
+    let separator = Separator::of(lines.peek().map_or("", |header| sources.slice(*header)));
+    let mut reader = Reader { sources: &sources, separator, binder };
     let Some(header) = lines.next() else {
         let start = sources.start_of(id);
         reader.error(start, "an empty table", "a line that names the columns");
@@ -58,6 +59,7 @@ pub(super) fn rows(
 
 struct Reader<'s, 'b, 'a> {
     sources: &'s Sources,
+    separator: Separator,
     binder: &'b mut Binder<'a>,
 }
 
@@ -73,7 +75,7 @@ impl Reader<'_, '_, '_> {
 
     fn header(&mut self, line: Span, parameters: &mut Vec<Parameter>) -> Vec<Option<Column>> {
         let mut columns: Vec<Option<Column>> = Vec::new();
-        for cell in cells(self.sources, line) {
+        for cell in self.separator.cells(self.sources, line) {
             let column = self.column(&cell, parameters);
             let taken = |c: &Column| columns.iter().flatten().any(|o| o.parameter == c.parameter);
             match column {
@@ -85,7 +87,7 @@ impl Reader<'_, '_, '_> {
                 column => columns.push(column),
             }
         }
-        let cells = cells(self.sources, line);
+        let cells = self.separator.cells(self.sources, line);
         for parameter in parameters.iter() {
             if !cells.iter().any(|c| name_and_unit(c.text).0 == parameter.name) {
                 let found = format!("no column `{}`", parameter.name);
@@ -158,7 +160,7 @@ impl Reader<'_, '_, '_> {
     }
 
     fn row(&mut self, line: Span, columns: &[Option<Column>], n: usize) -> Option<Vec<Value>> {
-        let cells = cells(self.sources, line);
+        let cells = self.separator.cells(self.sources, line);
         if cells.len() != columns.len() {
             let expected = format!("{}, one for each column", columns.len());
             self.error(line, format!("{} values", cells.len()), expected);
@@ -175,7 +177,7 @@ impl Reader<'_, '_, '_> {
 
     fn cell(&mut self, cell: &Cell, column: &Column) -> Option<Value> {
         if column.kind.is_some() {
-            let number = number(cell).map(|x| x * column.factor);
+            let number = self.separator.number(cell).map(|x| x * column.factor);
             return match number {
                 Ok(x) if x.is_finite() => Some(Value::Number(x)),
                 found => {

@@ -115,12 +115,14 @@ impl<'a, const N: usize> Tangent<'a, N> {
         }
         front.spare.take_over(&front.after);
         let (k1, history) = (front.rates[1], &mut front.spare);
-        let (to, [.., k4]) = stages(&front.to, &k1, h, |stage, state| match stage {
-            Stage::Within(0.5) => rate_within(system, state, &half, history),
-            Stage::Within(_) => rate_within(system, state, &late, history),
-            Stage::End => {
-                scene.begin(step.end_s, state);
-                rate_at_start(system, state, &end, history, &mut scene.actions)
+        let (to, [.., k4]) = stages(&front.to, &k1, h, |stage, state, rate| {
+            *rate = match stage {
+                Stage::Within(0.5) => rate_within(system, state, &half, history),
+                Stage::Within(_) => rate_within(system, state, &late, history),
+                Stage::End => {
+                    scene.begin(step.end_s, state);
+                    rate_at_start(system, state, &end, history, &mut scene.actions)
+                }
             }
         });
         front.step = step;

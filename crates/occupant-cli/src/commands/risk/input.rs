@@ -1,6 +1,6 @@
 //! What `occupant risk` measures: recorded data, or the path of a scenario or run.
 
-use crash_measures::signal::SignalError;
+use crash_measures::signal::{ChannelClass, STANDARD_GRAVITY_MPS2, SignalError};
 use occupant_core::scenario::{Diagnostics, RecordFile, read_record};
 use occupant_study::risk::{Preparation, Unprepared, VehicleSignals, prepare};
 
@@ -12,6 +12,9 @@ use crate::jobs::risk::Subject;
 
 /// Sample interval of paths, s, where none is asked for.
 const PATH_INTERVAL_S: f64 = 1e-4;
+
+/// Length of the beginning of a record that says whether gravity is in it, s.
+const BEFORE_S: f64 = 0.01;
 
 /// What the file holds, and the signals that it gives.
 pub(crate) fn measured(args: &Args, wanted: &Preparation) -> Result<(Subject, VehicleSignals), Failure> {
@@ -92,7 +95,34 @@ fn recorded(args: &Args, name: &str) -> Result<RecordFile, Failure> {
             }
         }
     }
+    if let Some(words) = doubt_of_gravity(&file, args.gravity_included) {
+        note(&format!("{name}: {words}"));
+    }
     Ok(file)
+}
+
+/// What speaks against what is said of gravity: a level vehicle before its crash reads −1 g along z, or 0 without gravity.
+fn doubt_of_gravity(file: &RecordFile, included: bool) -> Option<String> {
+    let az = file.record.acceleration_m_s2[2].as_ref()?;
+    let first_s = file.record.time_s.first()? + BEFORE_S;
+    let count = file.record.time_s.iter().take_while(|t| **t <= first_s).count();
+    let mean_g = az[..count].iter().sum::<f64>() / count as f64 / STANDARD_GRAVITY_MPS2;
+    let near = |expected: f64| (mean_g - expected).abs() < 0.2;
+    let remedy = match included {
+        _ if near(1.0) => "z seems to point up: say --z-up",
+        false if near(-1.0) => "gravity seems to be in the record: say --gravity-included",
+        true if near(0.0) => "gravity seems not to be in the record: leave --gravity-included out",
+        _ => return None,
+    };
+    Some(format!("az begins at {mean_g:.2} g; {remedy}"))
+}
+
+/// The greatest class that fits samples with half the rate `nyquist_hz`.
+fn remedy(nyquist_hz: f64) -> String {
+    // the corner of one pass of two lies at 2.08 times the class
+    let fits = ChannelClass::ALL.into_iter().rev().find(|class| 2.1 * class.hertz() < nyquist_hz);
+    let class = fits.map_or_else(|| "no class fits so few samples".to_owned(), |c| format!("use --cfc {}", c.hertz()));
+    format!("{class}; --cfc none is for data that are filtered already")
 }
 
 /// Why a record cannot be measured, with the remedy.
@@ -110,9 +140,7 @@ fn unprepared(name: &str, file: Option<&RecordFile>, error: &Unprepared) -> Fail
         return Failure::CouldNotRun(problems.to_string());
     }
     let help = match error {
-        Unprepared::Channel { error: SignalError::CornerAboveNyquist { .. }, .. } => {
-            "use a lower class, such as --cfc 60, or --cfc none for data that are filtered already"
-        }
+        Unprepared::Channel { error: SignalError::CornerAboveNyquist { nyquist_hz, .. }, .. } => &remedy(*nyquist_hz),
         Unprepared::Channel { .. } => "mend the record, or choose another interval or window",
         Unprepared::NoChannel => "name columns ax, ay, az, wx, wy, wz with their units",
         Unprepared::OffsetNeedsRates { .. } => {

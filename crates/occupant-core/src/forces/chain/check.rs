@@ -144,7 +144,7 @@ fn device(chain: &Chain, path: &str, problems: &mut Problems) {
     }
     let Some(reel) = &chain.device.reel else { return };
     problems.check_positive(&format!("{path}.retractor.on_spool"), reel.on_spool_m, "m");
-    if !(reel.tension_n >= 0.1) {
+    if reel.tension_n.is_nan() || reel.tension_n < 0.1 {
         let found = format!("{} N", reel.tension_n);
         problems.error(
             format!("{path}.retractor.spool_tension"),
@@ -204,7 +204,7 @@ pub(super) fn laid(
             inside(law, chain, body, (k, &node_path), &now.lies.places, problems);
         }
         for (name, run) in chain.straps.iter().zip(&now.taut.runs) {
-            if !(run.length > 0.0) {
+            if run.length.is_nan() || run.length <= 0.0 {
                 problems.error(&path, format!("the strap {name} has no length"), "nodes in different places");
             } else if run.length < SHORT_M {
                 let found = format!("the strap {name} is {:.0} mm long", 1e3 * run.length);

@@ -116,7 +116,6 @@ impl<S: Copy> ChainLaw<S> {
 
 impl<S: Scalar> ChainLaw<S> {
     /// Places of the nodes, and the webbing along them.
-    #[inline(always)]
     pub(super) fn lies(&self, at: &Instant<'_, S>, past: &ChainPast<S>) -> Lies<S> {
         let (o, count) = (S::zero(), self.nodes.len());
         let nowhere = Place { centre: V3::zero(), radius: o, is_sphere: false, may_leave: false };
@@ -127,20 +126,20 @@ impl<S: Scalar> ChainLaw<S> {
         }
         let bends = bends(&places[..count], &past.nodes);
         let (mut course, mut strap) = (Course { lengths: [o; MOST_NODES], turns: [o; MOST_NODES] }, 0);
-        for k in 1..count {
-            course.lengths[strap] += bends[k].span + bends[k].arc;
-            if self.nodes[k].rubs {
+        for (node, (bend, past)) in self.nodes.iter().zip(bends.iter().zip(&past.nodes)).skip(1) {
+            course.lengths[strap] += bend.span + bend.arc;
+            if node.rubs {
                 strap += 1;
                 // webbing that has left the node turns by nothing
-                let turn = turn(bends[k].back, bends[k].ahead);
-                course.turns[strap] = S::select(past.nodes[k].is_on(), turn, o);
+                course.turns[strap] = S::select(past.is_on(), turn(bend.back, bend.ahead), o);
             }
         }
         Lies { ways, places, bends, course }
     }
 
-    /// The chain at one instant, from what it remembers.
-    #[inline(always)]
+    /// The chain at one instant, from what it remembers. A call of its own: it is large, and the kernel is built for many kinds
+    /// of numbers and observers.
+    #[inline(never)]
     pub(super) fn now(&self, at: &Instant<'_, S>, past: &ChainPast<S>) -> Now<'_, S> {
         let lies = self.lies(at, past);
         let taut = self.straps.taut(at.frames.time, &lies.course, past);
@@ -148,7 +147,6 @@ impl<S: Scalar> ChainLaw<S> {
     }
 
     /// Forces of the webbing on the nodes, space axes, N.
-    #[inline(always)]
     pub(super) fn forces(&self, now: &Now<'_, S>) -> [V3<S>; MOST_NODES] {
         let (mut list, mut strap) = ([V3::zero(); MOST_NODES], 0);
         for (k, node) in self.nodes.iter().enumerate() {

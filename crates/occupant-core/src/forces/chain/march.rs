@@ -113,7 +113,7 @@ impl<S: Scalar> Run<S> {
 }
 
 /// The chain as it is: slack, or at the root of R.
-#[inline(always)]
+#[inline(never)]
 pub(super) fn solve<S: Scalar>(
     webbing: &WebbingLaw<S>,
     feed: &Feed<'_, S>,

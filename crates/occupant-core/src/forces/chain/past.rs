@@ -58,7 +58,9 @@ numbers! {
         /// Way of a node along its track or its stroke, m, and its speed, m/s.
         way,
         speed,
-        /// Lost here since the start: friction of a ring, limiter and spool, J.
+        /// Force of the webbing along a track, N.
+        across,
+        /// Lost here since the start, J: friction along and across, limiter and spool, and the webbing of the strap.
         lost,
     }
 }

@@ -41,7 +41,7 @@ pub struct StrapAction<S> {
     pub(crate) turn: S,
     /// 1 while the webbing passes the node where it begins.
     pub(crate) passes: S,
-    /// Recoverable, limiter included; lost where it begins; work of actuators; J.
+    /// Recoverable, limiter included; lost in it and where it begins; work of actuators; J.
     pub(crate) stored: S,
     pub(crate) lost: S,
     pub(crate) driven: S,
@@ -70,7 +70,7 @@ struct Arc<S> {
 }
 
 impl<S: Scalar> StrapAction<S> {
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn new(
         chain: &ChainLaw<S>,
         at: &Instant<'_, S>,
@@ -188,7 +188,7 @@ impl Reported for Chains {
         Of::number(Joule, |s| s.lost).field(
             14,
             "lost",
-            "lost where it begins since the start: friction of the ring, limiter and spool",
+            "lost in it and where it begins since the start: webbing, friction, limiter and spool",
         ),
         Of::number(Metre, |s| s.residual).field(
             15,
@@ -218,7 +218,7 @@ impl Reported for Chains {
         },
         Tracked {
             of: |s| s.lost,
-            column: Column::number("lost_j", "lost there, J", 1).measure("lost", Joule),
+            column: Column::number("lost_j", "lost, J", 1).measure("lost", Joule),
             time: None,
             at_least_zero: true,
         },

@@ -253,6 +253,8 @@ impl<S: Scalar> NodeLaw<S> {
                 let across = force.dot(along);
                 let held = (force - along * across).norm_squared().max(S::of(1e-60)).sqrt();
                 let speed = (across.abs() - track.friction * held).max(o) / track.drag;
+                past.lost += (across + past.across) * (way - past.way) * S::of(0.5);
+                past.across = across;
                 past.speed = S::select(across.lt(o), -speed, speed);
                 out.dot(force).gt(o) | way.gt(track.length)
             }

@@ -137,7 +137,6 @@ impl<S: Copy> Straps<S> {
 
 impl<S: Scalar> Straps<S> {
     /// The straps at one instant, from what they remember.
-    #[inline(always)]
     pub(super) fn taut(&self, time: S, course: &Course<S>, past: &ChainPast<S>) -> Taut<'_, S> {
         let o = S::zero();
         let none = Run { length: o, before: o, greatest: o, set: o, grip: o, hold: S::one(), play: o, beside: [o; 2] };
@@ -204,7 +203,10 @@ impl<S: Scalar> Straps<S> {
             before = both;
             own.carried = carried;
             (own.viscous, own.strain) = (self.viscous(taut, strap), tense.strain);
-            own.greatest = own.greatest.max(tense.loading);
+            let greatest_strain = own.greatest.max(tense.loading);
+            let [was, is] = [own.greatest, greatest_strain].map(|strain| self.webbing.curve.returned_to(strain)[2]);
+            own.lost += half * (own.unstretched + tense.unstretched) * (is - was);
+            own.greatest = greatest_strain;
             (own.unstretched, own.play) = (tense.unstretched, tense.play);
             own.fed += tense.fed;
             greatest = greatest.max(tense.tension);

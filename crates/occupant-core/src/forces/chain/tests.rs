@@ -60,7 +60,7 @@ fn forces_are_the_gradient_of_the_length_and_balance() {
         let mut at = two_spheres::<f64>();
         for place in &mut at {
             let mut some = || 0.06 * (random(&mut seed) - 0.5);
-            place.centre = place.centre + v3(some(), some(), some());
+            place.centre += v3(some(), some(), some());
         }
         let past = on(&at);
         let found = bends(&at, &past);
@@ -75,7 +75,7 @@ fn forces_are_the_gradient_of_the_length_and_balance() {
                     let mut at = at;
                     let mut by = Vector3::zeros();
                     by[axis] = h;
-                    at[k].centre = at[k].centre + V3::of(&by);
+                    at[k].centre += V3::of(&by);
                     length(&bends(&at, &past))
                 };
                 let slope = (moved(1e-5) - moved(-1e-5)) / 2e-5;
@@ -107,13 +107,17 @@ fn webbing_turns_by_the_angle_between_its_spans() {
     }
 }
 
-/// f = 110 kN ε(1 + 2ε) as straight lines of a tenth of a per cent.
-fn webbing(returned: f64) -> Function {
+/// f = 110 kN ε(1 + 2ε) as so many straight lines up to 20 %.
+fn lines(count: usize, returned: f64) -> Function {
     let point = |i: usize| {
-        let strain = 1e-4 * i as f64;
+        let strain = 0.2 * i as f64 / count as f64;
         [strain, 110e3 * strain * (1.0 + 2.0 * strain)]
     };
-    Function { points: (0..=2000).map(point).collect(), returned: vec![returned; 2000] }
+    Function { points: (0..=count).map(point).collect(), returned: vec![returned; count] }
+}
+
+fn webbing(returned: f64) -> Function {
+    lines(20, returned)
 }
 
 fn chain(frictions: &[f64], webbing: Function, device: Device, rest: Rest) -> Chain {
@@ -214,7 +218,7 @@ impl Rig {
 
 /// Three straps over two rings, the second and third drawn out in `commits`.
 fn drawn(device: Device, commits: usize) -> Rig {
-    let chain = chain(&[0.2, 0.2], webbing(1.0), device, Rest::Slack(0.0));
+    let chain = chain(&[0.2, 0.2], lines(2000, 1.0), device, Rest::Slack(0.0));
     let mut rig = Rig::new(&chain, &[0.6, 1.1, 0.7], &[2.2, 2.0]);
     for i in 1..=commits {
         let s = 0.12 * i as f64 / commits as f64;
@@ -279,11 +283,11 @@ fn a_belt_loaded_and_unloaded_at_random_keeps_its_length_and_its_books() {
         }
         assert!(rig.past.nodes[0].fed > 0.0 && rig.lost() > 10.0);
         let gained = rig.stored() - stored + rig.lost();
-        if returned == 1.0 {
-            assert!((rig.work / gained - 1.0).abs() < 2e-3, "{} {gained}", rig.work);
-        } else {
-            // the webbing loses as well
-            assert!(rig.work > gained + 1.0, "{} {gained}", rig.work);
+        match viscous {
+            // the sums are trapezia over steps of up to 0.3 mm
+            None => assert!((rig.work / gained - 1.0).abs() < 5e-3, "{} {gained}", rig.work),
+            // the viscous branch loses as well
+            Some(_) => assert!(rig.work > gained + 1.0, "{} {gained}", rig.work),
         }
     }
 }

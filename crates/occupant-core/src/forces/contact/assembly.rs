@@ -23,16 +23,12 @@ impl ContactSystem<f64> {
     pub fn new(body: &Body, data: &ContactData<'_>) -> Self {
         let &ContactData { surfaces, faces, solids, self_contact, materials, edge_force, longest_step_s } = data;
         let mut system = ContactSystem {
-            groups: Vec::new(),
-            planes: Vec::new(),
-            pairs: Vec::new(),
             edge_lever: match edge_force {
                 EdgeForce::AtContactPoint => 1.0,
                 EdgeForce::AtCentre => 0.0,
             },
             reach_of_a_step: FASTEST_M_S * longest_step_s,
-            solids: Solids::none(),
-            own: SelfPairs::new(body, None, materials, 0, 0),
+            ..ContactSystem::default()
         };
         let seams = seams(faces);
         for (sphere, data) in body.spheres.iter().enumerate() {

@@ -147,7 +147,7 @@ pub struct Touch<S> {
 }
 
 /// All pairs of spheres and faces.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct ContactSystem<S> {
     /// Groups of pairs by sphere and frame.
     pub groups: Vec<Group>,

@@ -5,12 +5,11 @@
 //! and Z only. With P, Q, R the inertias of l about the hinge, σ = M·cg of l, c = cos α, s = sin α, X_l = (c, 0, −s):
 //! the hinge takes the moment about Y, α̈ = −(ŷ·n + Q α_y + σ X_l·a_E)/Q, and leaves the matrix m − (σ²/Q) X_l X_lᵀ.
 
-use super::{Demand, LIMBS};
+use super::{Demand, LIMBS, Links};
 use crate::motion::dynamics::Wrench;
 use crate::motion::kinematics::Kinematics;
 use crate::motion::layout::MOST_SEGMENTS;
 use crate::motion::scalar::Scalar;
-use crate::motion::skeleton::Skeleton;
 use crate::motion::vector::{M3, Sym3, V3, v3};
 
 /// A limb after the inward sweep, in axes of its upper segment.
@@ -75,14 +74,14 @@ impl<S: Scalar> Limb<S> {
 /// Reduces limb `i` of [`LIMBS`] to what it asks of its shoulder or hip, the first result.
 #[inline(always)]
 pub(crate) fn reduce<S: Scalar>(
-    body: &Skeleton<S>,
+    links: &Links<S>,
     k: &Kinematics<S>,
     i: usize,
     hinge_rate: S,
     wrench: &[Wrench<S>; MOST_SEGMENTS],
 ) -> (Demand<S>, Limb<S>) {
     let (upper, lower) = LIMBS[i];
-    let (m, l) = (&body.links[upper], &body.links[lower]);
+    let (m, l) = (&links[upper], &links[lower]);
     let axes = &k.axes[upper];
     let (s, c) = k.hinge_sin_cos[i];
     let w = axes.into_frame(k.omega[upper]);
@@ -201,12 +200,12 @@ impl<S: Scalar> Leaf<S> {
 /// Reduces the leaf `n` to what it asks of its joint, the first result.
 #[inline(always)]
 pub(crate) fn reduce_leaf<S: Scalar>(
-    body: &Skeleton<S>,
+    links: &Links<S>,
     k: &Kinematics<S>,
     n: usize,
     wrench: &[Wrench<S>; MOST_SEGMENTS],
 ) -> (Demand<S>, Leaf<S>) {
-    let (h, axes, wrench) = (&body.links[n], &k.axes[n], &wrench[n]);
+    let (h, axes, wrench) = (&links[n], &k.axes[n], &wrench[n]);
     let w = axes.into_frame(k.omega[n]);
     let force = axes.into_frame(wrench.force);
     let moment = axes.into_frame(wrench.moment)

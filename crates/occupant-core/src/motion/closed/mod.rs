@@ -22,8 +22,8 @@ use crate::motion::dynamics::{Accelerations, Wrench};
 use crate::motion::kinematics::{Kinematics, axes};
 use crate::motion::layout::{Layout, MOST_SEGMENTS};
 use crate::motion::scalar::Scalar;
-use crate::motion::skeleton::Skeleton;
-use crate::motion::state::State;
+use crate::motion::skeleton::{Link, Skeleton};
+use crate::motion::state::{Shape, State};
 use crate::motion::vector::{M3, Sym3, V3, v3};
 
 /// Number of segments.
@@ -39,22 +39,37 @@ const TRUNKS: [(usize, &[usize]); 3] = [(0, &[3]), (1, &[2, 4, 5]), (3, &[8, 9])
 /// Segments whose joint is T1.
 const ROOTS: [usize; 2] = [0, 1];
 
+/// How many numbers of each kind its state has.
+const SHAPE: Shape = Shape::new(FREE.len(), LIMBS.len());
+
+/// Constants of its segments.
+type Links<S> = [Link<S>; SEGMENTS];
+
 /// Whether a tree is that of the report's body.
 pub(crate) fn holds(layout: &Layout) -> bool {
     *layout == Layout::of(&TTI12)
 }
 
+/// Constants of the segments of such a body.
+#[inline(always)]
+fn links<S>(body: &Skeleton<S>) -> &Links<S> {
+    body.links.as_slice().try_into().expect("is_closed says so")
+}
+
 /// Kinematics of `state`.
 #[inline(always)]
 pub(crate) fn place<S: Scalar>(k: &mut Kinematics<S>, body: &Skeleton<S>, state: &State<S>) {
+    let links = links(body);
+    // known sizes save checks of indices
+    assert!(state.shape().with_own(0) == SHAPE, "the state is one of another tree");
     for n in ROOTS {
         (k.joint[n], k.joint_velocity[n]) = (state.t1(), state.velocity());
     }
-    for (slot, n) in FREE.into_iter().enumerate() {
+    for (slot, &n) in FREE.iter().enumerate() {
         k.axes[n] = axes(&state.orientation(slot));
         k.omega[n] = state.omega(slot);
     }
-    for (limb, (upper, lower)) in LIMBS.into_iter().enumerate() {
+    for (limb, &(upper, lower)) in LIMBS.iter().enumerate() {
         // X_j = R_y(α) X_m (8) for the lower segment m of a limb on its upper segment j
         let (s, c) = k.hinge_sin_cos[limb];
         let M3 { x, y, z } = k.axes[upper];
@@ -63,18 +78,20 @@ pub(crate) fn place<S: Scalar>(k: &mut Kinematics<S>, body: &Skeleton<S>, state:
         k.axes[lower] = M3 { x: x * c - z * s, y, z: x * s + z * c };
         k.omega[lower] = k.omega[upper] + y * state.hinge_rate()[limb]; // (45), in space axes
     }
-    for (parent, children) in TRUNKS {
-        children.iter().for_each(|&child| place_joint(k, body, child, parent));
+    for &(parent, children) in &TRUNKS {
+        for &child in children {
+            place_joint(k, links, child, parent);
+        }
     }
-    for (upper, lower) in LIMBS {
-        place_joint(k, body, lower, upper);
+    for &(upper, lower) in &LIMBS {
+        place_joint(k, links, lower, upper);
     }
 }
 
 /// A joint at (0, y, z) of the segment that carries it.
 #[inline(always)]
-fn place_joint<S: Scalar>(k: &mut Kinematics<S>, body: &Skeleton<S>, child: usize, parent: usize) {
-    let (axes, link) = (&k.axes[parent], &body.links[child]);
+fn place_joint<S: Scalar>(k: &mut Kinematics<S>, links: &Links<S>, child: usize, parent: usize) {
+    let (axes, link) = (&k.axes[parent], &links[child]);
     let offset = axes.y * link.joint.y + axes.z * link.joint.z;
     k.joint[child] = k.joint[parent] + offset;
     k.joint_velocity[child] = k.joint_velocity[parent] + k.omega[parent].cross(offset);
@@ -159,16 +176,17 @@ impl<S: Scalar> Sweep<S> {
         wrench: &[Wrench<S>; MOST_SEGMENTS],
         out: &mut Accelerations<S>,
     ) {
+        let (links, hinge_rate) = (links(body), &hinge_rate[..LIMBS.len()]);
         let Sweep { demand, limbs, leaves, trunks } = self;
         // inward: what carries nothing but itself, then the trunk from its ends
-        for (i, (upper, _)) in LIMBS.into_iter().enumerate() {
-            (demand[upper], limbs[i]) = limb::reduce(body, k, i, hinge_rate[i], wrench);
+        for (i, &(upper, _)) in LIMBS.iter().enumerate() {
+            (demand[upper], limbs[i]) = limb::reduce(links, k, i, hinge_rate[i], wrench);
         }
-        for (i, n) in LEAVES.into_iter().enumerate() {
-            (demand[n], leaves[i]) = limb::reduce_leaf(body, k, n, wrench);
+        for (i, &n) in LEAVES.iter().enumerate() {
+            (demand[n], leaves[i]) = limb::reduce_leaf(links, k, n, wrench);
         }
-        for (i, (n, children)) in TRUNKS.into_iter().enumerate().rev() {
-            (demand[n], trunks[i]) = reduce(body, k, n, children, wrench, demand);
+        for (i, &(n, children)) in TRUNKS.iter().enumerate().rev() {
+            (demand[n], trunks[i]) = reduce(links, k, n, children, wrench, demand);
         }
 
         // root: the forces that all halves ask of T1 vanish together
@@ -183,16 +201,16 @@ impl<S: Scalar> Sweep<S> {
         for n in ROOTS {
             out.joint[n] = a_root;
         }
-        for ((n, children), trunk) in TRUNKS.into_iter().zip(&*trunks) {
+        for (&(n, children), trunk) in TRUNKS.iter().zip(&*trunks) {
             out.alpha[n] = trunk.alpha(out.joint[n]);
             for &child in children {
                 out.carry(k, child, n);
             }
         }
-        for (n, leaf) in LEAVES.into_iter().zip(&*leaves) {
+        for (&n, leaf) in LEAVES.iter().zip(&*leaves) {
             out.alpha[n] = leaf.alpha(k, n, out.joint[n]);
         }
-        for (i, ((upper, lower), limb)) in LIMBS.into_iter().zip(&*limbs).enumerate() {
+        for (i, (&(upper, lower), limb)) in LIMBS.iter().zip(&*limbs).enumerate() {
             out.alpha[upper] = limb.alpha(k, upper, out.joint[upper]);
             out.carry(k, lower, upper);
             out.hinge[i] = limb.hinge_acceleration(k, upper, out.alpha[upper], out.joint[lower]);
@@ -206,14 +224,14 @@ impl<S: Scalar> Sweep<S> {
 /// Reduces a trunk segment to what it asks of its joint, the first result; `demands` of the segments it carries are known.
 #[inline(always)]
 fn reduce<S: Scalar>(
-    body: &Skeleton<S>,
+    links: &Links<S>,
     k: &Kinematics<S>,
     n: usize,
     children: &[usize],
     wrench: &[Wrench<S>; MOST_SEGMENTS],
     demands: &[Demand<S>; SEGMENTS],
 ) -> (Demand<S>, Trunk<S>) {
-    let (link, wrench) = (&body.links[n], &wrench[n]);
+    let (link, wrench) = (&links[n], &wrench[n]);
     let (axes, w) = (&k.axes[n], k.omega[n]);
     let principal = &link.inertia;
     let mut inertia = Sym3::scaled_identity(principal.zz);
@@ -271,6 +289,7 @@ mod tests {
         let layout = Layout::of(&TTI12);
         let hinged = |n: &usize| layout.hinge_slot(*n).is_some();
         assert_eq!((layout.len(), layout.free()), (SEGMENTS, &FREE[..]));
+        assert_eq!(SHAPE, Shape::of(&layout));
         assert_eq!(LIMBS.map(|limb| limb.1), layout.hinged());
         assert!(LIMBS.iter().all(|&(upper, lower)| layout.parent(lower) == Some(upper)));
         for (n, children) in TRUNKS {

@@ -52,7 +52,7 @@ pub(crate) fn attempt(
     k1: &State<f64>,
     h: f64,
     tolerance: &Tolerance,
-    rate: impl FnMut(Stage, &State<f64>) -> State<f64>,
+    rate: impl FnMut(Stage, &State<f64>, &mut State<f64>),
 ) -> Trial {
     let (end, [k2, k3, k4]) = stages(state, k1, h, rate);
     // third-order weights 2/9, 1/3, 4/9, 0 less second-order weights 7/24, 1/4, 1/3, 1/8
@@ -69,15 +69,16 @@ pub fn stages<S: Scalar>(
     state: &State<S>,
     k1: &State<S>,
     h: f64,
-    mut rate: impl FnMut(Stage, &State<S>) -> State<S>,
+    mut rate: impl FnMut(Stage, &State<S>, &mut State<S>),
 ) -> (State<S>, [State<S>; 3]) {
-    let k2 = rate(Stage::Within(0.5), &state.advanced(S::of(0.5 * h), k1));
-    let k3 = rate(Stage::Within(0.75), &state.advanced(S::of(0.75 * h), &k2));
+    let [mut k2, mut k3, mut k4] = [State::zero(state.shape()); 3];
+    rate(Stage::Within(0.5), &state.advanced(S::of(0.5 * h), k1), &mut k2);
+    rate(Stage::Within(0.75), &state.advanced(S::of(0.75 * h), &k2), &mut k3);
     let mut sum = k1.advanced(S::of(1.5), &k2);
     sum.add(S::of(2.0), &k3);
     let mut end = state.advanced(S::of(h * (2.0 / 9.0)), &sum);
     end.normalize();
-    let k4 = rate(Stage::End, &end);
+    rate(Stage::End, &end, &mut k4);
     (end, [k2, k3, k4])
 }
 
@@ -160,7 +161,7 @@ mod tests {
     fn errors(h: f64) -> [f64; 3] {
         let tolerance = Tolerance { relative: 0.0, absolute_m: 1.0, absolute_m_s: 1.0 };
         let (start, k1) = (start(), swing(&start()));
-        let trial = attempt(&start, &k1, h, &tolerance, |_, state| swing(state));
+        let trial = attempt(&start, &k1, h, &tolerance, |_, state, rate| *rate = swing(state));
         let middle = within([&start, &k1], [&trial.state, &trial.rate], h, 0.5);
         [(middle.t1().x - (0.5 * h).cos()).abs(), (trial.state.t1().x - h.cos()).abs(), trial.error]
     }

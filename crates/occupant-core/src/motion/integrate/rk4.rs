@@ -3,7 +3,7 @@
 //! Orientations are integrated as quaternions in R⁴ and brought back to unit length after the step, which keeps the order.
 
 use crate::motion::scalar::Scalar;
-use crate::motion::state::State;
+use crate::motion::state::{Shape, State};
 
 /// Where in a step a rate is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,25 +16,47 @@ pub enum Stage {
     End,
 }
 
-/// The state after a step `h` (s); `rate` is called four times, first with [`Stage::Start`], and writes what it finds to its
-/// last argument.
+/// What a step writes on its way, used again by the next: a state of any tree is large to copy.
+#[derive(Clone, Debug)]
+pub struct Stages<S> {
+    at: State<S>,
+    k: State<S>,
+    sum: State<S>,
+}
+
+impl<S: Scalar> Stages<S> {
+    /// For states of this shape.
+    #[inline(always)]
+    pub fn new(shape: Shape) -> Self {
+        let zero = State::zero(shape);
+        Stages { at: zero, k: zero, sum: zero }
+    }
+
+    /// The state after a step `h` (s); `rate` is called four times, first with [`Stage::Start`], and writes what it finds to
+    /// its last argument.
+    #[inline(always)]
+    pub fn step(&mut self, from: &State<S>, h: S, mut rate: impl FnMut(Stage, &State<S>, &mut State<S>)) -> &State<S> {
+        let Stages { at, k, sum } = self;
+        let half = h * S::of(0.5);
+        let two = S::of(2.0);
+        rate(Stage::Start, from, sum); // (115), (116)
+        at.advance(from, half, sum);
+        rate(Stage::Middle, at, k); // k₂ (117), (118)
+        at.advance(from, half, k);
+        sum.add(two, k);
+        rate(Stage::Middle, at, k); // k₃ (119), (120)
+        at.advance(from, h, k);
+        sum.add(two, k);
+        rate(Stage::End, at, k); // k₄ (121), (122)
+        sum.add(S::one(), k);
+        at.advance(from, h / S::of(6.0), sum); // (123), (124), (126), (127)
+        at.normalize();
+        at
+    }
+}
+
+/// [`Stages::step`] by itself.
 #[inline(always)]
-pub fn step<S: Scalar>(state: &State<S>, h: S, mut rate: impl FnMut(Stage, &State<S>, &mut State<S>)) -> State<S> {
-    let half = h * S::of(0.5);
-    let two = S::of(2.0);
-    let mut sum = *state;
-    rate(Stage::Start, state, &mut sum); // (115), (116)
-    let mut at = state.advanced(half, &sum);
-    let mut k = sum;
-    rate(Stage::Middle, &at, &mut k); // k₂ (117), (118)
-    at.advance(state, half, &k);
-    sum.add(two, &k);
-    rate(Stage::Middle, &at, &mut k); // k₃ (119), (120)
-    at.advance(state, h, &k);
-    sum.add(two, &k);
-    rate(Stage::End, &at, &mut k); // k₄ (121), (122)
-    sum.add(S::one(), &k);
-    at.advance(state, h / S::of(6.0), &sum); // (123), (124), (126), (127)
-    at.normalize();
-    at
+pub fn step<S: Scalar>(state: &State<S>, h: S, rate: impl FnMut(Stage, &State<S>, &mut State<S>)) -> State<S> {
+    *Stages::new(state.shape()).step(state, h, rate)
 }

@@ -5,7 +5,7 @@
 
 use std::ops::ControlFlow;
 
-use super::machine::{Bench, Machine};
+use super::machine::{Around, Bench, Machine};
 use super::place::{Next, Place, Witness};
 use super::{Jobs, Kernel, run_alone};
 use crate::forces::History;
@@ -13,6 +13,7 @@ use crate::kernel::Scratch;
 use crate::model::Model;
 use crate::model::setup::Integrator;
 use crate::motion::frame::{Moving, VEHICLE};
+use crate::motion::integrate::rk4::Stages;
 use crate::motion::state::State;
 use crate::results::outcome::{RecordingFailed, Status};
 use crate::run::Run;
@@ -69,11 +70,11 @@ impl<L: Machine> Group<L> {
     fn make_room(&mut self, i: usize, model: &Model) -> bool {
         let alone = self.places.iter().all(Option::is_none);
         let put = |lanes: L, x: f64| lanes.with_lane(i, x);
-        let joined = self.bench.as_ref().map(|b| b.system.zip(model.system(), put));
+        let joined = self.bench.as_ref().map(|b| b.around.system.zip(model.system(), put));
         match (&mut self.bench, joined) {
             (Some(bench), Some(Ok(joined))) => {
-                bench.system = joined;
-                bench.history.look_again();
+                bench.around.system = joined;
+                bench.around.history.look_again();
             }
             (bench, _) if alone => {
                 *bench = new_bench(model);
@@ -98,7 +99,7 @@ impl<L: Machine> Group<L> {
             place.step = step;
             h.set_lane(i, step.length_s());
             let times_s = step.times_s();
-            for (lanes, t_s) in bench.frames.iter_mut().zip(times_s) {
+            for (lanes, t_s) in bench.around.frames.iter_mut().zip(times_s) {
                 // space stands still
                 let vehicle = place.model.setup().path.motion(t_s, times_s[1], &mut place.run.cursor);
                 lanes.time.set_lane(i, t_s);
@@ -139,7 +140,7 @@ impl<L: Machine> Group<L> {
         // the output touched the history; and a lane that failed gets numbers again
         if let Some(bench) = &mut self.bench {
             let put = &mut |lanes: &mut L, x: &mut f64| lanes.set_lane(i, *x);
-            bench.history.memory.each(&mut place.run.history.memory, put);
+            bench.around.history.memory.each(&mut place.run.history.memory, put);
             bench.state = bench.state.zip(&place.run.state, |lanes, x| lanes.with_lane(i, x));
         }
         match next {
@@ -172,7 +173,7 @@ impl<L: Machine> Group<L> {
     fn fetch_history(&mut self, i: usize, run: &mut Run) {
         if let Some(bench) = &mut self.bench {
             let fetch = &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i);
-            bench.history.memory.each(&mut run.history.memory, fetch);
+            bench.around.history.memory.each(&mut run.history.memory, fetch);
         }
         run.history.look_again();
     }
@@ -200,6 +201,7 @@ fn new_bench<L: Machine>(model: &Model) -> Option<Bench<L>> {
     let frames = model.frames(start_s, start_s, &mut cursor);
     let frames = frames.zip(&frames, &|x, _| L::of(x));
     let start = &model.start().state;
-    let scratch = Scratch::blank(&system.skeleton);
-    Some(Bench { state: start.zip(start, |x, _| L::of(x)), system, history, frames: [frames; 3], scratch })
+    let (scratch, stages) = (Scratch::blank(&system.skeleton), Stages::new(start.shape()));
+    let around = Around { system, history, frames: [frames; 3], scratch };
+    Some(Bench { state: start.zip(start, |x, _| L::of(x)), stages, around })
 }

@@ -8,7 +8,7 @@ use super::place::Witness;
 use crate::forces::{History, Observer};
 use crate::kernel::{Scratch, System};
 use crate::motion::frame::Frames;
-use crate::motion::integrate::rk4::{self, Stage};
+use crate::motion::integrate::rk4::{Stage, Stages};
 use crate::motion::lanes::Lanes;
 use crate::motion::state::State;
 
@@ -16,6 +16,13 @@ use crate::motion::state::State;
 #[derive(Clone, Debug)]
 pub(crate) struct Bench<L: Lanes> {
     pub state: State<L>,
+    pub stages: Stages<L>,
+    pub around: Around<L>,
+}
+
+/// What a rate is computed from beside the state.
+#[derive(Clone, Debug)]
+pub(crate) struct Around<L: Lanes> {
     pub system: System<L>,
     pub history: History<L>,
     /// At the step's start, middle and end.
@@ -30,7 +37,7 @@ pub(crate) trait Machine: Lanes {
     fn step(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> Self;
 }
 
-impl<L: Lanes> Bench<L> {
+impl<L: Lanes> Around<L> {
     /// The rate at a stage of a step, in the instructions of the caller; with `START` the history takes over the state.
     #[inline(always)]
     fn rate<const START: bool>(
@@ -43,12 +50,14 @@ impl<L: Lanes> Bench<L> {
         let frames = &self.frames[stage as usize];
         self.system.rate_with::<START>(&mut self.scratch, state, frames, &mut self.history, observer, rate);
     }
+}
 
-    /// One step, in the instructions of the caller; `rate` is [`Bench::rate`] compiled for them.
+impl<L: Lanes> Bench<L> {
+    /// One step, in the instructions of the caller; `rate` is [`Around::rate`] compiled for them.
     #[inline(always)]
-    fn step(&mut self, h: L, mut rate: impl FnMut(&mut Self, Stage, &State<L>, &mut State<L>)) -> L {
-        let from = self.state;
-        self.state = rk4::step(&from, h, |stage, state, k| rate(self, stage, state, k));
+    fn step(&mut self, h: L, mut rate: impl FnMut(&mut Around<L>, Stage, &State<L>, &mut State<L>)) -> L {
+        let Bench { state, stages, around } = self;
+        *state = *stages.step(state, h, |stage, state, k| rate(around, stage, state, k));
         L::select(self.state.finite(), L::one(), L::zero())
     }
 }
@@ -71,22 +80,22 @@ macro_rules! machine {
 
             #[target_feature(enable = $features)]
             fn step(bench: &mut Bench<$lanes>, h: $lanes, witness: &mut Witness<'_>) -> $lanes {
-                bench.step(h, |bench, stage, state, k| match stage {
-                    Stage::Start => rate::<true>(bench, stage, state, witness, k),
-                    _ => rate::<false>(bench, stage, state, &mut (), k),
+                bench.step(h, |around, stage, state, k| match stage {
+                    Stage::Start => rate::<true>(around, stage, state, witness, k),
+                    _ => rate::<false>(around, stage, state, &mut (), k),
                 })
             }
 
             #[inline(never)]
             #[target_feature(enable = $features)]
             fn rate<const START: bool>(
-                bench: &mut Bench<$lanes>,
+                around: &mut Around<$lanes>,
                 stage: Stage,
                 state: &State<$lanes>,
                 observer: &mut impl Observer<$lanes>,
                 k: &mut State<$lanes>,
             ) {
-                bench.rate::<START>(stage, state, observer, k);
+                around.rate::<START>(stage, state, observer, k);
             }
         }
     };
@@ -103,9 +112,9 @@ mod tests {
 
     impl<const N: usize> Machine for crate::motion::lanes::Plain<N> {
         fn step(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> Self {
-            bench.step(h, |bench, stage, state, k| match stage {
-                Stage::Start => bench.rate::<true>(stage, state, witness, k),
-                _ => bench.rate::<false>(stage, state, &mut (), k),
+            bench.step(h, |around, stage, state, k| match stage {
+                Stage::Start => around.rate::<true>(stage, state, witness, k),
+                _ => around.rate::<false>(stage, state, &mut (), k),
             })
         }
     }

@@ -17,6 +17,7 @@ pub fn schema_of<T: JsonSchema>(title: &str) -> Value {
     let mut schema = settings.into_generator().into_root_schema_for::<T>().to_value();
     if let Some(root) = schema.as_object_mut() {
         root.insert("title".into(), json!(title));
+        root.insert("$id".into(), json!(format!("urn:{}", title.replace(' ', ":"))));
     }
     schema
 }

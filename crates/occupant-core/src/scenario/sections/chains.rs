@@ -68,7 +68,6 @@ pub(crate) struct LimiterSection {
 /// A retractor.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("x-together" = [["second_limiter", "limiter"]]))]
 pub(crate) struct RetractorSection {
     /// Webbing on the spool at the start; 1 m if absent.
     pub(crate) on_spool: Option<Length<POSITIVE>>,
@@ -318,6 +317,9 @@ impl Parts<'_> {
         };
         if s.limiter.is_some() {
             b.error(&format!("{path}.limiter"), "a limiter of a belt with a retractor", "`limiter` of the retractor");
+        }
+        if section.second_limiter.is_some() && section.limiter.is_none() {
+            b.error(path, "a retractor with a second limiter and no first", "`limiter` of the retractor");
         }
         let second = |second: &SecondLimiterSection, b: &mut Builder| {
             let limiter = self.limiter(b, &second.limiter)?;

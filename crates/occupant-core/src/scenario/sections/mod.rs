@@ -8,6 +8,7 @@ mod body;
 mod body_joints;
 mod builder;
 mod chains;
+mod heading;
 mod joints;
 mod limits;
 mod markers;

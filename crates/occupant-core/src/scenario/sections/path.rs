@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::builder::Builder;
-use super::number_table::{Column, NumberTable, column, read_csv, read_inline};
+use super::number_table::{Column, NumberTable, column, names_of, read_csv, read_inline};
 use super::pulse::{self, PulseSection};
 use super::quantity::{all_si, si_or};
 use super::sensors::{self, SensorsSection};
@@ -48,12 +48,13 @@ pub(crate) struct PoseSection {
 /// A table of times, places and angles.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("x-exactly-one" = [["file", "rows"]], "x-together" = [["columns", "rows"]]))]
+#[schemars(extend("x-exactly-one" = [["file", "rows"]], "dependentRequired" = {"rows": ["columns"]}))]
 pub(crate) struct TableSection {
     /// CSV file beside the scenario; its first line names the columns and their units, such as
     /// `t[s],x[m],y[m],z[m],roll[deg],pitch[deg],yaw[deg]`. Columns other than `t` may be left out and are then 0.
     pub(crate) file: Option<String>,
-    /// Names and units of the columns of `rows`, such as `["t[s]", "x[ft]", "yaw[deg]"]`.
+    /// Names and units of the columns of `rows`, such as `["t[s]", "x[ft]", "yaw[deg]"]`; or of those of `file` in place of its headings, `"-"` for one
+    /// that is left out.
     pub(crate) columns: Option<Vec<String>>,
     /// The table itself, one list for each time.
     pub(crate) rows: Option<Vec<Vec<f64>>>,
@@ -123,7 +124,7 @@ fn table_path(b: &mut Builder, s: &TableSection, file: Option<SourceId>) -> Opti
 
 pub(super) fn numbers(b: &mut Builder, file: Option<SourceId>, columns: &[Column]) -> Option<NumberTable> {
     let table = match (file, b.document.root.get("path")) {
-        (Some(id), _) => read_csv(&b.document.sources, id, columns),
+        (Some(id), section) => read_csv(&b.document.sources, id, columns, section.and_then(names_of)),
         (None, Some(section)) => read_inline(&b.document.sources, section, columns),
         (None, None) => return None,
     };

@@ -17,7 +17,7 @@ use placed_text::{Problem, SourceId};
 #[serde(deny_unknown_fields)]
 #[schemars(extend(
     "x-at-most-one" = [["peak", "delta_v"], ["file", "rows"]],
-    "x-together" = [["columns", "rows"]],
+    "dependentRequired" = {"rows": ["columns"]},
 ))]
 pub(crate) struct PulseSection {
     /// Shape of the deceleration over time.
@@ -40,7 +40,8 @@ pub(crate) struct PulseSection {
     pub(crate) fall: Option<Time<NOT_NEGATIVE>>,
     /// CSV file beside the scenario with the deceleration of a tabulated pulse; columns `t` and `a`.
     pub(crate) file: Option<String>,
-    /// Names and units of the columns of `rows`, such as `["t[ms]", "a[g]"]`.
+    /// Names and units of the columns of `rows`, such as `["t[ms]", "a[g]"]`; or of those of `file` in place of its headings, `"-"` for one
+    /// that is left out.
     pub(crate) columns: Option<Vec<String>>,
     /// The table itself, one list for each time.
     pub(crate) rows: Option<Vec<Vec<f64>>>,

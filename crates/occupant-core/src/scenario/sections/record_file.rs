@@ -24,7 +24,7 @@ pub struct RecordFile {
 pub fn read_record(bytes: &[u8], name: &str) -> Result<RecordFile, Diagnostics> {
     let mut sources = Sources::new();
     let id = sources.add(name, text_of(bytes, name)?);
-    let table = read_csv(&sources, id, &COLUMNS[..RECORDED])?;
+    let table = read_csv(&sources, id, &COLUMNS[..RECORDED], None)?;
     let channels = |from: usize| [0, 1, 2].map(|axis| table.column(from + axis));
     let file = RecordFile {
         record: AccelerationRecord {

@@ -20,14 +20,16 @@ use placed_text::{Diagnostic, Problem, SourceId};
 /// What sensors in the vehicle recorded, along its axes: x forward, y right, z down.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("x-exactly-one" = [["file", "rows"]], "x-together" = [["columns", "rows"]]))]
+#[schemars(extend("x-exactly-one" = [["file", "rows"]], "dependentRequired" = {"rows": ["columns"]}))]
 pub(crate) struct SensorsSection {
     /// CSV file beside the scenario; its first line names the columns and their units: `t`, accelerations `ax`, `ay`, `az`
     /// and rates `wx`, `wy`, `wz` (or `roll_rate`, `pitch_rate`, `yaw_rate`), such as `t[s],ax[g],ay[g],wz[deg/s]`; or
-    /// velocity changes `dvx`, `dvy` with `wz`, such as `t[ms],dvx[km/h]`. An acceleration, rate or velocity change that
+    /// velocity changes `dvx`, `dvy` with `wz`, such as `t[ms],dvx[km/h]`; or as recorders do, such as
+    /// `Time (ms),Delta-V longitudinal (km/h)`. Commas, semicolons, tabs or blanks separate them. An acceleration, rate or velocity change that
     /// has no column is a motion that is not there.
     pub(crate) file: Option<String>,
-    /// Names and units of the columns of `rows`, such as `["t[ms]", "ax[g]"]`.
+    /// Names and units of the columns of `rows`, such as `["t[ms]", "ax[g]"]`; or of those of `file` in place of its headings, `"-"` for one
+    /// that is left out.
     pub(crate) columns: Option<Vec<String>>,
     /// The record itself, one list for each time.
     pub(crate) rows: Option<Vec<Vec<f64>>>,

@@ -47,6 +47,28 @@ rows = [[0, 0, 0], [100, 10, 90], [200, 20, 180.0]]";
 }
 
 #[test]
+fn tables_of_recorders_are_read_as_they_are() {
+    const RECORDER: &str = "kind = \"sensors\"\nfile = \"path.csv\"\nspeed = \"30 km/h\"\nafter = \"hold\"";
+    let path = |section: &str, csv: &str| with_csv(section, csv).map(|setup| setup.path).unwrap();
+    let plain = path(RECORDER, "t[ms],dvx[km/h]\n0,0\n50,-12.5\n100,-25\n");
+    for csv in [
+        "Time (ms),Delta-V longitudinal (km/h)\n0,0\n50,-12.5\n100,-25\n",
+        "\"Time (ms)\",\"Delta-V, longitudinal (km/h)\"\n0,0\n50,-12.5\n100,-25\n",
+        "Time [ms];Cumulative Delta V [km/h]\n0;0\n50;-12,5\n100;-25\n",
+        "Time\tDelta-V\nms\tkm/h\n0\t0\n50\t-12,5\n100\t-25\n",
+        "time (ms)   dvx [km/h]\n0 0\n50   -12.5\n100  -25\n",
+    ] {
+        assert_eq!(path(RECORDER, csv), plain, "{csv}");
+    }
+    let named = format!("{RECORDER}\ncolumns = [\"t[ms]\", \"-\", \"dvx[km/h]\"]");
+    for csv in ["clock,brake,change\n0,off,0\n50,on,-12.5\n100,on,-25\n", "0,1,0\n50,1,-12.5\n100,1,-25\n"] {
+        assert_eq!(path(&named, csv), plain, "{csv}");
+    }
+    let refused = with_csv(RECORDER, "Time (ms),Engine speed (rpm)\n0,0\n").unwrap_err();
+    assert!(refused.contains("unknown column `Engine speed`"), "{refused}");
+}
+
+#[test]
 fn a_tabulated_pulse_is_in_g() {
     let pulse = "kind = \"pulse\"\nshape = \"tabulated\"\nspeed = 10\ncolumns = [\"t[ms]\", \"a[g]\"]
 rows = [[0, 0], [40, 20], [80, 0]]";

@@ -18,7 +18,7 @@ use crate::motion::vector::V3;
 const NO_WAY: f64 = 1e-18;
 
 /// Pairs of spheres of the body.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct SelfPairs<S> {
     /// Number of the first among all pairs that remember something.
     pub first: usize,

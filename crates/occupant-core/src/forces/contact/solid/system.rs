@@ -17,7 +17,7 @@ use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
 /// All solids, and which spheres meet them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Solids<S> {
     /// Pairs by sphere and frame, numbered on from those of faces.
     pub(crate) groups: Vec<Group>,
@@ -67,7 +67,7 @@ impl Solids<f64> {
         materials: &[Material],
         pairs: usize,
     ) -> Solids<f64> {
-        let mut all = Solids { shapes: solids.iter().flat_map(|s| build(&s.shape)).collect(), ..Solids::none() };
+        let mut all = Solids { shapes: solids.iter().flat_map(|s| build(&s.shape)).collect(), ..Solids::default() };
         for (sphere, data) in body.spheres.iter().enumerate() {
             for (frame, index) in [(Frame::Vehicle, VEHICLE), (Frame::Space, SPACE)] {
                 let first = all.pairs.len();
@@ -103,10 +103,6 @@ impl Union<f64> {
 }
 
 impl<S> Solids<S> {
-    pub(crate) fn none() -> Self {
-        Solids { groups: Vec::new(), pairs: Vec::new(), shapes: Vec::new() }
-    }
-
     /// Every sphere that meets a solid, by the group of its pair.
     pub(crate) fn met(&self) -> impl Iterator<Item = (&Group, &Member)> {
         let first = self.groups.first().map_or(0, |group| group.pairs.start);

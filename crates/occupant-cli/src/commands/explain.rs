@@ -1,0 +1,247 @@
+//! `occupant explain`: the keys of scenarios and studies in words, read off their JSON Schema.
+
+use std::fmt::Write as _;
+
+use placed_text::did_you_mean;
+use serde_json::Value as Json;
+
+use crate::base::{Failure, talk};
+use crate::commands::schema::Document;
+
+/// Explain the keys of a scenario or study: meaning, unit, example
+///
+/// `occupant explain` lists the sections, `occupant explain path` the keys of one, `occupant explain path.delta_v` tells of one
+/// key. A single word finds every key of that name. NAME stands for a name of your own.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Where the key stands, such as belts.NAME.slack, or its name alone; all sections if absent
+    #[arg(value_name = "KEY")]
+    key: Option<String>,
+
+    /// Whose keys
+    #[arg(long, value_enum, default_value_t = Document::Scenario)]
+    of: Document,
+
+    /// Write all keys as a page in Markdown
+    #[arg(long, conflicts_with = "key")]
+    markdown: bool,
+}
+
+/// Tells of a key.
+pub(crate) fn explain(args: &Args) -> Result<(), Failure> {
+    let root = Key { path: String::new(), variant: None, needed: true, root: args.of.schema(), own: args.of.schema() };
+    if args.markdown {
+        return talk::print(&page(&root, args.of));
+    }
+    let found = match &args.key {
+        None => vec![root],
+        Some(path) => root.find(path)?,
+    };
+    let texts: Vec<String> = found.iter().map(Key::text).collect();
+    talk::print(&texts.join("\n"))
+}
+
+/// A key of the schema.
+#[derive(Clone)]
+struct Key<'a> {
+    path: String,
+    /// Of which kind of its section, such as `kind = "pulse"`.
+    variant: Option<String>,
+    needed: bool,
+    root: &'a Json,
+    /// What the schema says at its place.
+    own: &'a Json,
+}
+
+impl<'a> Key<'a> {
+    /// What the schema says of it, behind references.
+    fn schema(&self) -> &'a Json {
+        let name = self.own["$ref"].as_str().and_then(|path| path.strip_prefix("#/$defs/"));
+        name.map_or(self.own, |name| &self.root["$defs"][name])
+    }
+
+    /// Its description in one line.
+    fn meaning(&self) -> String {
+        let words = |schema: &'a Json| schema["description"].as_str();
+        words(self.own).or_else(|| words(self.schema())).unwrap_or_default().replace('\n', " ")
+    }
+
+    /// The tables that may stand at its place, each with what tells it from the others: one, unless there are kinds of it.
+    fn tables(&self) -> Vec<(Option<String>, &'a Json)> {
+        let schema = self.schema();
+        let Some(kinds) = schema["oneOf"].as_array() else {
+            return vec![(None, schema)];
+        };
+        let kind = |table: &'a Json| {
+            let (key, of) = table["properties"].as_object()?.iter().find(|(_, of)| of.get("const").is_some())?;
+            Some((Some(format!("{key} = {}", of["const"])), table))
+        };
+        kinds.iter().filter_map(kind).collect()
+    }
+
+    /// The keys below it.
+    fn below(&self) -> Vec<Key<'a>> {
+        let join = |key: &str| if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) };
+        let mut keys = Vec::new();
+        for (variant, table) in self.tables() {
+            let needed = |key: &str| table["required"].as_array().is_some_and(|keys| keys.iter().any(|k| k == key));
+            for (key, own) in table["properties"].as_object().into_iter().flatten() {
+                let variant = variant.clone();
+                keys.push(Key { path: join(key), variant, needed: needed(key), root: self.root, own });
+            }
+            if table["additionalProperties"].is_object() {
+                let own = &table["additionalProperties"];
+                keys.push(Key { path: join("NAME"), variant, needed: false, root: self.root, own });
+            }
+        }
+        let items = &self.schema()["items"];
+        if items.is_object() {
+            let item = Key { path: format!("{}[]", self.path), own: items, ..self.clone() };
+            keys.extend(item.below());
+        }
+        keys
+    }
+
+    /// All keys, each before those below it.
+    fn all(&self) -> Vec<Key<'a>> {
+        let below = self.below();
+        below.iter().flat_map(|key| std::iter::once(key.clone()).chain(key.all())).collect()
+    }
+
+    /// The keys at a path, in which names and stars stand for what has a name of the user's own; else all of that name.
+    fn find(&self, path: &str) -> Result<Vec<Key<'a>>, Failure> {
+        let all = self.all();
+        let wanted: Vec<&str> = path.split('.').map(bare).collect();
+        let is_at = |key: &&Key| {
+            let own: Vec<&str> = key.path.split('.').map(bare).collect();
+            own.len() == wanted.len() && own.iter().zip(&wanted).all(|(own, word)| own == word || *own == "NAME")
+        };
+        let is_named = |key: &&Key| wanted.len() == 1 && key.name() == wanted[0];
+        let found: Vec<Key> = all.iter().filter(is_at).cloned().collect();
+        let found = if found.is_empty() { all.iter().filter(is_named).cloned().collect() } else { found };
+        if found.is_empty() {
+            let names: Vec<&str> = all.iter().map(Key::name).collect();
+            let hint = did_you_mean(wanted.last().unwrap_or(&""), &names, '`');
+            let help = hint.unwrap_or_else(|| "`occupant explain` lists the sections".to_owned());
+            return Err(Failure::with_help(format!("no key `{path}`"), &help));
+        }
+        Ok(found)
+    }
+
+    fn name(&self) -> &str {
+        bare(self.path.rsplit('.').next().unwrap_or_default())
+    }
+
+    /// What may stand there, in words.
+    fn kind(&self) -> String {
+        let schema = self.schema();
+        let mut words = match (schema["x-dimension"].as_str(), names(schema)) {
+            (Some(dimension), _) => quantity(dimension, schema),
+            (None, names) if !names.is_empty() => format!("one of {}", names.join(", ")),
+            _ => plain(schema, self.root),
+        };
+        for (limit, sign) in [("minimum", "at least"), ("exclusiveMinimum", "more than"), ("maximum", "at most")] {
+            if let Some(value) = schema.get(limit) {
+                let _infallible = write!(words, ", {sign} {value}");
+            }
+        }
+        words
+    }
+
+    fn text(&self) -> String {
+        let below = self.below();
+        let mut text = String::new();
+        if !self.path.is_empty() {
+            let variant = self.variant.as_ref().map_or(String::new(), |variant| format!("   ({variant})"));
+            let needed = if self.needed { "needed; " } else { "" };
+            text = format!("{}{variant}\n    {}\n    {needed}{}\n", self.path, self.meaning(), self.kind());
+            for (name, meaning) in choices(self.schema()) {
+                let _infallible = writeln!(text, "      {name}: {meaning}");
+            }
+        }
+        let mut variant = None;
+        for key in &below {
+            if key.variant != variant {
+                variant.clone_from(&key.variant);
+                let _infallible = writeln!(text, "\n  {}", variant.as_deref().unwrap_or_default());
+            }
+            let needed = if key.needed { ", needed" } else { "" };
+            let _infallible = writeln!(text, "  {}: {}{needed}\n      {}", key.path, key.kind(), key.meaning());
+        }
+        text
+    }
+}
+
+/// A step of a path without an index.
+fn bare(step: &str) -> &str {
+    step.split('[').next().unwrap_or(step)
+}
+
+/// The words that may stand at a place, in quotes.
+fn names(schema: &Json) -> Vec<String> {
+    let listed = schema["enum"].as_array().into_iter().flatten().map(Json::to_string);
+    listed
+        .chain(choices(schema).into_iter().map(|(name, _)| name))
+        .chain(schema.get("const").map(Json::to_string))
+        .collect()
+}
+
+/// The same with what each means, where the schema says so.
+fn choices(schema: &Json) -> Vec<(String, &str)> {
+    let all = schema["oneOf"].as_array().into_iter().flatten();
+    all.filter_map(|one| Some((one.get("const")?.to_string(), one["description"].as_str().unwrap_or_default())))
+        .collect()
+}
+
+fn quantity(dimension: &str, schema: &Json) -> String {
+    let unit = |system: &str| schema["x-bare-unit"][system].as_str().unwrap_or_default();
+    let bare = match (unit("si"), unit("in-lbf-s")) {
+        ("", _) => String::new(),
+        (si, other) if si == other => format!(", a bare number in {si}"),
+        (si, other) => format!(", a bare number in {si} ({other} with units = \"in-lbf-s\")"),
+    };
+    format!("{dimension}{bare}, such as {}", schema["x-example"].as_str().unwrap_or_default())
+}
+
+/// What has no words of its own.
+fn plain(schema: &Json, root: &Json) -> String {
+    match schema["type"].as_str() {
+        Some("string") => "text".into(),
+        Some("boolean") => "true or false".into(),
+        Some("integer") => "whole number".into(),
+        Some("number") => "number".into(),
+        Some("array") => {
+            let item = Key { path: String::new(), variant: None, needed: false, root, own: &schema["items"] };
+            match (&schema["minItems"], &schema["maxItems"]) {
+                (least, most) if least == most && !least.is_null() => format!("list of {least}: {}", item.kind()),
+                (Json::Null, _) => format!("list: {}", item.kind()),
+                (least, _) => format!("list of {least} or more: {}", item.kind()),
+            }
+        }
+        _ if schema["additionalProperties"].is_object() => "tables by names of your own".into(),
+        _ if schema["oneOf"].is_array() || schema["properties"].is_object() => "table".into(),
+        _ => "any value".into(),
+    }
+}
+
+/// All keys as a page.
+fn page(root: &Key, of: Document) -> String {
+    let mut text = format!(
+        "# Keys of a {of}\n\nWritten by `occupant explain --of {of} --markdown`. {}\n\nNAME stands for a name of your own, `[]` for any item of a list.\n",
+        root.meaning(),
+        of = of.word(),
+    );
+    for table in std::iter::once(root.clone()).chain(root.all()).filter(|key| !key.below().is_empty()) {
+        let heading = if table.path.is_empty() { "Sections".to_owned() } else { format!("`{}`", table.path) };
+        let _infallible =
+            write!(text, "\n## {heading}\n\n{}\n\n| key | of | is | meaning |\n|---|---|---|---|\n", table.meaning());
+        for key in table.below() {
+            let needed = if key.needed { ", needed" } else { "" };
+            let variant = key.variant.as_ref().map_or(String::new(), |variant| format!("`{variant}`"));
+            let cell = |words: String| words.replace('|', "\\|");
+            let (kind, meaning) = (cell(key.kind()), cell(key.meaning()));
+            let _infallible = writeln!(text, "| `{}` | {variant} | {kind}{needed} | {meaning} |", key.name());
+        }
+    }
+    text
+}
