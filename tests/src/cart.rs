@@ -33,6 +33,7 @@ pub fn lap(integrator: Integrator) -> Setup {
         self_contact: None,
         edge_force: EdgeForce::AtContactPoint,
         belts: vec![lap_belt()],
+        chains: Vec::new(),
         path: path(),
         posture: InitialPosture::Seated(seating()),
         velocity: InitialVelocity::WithVehicle,

@@ -113,16 +113,14 @@ impl Compartment {
         let forces = Forces {
             contacts: ContactSystem::new(&system.body, &data),
             belts: Vec::new(),
+            chains: Vec::new(),
             joints: JointSystem::new(&system.joints, &skeleton, |_| f64::NAN),
             limits: Vec::new(),
             muscles: Vec::new(),
         };
         let untouched = PairHistory { phase: OPEN, greatest: 0.0 };
         let contacts = vec![untouched; forces.contacts.pairs.len()];
-        let history = History::new(
-            &forces,
-            Memory { contacts, belts: Vec::new(), joints: Vec::new(), limits: Vec::new(), muscles: Vec::new() },
-        );
+        let history = History::new(&forces, Memory { contacts, ..Memory::none() });
         let vehicle = Moving {
             origin: V3::of(&self.vehicle.origin),
             axes: M3::of(&self.vehicle.axes),

@@ -11,8 +11,8 @@ pub(crate) const ACCELERATIONS: &Curves = &[
     ("upper_torso.acceleration.resultant", "chest"),
     ("lower_torso.acceleration.resultant", "pelvis"),
 ];
-/// Loop forces.
-pub(crate) const WEBBING: &Curves = &[("belt.*.force", "*")];
+/// Loop forces and tensions of straps.
+pub(crate) const WEBBING: &Curves = &[("belt.*.force", "*"), ("strap.*.force", "*")];
 /// Forces on all contact spheres.
 pub(crate) const CONTACTS: &Curves = &[("sphere.*.force.resultant", "*")];
 /// Forces on those that are loaded most in frontal crashes.
@@ -45,6 +45,7 @@ pub(crate) const ENERGIES: &Curves = &[
     ("energy.lost_friction", "lost in friction"),
     ("energy.lost_joints", "lost in joints"),
     ("energy.lost_belts", "lost in belts"),
+    ("energy.pretensioners", "work of pretensioners"),
     ("energy.spine", "spine springs"),
 ];
 /// How far the energies are from a balance.

@@ -1,6 +1,7 @@
 //! The list of all kinds of force elements, and what follows from it.
 
 use super::belt::Belts;
+use super::chain::Chains;
 use super::contact::Contacts;
 use super::element::{Element, Hints as _, Instant, Load, Misfit, StoredEnergy, Unlike, WorkSum};
 use super::joint::JointMoments;
@@ -314,6 +315,7 @@ macro_rules! kinds {
 kinds! {
     contacts: Contacts,
     belts: Belts,
+    chains: Chains,
     joints: JointMoments,
     limits: JointLimits,
     muscles: Muscles,

@@ -10,8 +10,11 @@
 //! Nothing here knows a model, a run or a result.
 
 pub mod belt;
+pub mod chain;
 pub mod contact;
+pub(crate) mod decay;
 mod element;
+pub mod function;
 pub mod joint;
 mod list;
 pub(crate) mod rate;

@@ -8,6 +8,7 @@ pub mod setup;
 mod validate;
 
 use crate::body::Body;
+use crate::forces::chain::Chain;
 use crate::forces::contact::OPEN;
 use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::solid::Solids;
@@ -134,6 +135,7 @@ impl Model {
     pub(crate) fn breaks_s(&self) -> Vec<f64> {
         let mut breaks_s = self.setup.path.breaks_s();
         breaks_s.extend(self.setup.joints.muscles.iter().flat_map(|muscle| muscle.times_s));
+        breaks_s.extend(self.setup.chains.iter().flat_map(Chain::breaks_s));
         breaks_s.sort_by(f64::total_cmp);
         breaks_s.dedup();
         breaks_s

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::body::{Body, ContactSphere, Segment};
 use crate::forces::Data;
 use crate::forces::belt::Belt;
+use crate::forces::chain::Chain;
 use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::material::Material;
 use crate::forces::contact::self_contact::SelfContact;
@@ -162,6 +163,8 @@ pub struct Setup {
     pub self_contact: Option<SelfContact>,
     /// Belts.
     pub belts: Vec<Belt>,
+    /// Belts over several nodes.
+    pub chains: Vec<Chain>,
     /// Motion of the vehicle.
     pub path: VehiclePath,
     /// Position at the start.
@@ -222,7 +225,14 @@ impl Setup {
             edge_force: self.edge_force,
             longest_step_s: self.integrator.longest_step_s(),
         };
-        Data { contacts, belts: &self.belts, joints: &self.joints, limits: &self.joints, muscles: &self.joints }
+        Data {
+            contacts,
+            belts: &self.belts,
+            chains: &self.chains,
+            joints: &self.joints,
+            limits: &self.joints,
+            muscles: &self.joints,
+        }
     }
 }
 
@@ -247,6 +257,7 @@ impl SetupBuilder {
             edge_force: EdgeForce::default(),
             self_contact: None,
             belts: Vec::new(),
+            chains: Vec::new(),
             path: VehiclePath::parked(),
             posture: InitialPosture::Coordinates(Box::new(ReportCoordinates { q: [0.0; DOF], rates: [0.0; DOF] })),
             velocity: InitialVelocity::default(),

@@ -82,7 +82,14 @@ impl<const N: usize> Neg for Dual<N> {
 in_place!([const N: usize] Dual<N>);
 
 impl<const N: usize> Scalar for Dual<N> {
+    const HAS_SLOPES: bool = true;
+
     type Mask = bool;
+
+    #[inline(always)]
+    fn value_alone(self) -> Self {
+        Dual::of(self.value)
+    }
 
     #[inline(always)]
     fn of(value: f64) -> Self {

@@ -41,6 +41,9 @@ pub trait Scalar:
     + AddAssign
     + SubAssign
 {
+    /// Whether numbers carry derivatives.
+    const HAS_SLOPES: bool = false;
+
     /// One truth value per lane.
     type Mask: Copy + Debug + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
 
@@ -90,6 +93,12 @@ pub trait Scalar:
     #[inline(always)]
     fn one() -> Self {
         Self::of(1.0)
+    }
+
+    /// The number without its derivatives.
+    #[inline(always)]
+    fn value_alone(self) -> Self {
+        self
     }
 
     /// x between 0 and 1.

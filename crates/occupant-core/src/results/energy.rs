@@ -62,7 +62,7 @@ impl EnergyLedger {
         };
         for energy in STORED {
             if let Some(HeldBy { sum, .. }) = energy.held_by {
-                ledger.lost_j[sum] = work.sums[sum] + start.stored_j[energy.at] - stored_j[energy.at];
+                ledger.lost_j[sum] = ledger.lost_j[sum] + start.stored_j[energy.at] - stored_j[energy.at];
             }
         }
         let spent: f64 = work.sums.iter().sum();

@@ -33,4 +33,28 @@ impl VehiclePath {
         }
         None
     }
+
+    /// The first time of a span, s, at which the change of speed along the vehicle's floor has reached `threshold_m_s` since
+    /// its acceleration last rose above `wake_m_s2`; none if it never does.
+    pub(crate) fn change_s(&self, [start_s, end_s]: [f64; 2], threshold_m_s: f64, wake_m_s2: f64) -> Option<f64> {
+        let mut cursor = PathCursor::default();
+        let mut acceleration = |t_s: f64| {
+            let motion = self.motion(t_s, t_s, &mut cursor);
+            motion.vector_to_frame(motion.acceleration_m_s2).xy()
+        };
+        let (mut before, mut change) = (acceleration(start_s), nalgebra::Vector2::zeros());
+        for i in 1..=((end_s - start_s) / LOOK_S) as u64 {
+            let t_s = start_s + i as f64 * LOOK_S;
+            let now = acceleration(t_s);
+            let was = change.norm();
+            change += (before + now) * (0.5 * LOOK_S);
+            if now.norm() < wake_m_s2 {
+                change = nalgebra::Vector2::zeros();
+            } else if change.norm() >= threshold_m_s {
+                return Some(t_s - LOOK_S * (change.norm() - threshold_m_s) / (change.norm() - was));
+            }
+            before = now;
+        }
+        None
+    }
 }

@@ -55,7 +55,6 @@ mod tests {
     use approx::assert_abs_diff_eq;
 
     use super::super::REFERENCE_PERSON;
-    use super::*;
 
     /// By hand: a man of 1773.4 mm and 78.72 kg has a trunk of 537.3 mm, a thigh of 415.6 mm, an upper arm of 338.1 mm.
     #[test]

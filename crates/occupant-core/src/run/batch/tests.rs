@@ -8,10 +8,14 @@ use crate::run::simulate::simulate;
 use crate::scenario::{Format, Scenario};
 
 fn model(mph: f64) -> Model {
-    let text = include_str!("../../../../../scenarios/cart-lap.toml");
-    let speed = format!("speed = \"{mph} mph\"");
-    let text = text.replace("speed = \"20 mph\"", &speed);
-    assert!(text.contains(&speed));
+    of(include_str!("../../../../../scenarios/cart-lap.toml"), "20 mph", mph)
+}
+
+/// The scenario with another speed, which ends a little later for each mph.
+fn of(text: &str, speed: &str, mph: f64) -> Model {
+    let [old, new] = [speed.to_owned(), format!("{mph} mph")].map(|speed| format!("speed = \"{speed}\""));
+    let text = text.replace(&old, &new);
+    assert!(text.contains(&new));
     let none = |name: &str| Err(format!("no file beside the text: {name}"));
     let loaded = Scenario::from_text(&text, Format::Toml, "cart", &none).unwrap();
     let (mut setup, _) = loaded.build().unwrap();
@@ -33,6 +37,13 @@ fn carts_in_an_array_of_lanes_have_the_bits_of_each_alone() {
 fn so_have_bodies_that_are_swept_as_any_tree() {
     let any = |mph: f64| model(mph).without_closed_forms();
     have_the_bits_of_each_alone([12.0, 20.0, 28.0, 16.0].map(any).into());
+}
+
+/// Retractors lock, pretensioners fire and stall, belts rub and slide at times of their own in each lane.
+#[test]
+fn so_have_belts_over_several_nodes() {
+    let belted = |mph| of(include_str!("../../../../../scenarios/three-point.toml"), "56 km/h", mph);
+    have_the_bits_of_each_alone([25.0, 30.0, 35.0, 40.0].map(belted).into());
 }
 
 #[test]

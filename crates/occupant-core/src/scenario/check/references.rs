@@ -4,14 +4,28 @@ use indexmap::IndexSet;
 use placed_text::{Node, Problem, did_you_mean, follow, one_of, parse_path, targets, to_text};
 
 /// Where a name stands, what it names, and the tables that have things of that kind.
-const REFERENCES: [(&str, &str, &str); 16] = [
+const REFERENCES: [(&str, &str, &str); 30] = [
     ("joints.*.set", "joint set", "joint_sets"),
     ("muscles.*.trigger", "trigger", "triggers"),
     ("surfaces.*.material", "material", "materials"),
     ("surfaces.*.spheres[*]", "sphere", "body.spheres"),
     ("solids.*.material", "material", "materials"),
     ("solids.*.spheres[*]", "sphere", "body.spheres"),
+    ("triggers.*.of[*]", "trigger", "triggers"),
     ("belts.*.sphere", "sphere", "body.spheres"),
+    ("belts.*.webbing", "webbing", "webbings"),
+    ("belts.*.limiter", "limiter", "limiters"),
+    ("belts.*.retractor", "retractor", "retractors"),
+    ("belts.*.release", "trigger", "triggers"),
+    ("belts.*.nodes[*].sphere", "sphere", "body.spheres"),
+    ("belts.*.nodes[*].retractor", "retractor", "retractors"),
+    ("belts.*.nodes[*].pretensioner.trigger", "trigger", "triggers"),
+    ("belts.*.pretensioner.trigger", "trigger", "triggers"),
+    ("retractors.*.lock.trigger", "trigger", "triggers"),
+    ("retractors.*.limiter", "limiter", "limiters"),
+    ("retractors.*.second_limiter.limiter", "limiter", "limiters"),
+    ("retractors.*.second_limiter.trigger", "trigger", "triggers"),
+    ("retractors.*.pretensioner.trigger", "trigger", "triggers"),
     ("self_contact.skin", "material", "materials"),
     ("self_contact.skins.*", "material", "materials"),
     ("self_contact.pairs[*][0]", "sphere", "body.spheres"),

@@ -7,6 +7,7 @@ mod belts;
 mod body;
 mod body_joints;
 mod builder;
+mod chains;
 mod heading;
 mod joints;
 mod limits;
@@ -27,6 +28,7 @@ mod sensors;
 mod setup;
 mod solids;
 mod surfaces;
+mod three_point;
 mod triggers;
 
 use std::sync::OnceLock;
@@ -41,6 +43,7 @@ pub(super) use setup::{occupant, setup};
 
 use self::belts::BeltSection;
 pub(super) use self::body::BodySection;
+use self::chains::{LimiterSection, RetractorSection, WebbingSection};
 use self::joints::{JointSection, JointsSection};
 use self::markers::MarkerSection;
 use self::materials::MaterialSection;
@@ -142,6 +145,15 @@ pub struct Scenario {
     /// Belts by name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) belts: IndexMap<String, BeltSection>,
+    /// Webbings by name, for belts with nodes.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) webbings: IndexMap<String, WebbingSection>,
+    /// Limiters of belt force by name.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) limiters: IndexMap<String, LimiterSection>,
+    /// Retractors by name, each of one belt.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) retractors: IndexMap<String, RetractorSection>,
     /// Contact materials by name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) materials: IndexMap<String, MaterialSection>,

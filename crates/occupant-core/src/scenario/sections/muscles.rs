@@ -6,12 +6,10 @@ use serde::{Deserialize, Serialize};
 
 use super::builder::Builder;
 use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, all_si, si_or};
-use super::triggers::triggers;
+use super::triggers::Triggers;
 use super::{Angle, Moment, Ratio, RotationalDamping, RotationalStiffness, Scenario, Time};
 use crate::body::{Body, Side, both_sides};
 use crate::forces::joint::muscle::{Muscle, NEVER_S};
-use crate::model::setup::TimeSpan;
-use crate::vehicle::VehiclePath;
 use placed_text::{Problem, did_you_mean, one_of, with_key};
 
 /// A muscle: a spring and a damper to a posture of the joint, and a torque of its own, as strong as it is active.
@@ -56,14 +54,7 @@ fn mirrored(side: Option<Side>, about: [f64; 3]) -> Vector3<f64> {
 }
 
 /// The muscles of all joints that have any, in the tree's order.
-pub(super) fn muscles(
-    b: &mut Builder,
-    scenario: &Scenario,
-    body: &Body,
-    path: &VehiclePath,
-    time: &TimeSpan,
-) -> Vec<Muscle> {
-    let fires_s = triggers(b, scenario, path, time);
+pub(super) fn muscles(b: &mut Builder, scenario: &Scenario, body: &Body, triggers: &Triggers<'_>) -> Vec<Muscle> {
     let words = |name: &str| [Some(name.to_owned()), both_sides(name), Some("all".to_owned())];
     let names: Vec<&str> = body.tree.joint_rows().iter().map(|row| row.name).collect();
     for name in scenario.muscles.keys() {
@@ -76,9 +67,11 @@ pub(super) fn muscles(
     let mut list = Vec::new();
     for joint in body.tree.joints() {
         let words = words(body.tree[joint].name);
-        let Some(s) = words.iter().flatten().find_map(|word| scenario.muscles.get(word)) else { continue };
+        let Some(key) = words.iter().flatten().find(|word| scenario.muscles.contains_key(*word)) else { continue };
+        let s = &scenario.muscles[key];
+        let at = with_key("muscles", key);
+        let fired_s = s.trigger.as_deref().and_then(|trigger| triggers.time_s(b, &format!("{at}.trigger"), trigger));
         let side = body.tree[joint].side();
-        let fired_s = s.trigger.as_deref().and_then(|trigger| fires_s.get(trigger));
         let times_s = |at_s| [at_s + si_or(&s.reaction, 0.0), si_or(&s.until, NEVER_S)];
         list.push(Muscle {
             joint,
@@ -89,7 +82,7 @@ pub(super) fn muscles(
             most_n_m: si_or(&s.limit, NEVER_S),
             tone: si_or(&s.tone, 0.0),
             rise_s: si_or(&s.rise, 1.0),
-            times_s: fired_s.copied().map_or([NEVER_S; 2], times_s),
+            times_s: fired_s.map_or([NEVER_S; 2], times_s),
         });
     }
     list

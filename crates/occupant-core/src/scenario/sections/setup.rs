@@ -8,8 +8,8 @@ use serde::Deserialize;
 use super::builder::Builder;
 use super::quantity::si_or;
 use super::{
-    BodySection, JointsSection, Scenario, belts, body, joints, materials, mount, muscles, path, plausible, posture,
-    run, self_contact, solids, surfaces,
+    BodySection, JointsSection, Scenario, belts, body, chains, joints, materials, mount, muscles, path, plausible,
+    posture, run, self_contact, solids, surfaces, triggers,
 };
 use crate::body::Body;
 use crate::forces::joint::Joints;
@@ -49,8 +49,11 @@ pub(in crate::scenario) fn setup(
     let output = run::output(b, explicit, &body);
     let gravity_m_s2 = si_or(&explicit.gravity, STANDARD_GRAVITY_M_S2);
     let path = path::path(b, &explicit.path, path_table, gravity_m_s2);
+    let mut chains = Vec::new();
     if let Some(path) = &path {
-        joints.muscles = muscles::muscles(b, explicit, &body, path, &time);
+        let triggers = triggers::triggers(b, explicit, path, &time);
+        joints.muscles = muscles::muscles(b, explicit, &body, &triggers);
+        chains = chains::chains(b, explicit, &body, &triggers);
     }
     check_provenance(b, written);
     let (Some(path), Some(posture), false) = (path, posture, b.problems.has_errors()) else {
@@ -67,6 +70,7 @@ pub(in crate::scenario) fn setup(
         edge_force: surfaces::edge_force(explicit),
         self_contact,
         belts,
+        chains,
         path,
         posture,
         velocity,

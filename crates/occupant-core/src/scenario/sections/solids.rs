@@ -44,6 +44,11 @@ macro_rules! kinds {
         )*
 
         impl SolidSection {
+            /// The outline of a prism seen from the side.
+            pub(crate) fn profile(&self) -> Option<&[[Length; 2]]> {
+                if let SolidSection::Prism(prism) = self { prism.profile.as_deref() } else { None }
+            }
+
             fn common(&self) -> Common<'_> {
                 match self {
                     $(SolidSection::$Kind(s) => Common {

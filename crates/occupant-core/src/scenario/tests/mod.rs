@@ -1,5 +1,6 @@
 //! Tests of the scenario format.
 
+mod belts;
 mod bodies;
 mod carts;
 mod limits;

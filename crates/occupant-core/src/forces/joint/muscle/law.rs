@@ -12,6 +12,7 @@
 //! There is no delay of the feedback: the reaction time is a single lag. What muscles do is work from outside.
 
 use crate::body::{Body, Joint, JointPlace, Segment};
+use crate::forces::decay::decay;
 use crate::forces::element::Instant;
 use crate::forces::joint::posture::{Posture, length};
 use crate::motion::kinematics::Kinematics;
@@ -157,12 +158,4 @@ impl<S: Scalar> MuscleLaw<S> {
         let [on, off] = self.times.map(|from| decay((time - from).max(S::zero()) / self.rise));
         self.tone + (S::one() - self.tone) * (off - on)
     }
-}
-
-/// exp(−x) of x ≥ 0 to 1e-14, constant beyond 32: a Taylor sum at x/64, squared six times. The same bits in all lanes.
-#[inline(always)]
-pub(super) fn decay<S: Scalar>(x: S) -> S {
-    let y = x.min(S::of(32.0)) * S::of(-1.0 / 64.0);
-    let sum = (1..=14).rev().fold(S::one(), |sum, n| S::one() + y * sum * S::of(1.0 / f64::from(n)));
-    (0..6).fold(sum, |power, _| power * power)
 }

@@ -1,7 +1,7 @@
 //! Activation and torque of muscles.
 
-use super::law::decay;
 use super::*;
+use crate::forces::decay::decay;
 use crate::forces::joint::limit::nodding;
 use crate::model::Model;
 use crate::results::energy::EnergyLedger;

@@ -1,0 +1,243 @@
+//! What is wrong with belts over several nodes: with their data, and with how they lie at the start.
+
+use super::data::{Chain, NEVER, Node, Rest, Site, Stroke, Track};
+use super::site::TrackLaw;
+use super::{ChainLaw, ChainPast, MOST_ARCS, MOST_NODES};
+use crate::body::Body;
+use crate::forces::element::Instant;
+use nalgebra::Vector3;
+use placed_text::{Problem, Problems, with_key};
+
+/// Shortest strap that is not warned of, m.
+const SHORT_M: f64 = 0.05;
+/// Greatest friction and tension at the start that are not warned of.
+const MOST_FRICTION: f64 = 0.6;
+const MOST_START_N: f64 = 100.0;
+
+pub(super) fn data(chains: &[Chain], body: &Body, problems: &mut Problems) {
+    for chain in chains {
+        let path = with_key("belts", &chain.belt);
+        nodes(chain, body, &path, problems);
+        let falls = "forces that rise from point to point";
+        chain.webbing.check(&format!("{path}.webbing"), true, falls, problems);
+        device(chain, &path, problems);
+        if let Some([stiffness, time]) = chain.viscous {
+            problems.check_positive(&format!("{path}.webbing.viscous.stiffness"), stiffness, "N");
+            problems.check_positive(&format!("{path}.webbing.viscous.time"), time, "s");
+        }
+        match chain.rest {
+            Rest::Length(length) => drop(problems.check_positive(&format!("{path}.length"), length, "m")),
+            Rest::Pretension(tension) => problems.check_at_least_zero(&format!("{path}.pretension"), tension, "N"),
+            Rest::Slack(_) => {}
+        }
+    }
+}
+
+fn nodes(chain: &Chain, body: &Body, path: &str, problems: &mut Problems) {
+    let path = format!("{path}.nodes");
+    let count = chain.nodes.len();
+    if !(2..=MOST_NODES).contains(&count) {
+        problems.error(
+            &path,
+            format!("{count} nodes"),
+            format!("2 to {MOST_NODES} nodes of a belt, or of a part between ties"),
+        );
+    }
+    problems.check_unique(&path, "node", chain.nodes.iter().map(|node| node.name.as_str()));
+    let mut spheres = 0;
+    for (i, node) in chain.nodes.iter().enumerate() {
+        let at = format!("{path}[{i}]");
+        let (is_end, is_sphere) = (i == 0 || i + 1 == count, matches!(node.site, Site::Sphere(_)));
+        if is_end && (is_sphere || matches!(node.site, Site::Track(..) | Site::Segment(_, _, Some(_)))) {
+            problems.error(&at, "an end that webbing can leave", "an anchor: a point of the vehicle or of a segment");
+        }
+        if is_sphere && node.friction > 0.0 {
+            problems.error(
+                format!("{at}.friction"),
+                "friction on a sphere",
+                "a guide or a track where webbing rubs on the body",
+            );
+        }
+        spheres = if is_sphere {
+            spheres + 1
+        } else if node.friction > 0.0 {
+            0
+        } else {
+            spheres
+        };
+        if spheres > MOST_ARCS {
+            problems.error(
+                &at,
+                format!("{spheres} spheres of one strap"),
+                format!("at most {MOST_ARCS} between places that rub"),
+            );
+        }
+        one(node, body, &at, problems);
+    }
+}
+
+fn one(node: &Node, body: &Body, at: &str, problems: &mut Problems) {
+    problems.check_at_least_zero(&format!("{at}.friction"), node.friction, "1");
+    problems.check_positive(&format!("{at}.strength"), node.strength_n, "N");
+    if node.friction > MOST_FRICTION {
+        problems.warning(
+            format!("{at}.friction"),
+            format!("{}", node.friction),
+            "0.1 to 0.6: webbing over steel or cloth",
+        );
+    }
+    match &node.site {
+        Site::Vehicle(point, stroke) => {
+            is_finite(&point.coords, at, problems);
+            stroke.iter().for_each(|stroke| check_stroke(stroke, at, problems));
+        }
+        Site::Segment(_, point, away) => {
+            is_finite(&point.coords, at, problems);
+            if away.is_some_and(|away| !(away.norm() > 0.5 && away.norm() < 2.0)) {
+                problems.error(format!("{at}.normal"), "no direction", "a direction away from the body");
+            }
+        }
+        Site::Track(_, track) => check_track(track, at, problems),
+        Site::Sphere(sphere) if *sphere >= body.spheres.len() => {
+            problems.error(format!("{at}.sphere"), "no such sphere", "a sphere of the body");
+        }
+        Site::Sphere(_) => {}
+    }
+}
+
+fn is_finite(point: &Vector3<f64>, at: &str, problems: &mut Problems) {
+    if point.iter().any(|c| !c.is_finite()) {
+        problems.error(format!("{at}.at"), "not finite numbers", "a point");
+    }
+}
+
+fn check_track(track: &Track, at: &str, problems: &mut Problems) {
+    problems.check_at_least_zero(&format!("{at}.across"), track.friction, "1");
+    problems.check_positive(&format!("{at}.drag"), track.drag_n_s_m, "N*s/m");
+    if TrackLaw::new(track, Vector3::zeros()).is_none() {
+        problems.error(format!("{at}.track"), "three points in line", "inner end, crown and outer end of an arc");
+    }
+}
+
+fn check_stroke(stroke: &Stroke, at: &str, problems: &mut Problems) {
+    let path = format!("{at}.pretensioner");
+    table(&stroke.way, &path, problems);
+    problems.check_positive(&format!("{path}.stall_force"), stroke.stall_n, "N");
+}
+
+/// A table that begins at (0, 0) and whose values do not fall.
+fn table(rows: &[[f64; 2]], path: &str, problems: &mut Problems) {
+    if rows.len() < 2 || rows[0] != [0.0, 0.0] {
+        problems.error(path, "a table that does not begin with 0, 0", "two rows or more from time 0 and 0 on");
+    }
+    if rows.windows(2).any(|pair| !(pair[1][0] > pair[0][0] && pair[1][1] >= pair[0][1])) {
+        problems.error(path, "times that do not rise or values that fall", "times that rise, values that do not fall");
+    }
+}
+
+fn device(chain: &Chain, path: &str, problems: &mut Problems) {
+    let falls = "a force that does not fall over payout; a force that falls needs a second limiter and a trigger";
+    let limiters = chain.device.limiter.iter().map(|law| (law, "limiter"));
+    let second = chain.device.second.iter().map(|(law, ..)| (law, "second_limiter"));
+    for (law, key) in limiters.chain(second) {
+        law.check(&format!("{path}.{key}"), false, falls, problems);
+    }
+    let Some(reel) = &chain.device.reel else { return };
+    problems.check_positive(&format!("{path}.retractor.on_spool"), reel.on_spool_m, "m");
+    if reel.tension_n.is_nan() || reel.tension_n < 0.1 {
+        let found = format!("{} N", reel.tension_n);
+        problems.error(
+            format!("{path}.retractor.spool_tension"),
+            found,
+            "at least 0.1 N: an open spool keeps its webbing taut",
+        );
+    }
+    let most_n = chain.device.limiter.as_ref().map_or(f64::INFINITY, |limiter| limiter.greatest_n());
+    if reel.tension_n > most_n {
+        problems.error(
+            format!("{path}.retractor"),
+            "a spool tension above the limiter",
+            "a tension that the limiter can hold",
+        );
+    }
+    if let Some(pull) = &reel.pull {
+        let path = format!("{path}.retractor.pretensioner");
+        if pull.by_force.is_none() {
+            table(&pull.table, &path, problems);
+        }
+        problems.check_positive(&format!("{path}.stall_force"), pull.stall_n, "N");
+        if pull.stall_n > most_n && pull.stall_n < NEVER {
+            let expected = "a stall force that the limiter can hold";
+            problems.error(format!("{path}.stall_force"), format!("{} N above the limiter", pull.stall_n), expected);
+        }
+    }
+    if reel.lock.due_s >= NEVER && reel.lock.watch.is_none() && reel.pull.is_none() {
+        problems.warning(
+            format!("{path}.retractor"),
+            "a spool that nothing locks in this run",
+            "a lock whose trigger fires",
+        );
+    }
+}
+
+/// Belts as they lie at the start.
+pub(super) fn laid(
+    law: &[ChainLaw<f64>],
+    data: &[Chain],
+    pasts: &[ChainPast<f64>],
+    body: &Body,
+    at: &Instant<'_, f64>,
+    problems: &mut Problems,
+) {
+    for ((law, chain), past) in law.iter().zip(data).zip(pasts) {
+        let path = with_key("belts", &chain.belt);
+        let now = law.now(at, past);
+        for (k, node) in chain.nodes.iter().enumerate() {
+            let node_path = format!("{path}.nodes[{k}]");
+            if let (Site::Sphere(sphere), true) = (&node.site, past.nodes[k].on == 0.0) {
+                let found = format!("the belt does not touch the sphere {} at the start", body.spheres[*sphere].name);
+                let problem = Problem::warning(&node_path, found, "a belt that lies on it");
+                problems.push(
+                    problem.with_hint(Some("it takes part once the belt comes onto it; check the nodes beside it")),
+                );
+            }
+            inside(law, chain, body, (k, &node_path), &now.lies.places, problems);
+        }
+        for (name, run) in chain.straps.iter().zip(&now.taut.runs) {
+            if run.length.is_nan() || run.length <= 0.0 {
+                problems.error(&path, format!("the strap {name} has no length"), "nodes in different places");
+            } else if run.length < SHORT_M {
+                let found = format!("the strap {name} is {:.0} mm long", 1e3 * run.length);
+                problems.warning(&path, found, "50 mm or more: shorter ones are very stiff");
+            }
+        }
+        let tension = now.taut.solved.straps[0].tension;
+        if tension > MOST_START_N {
+            problems.warning(&path, format!("a tension of {tension:.0} N at the start"), "less than 100 N");
+        }
+    }
+}
+
+/// A node that lies inside the sphere beside it.
+fn inside(
+    law: &ChainLaw<f64>,
+    chain: &Chain,
+    body: &Body,
+    (k, path): (usize, &str),
+    places: &[super::path::Place<f64>; MOST_NODES],
+    problems: &mut Problems,
+) {
+    for other in [k.wrapping_sub(1), k + 1] {
+        let (Some(Site::Sphere(sphere)), Some(_)) = (chain.nodes.get(other).map(|n| &n.site), law.nodes.get(other))
+        else {
+            continue;
+        };
+        let (own, beside) = (&places[k], &places[other]);
+        let distance = (own.centre - beside.centre).norm_squared().sqrt();
+        if distance <= (beside.radius - own.radius).abs() {
+            let (name, radius) = (&body.spheres[*sphere].name, beside.radius);
+            let found = format!("{distance:.4} m from the centre of the sphere {name} of radius {radius:.4} m");
+            problems.error(path, found, "a node outside the sphere beside it");
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! A chain at one instant: its places, its tensions, and what it remembers of an accepted step.
+
+use super::MOST_NODES;
+use super::data::Chain;
+use super::past::ChainPast;
+use super::path::{Bend, Place, bends, turn};
+use super::site::NodeLaw;
+use super::tension::{Course, Straps, Taut};
+use crate::body::Body;
+use crate::forces::element::Instant;
+use crate::motion::mobility::Mobility;
+use crate::motion::scalar::Scalar;
+use crate::motion::vector::V3;
+
+/// Constants of a chain.
+#[derive(Clone, Debug)]
+pub struct ChainLaw<S> {
+    pub(super) nodes: Vec<NodeLaw<S>>,
+    pub(super) straps: Straps<S>,
+    /// Number of the belt that it is a part of.
+    pub(super) belt: usize,
+}
+
+/// Where a chain lies.
+pub(super) struct Lies<S> {
+    pub(super) ways: [S; MOST_NODES],
+    pub(super) places: [Place<S>; MOST_NODES],
+    pub(super) bends: [Bend<S>; MOST_NODES],
+    pub(super) course: Course<S>,
+}
+
+/// A chain at one instant.
+pub(super) struct Now<'a, S: Scalar> {
+    pub(super) lies: Lies<S>,
+    pub(super) taut: Taut<'a, S>,
+}
+
+impl ChainLaw<f64> {
+    pub(super) fn new(chain: &Chain, belt: usize, body: &Body) -> Self {
+        let last = chain.nodes.len().saturating_sub(1);
+        let new = |(i, node)| NodeLaw::new(node, body, i == 0 || i == last);
+        let nodes: Vec<NodeLaw<f64>> = chain.nodes.iter().take(MOST_NODES).enumerate().map(new).collect();
+        let starts = (0..last.min(MOST_NODES)).filter(|i| *i == 0 || nodes[*i].rubs).collect();
+        ChainLaw { straps: Straps::new(chain, starts), nodes, belt }
+    }
+
+    /// Length of the webbing where the body is, m, and what is remembered of its way there.
+    pub(super) fn lie(&self, at: &Instant<'_, f64>) -> (f64, ChainPast<f64>) {
+        let mut past = ChainPast::none();
+        past.device.time = at.frames.time;
+        for (node, past) in self.nodes.iter().zip(&mut past.nodes) {
+            (past.on, past.way) = (1.0, node.start());
+        }
+        let bends = loop {
+            let bends = self.lies(at, &past).bends;
+            let worst = (0..self.nodes.len())
+                .filter(|&k| self.nodes[k].is_sphere() && past.nodes[k].on > 0.0 && bends[k].arc <= 0.0)
+                .min_by(|&a, &b| bends[a].arc.total_cmp(&bends[b].arc));
+            let Some(k) = worst else { break bends };
+            past.nodes[k].on = 0.0;
+            past.nodes[k].set_normal(bends[k].normal);
+        };
+        for (past, bend) in past.nodes.iter_mut().zip(&bends) {
+            past.set_normal(bend.normal);
+        }
+        (bends.iter().fold(0.0, |sum, bend| sum + bend.span + bend.arc), past)
+    }
+
+    /// What is remembered of a belt that lies so, `whole` long in all its parts, m.
+    pub(super) fn start(&self, at: &Instant<'_, f64>, whole: f64, past: &ChainPast<f64>) -> ChainPast<f64> {
+        let (lies, mut past) = (self.lies(at, past), *past);
+        self.straps.start(at.frames.time, self.straps.start_strain(whole), &lies.course.lengths, &mut past);
+        past
+    }
+}
+
+impl ChainLaw<f64> {
+    /// Of each strap, how fast a tension of 1 N would speed its length up, 1/kg, and its unstretched length, m.
+    pub(super) fn gives(&self, at: &Instant<'_, f64>, past: &ChainPast<f64>, mobility: &Mobility<'_>) -> Vec<[f64; 2]> {
+        let lies = self.lies(at, past);
+        let mut list: Vec<_> = self.straps.starts.iter().map(|k| [0.0, past.nodes[*k].unstretched]).collect();
+        let mut strap = 0;
+        for (k, node) in self.nodes.iter().enumerate() {
+            let bend = &lies.bends[k];
+            let mut give = |strap: usize, pull: V3<f64>| {
+                let Some(segment) = node.segment(at) else { return };
+                let pull = pull.to_vector();
+                list[strap][0] += pull.dot(&(mobility.of_point(segment, lies.places[k].centre) * pull));
+            };
+            if node.rubs {
+                give(strap, bend.back);
+                strap += 1;
+                give(strap, bend.ahead);
+            } else {
+                give(strap, bend.back + bend.ahead);
+            }
+        }
+        list
+    }
+}
+
+impl<S: Copy> ChainLaw<S> {
+    pub(super) fn is_like<A: Copy>(&self, other: &ChainLaw<A>) -> bool {
+        let nodes = self.nodes.iter().map(NodeLaw::shape).eq(other.nodes.iter().map(NodeLaw::shape));
+        nodes && self.straps.is_like(&other.straps)
+    }
+
+    pub(super) fn zip<A: Copy, T>(&self, other: &ChainLaw<A>, f: &impl Fn(S, A) -> T) -> ChainLaw<T> {
+        ChainLaw {
+            nodes: self.nodes.iter().zip(&other.nodes).map(|(a, b)| a.zip(b, f)).collect(),
+            straps: self.straps.zip(&other.straps, f),
+            belt: self.belt,
+        }
+    }
+}
+
+impl<S: Scalar> ChainLaw<S> {
+    /// Places of the nodes, and the webbing along them.
+    pub(super) fn lies(&self, at: &Instant<'_, S>, past: &ChainPast<S>) -> Lies<S> {
+        let (o, count) = (S::zero(), self.nodes.len());
+        let nowhere = Place { centre: V3::zero(), radius: o, is_sphere: false, may_leave: false };
+        let (mut ways, mut places) = ([o; MOST_NODES], [nowhere; MOST_NODES]);
+        for (k, node) in self.nodes.iter().enumerate() {
+            ways[k] = node.way(at.frames.time, &past.nodes[k], &past.device);
+            places[k] = node.place(at, ways[k]);
+        }
+        let bends = bends(&places[..count], &past.nodes);
+        let (mut course, mut strap) = (Course { lengths: [o; MOST_NODES], turns: [o; MOST_NODES] }, 0);
+        for (node, (bend, past)) in self.nodes.iter().zip(bends.iter().zip(&past.nodes)).skip(1) {
+            course.lengths[strap] += bend.span + bend.arc;
+            if node.rubs {
+                strap += 1;
+                // webbing that has left the node turns by nothing
+                course.turns[strap] = S::select(past.is_on(), turn(bend.back, bend.ahead), o);
+            }
+        }
+        Lies { ways, places, bends, course }
+    }
+
+    /// The chain at one instant, from what it remembers. A call of its own: it is large, and the kernel is built for many kinds
+    /// of numbers and observers.
+    #[inline(never)]
+    pub(super) fn now(&self, at: &Instant<'_, S>, past: &ChainPast<S>) -> Now<'_, S> {
+        let lies = self.lies(at, past);
+        let taut = self.straps.taut(at.frames.time, &lies.course, past);
+        Now { lies, taut }
+    }
+
+    /// Forces of the webbing on the nodes, space axes, N.
+    pub(super) fn forces(&self, now: &Now<'_, S>) -> [V3<S>; MOST_NODES] {
+        let (mut list, mut strap) = ([V3::zero(); MOST_NODES], 0);
+        for (k, node) in self.nodes.iter().enumerate() {
+            let (bend, straps) = (&now.lies.bends[k], &now.taut.solved.straps);
+            let before = straps[strap].tension;
+            strap += usize::from(node.rubs);
+            list[k] = bend.back * before + bend.ahead * straps[strap].tension;
+        }
+        list
+    }
+
+    /// Remembers an accepted step.
+    pub(super) fn commit(&self, at: &Instant<'_, S>, past: &mut ChainPast<S>) {
+        let (now, mut next) = (self.now(at, past), *past);
+        self.straps.commit(at.frames.time, &now.taut, past, &mut next);
+        self.commit_nodes(at, &now, &mut next);
+        next.device.time = at.frames.time;
+        let fresh = at.frames.time.gt(past.device.time);
+        past.each(&mut next, &mut |a, b| *a = S::select(fresh, *b, *a));
+    }
+
+    /// Nodes at an accepted step. At most one sphere comes on or goes off: that which is furthest beyond.
+    fn commit_nodes(&self, at: &Instant<'_, S>, now: &Now<'_, S>, next: &mut ChainPast<S>) {
+        let (o, mut most) = (S::zero(), S::zero());
+        let beyond = |k: usize, next: &ChainPast<S>| {
+            let bend = &now.lies.bends[k];
+            S::select(next.nodes[k].is_on(), -bend.wrap, bend.wrap)
+        };
+        for k in (0..self.nodes.len()).filter(|k| self.nodes[*k].is_sphere()) {
+            most = most.max(beyond(k, next));
+        }
+        for (k, force) in self.forces(now).into_iter().enumerate().take(self.nodes.len()) {
+            if self.nodes[k].is_sphere() {
+                let changes = most.gt(o) & !beyond(k, next).lt(most);
+                let own = &mut next.nodes[k];
+                own.set_normal(now.lies.bends[k].normal);
+                own.on = S::select(changes, S::one() - own.on, own.on);
+                most = S::select(changes, o, most);
+            } else {
+                let work = self.nodes[k].commit(at, now.lies.ways[k], force, &mut next.nodes[k]);
+                next.device.driven += work;
+            }
+        }
+    }
+}

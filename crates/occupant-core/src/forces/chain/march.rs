@@ -1,0 +1,193 @@
+//! Tensions of a chain: one number at the first node gives all of them.
+//!
+//! From x at the first node follow T₀ and Δs₀ = Δp ([`super::device`]); along the straps N_i = ℓ_i/(1 + ε_i(T_i)),
+//! Δs_{i+1} = Δs_i + N_iᶜ − N_i, and T_{i+1} = T_i exp(μθ z) with z = clamp(zᶜ + Δs/x_s, −1, 1): Coulomb friction with a play
+//! of x_s each way (our decision). At the last node nothing may pass: R(x) = Δs_{n+1} = 0. R rises strictly with x.
+
+use super::MOST_NODES;
+use super::device::Feed;
+use super::tension::WebbingLaw;
+use crate::forces::decay::decay;
+use crate::motion::scalar::Scalar;
+
+/// x_s, m.
+const PLAY_M: f64 = 5e-4;
+
+/// Most marches of one solution.
+const MARCHES: usize = 80;
+
+/// What the march needs of a strap and of the node where it begins.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Run<S> {
+    pub(super) length: S,
+    /// Nᶜ.
+    pub(super) before: S,
+    /// Greatest loading strain, and the strain that stays.
+    pub(super) greatest: S,
+    pub(super) set: S,
+    /// μθ and exp(−μθ).
+    pub(super) grip: S,
+    pub(super) hold: S,
+    /// zᶜ.
+    pub(super) play: S,
+    /// Viscous branch: stiffness κb, strain at which it is free.
+    pub(super) beside: [S; 2],
+}
+
+/// A strap as the march finds it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tense<S> {
+    pub(super) tension: S,
+    /// N.
+    pub(super) unstretched: S,
+    pub(super) strain: S,
+    /// x*.
+    pub(super) loading: S,
+    /// Δs of the node where it begins.
+    pub(super) fed: S,
+    /// z there.
+    pub(super) play: S,
+}
+
+impl<S: Scalar> Tense<S> {
+    pub(super) fn none() -> Self {
+        let o = S::zero();
+        Tense { tension: o, unstretched: o, strain: o, loading: o, fed: o, play: o }
+    }
+}
+
+/// All straps of a chain.
+pub(super) struct Solved<S: Scalar> {
+    pub(super) x: S,
+    pub(super) straps: [Tense<S>; MOST_NODES],
+    /// Webbing passed beyond the last node, which is none but for rounding, m.
+    pub(super) residual: S,
+}
+
+/// R and its derivative at x, and the straps.
+#[inline(always)]
+fn march<S: Scalar>(
+    webbing: &WebbingLaw<S>,
+    feed: &Feed<'_, S>,
+    runs: &[Run<S>],
+    x: S,
+    straps: &mut [Tense<S>; MOST_NODES],
+) -> (S, S) {
+    let start = feed.at(x);
+    let (mut tension, mut slope) = (start.tension, start.tension_rate);
+    let (mut fed, mut fed_slope) = (start.passed, start.passed_rate);
+    for (i, (run, strap)) in runs.iter().zip(straps).enumerate() {
+        if i > 0 {
+            let (ratio, part) = run.ratio(fed, strap);
+            slope = ratio * (slope + tension * (part * fed_slope));
+            tension = ratio * tension;
+        }
+        let (strain, give, loading) = webbing.reach(tension, run);
+        let inverse = S::one() / (S::one() + strain);
+        let unstretched = run.length * inverse;
+        (strap.tension, strap.unstretched, strap.strain) = (tension, unstretched, strain);
+        (strap.loading, strap.fed) = (loading, fed);
+        fed += run.before - unstretched;
+        fed_slope += unstretched * inverse * give * slope;
+    }
+    (fed, fed_slope)
+}
+
+impl<S: Scalar> Run<S> {
+    /// T_{i+1}/T_i and the derivative of its logarithm with respect to Δs.
+    #[inline(always)]
+    fn ratio(&self, fed: S, strap: &mut Tense<S>) -> (S, S) {
+        let (o, one) = (S::zero(), S::one());
+        let free = self.play + fed * S::of(1.0 / PLAY_M);
+        let z = free.max(-one).min(one);
+        strap.play = z;
+        let is_inside = free.lt(one) & (-one).lt(free);
+        let falls = z.lt(o);
+        let mut hold = self.hold;
+        if S::any(is_inside) {
+            hold = S::select(is_inside, decay(self.grip * z.abs()), hold);
+        }
+        let ratio = S::select(falls, hold, one / hold);
+        (ratio, S::select(is_inside, self.grip * S::of(1.0 / PLAY_M), o))
+    }
+}
+
+/// The chain as it is: slack, or at the root of R.
+#[inline(never)]
+pub(super) fn solve<S: Scalar>(
+    webbing: &WebbingLaw<S>,
+    feed: &Feed<'_, S>,
+    runs: &[Run<S>],
+    start: S,
+    is_free: S::Mask,
+) -> Solved<S> {
+    let (o, least) = (S::zero(), feed.least());
+    let mut straps = [Tense::none(); MOST_NODES];
+    // without tension: what is left over when every strap has the length that it lies at
+    let foot = |run: &Run<S>| run.length / (S::one() + webbing.reach(o, run).0);
+    let passed = feed.at(least).passed;
+    let surplus = runs.iter().fold(passed, |sum, run| sum + (run.before - foot(run)));
+    let is_slack = (!feed.is_open & !surplus.lt(o)) | is_free;
+    let length = runs.iter().fold(o, |sum, run| sum + run.length);
+    let limit = length * S::of(1e-13);
+
+    let mut x = S::select(feed.is_open, start, start.max(least));
+    let (mut low, mut high) = (S::select(feed.is_open, S::of(-1e300), least), S::of(1e300));
+    let (mut done, mut r, mut slope, mut last) = (is_slack, o, S::one(), S::of(1e300));
+    for _ in 0..MARCHES {
+        (r, slope) = march(webbing, feed, runs, x, &mut straps);
+        done = done | r.abs().lt(limit);
+        if !S::any(!done) {
+            break;
+        }
+        let below = r.lt(o);
+        (low, high) = (S::select(below, x, low), S::select(below, high, x));
+        let (newton, middle) = (x - r / slope, (low + high) * S::of(0.5));
+        let is_bracketed = low.gt(S::of(-1e290)) & high.lt(S::of(1e290));
+        let leaves = !(low.lt(newton) & newton.lt(high));
+        // a step that did not halve R has met a corner, or the last bits
+        let is_slow = !(r.abs() * S::of(2.0)).lt(last);
+        last = r.abs();
+        let halves = is_bracketed & (leaves | is_slow);
+        let next = S::select(halves, middle, newton);
+        // no number between the ends of the bracket, or a step within the last bit
+        let stays = !(newton.lt(x) | x.lt(newton));
+        let is_found = stays | is_bracketed & !(low.lt(middle) & middle.lt(high));
+        x = S::select(done | is_found, x, next);
+        done = done | is_found;
+    }
+    if S::HAS_SLOPES {
+        // one more step gives the exact derivative and leaves the value as it is
+        x -= (r - r.value_alone()) / slope.value_alone();
+        (r, _) = march(webbing, feed, runs, x, &mut straps);
+    }
+    let broken = S::select(done, o, S::of(f64::NAN));
+    for (i, (run, strap)) in runs.iter().zip(&mut straps).enumerate() {
+        let fed = if i == 0 { passed } else { o };
+        let slack = Tense {
+            tension: o,
+            unstretched: run.before + fed,
+            strain: webbing.reach(o, run).0,
+            loading: o,
+            fed,
+            play: run.play,
+        };
+        strap.tension += broken;
+        *strap = strap.zip(&slack, &|tense, slack| S::select(is_slack, slack, tense));
+    }
+    Solved { x: S::select(is_slack, least, x), straps, residual: S::select(is_slack, o, r) }
+}
+
+impl<S: Copy> Tense<S> {
+    #[inline(always)]
+    fn zip(&self, other: &Self, f: &impl Fn(S, S) -> S) -> Self {
+        Tense {
+            tension: f(self.tension, other.tension),
+            unstretched: f(self.unstretched, other.unstretched),
+            strain: f(self.strain, other.strain),
+            loading: f(self.loading, other.loading),
+            fed: f(self.fed, other.fed),
+            play: f(self.play, other.play),
+        }
+    }
+}

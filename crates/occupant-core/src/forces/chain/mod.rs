@@ -1,0 +1,200 @@
+//! Belts over several nodes: anchors, rings, guides, spheres, with retractors, limiters and pretensioners.
+//!
+//! Webbing without mass runs from node to node ([`path`]). Where it is held or rubs, a strap ends; each has one tension, and
+//! one number at the first node gives all of them ([`march`]). The device at that node has phases ([`device`]). All that a
+//! belt remembers changes at accepted steps alone ([`past`]): within a step the forces are a function of place and time.
+
+mod check;
+mod data;
+mod device;
+mod law;
+mod march;
+mod past;
+mod path;
+mod results;
+mod site;
+mod tension;
+
+use crate::body::Body;
+use crate::forces::belt::STRETCH;
+use crate::forces::element::{Element, HeldBy, Instant, Load, StoredEnergy, Unlike, WorkSum};
+use crate::forces::list::STORES;
+use crate::forces::rate::Rate;
+use crate::motion::frame::VEHICLE;
+use crate::motion::mobility::Mobility;
+use crate::motion::scalar::Scalar;
+use crate::quantity::Quantity;
+use crash_measures::unit::Unit;
+pub use data::*;
+pub use law::ChainLaw;
+pub use past::ChainPast;
+use placed_text::Problems;
+pub use results::StrapAction;
+
+/// Most nodes of a belt.
+pub(crate) const MOST_NODES: usize = 12;
+/// Most spheres of a strap.
+const MOST_ARCS: usize = 3;
+
+/// Place of the energy stored in belts, and of the work of pretensioners.
+const STORED_AT: usize = 2;
+const DRIVEN_AT: usize = 5;
+
+const OTHER_CHAINS: Unlike = Unlike("the belts have other nodes, devices or numbers of points of their curves");
+
+/// The kind of force element: belts over several nodes. An action is that of a strap.
+#[derive(Clone, Copy, Debug)]
+pub struct Chains;
+
+impl Element for Chains {
+    const OPTIONAL: bool = true;
+    const STORED: &'static [StoredEnergy] = &[StoredEnergy {
+        at: DRIVEN_AT,
+        quantity: Quantity::number(Unit::Joule, |driven_j: &f64| -*driven_j)
+            .channel("pretensioners", "work of pretensioners")
+            .field(17, "pretensioners", "work of pretensioners on belts since the start"),
+        held_by: HeldBy::sum(STRETCH, 52, "start_pretensioners_j", "work of pretensioners at the start of the run"),
+    }];
+    const SUMS: &'static [WorkSum] = &[];
+    const NAMES: [&'static str; 2] = ["strap", "straps"];
+
+    type Data<'a> = &'a [Chain];
+    type Law<S> = Vec<ChainLaw<S>>;
+    type Past<S> = ChainPast<S>;
+    type Hints<S: Scalar> = ();
+    type Action<S> = StrapAction<S>;
+
+    fn check(data: &[Chain], body: &Body, problems: &mut Problems) {
+        check::data(data, body, problems);
+    }
+
+    fn new(data: &[Chain], body: &Body) -> Vec<ChainLaw<f64>> {
+        let belt = |chain: &Chain| data.iter().position(|other| other.belt == chain.belt).unwrap_or(0);
+        data.iter().map(|chain| ChainLaw::new(chain, belt(chain), body)).collect()
+    }
+
+    /// All parts of a belt begin with the same strain: what is said of its length is said of the whole.
+    fn start(law: &Vec<ChainLaw<f64>>, at: &Instant<'_, f64>) -> Vec<ChainPast<f64>> {
+        let lies: Vec<_> = law.iter().map(|chain| chain.lie(at)).collect();
+        let whole = |chain: &ChainLaw<f64>| -> f64 {
+            let parts = law.iter().zip(&lies).filter(|(other, _)| other.belt == chain.belt);
+            parts.map(|(_, (length, _))| length).sum()
+        };
+        let start = |(chain, (_, past)): (&ChainLaw<f64>, &(f64, ChainPast<f64>))| chain.start(at, whole(chain), past);
+        law.iter().zip(&lies).map(start).collect()
+    }
+
+    fn begin(
+        law: &mut Vec<ChainLaw<f64>>,
+        data: &[Chain],
+        body: &Body,
+        at: &Instant<'_, f64>,
+        problems: &mut Problems,
+    ) {
+        let pasts = Self::start(law, at);
+        check::laid(law, data, &pasts, body, at, problems);
+    }
+
+    fn hints<S: Scalar>(_law: &Vec<ChainLaw<S>>) {}
+
+    fn count<S>(law: &Vec<ChainLaw<S>>) -> usize {
+        law.len()
+    }
+
+    fn most_actions<S>(law: &Vec<ChainLaw<S>>) -> usize {
+        law.iter().map(|chain| chain.straps.starts.len()).sum()
+    }
+
+    fn zip<S: Copy, A: Copy, T>(
+        one: &Vec<ChainLaw<S>>,
+        other: &Vec<ChainLaw<A>>,
+        f: &impl Fn(S, A) -> T,
+    ) -> Result<Vec<ChainLaw<T>>, Unlike> {
+        let is_like = one.len() == other.len() && one.iter().zip(other).all(|(a, b)| a.is_like(b));
+        is_like.then(|| one.iter().zip(other).map(|(a, b)| a.zip(b, f)).collect()).ok_or(OTHER_CHAINS)
+    }
+
+    fn each<S, A>(one: &mut ChainPast<S>, other: &mut ChainPast<A>, f: &mut impl FnMut(&mut S, &mut A)) {
+        one.each(other, f);
+    }
+
+    fn map<A: Copy, S>(past: &ChainPast<A>, f: &mut impl FnMut(A) -> S) -> ChainPast<S> {
+        past.map(f)
+    }
+
+    #[inline(always)]
+    fn apply<S: Scalar, const COMMIT: bool>(
+        law: &Vec<ChainLaw<S>>,
+        at: &Instant<'_, S>,
+        past: &mut [ChainPast<S>],
+        _hints: &mut (),
+        load: &mut Load<S>,
+        show: &mut impl FnMut(&StrapAction<S>),
+    ) {
+        for (chain, past) in law.iter().zip(past) {
+            act::<S, COMMIT>(chain, at, past, load, show);
+        }
+    }
+
+    /// The stiffest loading of a strap against the mass that it moves where the body is.
+    fn rates(
+        data: &[Chain],
+        body: &Body,
+        at: &Instant<'_, f64>,
+        _actions: &[StrapAction<f64>],
+        mobility: &Mobility<'_>,
+    ) -> Vec<Rate> {
+        let law = Self::new(data, body);
+        let pasts = Self::start(&law, at);
+        let rates = |((chain, law), past): ((&Chain, &ChainLaw<f64>), &ChainPast<f64>)| {
+            law.gives(at, past, mobility)
+                .into_iter()
+                .zip(&chain.straps)
+                .map(|([give, length], name)| {
+                    let stiffness = chain.webbing.steepest() / length;
+                    Rate::of_spring(name.clone(), "webbing".to_owned(), 1.0 / give, stiffness)
+                })
+                .collect::<Vec<_>>()
+        };
+        let all = data.iter().zip(&law).zip(&pasts).flat_map(rates);
+        all.filter(|rate| rate.effective.is_finite()).collect()
+    }
+
+    fn stored_j(actions: &[StrapAction<f64>], stored_j: &mut [f64; STORES]) {
+        stored_j[STORED_AT] += actions.iter().map(|strap| strap.stored).sum::<f64>();
+        stored_j[DRIVEN_AT] = -actions.iter().map(|strap| strap.driven).sum::<f64>();
+    }
+}
+
+/// What one chain does. A commit of the same time as the last changes nothing, so that a resumed run has the same bits.
+fn act<S: Scalar, const COMMIT: bool>(
+    chain: &ChainLaw<S>,
+    at: &Instant<'_, S>,
+    past: &mut ChainPast<S>,
+    load: &mut Load<S>,
+    show: &mut impl FnMut(&StrapAction<S>),
+) {
+    if COMMIT && S::any(at.frames.time.gt(past.device.time)) {
+        chain.commit(at, past);
+    }
+    let now = chain.now(at, past);
+    let frame = &at.frames[VEHICLE];
+    for (k, force) in chain.forces(&now).into_iter().enumerate().take(chain.nodes.len()) {
+        let Some(segment) = chain.nodes[k].segment(at) else { continue };
+        let centre = now.lies.places[k].centre;
+        let arm = centre - at.k.joint[segment];
+        let velocity = at.k.joint_velocity[segment] + at.k.omega[segment].cross(arm);
+        let carried = frame.velocity_at(centre);
+        let wrench = &mut load.wrench[segment];
+        wrench.force += force;
+        wrench.moment += arm.cross(force);
+        load.power.sums[STRETCH] -= force.dot(velocity - carried);
+        load.power.vehicle += force.dot(carried);
+    }
+    for strap in 0..chain.straps.starts.len() {
+        show(&StrapAction::new(chain, at, (&now, past), strap));
+    }
+}
+
+#[cfg(test)]
+mod tests;

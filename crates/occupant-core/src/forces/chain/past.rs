@@ -1,0 +1,148 @@
+//! What a chain remembers between steps: plain numbers that change only at accepted steps.
+
+use super::MOST_NODES;
+use crate::motion::scalar::Scalar;
+use crate::motion::vector::{V3, v3};
+
+/// A struct of numbers with what goes over all of them in one order.
+macro_rules! numbers {
+    ($(#[$doc:meta])* $Name:ident { $($(#[$field_doc:meta])* $field:ident),+ $(,)? }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub(super) struct $Name<S> {
+            $($(#[$field_doc])* pub(super) $field: S),+
+        }
+
+        impl<S> $Name<S> {
+            pub(super) fn each<A>(&mut self, other: &mut $Name<A>, f: &mut impl FnMut(&mut S, &mut A)) {
+                $(f(&mut self.$field, &mut other.$field);)+
+            }
+        }
+
+        impl<A: Copy> $Name<A> {
+            pub(super) fn map<S>(&self, f: &mut impl FnMut(A) -> S) -> $Name<S> {
+                $Name { $($field: f(self.$field)),+ }
+            }
+        }
+
+        impl<S: Scalar> $Name<S> {
+            pub(super) fn none() -> Self {
+                $Name { $($field: S::zero()),+ }
+            }
+        }
+    };
+}
+
+numbers! {
+    /// What is remembered of a node and of the strap that begins there.
+    NodePast {
+        /// 1 while the webbing passes it.
+        on,
+        /// Remembered normal of a sphere's plane, space axes.
+        normal_x,
+        normal_y,
+        normal_z,
+        /// N of the strap, m.
+        unstretched,
+        /// Greatest loading strain x* of the strap.
+        greatest,
+        /// Strain of the strap, and that of its viscous branch.
+        strain,
+        viscous,
+        /// P of the strap, what a metre of unstretched webbing carries away from it, N.
+        carried,
+        /// s, webbing that has come into the strap here since the start, unstretched, m; at the first node the payout.
+        fed,
+        /// z, −1 to 1.
+        play,
+        /// Way of a node along its track or its stroke, m, and its speed, m/s.
+        way,
+        speed,
+        /// Force of the webbing along a track, N.
+        across,
+        /// Lost here since the start, J: friction along and across, limiter and spool, and the webbing of the strap.
+        lost,
+    }
+}
+
+numbers! {
+    /// What is remembered of the belt's device.
+    DevicePast {
+        /// Of the last accepted step, s.
+        time,
+        /// Solution x of the march.
+        solution,
+        /// One of [`super::device::Phase`].
+        phase,
+        /// p − δ of a locked spool, m.
+        base,
+        /// Greatest loading deformation of the limiter, m.
+        greatest,
+        /// Average speed of the payout, and its last, m/s.
+        average,
+        speed,
+        /// Payout when the spool began to lock, or when the pretensioner fired, m.
+        mark,
+        /// When lock, pretensioner, second limiter and release are due, s.
+        lock_due,
+        pull_due,
+        switch_due,
+        release_due,
+        /// Since when their conditions hold, s.
+        lock_since,
+        pull_since,
+        switch_since,
+        release_since,
+        /// 1 once the pretensioner has done its work.
+        pulled,
+        /// 1 once the belt is released.
+        free,
+        /// Work of actuators since the start, J.
+        driven,
+    }
+}
+
+/// What a chain remembers. Nodes beyond its own are 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ChainPast<S> {
+    pub(super) device: DevicePast<S>,
+    pub(super) nodes: [NodePast<S>; MOST_NODES],
+}
+
+impl<S> ChainPast<S> {
+    pub(super) fn each<A>(&mut self, other: &mut ChainPast<A>, f: &mut impl FnMut(&mut S, &mut A)) {
+        self.device.each(&mut other.device, f);
+        for (one, other) in self.nodes.iter_mut().zip(&mut other.nodes) {
+            one.each(other, f);
+        }
+    }
+}
+
+impl<A: Copy> ChainPast<A> {
+    pub(super) fn map<S>(&self, f: &mut impl FnMut(A) -> S) -> ChainPast<S> {
+        ChainPast { device: self.device.map(f), nodes: self.nodes.each_ref().map(|node| node.map(f)) }
+    }
+}
+
+impl<S: Scalar> ChainPast<S> {
+    pub(super) fn none() -> Self {
+        ChainPast { device: DevicePast::none(), nodes: [NodePast::none(); MOST_NODES] }
+    }
+}
+
+impl<S: Scalar> NodePast<S> {
+    #[inline(always)]
+    pub(super) fn is_on(&self) -> S::Mask {
+        self.on.gt(S::zero())
+    }
+
+    #[inline(always)]
+    pub(super) fn normal(&self) -> V3<S> {
+        v3(self.normal_x, self.normal_y, self.normal_z)
+    }
+
+    #[inline(always)]
+    pub(super) fn set_normal(&mut self, normal: V3<S>) {
+        (self.normal_x, self.normal_y, self.normal_z) = (normal.x, normal.y, normal.z);
+    }
+}

@@ -1,0 +1,140 @@
+//! Where the webbing of a chain runs, how long it is, and the gradient of that length.
+//!
+//! With centres x and radii r of the nodes (0 of points), D = |x₊ − x₋|, a = r₋ − r₊, a span is S = √(D² − a²) long. A sphere
+//! with p and q from its centre to the nodes on either side wraps the webbing by
+//! W = 2π − θ − acos((r − r₋)/|p|) − acos((r − r₊)/|q|), θ the angle from p to q about the normal m = ±p × q/|p × q| with the
+//! sense that it had before; the length is Σ S + Σ r W. Forces are −T times its gradient, so that no energy comes of the
+//! approximation in it: each sphere wraps in the plane of the three centres. Nodes that the webbing has left are passed over.
+
+use std::f64::consts::TAU;
+
+use super::MOST_NODES;
+use super::past::NodePast;
+use crate::motion::scalar::Scalar;
+use crate::motion::vector::V3;
+
+/// What the webbing passes: a point, or a sphere of this radius.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place<S> {
+    pub(super) centre: V3<S>,
+    pub(super) radius: S,
+    pub(super) is_sphere: bool,
+    pub(super) may_leave: bool,
+}
+
+/// The webbing at a node.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bend<S> {
+    /// Length of the span that ends here, and of the arc on a sphere, m.
+    pub(super) span: S,
+    pub(super) arc: S,
+    /// −∂ℓ/∂x of the webbing before and of that behind the node.
+    pub(super) back: V3<S>,
+    pub(super) ahead: V3<S>,
+    /// W, rad.
+    pub(super) wrap: S,
+    /// m.
+    pub(super) normal: V3<S>,
+    /// Direction from the centre to where the webbing comes onto a sphere.
+    pub(super) touch: V3<S>,
+}
+
+/// Angle that webbing with these gradients turns by, rad.
+#[inline(always)]
+pub(super) fn turn<S: Scalar>(back: V3<S>, ahead: V3<S>) -> S {
+    let sine = back.cross(ahead).norm_squared().max(S::of(1e-60)).sqrt();
+    sine.atan2(-back.dot(ahead))
+}
+
+#[inline(always)]
+fn is_on<S: Scalar>(place: &Place<S>, past: &NodePast<S>) -> S::Mask {
+    if place.may_leave { past.is_on() } else { S::truth(true) }
+}
+
+/// The webbing along `places`; `past` says which of them it passes, and senses of normals.
+pub(super) fn bends<S: Scalar>(places: &[Place<S>], past: &[NodePast<S>; MOST_NODES]) -> [Bend<S>; MOST_NODES] {
+    let (o, none) = (S::zero(), V3::zero());
+    let empty = Bend { span: o, arc: o, back: none, ahead: none, wrap: o, normal: none, touch: none };
+    let mut bends = [empty; MOST_NODES];
+    let count = places.len();
+    // the node behind each that the webbing passes
+    let mut behind = [(places[count - 1].centre, places[count - 1].radius); MOST_NODES];
+    for k in (1..count - 1).rev() {
+        let (next, on) = (&places[k + 1], is_on(&places[k + 1], &past[k + 1]));
+        let (centre, radius) = behind[k + 1];
+        behind[k] = (V3::select(on, next.centre, centre), S::select(on, next.radius, radius));
+    }
+    // from the node before: where it is, and what its arc gives to the gradient at the next node
+    let (mut before, mut given) = ((places[0].centre, places[0].radius), none);
+    // what the span and arc of each node give to the gradient at the node before
+    let mut lead = [none; MOST_NODES];
+    for k in 1..count {
+        let (place, on) = (&places[k], is_on(&places[k], &past[k]));
+        let way = place.centre - before.0;
+        let (square, a) = (way.norm_squared(), before.1 - place.radius);
+        let span = (square - a * a).max(o).sqrt();
+        let pull = way * (span / square.max(S::of(1e-24))); // t u = S (x₊ − x₋)/D²
+        let bend = &mut bends[k];
+        (bend.span, bend.back, lead[k]) = (span, given - pull, pull);
+        let mut gives = none;
+        if place.is_sphere {
+            let arc = wrapped(place, before, behind[k], past[k].normal());
+            (bend.wrap, bend.arc) = (arc.wrap, place.radius * arc.wrap);
+            (bend.normal, bend.touch) = (arc.normal, arc.touch);
+            bend.back -= arc.to_before + arc.to_next;
+            lead[k] += arc.to_before;
+            gives = arc.to_next;
+        }
+        if place.may_leave {
+            bend.span = S::select(on, span, o);
+            bend.arc = S::select(on, bend.arc, o);
+            bend.back = V3::select(on, bend.back, none);
+        }
+        before = (V3::select(on, place.centre, before.0), S::select(on, place.radius, before.1));
+        given = V3::select(on, gives, given);
+    }
+    let mut next = none;
+    for k in (0..count).rev() {
+        let on = is_on(&places[k], &past[k]);
+        bends[k].ahead = V3::select(on, next, none);
+        next = V3::select(on, lead[k], next);
+    }
+    bends
+}
+
+/// An arc on a sphere, with what it gives to −gradient at the nodes on either side.
+struct Arc<S> {
+    wrap: S,
+    normal: V3<S>,
+    touch: V3<S>,
+    to_before: V3<S>,
+    to_next: V3<S>,
+}
+
+#[inline(always)]
+fn wrapped<S: Scalar>(place: &Place<S>, before: (V3<S>, S), next: (V3<S>, S), sense: V3<S>) -> Arc<S> {
+    let (p, q) = (before.0 - place.centre, next.0 - place.centre);
+    let (pp, qq) = (p.norm_squared().max(S::of(1e-24)), q.norm_squared().max(S::of(1e-24)));
+    let cross = p.cross(q);
+    let backward = cross.dot(sense).lt(S::zero());
+    let square = cross.norm_squared();
+    // in line with both neighbours the plane is undetermined: it stays what it was
+    let in_line = square.lt(pp * qq * S::of(1e-24));
+    let area = square.max(S::of(1e-60)).sqrt();
+    let normal = V3::select(in_line, sense, cross * (S::select(backward, -S::one(), S::one()) / area));
+    let angle = S::select(backward, -area, area).atan2(p.dot(q));
+    let angle = S::select(angle.lt(S::zero()), angle + S::of(TAU), angle);
+    let r = place.radius;
+    let (one, inverse) = (S::one(), S::one() / pp.sqrt());
+    let cut = |cosine: S| cosine.max(-one).min(one);
+    let [cosine, other] = [cut((r - before.1) * inverse), cut((r - next.1) / qq.sqrt())];
+    let sine = (one - cosine * cosine).max(S::zero()).sqrt();
+    Arc {
+        wrap: S::of(TAU) - angle - cosine.acos() - other.acos(),
+        normal,
+        // p/|p| turned about −m
+        touch: (p * cosine - normal.cross(p) * sine) * inverse,
+        to_before: p.cross(normal) * (r / pp),
+        to_next: normal.cross(q) * (r / qq),
+    }
+}

@@ -1,0 +1,318 @@
+//! What a chain contributes to results: its straps, one by one.
+
+use std::array::from_fn;
+
+use crash_measures::unit::Unit::{self, Joule, Metre, Newton, One, Radian};
+use nalgebra::Point3;
+
+use super::law::Now;
+use super::past::ChainPast;
+use super::site::SiteLaw;
+use super::{ChainLaw, Chains, MOST_ARCS, MOST_NODES};
+use crate::forces::element::{Element, Instant};
+use crate::forces::shown::{Line, Named, OneOf, Pull, Reported, Shown, Tracked};
+use crate::forces::stored::Archive;
+use crate::forces::table::{Cell, Column, Table};
+use crate::motion::frame::VEHICLE;
+use crate::motion::scalar::Scalar;
+use crate::motion::vector::V3;
+use crate::quantity::{Axes, FieldWords, Quantity};
+
+/// Greatest angle between two points of a drawn arc, rad.
+const ARC_STEP_RAD: f64 = 0.15;
+
+/// What one strap does at one instant.
+#[derive(Clone, Copy, Debug)]
+pub struct StrapAction<S> {
+    /// T, N.
+    pub force: S,
+    /// ε.
+    pub(crate) strain: S,
+    /// Length that it lies at, m, and N.
+    pub(crate) length: S,
+    pub(crate) unstretched: S,
+    /// Webbing that has come into it where it begins since the start, unstretched, m: of a spool the payout.
+    pub(crate) fed: S,
+    /// Its speed, of the first strap, m/s.
+    pub(crate) fed_speed: S,
+    /// Phase of the device where it begins; 0 of a ring.
+    pub(crate) phase: S,
+    /// θ where it begins, rad.
+    pub(crate) turn: S,
+    /// 1 while the webbing passes the node where it begins.
+    pub(crate) passes: S,
+    /// Recoverable, limiter included; lost in it and where it begins; work of actuators; J.
+    pub(crate) stored: S,
+    pub(crate) lost: S,
+    pub(crate) driven: S,
+    /// Webbing that the solution leaves over, m.
+    pub(crate) residual: S,
+    /// Ends, vehicle axes, m.
+    pub(crate) ends: [V3<S>; 2],
+    /// Force of the webbing on the node where it begins, vehicle axes, N.
+    pub(crate) node_force: V3<S>,
+    /// The spheres that it wraps.
+    arcs: [Arc<S>; MOST_ARCS],
+}
+
+/// Webbing on a sphere.
+#[derive(Clone, Copy, Debug)]
+struct Arc<S> {
+    sphere: usize,
+    /// W, rad; 0 or less where the webbing does not touch it.
+    wrap: S,
+    /// Centre, and from there to where the webbing comes onto the sphere, vehicle axes, m.
+    centre: V3<S>,
+    touch: V3<S>,
+    /// About which it goes round.
+    axis: V3<S>,
+    force: V3<S>,
+}
+
+impl<S: Scalar> StrapAction<S> {
+    #[inline(never)]
+    pub(super) fn new(
+        chain: &ChainLaw<S>,
+        at: &Instant<'_, S>,
+        (now, past): (&Now<'_, S>, &ChainPast<S>),
+        strap: usize,
+    ) -> Self {
+        let o = S::zero();
+        let (straps, lies) = (&chain.straps, &now.lies);
+        let (tense, node) = (&now.taut.solved.straps[strap], straps.starts[strap]);
+        let end = straps.starts.get(strap + 1).copied().unwrap_or(chain.nodes.len() - 1);
+        let frame = &at.frames[VEHICLE];
+        let (own, device) = (&past.nodes[node], &past.device);
+        let of_first = |number: S| if strap == 0 { number } else { o };
+        StrapAction {
+            force: tense.tension,
+            strain: tense.strain,
+            length: lies.course.lengths[strap],
+            unstretched: tense.unstretched,
+            fed: own.fed + tense.fed,
+            fed_speed: of_first(device.speed),
+            phase: of_first(device.phase),
+            turn: lies.course.turns[strap],
+            passes: own.on,
+            stored: straps.stored(&now.taut, strap),
+            lost: own.lost,
+            driven: of_first(device.driven),
+            residual: of_first(now.taut.solved.residual),
+            ends: [node, end].map(|k| frame.axes.into_frame(lies.places[k].centre - frame.origin)),
+            node_force: frame.axes.into_frame(chain.forces(now)[node]),
+            arcs: arcs(chain, at, (now, past), strap, node..end),
+        }
+    }
+}
+
+/// The spheres of a strap that begins and ends at these nodes.
+fn arcs<S: Scalar>(
+    chain: &ChainLaw<S>,
+    at: &Instant<'_, S>,
+    (now, past): (&Now<'_, S>, &ChainPast<S>),
+    strap: usize,
+    nodes: std::ops::Range<usize>,
+) -> [Arc<S>; MOST_ARCS] {
+    let frame = &at.frames[VEHICLE];
+    let mut spheres = nodes.filter(|k| chain.nodes[*k].is_sphere());
+    from_fn(|_| {
+        let none = V3::zero();
+        let Some(k) = spheres.next() else {
+            return Arc { sphere: 0, wrap: S::zero(), centre: none, touch: none, axis: none, force: none };
+        };
+        let (bend, place) = (&now.lies.bends[k], &now.lies.places[k]);
+        let sphere = if let SiteLaw::Sphere(sphere) = &chain.nodes[k].site { *sphere } else { 0 };
+        let force = (bend.back + bend.ahead) * now.taut.solved.straps[strap].tension;
+        Arc {
+            sphere,
+            wrap: S::select(past.nodes[k].is_on(), bend.wrap, S::zero()),
+            centre: frame.axes.into_frame(place.centre - frame.origin),
+            touch: frame.axes.into_frame(bend.touch) * place.radius,
+            axis: -frame.axes.into_frame(bend.normal),
+            force: frame.axes.into_frame(force),
+        }
+    })
+}
+
+impl Arc<f64> {
+    /// Points along it, vehicle axes, m.
+    fn points_m(&self) -> impl Iterator<Item = Point3<f64>> {
+        let [centre, touch, axis] = [self.centre, self.touch, self.axis].map(V3::to_vector);
+        let steps = (self.wrap.max(0.0) / ARC_STEP_RAD).ceil();
+        let angle = move |i: f64| self.wrap * if steps > 0.0 { i / steps } else { 0.0 };
+        let point = move |angle: f64| {
+            let (sine, cosine) = crash_measures::trig::sin_cos(angle);
+            Point3::from(centre + touch * cosine + axis.cross(&touch) * sine)
+        };
+        let count = if self.wrap > 0.0 { steps as u64 + 1 } else { 0 };
+        (0..count).map(move |i| point(angle(i as f64)))
+    }
+}
+
+type Of = Quantity<OneOf<Chains>>;
+
+impl Reported for Chains {
+    const MESSAGE: &'static str = "Strap";
+
+    const QUANTITIES: &'static [Of] = &[
+        Of::number(Newton, |s| s.force).channel("force", "tension of the {}").field(2, "force", "tension"),
+        Of::number(One, |s| s.strain).channel("strain", "strain of the {}").field(
+            3,
+            "strain",
+            "length over unstretched length, less 1; in slack where tension begins",
+        ),
+        Of::number(Metre, |s| s.length).channel("length", "length of the {}").field(4, "length", "length that it lies at"),
+        Of::number(Metre, |s| s.unstretched).field(5, "unstretched", "unstretched length"),
+        Of::number(Metre, |s| s.fed).channel("payout", "webbing that has come into the {} where it begins").field(
+            6,
+            "payout",
+            "unstretched webbing that has come into it where it begins since the start: off the spool, through the ring",
+        ),
+        Of::number(Unit::MetrePerSecond, |s| s.fed_speed).field(
+            7,
+            "payout_speed",
+            "speed at which webbing has left the spool in the last step; 0 of other straps",
+        ),
+        Of::number(One, |s| s.phase).channel("phase", "phase of the device of the {}").field(
+            8,
+            "phase",
+            "of the device where it begins: 1 open spool, 2 locking, 3 pulled in, 4 locked or fixed; 0 of a ring",
+        ),
+        Of::number(Radian, |s| s.turn).field(9, "turn", "angle by which the webbing turns in the ring where it begins"),
+        Of::vector(Newton, Axes::Vehicle, |s| s.node_force.to_vector())
+            .channel("node_force", "force of the webbing on the node where the {} begins")
+            .field(10, "node_force", "force of the webbing on the node where it begins")
+            .resultant(11, "node_force", "its magnitude"),
+        Of::vector(Metre, Axes::Vehicle, |s| s.ends[0].to_vector()).field(12, "start", "where it begins"),
+        Of::number(Joule, |s| s.stored).field(13, "stored", "recoverable energy, with that of the limiter where it begins"),
+        Of::number(Joule, |s| s.lost).field(
+            14,
+            "lost",
+            "lost in it and where it begins since the start: webbing, friction, limiter and spool",
+        ),
+        Of::number(Metre, |s| s.residual).field(
+            15,
+            "residual",
+            "of the first strap: webbing that the solution for the tensions leaves over",
+        ),
+    ];
+
+    const PEAKS: &'static [Tracked<StrapAction<f64>>] = &[
+        Tracked {
+            of: |s| s.force,
+            column: Column::number("force_n", "force, N", 0).measure("peak", Newton),
+            time: Some(Column::time("time_s").measure("peak_time", Unit::Second)),
+            at_least_zero: true,
+        },
+        Tracked {
+            of: |s| s.fed,
+            column: Column { scale: 1e3, ..Column::number("payout_m", "payout, mm", 1) }.measure("payout", Metre),
+            time: None,
+            at_least_zero: false,
+        },
+        Tracked {
+            of: |s| -s.fed,
+            column: Column { scale: 1e3, ..Column::number("pull_in_m", "pull-in, mm", 1) }.measure("pull_in", Metre),
+            time: None,
+            at_least_zero: true,
+        },
+        Tracked {
+            of: |s| s.lost,
+            column: Column::number("lost_j", "lost, J", 1).measure("lost", Joule),
+            time: None,
+            at_least_zero: true,
+        },
+    ];
+
+    fn keep(past: &mut Vec<ChainPast<f64>>, like: Option<&[ChainPast<f64>]>, file: &mut dyn Archive) {
+        let number = if like.is_some() { 51 } else { 50 };
+        let meaning = "what each belt over several nodes remembers: of its device, then of 12 nodes";
+        let mut list = Vec::new();
+        for chain in &*past {
+            chain.map(&mut |x| list.push(x));
+        }
+        let list = file.numbers(FieldWords { number, stem: "chains", meaning }, list);
+        let mut size = 0;
+        let blank = ChainPast::<f64>::none();
+        blank.map(&mut |_| size += 1);
+        if list.len() % size != 0 {
+            return file.refuse("a list of belts with parts missing");
+        }
+        let chain = |numbers: &[f64]| {
+            let mut numbers = numbers.iter().copied();
+            blank.map(&mut |none| numbers.next().unwrap_or(none))
+        };
+        *past = list.chunks(size).map(chain).collect();
+    }
+
+    fn named<'a>(data: Self::Data<'a>) -> Vec<Named<'a>> {
+        data.iter().flat_map(|chain| &chain.straps).map(|name| Named { name, sphere: None }).collect()
+    }
+
+    fn start_table(shown: &Shown<'_, Self>) -> Option<Table> {
+        if shown.data.is_empty() {
+            return None;
+        }
+        let columns = [
+            Column::number("length_m", "length, m", 4),
+            Column::number("unstretched_m", "unstretched, m", 4),
+            Column::number("force_n", "force, N", 1),
+            Column { scale: 180.0 / std::f64::consts::PI, ..Column::number("turn_rad", "turn, °", 1) },
+            Column { scale: 180.0 / std::f64::consts::PI, ..Column::number("wrap_rad", "wrap, °", 1) },
+        ];
+        let row = |(named, s): (Named<'_>, &StrapAction<f64>)| {
+            let wrap = s.arcs.iter().map(|arc| arc.wrap.max(0.0)).sum();
+            let numbers = [s.length, s.unstretched, s.force, s.turn, wrap];
+            (named.name.to_owned(), numbers.map(|number| Cell::Number(Some(number))).to_vec())
+        };
+        Some(Table::new(Self::NAMES[0], &columns, Self::named(shown.data).into_iter().zip(shown.actions).map(row)))
+    }
+
+    fn lines(shown: &Shown<'_, Self>) -> Vec<Line> {
+        let line = |(named, s): (Named<'_>, &StrapAction<f64>)| {
+            let [from, to] = s.ends.map(|end| Point3::from(end.to_vector()));
+            let points_m = [from].into_iter().chain(s.arcs.iter().flat_map(Arc::points_m)).chain([to]).collect();
+            Line { name: named.name.to_owned(), points_m, force_n: s.force }
+        };
+        Self::named(shown.data).into_iter().zip(shown.actions).map(line).collect()
+    }
+
+    fn pulls(shown: &Shown<'_, Self>, show: &mut dyn FnMut(&Pull<'_>)) {
+        let [of, _] = Self::NAMES;
+        for (named, strap) in Self::named(shown.data).into_iter().zip(shown.actions) {
+            for arc in strap.arcs.iter().filter(|arc| arc.wrap > 0.0) {
+                let (name, sphere, point_m) = (named.name, arc.sphere, (shown.centre_m)(arc.sphere));
+                show(&Pull { of, name, sphere, point_m, force_n: arc.force.to_vector() });
+            }
+        }
+    }
+
+    fn event<S: Scalar>(before: &StrapAction<S>, now: &StrapAction<S>) -> Option<(&'static str, Option<S>)> {
+        let (o, half) = (S::zero(), S::of(0.5));
+        let is = |x: S| S::any(x.gt(half));
+        let rises = |from: S, to: S| S::any(to.gt(from + half));
+        if is(before.passes) && !is(now.passes) {
+            return Some(("loses the node where it begins", Some(before.force)));
+        }
+        if rises(before.phase, now.phase) || rises(now.phase, before.phase) {
+            let words = ["", "opens", "begins to lock", "is pulled in by its pretensioner", "locks"];
+            let phase = (0..words.len()).find(|i| !S::any(now.phase.gt(S::of(*i as f64 + 0.5))));
+            return Some((words[phase.unwrap_or(0)], None));
+        }
+        let wraps = |strap: &StrapAction<S>| {
+            strap.arcs.iter().fold(0, |count, arc| count + usize::from(S::any(arc.wrap.gt(o))))
+        };
+        match wraps(now).cmp(&wraps(before)) {
+            std::cmp::Ordering::Less => return Some(("leaves a sphere of the body", None)),
+            std::cmp::Ordering::Greater => return Some(("comes onto a sphere of the body", None)),
+            std::cmp::Ordering::Equal => {}
+        }
+        match (S::any(before.force.gt(o)), S::any(now.force.gt(o))) {
+            (false, true) => Some(("tightens", None)),
+            (true, false) => Some(("goes slack", None)),
+            _ => None,
+        }
+    }
+}
+
+const _: () = assert!(MOST_ARCS < MOST_NODES);

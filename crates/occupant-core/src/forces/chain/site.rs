@@ -1,0 +1,270 @@
+//! Nodes of a chain: where they are, how they slide or are pulled, and when the webbing comes out of them.
+
+use super::data::{NEVER, Node, Site, Stroke, Track};
+use super::device::Steps;
+use super::past::{DevicePast, NodePast};
+use super::path::Place;
+use crate::body::Body;
+use crate::forces::element::Instant;
+use crate::motion::frame::VEHICLE;
+use crate::motion::scalar::Scalar;
+use crate::motion::vector::V3;
+use nalgebra::{Point3, Vector3};
+
+/// Constants of a node.
+#[derive(Clone, Debug)]
+pub(super) struct NodeLaw<S> {
+    pub(super) site: SiteLaw<S>,
+    /// μ.
+    pub(super) friction: S,
+    /// Whether a strap ends here.
+    pub(super) rubs: bool,
+    strength: S,
+    may_leave: bool,
+}
+
+#[derive(Clone, Debug)]
+pub(super) enum SiteLaw<S> {
+    /// Vehicle axes.
+    Vehicle(V3<S>, Option<StrokeLaw<S>>),
+    /// From the segment's joint, with the direction away from the body, segment axes.
+    Segment(usize, V3<S>, Option<V3<S>>),
+    Track(usize, TrackLaw<S>),
+    Sphere(usize),
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct StrokeLaw<S> {
+    due: S,
+    direction: V3<S>,
+    way: Steps<S>,
+    stall: S,
+}
+
+/// An arc: centre, directions to its inner end and along it there, radius, length, segment axes from the joint.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TrackLaw<S> {
+    centre: V3<S>,
+    out: V3<S>,
+    along: V3<S>,
+    radius: S,
+    length: S,
+    /// Where the webbing begins.
+    start: S,
+    friction: S,
+    drag: S,
+}
+
+impl TrackLaw<f64> {
+    /// The circle through three points, seen from the joint; nothing where they are in line.
+    pub(super) fn new(track: &Track, joint: Vector3<f64>) -> Option<Self> {
+        let [a, b, c] = track.points_m.map(|p| p.coords - joint);
+        let (u, v) = (b - a, c - a);
+        let normal = u.cross(&v);
+        let square = normal.norm_squared();
+        if square <= 1e-12 * u.norm_squared() * v.norm_squared() {
+            return None;
+        }
+        let to_centre = (normal.cross(&u) * v.norm_squared() + v.cross(&normal) * u.norm_squared()) / (2.0 * square);
+        let (centre, radius) = (a + to_centre, to_centre.norm());
+        let out = -to_centre / radius;
+        let along = normal.normalize().cross(&out);
+        let way = |p: Vector3<f64>| {
+            let arm = p - centre;
+            let angle = crash_measures::trig::atan2(arm.dot(&along), arm.dot(&out));
+            radius * if angle < 0.0 { angle + std::f64::consts::TAU } else { angle }
+        };
+        Some(TrackLaw {
+            centre: V3::of(&centre),
+            out: V3::of(&out),
+            along: V3::of(&along),
+            radius,
+            length: way(c),
+            start: way(b),
+            friction: track.friction,
+            drag: track.drag_n_s_m,
+        })
+    }
+}
+
+impl<S: Copy> TrackLaw<S> {
+    fn zip<A: Copy, T>(&self, other: &TrackLaw<A>, f: &impl Fn(S, A) -> T) -> TrackLaw<T> {
+        TrackLaw {
+            centre: self.centre.zip(&other.centre, f),
+            out: self.out.zip(&other.out, f),
+            along: self.along.zip(&other.along, f),
+            radius: f(self.radius, other.radius),
+            length: f(self.length, other.length),
+            start: f(self.start, other.start),
+            friction: f(self.friction, other.friction),
+            drag: f(self.drag, other.drag),
+        }
+    }
+}
+
+impl<S: Scalar> TrackLaw<S> {
+    /// The point at a way along the arc, and the directions along it and away from its centre.
+    #[inline(always)]
+    fn at(&self, way: S) -> (V3<S>, V3<S>, V3<S>) {
+        let (sine, cosine) = (way / self.radius).sin_cos();
+        let out = self.out * cosine + self.along * sine;
+        (self.centre + out * self.radius, self.along * cosine - self.out * sine, out)
+    }
+}
+
+impl NodeLaw<f64> {
+    pub(super) fn new(node: &Node, body: &Body, is_end: bool) -> Self {
+        let joint = |segment: usize| body.joint_m(body.tree.segment(segment));
+        let from_joint = |segment: usize, point: &Point3<f64>| V3::of(&(point.coords - joint(segment)));
+        let stroke = |stroke: &Stroke| StrokeLaw {
+            due: stroke.due_s,
+            direction: V3::of(&stroke.direction),
+            way: Steps::new(&stroke.way),
+            stall: stroke.stall_n,
+        };
+        let site = match &node.site {
+            Site::Vehicle(point, pulled) => SiteLaw::Vehicle(V3::of(&point.coords), pulled.as_ref().map(stroke)),
+            Site::Segment(segment, point, away) => {
+                SiteLaw::Segment(*segment, from_joint(*segment, point), away.as_ref().map(V3::of))
+            }
+            Site::Track(segment, track) => match TrackLaw::new(track, joint(*segment)) {
+                Some(law) => SiteLaw::Track(*segment, law),
+                None => SiteLaw::Segment(*segment, from_joint(*segment, &track.points_m[1]), None),
+            },
+            Site::Sphere(sphere) => SiteLaw::Sphere(*sphere),
+        };
+        let always = matches!(site, SiteLaw::Vehicle(..) | SiteLaw::Segment(_, _, None));
+        NodeLaw {
+            site,
+            friction: node.friction,
+            rubs: node.friction > 0.0 && !is_end,
+            strength: node.strength_n,
+            may_leave: !is_end && (!always || node.strength_n < NEVER),
+        }
+    }
+}
+
+impl<S: Copy> NodeLaw<S> {
+    /// What must be equal for two to be computed side by side.
+    pub(super) fn shape(&self) -> (usize, usize, usize, [bool; 2]) {
+        let (kind, of, rows) = match &self.site {
+            SiteLaw::Vehicle(_, None) => (0, 0, 0),
+            SiteLaw::Vehicle(_, Some(stroke)) => (1, 0, stroke.way.len()),
+            SiteLaw::Segment(segment, _, away) => (2, *segment, usize::from(away.is_some())),
+            SiteLaw::Track(segment, _) => (3, *segment, 0),
+            SiteLaw::Sphere(sphere) => (4, *sphere, 0),
+        };
+        (kind, of, rows, [self.rubs, self.may_leave])
+    }
+
+    pub(super) fn zip<A: Copy, T>(&self, other: &NodeLaw<A>, f: &impl Fn(S, A) -> T) -> NodeLaw<T> {
+        let site = match (&self.site, &other.site) {
+            (SiteLaw::Vehicle(a, from), SiteLaw::Vehicle(b, to)) => {
+                let stroke = |(a, b): (&StrokeLaw<S>, &StrokeLaw<A>)| StrokeLaw {
+                    due: f(a.due, b.due),
+                    direction: a.direction.zip(&b.direction, f),
+                    way: a.way.zip(&b.way, f),
+                    stall: f(a.stall, b.stall),
+                };
+                SiteLaw::Vehicle(a.zip(b, f), from.as_ref().zip(to.as_ref()).map(stroke))
+            }
+            (SiteLaw::Segment(segment, a, from), SiteLaw::Segment(_, b, to)) => {
+                SiteLaw::Segment(*segment, a.zip(b, f), from.as_ref().zip(to.as_ref()).map(|(a, b)| a.zip(b, f)))
+            }
+            (SiteLaw::Track(segment, a), SiteLaw::Track(_, b)) => SiteLaw::Track(*segment, a.zip(b, f)),
+            (SiteLaw::Sphere(sphere), _) => SiteLaw::Sphere(*sphere),
+            _ => unreachable!("shapes were compared"),
+        };
+        NodeLaw {
+            site,
+            friction: f(self.friction, other.friction),
+            rubs: self.rubs,
+            strength: f(self.strength, other.strength),
+            may_leave: self.may_leave,
+        }
+    }
+}
+
+impl<S: Scalar> NodeLaw<S> {
+    /// The segment that it is on.
+    #[inline(always)]
+    pub(super) fn segment(&self, at: &Instant<'_, S>) -> Option<usize> {
+        match &self.site {
+            SiteLaw::Vehicle(..) => None,
+            SiteLaw::Segment(segment, ..) | SiteLaw::Track(segment, _) => Some(*segment),
+            SiteLaw::Sphere(sphere) => Some(at.spheres[*sphere].segment),
+        }
+    }
+
+    pub(super) fn is_sphere(&self) -> bool {
+        matches!(self.site, SiteLaw::Sphere(_))
+    }
+
+    /// Way at the start.
+    pub(super) fn start(&self) -> S {
+        if let SiteLaw::Track(_, track) = &self.site { track.start } else { S::zero() }
+    }
+
+    /// Way along track or stroke at a time.
+    #[inline(always)]
+    pub(super) fn way(&self, time: S, past: &NodePast<S>, device: &DevicePast<S>) -> S {
+        match &self.site {
+            SiteLaw::Track(..) => (past.way + past.speed * (time - device.time)).max(S::zero()),
+            SiteLaw::Vehicle(_, Some(stroke)) => {
+                S::select(past.speed.lt(S::zero()), past.way, stroke.way.at(time - stroke.due))
+            }
+            _ => S::zero(),
+        }
+    }
+
+    /// Where it is, space axes.
+    #[inline(always)]
+    pub(super) fn place(&self, at: &Instant<'_, S>, way: S) -> Place<S> {
+        let frame = &at.frames[VEHICLE];
+        let on_segment = |n: usize, offset: V3<S>| at.k.joint[n] + at.k.axes[n].out(offset);
+        let (centre, radius) = match &self.site {
+            SiteLaw::Vehicle(point, stroke) => {
+                let pulled = stroke.as_ref().map_or(V3::zero(), |stroke| stroke.direction * way);
+                (frame.origin + frame.axes.out(*point + pulled), S::zero())
+            }
+            SiteLaw::Segment(segment, offset, _) => (on_segment(*segment, *offset), S::zero()),
+            SiteLaw::Track(segment, track) => (on_segment(*segment, track.at(way).0), S::zero()),
+            SiteLaw::Sphere(sphere) => (at.spheres[*sphere].place(at.k).1, at.spheres[*sphere].radius),
+        };
+        Place { centre, radius, is_sphere: self.is_sphere(), may_leave: self.may_leave }
+    }
+
+    /// How it goes on from an accepted step with this force (space axes) of the webbing on it: its way and speed, whether the
+    /// webbing still passes it, and the work of what pulls it. A stroke that has stalled has a speed below 0.
+    pub(super) fn commit(&self, at: &Instant<'_, S>, way: S, force: V3<S>, past: &mut NodePast<S>) -> S {
+        let (o, mut work) = (S::zero(), S::zero());
+        let leaves = match &self.site {
+            SiteLaw::Vehicle(_, Some(stroke)) => {
+                let against = -at.frames[VEHICLE].axes.into_frame(force).dot(stroke.direction);
+                work = against * (way - past.way);
+                let stalls = !against.lt(stroke.stall) & stroke.due.lt(at.frames.time);
+                past.speed = S::select(stalls, -S::one(), past.speed);
+                S::truth(false)
+            }
+            SiteLaw::Segment(segment, _, Some(away)) => at.k.axes[*segment].out(*away).dot(force).gt(o),
+            SiteLaw::Track(segment, track) => {
+                let (_, along, out) = track.at(way);
+                let force = at.k.axes[*segment].into_frame(force);
+                let across = force.dot(along);
+                let held = (force - along * across).norm_squared().max(S::of(1e-60)).sqrt();
+                let speed = (across.abs() - track.friction * held).max(o) / track.drag;
+                past.lost += (across + past.across) * (way - past.way) * S::of(0.5);
+                past.across = across;
+                past.speed = S::select(across.lt(o), -speed, speed);
+                out.dot(force).gt(o) | way.gt(track.length)
+            }
+            _ => S::truth(false),
+        };
+        past.way = way;
+        let torn = force.norm_squared().gt(self.strength * self.strength);
+        if self.may_leave && !self.is_sphere() {
+            past.on = S::select(leaves | torn, o, past.on);
+        }
+        work
+    }
+}

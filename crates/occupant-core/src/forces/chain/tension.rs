@@ -1,0 +1,235 @@
+//! Straps with given lengths: their tensions, and what they and the device at the first node remember.
+//!
+//! A metre of unstretched webbing carries P = T(1 + ε) − w away from a strap, w its recoverable energy. What is lost where
+//! webbing passes is the difference of P on both sides times what passes.
+
+use super::MOST_NODES;
+use super::data::{Chain, Rest};
+use super::device::{DeviceLaw, Feed, Phase};
+use super::march::{Run, Solved, solve};
+use super::past::{ChainPast, NodePast};
+use crate::forces::decay::decay;
+use crate::forces::function::FunctionLaw;
+use crate::motion::scalar::Scalar;
+
+/// Constants of webbing.
+#[derive(Clone, Debug)]
+pub(super) struct WebbingLaw<S> {
+    curve: FunctionLaw<S>,
+    /// κ, N, and τ, s, of a Maxwell branch: κe with ė = ε̇ − e/τ.
+    viscous: Option<[S; 2]>,
+}
+
+/// Constants of the straps of a chain.
+#[derive(Clone, Debug)]
+pub(super) struct Straps<S> {
+    /// The node where each begins, and μ there.
+    pub(super) starts: Vec<usize>,
+    pub(super) friction: Vec<S>,
+    pub(super) webbing: WebbingLaw<S>,
+    pub(super) device: DeviceLaw<S>,
+    strength: S,
+    rest: Rest,
+}
+
+/// Straps at one instant.
+pub(super) struct Taut<'a, S: Scalar> {
+    pub(super) runs: [Run<S>; MOST_NODES],
+    pub(super) feed: Feed<'a, S>,
+    pub(super) solved: Solved<S>,
+}
+
+/// How the webbing lies: lengths of the straps, and θ where each begins.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Course<S> {
+    pub(super) lengths: [S; MOST_NODES],
+    pub(super) turns: [S; MOST_NODES],
+}
+
+impl<S: Copy> WebbingLaw<S> {
+    fn zip<A: Copy, T>(&self, other: &WebbingLaw<A>, f: &impl Fn(S, A) -> T) -> WebbingLaw<T> {
+        let viscous = self.viscous.zip(other.viscous);
+        WebbingLaw {
+            curve: self.curve.zip(&other.curve, f),
+            viscous: viscous.map(|([a, b], [c, d])| [f(a, c), f(b, d)]),
+        }
+    }
+}
+
+impl<S: Scalar> WebbingLaw<S> {
+    /// Strain at a tension, its slope over the tension, and x*.
+    #[inline(always)]
+    pub(super) fn reach(&self, tension: S, run: &Run<S>) -> (S, S, S) {
+        match self.viscous {
+            None => self.curve.reach(tension, run.greatest, run.set),
+            Some(_) => self.curve.reach_beside(tension, run.greatest, run.set, run.beside),
+        }
+    }
+
+    /// The Maxwell branch a time h after the last commit as a spring, exact for a constant rate of strain since: with
+    /// a = exp(−h/τ) and b = (1 − a)τ/h, e = a eᶜ + b (ε − εᶜ). Its stiffness κb and the strain where it is free.
+    #[inline(always)]
+    fn beside(&self, h: S, past: &NodePast<S>) -> [S; 2] {
+        let Some([stiffness, time]) = self.viscous else { return [S::zero(); 2] };
+        let y = h / time;
+        let a = decay(y);
+        let small = y.lt(S::of(1e-6));
+        let b = S::select(small, S::one() - y * S::of(0.5), (S::one() - a) / y.max(S::of(1e-12)));
+        [stiffness * b, past.strain - past.viscous * a / b]
+    }
+}
+
+impl Straps<f64> {
+    /// Straps that begin at these nodes.
+    pub(super) fn new(chain: &Chain, starts: Vec<usize>) -> Self {
+        Straps {
+            friction: starts.iter().map(|&node| chain.nodes[node].friction).collect(),
+            starts,
+            webbing: WebbingLaw { curve: FunctionLaw::new(&chain.webbing), viscous: chain.viscous },
+            device: DeviceLaw::new(&chain.device, &chain.release),
+            strength: chain.strength_n,
+            rest: chain.rest,
+        }
+    }
+
+    /// Strain of all straps at the start, for a belt that is `whole` long in all its parts, m.
+    pub(super) fn start_strain(&self, whole: f64) -> f64 {
+        let of_tension = |tension| self.webbing.curve.reach(tension, 0.0, 0.0).0;
+        match (self.device.open_tension(), self.rest) {
+            (Some(tension), _) | (None, Rest::Pretension(tension)) => of_tension(tension),
+            (None, Rest::Slack(slack)) => whole / (whole + slack) - 1.0,
+            (None, Rest::Length(length)) => whole / length - 1.0,
+        }
+    }
+
+    /// What is remembered of straps that lie with this strain.
+    pub(super) fn start(&self, time_s: f64, strain: f64, lengths: &[f64; MOST_NODES], past: &mut ChainPast<f64>) {
+        let greatest = strain.max(0.0);
+        let response = self.webbing.curve.respond(strain, greatest);
+        past.device = self.device.start(time_s, response.force);
+        for (strap, &node) in self.starts.iter().enumerate() {
+            let past = &mut past.nodes[node];
+            past.unstretched = lengths[strap] / (1.0 + strain);
+            (past.greatest, past.strain) = (greatest, greatest);
+            past.carried = response.force * (1.0 + strain) - self.webbing.curve.returned_to(response.loading)[1];
+        }
+    }
+}
+
+impl<S: Copy> Straps<S> {
+    pub(super) fn is_like<A: Copy>(&self, other: &Straps<A>) -> bool {
+        self.webbing.viscous.is_some() == other.webbing.viscous.is_some()
+            && self.webbing.curve.len() == other.webbing.curve.len()
+            && self.device.shape() == other.device.shape()
+    }
+
+    pub(super) fn zip<A: Copy, T>(&self, other: &Straps<A>, f: &impl Fn(S, A) -> T) -> Straps<T> {
+        Straps {
+            starts: self.starts.clone(),
+            friction: self.friction.iter().zip(&other.friction).map(|(a, b)| f(*a, *b)).collect(),
+            webbing: self.webbing.zip(&other.webbing, f),
+            device: self.device.zip(&other.device, f),
+            strength: f(self.strength, other.strength),
+            rest: self.rest,
+        }
+    }
+}
+
+impl<S: Scalar> Straps<S> {
+    /// The straps at one instant, from what they remember.
+    pub(super) fn taut(&self, time: S, course: &Course<S>, past: &ChainPast<S>) -> Taut<'_, S> {
+        let o = S::zero();
+        let none = Run { length: o, before: o, greatest: o, set: o, grip: o, hold: S::one(), play: o, beside: [o; 2] };
+        let mut runs = [none; MOST_NODES];
+        for (strap, &node) in self.starts.iter().enumerate() {
+            let (own, run) = (&past.nodes[node], &mut runs[strap]);
+            (run.length, run.before) = (course.lengths[strap], own.unstretched);
+            (run.greatest, run.play) = (own.greatest, own.play);
+            run.set = self.webbing.curve.set(own.greatest);
+            run.beside = self.webbing.beside(time - past.device.time, own);
+            if strap > 0 {
+                run.grip = self.friction[strap] * course.turns[strap];
+                run.hold = decay(run.grip);
+            }
+        }
+        let feed = self.device.feed(time, &past.device, past.nodes[0].fed);
+        let own = &runs[..self.starts.len()];
+        let is_free = past.device.free.gt(o);
+        let solved = solve(&self.webbing, &feed, own, past.device.solution, is_free);
+        if let Some((mask, passed)) = self.device.bounded(&feed, &past.device, time, solved.straps[0].fed)
+            && S::any(mask)
+        {
+            let start = S::select(mask, solved.straps[0].tension, past.device.solution);
+            let feed = feed.given(mask, passed);
+            let solved = solve(&self.webbing, &feed, own, start, is_free);
+            return Taut { runs, feed, solved };
+        }
+        Taut { runs, feed, solved }
+    }
+
+    /// e of a strap's viscous branch.
+    #[inline(always)]
+    fn viscous(&self, taut: &Taut<'_, S>, strap: usize) -> S {
+        let [kappa, rest] = taut.runs[strap].beside;
+        let e = |[stiffness, _]: [S; 2]| kappa / stiffness * (taut.solved.straps[strap].strain - rest);
+        self.webbing.viscous.map_or(S::zero(), e)
+    }
+
+    /// Recoverable energy of a metre of unstretched webbing of a strap, N.
+    #[inline(always)]
+    fn stored_per_metre(&self, taut: &Taut<'_, S>, strap: usize) -> S {
+        let e = self.viscous(taut, strap);
+        let stiffness = self.webbing.viscous.map_or(S::zero(), |viscous| viscous[0]);
+        self.webbing.curve.returned_to(taut.solved.straps[strap].loading)[1] + stiffness * e * e * S::of(0.5)
+    }
+
+    /// Recoverable energy of a strap, that of the limiter with the first, J.
+    #[inline(always)]
+    pub(super) fn stored(&self, taut: &Taut<'_, S>, strap: usize) -> S {
+        let webbing = taut.solved.straps[strap].unstretched * self.stored_per_metre(taut, strap);
+        if strap == 0 { webbing + self.device.stored(&taut.feed, taut.feed.delta(taut.solved.x)) } else { webbing }
+    }
+
+    /// Remembers in `next` an accepted step that began with `past`.
+    pub(super) fn commit(&self, time: S, taut: &Taut<'_, S>, past: &ChainPast<S>, next: &mut ChainPast<S>) {
+        let (straps, half) = (&taut.solved.straps, S::of(0.5));
+        let (mut before, mut greatest) = (S::zero(), S::zero());
+        for (strap, &node) in self.starts.iter().enumerate() {
+            let (tense, own) = (&straps[strap], &mut next.nodes[node]);
+            let carried = tense.tension * (S::one() + tense.strain) - self.stored_per_metre(taut, strap);
+            let both = carried + own.carried;
+            // (P_j − P_{j−1}) Δs_j with the mean of old and new
+            own.lost += if strap > 0 { half * (both - before) * tense.fed } else { S::zero() };
+            before = both;
+            own.carried = carried;
+            (own.viscous, own.strain) = (self.viscous(taut, strap), tense.strain);
+            let greatest_strain = own.greatest.max(tense.loading);
+            let [was, is] = [own.greatest, greatest_strain].map(|strain| self.webbing.curve.returned_to(strain)[2]);
+            own.lost += half * (own.unstretched + tense.unstretched) * (is - was);
+            own.greatest = greatest_strain;
+            (own.unstretched, own.play) = (tense.unstretched, tense.play);
+            own.fed += tense.fed;
+            greatest = greatest.max(tense.tension);
+        }
+        if let Some((strap, &node)) = self.starts.iter().enumerate().next_back() {
+            // what comes into the last strap stays there: no residual adds up
+            next.nodes[node].unstretched = taut.runs[strap].before + straps[strap].fed;
+        }
+        let first = half * (past.nodes[0].carried + next.nodes[0].carried) * straps[0].fed;
+        self.book(taut, first, past, next);
+        next.device.solution = taut.solved.x;
+        let payout = [next.nodes[0].fed, past.nodes[0].fed];
+        self.device.commit(time, straps[0].tension, payout, &mut next.device);
+        next.device.free = S::select(greatest.gt(self.strength), S::one(), next.device.free);
+    }
+
+    /// Books what passed at the first node: work of the pretensioner, or what limiter and spool have lost.
+    fn book(&self, taut: &Taut<'_, S>, flow: S, past: &ChainPast<S>, next: &mut ChainPast<S>) {
+        let (phase, o) = (past.device.phase, S::zero());
+        let is_pulling = phase.gt(S::of(Phase::LOCKING)) & phase.lt(S::of(Phase::LOCKED));
+        let was = self.device.stored(&taut.feed, taut.feed.delta(past.nodes[0].fed - past.device.base));
+        let is = self.device.stored(&taut.feed, taut.feed.delta(taut.solved.x));
+        next.device.driven -= S::select(is_pulling, flow, o);
+        next.nodes[0].lost += S::select(is_pulling, o, flow - (is - was));
+    }
+}
