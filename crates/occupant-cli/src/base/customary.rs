@@ -45,7 +45,6 @@ pub(crate) const ENERGIES: &Curves = &[
     ("energy.lost_friction", "lost in friction"),
     ("energy.lost_joints", "lost in joints"),
     ("energy.lost_belts", "lost in belts"),
-    ("energy.pretensioners", "work of pretensioners"),
     ("energy.spine", "spine springs"),
 ];
 /// How far the energies are from a balance.

@@ -99,7 +99,9 @@ fn exactly_one(keys: &[&str]) -> Value {
 }
 
 fn at_most_one(keys: &[&str]) -> Value {
-    json!({ "not": { "required": keys } })
+    let pairs = keys.iter().enumerate().flat_map(|(i, one)| keys[i + 1..].iter().map(move |other| [one, other]));
+    let pairs: Vec<Value> = pairs.map(|pair| json!({ "required": pair })).collect();
+    json!({ "not": { "anyOf": pairs } })
 }
 
 fn together(keys: &[&str]) -> Value {

@@ -85,5 +85,7 @@ fn what_the_schema_calls_exclusive_is_so() {
     let both = SHORT.replace("k1 = \"70 kN/m\"", "k1 = \"70 kN/m\"\nslack = 0\nlength = 1");
     let problems = load(&both).unwrap_err();
     assert_eq!(problems.len(), 1, "{problems}");
-    assert_eq!(schema()["$defs"]["BeltSection"]["allOf"][0], json!({"not": {"required": ["slack", "length"]}}));
+    let rules = schema()["$defs"]["BeltSection"]["allOf"].as_array().unwrap();
+    let excluded = json!(["slack", "length"]).to_string();
+    assert!(rules.iter().any(|rule| rule["not"].to_string().contains(&excluded)), "{rules:?}");
 }
