@@ -18,7 +18,7 @@ use placed_text::with_key;
 #[serde(deny_unknown_fields)]
 #[schemars(extend(
     "x-exactly-one" = [["anchors", "nodes", "preset"]],
-    "x-at-most-one" = [["slack", "length", "pretension"]],
+    "x-at-most-one" = [["slack", "length"], ["slack", "pretension"], ["length", "pretension"]],
     "x-together" = [["k2", "delta_b"], ["anchors", "sphere"], ["anchors", "k1"]],
 ))]
 pub(crate) struct BeltSection {
