@@ -313,8 +313,8 @@ fn a_thousand_random_belts_find_their_root() {
             rig.step(1e-3, &next);
             let all: f64 = next.iter().sum();
             let taut = rig.straps.taut(rig.past.device.time, &rig.course, &rig.past);
-            // 1e-13 of the length; 3e-11 where ratios of e⁷ or a rise within 10 µm leave no number between
-            assert!(taut.solved.residual.abs() < 1e-10 * all, "{number}: {}", taut.solved.residual);
+            // 1e-13 of the length; up to 1e-9 where five rings within their play or a rise within 10 µm leave no number between
+            assert!(taut.solved.residual.abs() < 1e-8 * all, "{number}: {}", taut.solved.residual);
             assert!(rig.pulls.iter().all(|t| *t >= 0.0), "{number}: {:?}", rig.pulls);
         }
     }

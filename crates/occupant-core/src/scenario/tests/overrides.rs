@@ -104,7 +104,8 @@ fn problems_are_reported_as_of_the_override() {
 1 | 5
   | ^
   = in: belts.lap
-  = expected: `sphere`, `anchors`, `k1`, `delta_b`, `k2`, `slack`, `length`, `mu1`, `mu2`, `nodes`, `webbing`, `pretension`, `limiter`, `release`, `strength`, `preset`, `side`, `retractor` or `pretensioner`",
+  = expected: `sphere`, `anchors`, `k1`, `delta_b`, `k2`, `slack`, `length`, `mu1`, `mu2`, \
+             `nodes`, `webbing`, `pretension`, `limiter`, `release`, `strength`, `preset`, `side`, `retractor` or `pretensioner`",
         ),
         (
             "belts.lap.anchors[2][0]=5",
