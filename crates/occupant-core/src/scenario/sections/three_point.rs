@@ -109,14 +109,9 @@ fn track(body: &Body, out: f64) -> NodeSection {
 fn pelvis_m(scenario: &Scenario, body: &Body) -> Option<[f64; 3]> {
     let seat = scenario.seats.get(&scenario.posture.as_ref()?.seat)?;
     let r = body.spheres[body.sphere("pelvis")?].radius_m;
-    // the cushion's upper edge and the back's front one, seen from the side
-    let cushion = edge(scenario, &seat.cushion, |[a, b]| -(a.y + b.y))?;
-    let back = edge(scenario, &seat.back, |[a, b]| a.x + b.x)?;
-    let normal = |[a, b]: [Vector2<f64>; 2], towards: Vector2<f64>| {
-        let along = b - a;
-        let normal = Vector2::new(-along.y, along.x).normalize();
-        normal * normal.dot(&towards).signum()
-    };
+    // the faces that a body sits on and leans against, seen from the side
+    let cushion = edge(scenario, &seat.cushion, -Vector2::y())?;
+    let back = edge(scenario, &seat.back, Vector2::x())?;
     let (up, ahead) = (normal(cushion, -Vector2::y()), normal(back, Vector2::x()));
     let matrix = Matrix2::new(up.x, up.y, ahead.x, ahead.y);
     let right = Vector2::new(up.dot(&cushion[0]) + r - SINKS_M, ahead.dot(&back[0]) + r);
@@ -124,13 +119,22 @@ fn pelvis_m(scenario: &Scenario, body: &Body) -> Option<[f64; 3]> {
     Some([place.x, si_or(&seat.y, 0.0), place.y])
 }
 
-/// The edge of a surface or solid seen from the side for which `of` is greatest, as points x, z, m.
-fn edge(scenario: &Scenario, name: &str, of: impl Fn([Vector2<f64>; 2]) -> f64) -> Option<[Vector2<f64>; 2]> {
+/// The normal of an edge that looks towards a direction.
+fn normal([a, b]: [Vector2<f64>; 2], towards: Vector2<f64>) -> Vector2<f64> {
+    let along = b - a;
+    let normal = Vector2::new(-along.y, along.x).normalize();
+    normal * normal.dot(&towards).signum()
+}
+
+/// The edge of a surface or solid seen from the side that looks most in a direction, as points x, z, m.
+fn edge(scenario: &Scenario, name: &str, looks: Vector2<f64>) -> Option<[Vector2<f64>; 2]> {
     let point = |point: &[Length; 2]| Vector2::new(point[0].si(), point[1].si());
     if let Some(surface) = scenario.surfaces.get(name) {
         return surface.edge.as_ref().map(|edge| edge.each_ref().map(point));
     }
     let points: Vec<_> = scenario.solids.get(name)?.profile()?.iter().map(point).collect();
+    let middle = points.iter().sum::<Vector2<f64>>() / points.len() as f64;
     let edges = (0..points.len()).map(|i| [points[i], points[(i + 1) % points.len()]]);
-    edges.max_by(|a, b| of(*a).total_cmp(&of(*b)))
+    let outward = |[a, b]: [Vector2<f64>; 2]| normal([a, b], (a + b) / 2.0 - middle).dot(&looks);
+    edges.max_by(|a, b| outward(*a).total_cmp(&outward(*b)))
 }
