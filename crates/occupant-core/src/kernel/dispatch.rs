@@ -6,7 +6,7 @@ use crate::motion::frame::Frames;
 use crate::motion::state::State;
 
 impl System<f64> {
-    /// [`System::rate_with`] of a run alone, in the instructions of AVX where the processor has them: the same bits,
+    /// `System::rate_with` of a run alone, in the instructions of AVX where the processor has them: the same bits,
     /// 10 to 15 % faster.
     #[inline]
     pub fn rate_alone<const COMMIT: bool>(

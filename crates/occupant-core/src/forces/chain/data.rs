@@ -134,7 +134,7 @@ pub struct Pull {
 /// What sets a device off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cue {
-    /// When the device is due, delay included, s, if that is known before the run; [`NEVER`] if not.
+    /// When the device is due, delay included, s, if that is known before the run; `NEVER` if not.
     pub due_s: f64,
     /// What is watched instead.
     pub watch: Option<Watch>,

@@ -1,8 +1,8 @@
 //! Belts over several nodes: anchors, rings, guides, spheres, with retractors, limiters and pretensioners.
 //!
-//! Webbing without mass runs from node to node ([`path`]). Where it is held or rubs, a strap ends; each has one tension, and
-//! one number at the first node gives all of them ([`march`]). The device at that node has phases ([`device`]). All that a
-//! belt remembers changes at accepted steps alone ([`past`]): within a step the forces are a function of place and time.
+//! Webbing without mass runs from node to node (`path`). Where it is held or rubs, a strap ends; each has one tension, and
+//! one number at the first node gives all of them (`march`). The device at that node has phases (`device`). All that a
+//! belt remembers changes at accepted steps alone (`past`): within a step the forces are a function of place and time.
 
 mod check;
 mod data;
