@@ -43,6 +43,9 @@ const SILL_M: [f64; 3] = [0.12, 0.25, 0.20];
 /// Friction of webbing over a steel ring, over a tongue and over a clothed shoulder; ours, of the size of ATB's.
 const FRICTION: [f64; 3] = [0.1, 0.15, 0.25];
 
+/// How far the plane of the track over the shoulder leans ahead; ours.
+const TRACK_LEANS_RAD: f64 = 40.0 * std::f64::consts::PI / 180.0;
+
 /// How deep a pelvis sinks into a cushion, m.
 const SINKS_M: f64 = 0.03;
 
@@ -90,12 +93,15 @@ pub(super) fn nodes(
     nodes
 }
 
-/// Across the shoulder on the outboard side, from beside the neck over the collarbone to below the arm's root.
+/// Across the shoulder on the outboard side, from beside the neck over the collarbone to below the arm's root, in a plane that
+/// leans ahead: webbing bears on the front of a shoulder rather than on its top.
 fn track(body: &Body, out: f64) -> NodeSection {
     let shoulder = &body.spheres[body.sphere(if out > 0.0 { "right_shoulder" } else { "left_shoulder" }).unwrap_or(0)];
     let (centre, r) = (shoulder.centre_from_lower_end_m, shoulder.radius_m);
-    let point = |share: f64, beyond: f64, up: f64| {
-        [centre.x + 0.3 * r, share * centre.y + beyond * r * centre.y.signum(), centre.z + up * r].map(Length::of_si)
+    let (ahead, up) = crash_measures::trig::sin_cos(TRACK_LEANS_RAD);
+    let point = |share: f64, beyond: f64, height: f64| {
+        let outward = share * centre.y + beyond * r * centre.y.signum();
+        [centre.x + height * r * ahead, outward, centre.z + height * r * up].map(Length::of_si)
     };
     NodeSection {
         name: Some("shoulder".to_owned()),

@@ -157,15 +157,15 @@ fn a_limiter_trades_force_for_excursion_and_a_pretensioner_gives_some_back() {
         assert!(run.balance < 1e-5, "{}", run.balance);
         assert!(run.book_error < 0.01, "{}", run.book_error);
     }
-    // measured: 4000, 6052 (the torsion bar at its end), 11382 N at the spool; 270, 318, 138 mm of the chest
+    // measured: 4000, 4000, 11834 N at the spool; 285, 310, 158 mm of the chest; 50 mm of the pretensioner
     let peaks = [&all, &limited, &plain].map(|run| run.peaks_n[0]);
-    assert!(peaks[0] < 4000.1 && peaks[1] < 0.6 * peaks[2] && peaks[2] > 8000.0, "{peaks:?}");
+    assert!(peaks[0] < 4000.1 && peaks[1] < 4000.1 && peaks[2] > 8000.0, "{peaks:?}");
     assert!(limited.ahead_m > plain.ahead_m + 0.03, "{} {}", limited.ahead_m, plain.ahead_m);
     assert!(all.ahead_m < limited.ahead_m, "{} {}", all.ahead_m, limited.ahead_m);
     assert!(all.pull_in_m > 0.01 && all.driven_j > 5.0, "{} {}", all.pull_in_m, all.driven_j);
     // webbing slides over the upper ring where the spool pulls most: e^(μθ) with μ = 0.1
-    let [ratio, turn] = plain.ring;
-    assert!((ratio / (0.1 * turn) - 1.0).abs() < 1e-3 && turn > 1.0, "{ratio} {turn}");
+    let [ratio, turn] = limited.ring;
+    assert!((ratio / (0.1 * turn) - 1.0).abs() < 1e-6 && turn > 1.0, "{ratio} {turn}");
 }
 
 #[test]
@@ -234,28 +234,20 @@ fn a_preset_lies_on_a_track_over_the_shoulder() {
     }
 }
 
-/// What is drawn is as long as the webbing: arcs are drawn as chords of 0.15 rad at most.
+/// What is drawn is as long as the webbing: arcs are drawn as chords of 0.15 rad at most. On the shoulder it stays throughout.
 #[test]
 fn straps_are_drawn_as_long_as_they_are() {
     let model = driver(&["time.end=0.1", "output.interval=\"10 ms\""]);
-    let (mut arcs, mut compared) = (0, 0);
+    let mut arcs = 0;
     let look = |s: &Sample<'_>| {
-        let (lines, straps) = (s.lines(), &s.actions.chains);
-        let long = |points: &[nalgebra::Point3<f64>]| -> f64 {
-            points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
-        };
-        let drawn: f64 = lines.iter().map(|line| long(&line.points_m)).sum();
-        let length: f64 = straps.iter().map(|strap| strap.length).sum();
-        // a node that webbing has left is drawn all the same
-        if straps.iter().all(|strap| strap.length > 0.0) {
-            assert!(drawn <= length + 1e-9 && drawn > length - 8e-3, "{drawn} {length}");
-            compared += 1;
-        }
-        for (line, strap) in lines.iter().zip(straps) {
+        for (line, strap) in s.lines().iter().zip(&s.actions.chains) {
+            let drawn: f64 = line.points_m.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
+            let (name, length) = (&line.name, strap.length);
+            assert!(length > 0.1 && drawn <= length + 1e-9 && drawn > length - 3e-3, "{name}: {drawn} {length}");
             assert_eq!(line.force_n, strap.force);
             arcs += line.points_m.len() - 2;
         }
     };
     simulate(&model, Watch(look)).unwrap();
-    assert!(arcs > 50 && compared > 0, "{arcs} points of arcs, {compared} samples");
+    assert!(arcs > 50, "{arcs} points of arcs");
 }
