@@ -11,7 +11,7 @@ mod dispatch;
 use crate::forces::sphere::Site;
 use crate::forces::{Forces, History, Instant, Load, Observer, Unlike};
 use crate::motion::dynamics::{Accelerations, Sweep, Wrench};
-use crate::motion::frame::Frames;
+use crate::motion::frame::{Frames, Moving};
 use crate::motion::kinematics::Kinematics;
 use crate::motion::layout::MOST_SEGMENTS;
 use crate::motion::scalar::Scalar;
@@ -112,7 +112,7 @@ impl<S: Scalar> System<S> {
     /// The same, written to `rate`, with a place for what is on the way that is used again: clearing and copying cost lanes a
     /// fifth of an evaluation.
     #[inline(always)]
-    pub(crate) fn rate_with<const COMMIT: bool>(
+    pub fn rate_with<const COMMIT: bool>(
         &self,
         scratch: &mut Scratch<S>,
         state: &State<S>,
@@ -152,12 +152,20 @@ impl<S: Scalar> System<S> {
     ) {
         let Scratch { kinematics: k, load, sweep } = scratch;
         let root = self.skeleton.mount.as_ref().map(|mount| mount.of(frames));
-        k.follow(&self.skeleton, state, root.as_ref());
+        if S::HAS_SLOPES {
+            follow_apart(k, &self.skeleton, state, root.as_ref());
+        } else {
+            k.follow(&self.skeleton, state, root.as_ref());
+        }
         let at = Instant { k, state, frames, spheres: &self.spheres };
         load.clear(self.skeleton.layout.len());
         self.forces.apply::<COMMIT>(&at, history, observer, load); // Q_f + R (48), and F_s
         // q̈ from q̇ and q (114)
-        let by_mount = sweep.solve(&self.skeleton, k, state.hinge_rate(), &load.wrench, root.as_ref());
+        let by_mount = if S::HAS_SLOPES {
+            solve_apart(sweep, &self.skeleton, k, state, &load.wrench, root.as_ref())
+        } else {
+            sweep.solve(&self.skeleton, k, state.hinge_rate(), &load.wrench, root.as_ref())
+        };
         if root.is_some() {
             // of a mount in space, which stands still, it is 0
             load.power.vehicle += by_mount;
@@ -168,4 +176,26 @@ impl<S: Scalar> System<S> {
     pub fn sphere(&self, k: &Kinematics<S>, sphere: usize) -> (V3<S>, V3<S>, V3<S>) {
         self.spheres[sphere].place(k)
     }
+}
+
+// In numbers of a register or two the kernel is fastest inlined whole. In duals it is 700 kB: what stages and starts of steps
+// have in common is one function for both.
+
+/// [`Kinematics::follow`].
+#[inline(never)]
+fn follow_apart<S: Scalar>(k: &mut Kinematics<S>, body: &Skeleton<S>, state: &State<S>, root: Option<&Moving<S>>) {
+    k.follow(body, state, root);
+}
+
+/// [`Sweep::solve`].
+#[inline(never)]
+fn solve_apart<S: Scalar>(
+    sweep: &mut Sweep<S>,
+    body: &Skeleton<S>,
+    k: &Kinematics<S>,
+    state: &State<S>,
+    wrench: &[Wrench<S>; MOST_SEGMENTS],
+    root: Option<&Moving<S>>,
+) -> S {
+    sweep.solve(body, k, state.hinge_rate(), wrench, root)
 }

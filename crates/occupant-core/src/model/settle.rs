@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use serde::{Serialize, Serializer};
 
 use crate::forces::{Data, History, Instant};
-use crate::kernel::System;
+use crate::kernel::{Evaluation, System};
 use crate::model::frames;
 use crate::model::setup::Setup;
 use crate::motion::dynamics::Wrench;
@@ -165,7 +165,7 @@ fn load(
     let at = Instant { k: &k, state, frames: &still, spheres: &system.spheres };
     system.forces.lay(data, &setup.body, &at);
     let mut history = system.forces.start(&at);
-    let e = system.evaluate::<false>(state, &still, &mut history, &mut ());
+    let e = at_rest(&system, state, &still, &mut history);
     let (mut force, mut moment) = (V3::zero(), V3::zero());
     for (n, (wrench, link)) in e.wrench.iter().zip(&system.skeleton.links).enumerate() {
         let weight = V3 { x: 0.0, y: 0.0, z: -link.mass * system.skeleton.gravity };
@@ -177,9 +177,20 @@ fn load(
     Vector6::new(force.x, force.y, force.z, moment.x * lever, moment.y * lever, moment.z * lever)
 }
 
+/// One evaluation, in one place: the kernel is inlined whole wherever it is called.
+#[inline(never)]
+fn at_rest(
+    system: &System<f64>,
+    state: &State<f64>,
+    still: &Frames<f64>,
+    history: &mut History<f64>,
+) -> Evaluation<f64> {
+    system.evaluate::<false>(state, still, history, &mut ())
+}
+
 /// Gives muscles at the start of a body that has settled what their joints carry there, at rest in frames that stand still.
 pub(crate) fn carry(system: &mut System<f64>, state: &State<f64>, still: &Frames<f64>, history: &History<f64>) {
-    let e = system.evaluate::<false>(state, still, &mut history.clone(), &mut ());
+    let e = at_rest(system, state, still, &mut history.clone());
     let k = &e.kinematics;
     // force and moment at its joint that each segment with all that hangs on it feels, from the tips inwards
     let mut loads = e.wrench;

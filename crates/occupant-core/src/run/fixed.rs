@@ -6,7 +6,7 @@ use crate::model::Model;
 use crate::motion::frame::Frames;
 use crate::motion::integrate::rk4::{Stage, Stages};
 use crate::results::outcome::StepError;
-use crate::run::observers::SeenAt;
+use crate::run::observers::Met;
 use crate::vehicle::PathCursor;
 
 /// The steps from one output to the next: all of one length but the last, which ends at the output.
@@ -88,14 +88,17 @@ impl Run {
         let (scratch, stages) = (&mut Scratch::blank(&system.skeleton), &mut Stages::new(self.state.shape()));
         for step in stretch {
             let [at_start, at_middle, at_end] = step.frames(model, &mut self.cursor);
-            let (history, seen) = (&mut self.history, &mut self.seen);
-            let time_s = step.start_s;
-            let mut observer = SeenAt { model, seen, time_s };
+            let history = &mut self.history;
+            self.met.clear();
+            let mut met = Met(&mut self.met);
             let next = *stages.step(&self.state, step.length_s(), |stage, state, rate| match stage {
-                Stage::Start => system.rate_alone::<true>(scratch, state, &at_start, history, &mut observer, rate),
+                Stage::Start => system.rate_alone::<true>(scratch, state, &at_start, history, &mut met, rate),
                 Stage::Middle => system.rate_alone::<false>(scratch, state, &at_middle, history, &mut (), rate),
                 Stage::End => system.rate_alone::<false>(scratch, state, &at_end, history, &mut (), rate),
             });
+            for touching in &self.met {
+                self.seen.note(model, step.start_s, touching.meeting);
+            }
             self.effort.evaluations += 4;
             self.accept(model, next, step)?;
         }

@@ -8,14 +8,12 @@ use std::mem::swap;
 use super::Step;
 use super::corner::{Crossing, Touching};
 use crate::forces::History;
-use crate::forces::Observer;
-use crate::forces::contact::Touch;
 use crate::kernel::Scratch;
 use crate::model::Model;
 use crate::motion::integrate::bogacki_shampine::{Stage, Tolerance, Trial, attempt, within};
 use crate::motion::state::State;
 use crate::results::checkpoint::{StepStart, StepUnderWay};
-use crate::run::observers::Seen;
+use crate::run::observers::{Met, Seen};
 use crate::vehicle::PathCursor;
 
 /// The latest step of the integration, and where it stands.
@@ -170,15 +168,5 @@ impl Front {
             state: at,
             history: &self.before,
         })
-    }
-}
-
-/// Collects what touches.
-struct Met<'a>(&'a mut Vec<Touching>);
-
-impl Observer<f64> for Met<'_> {
-    #[inline(always)]
-    fn contacts(&mut self, touch: &Touch<f64>) {
-        self.0.push(touch.into());
     }
 }

@@ -27,6 +27,7 @@ use crate::results::energy::{self, EnergyLedger, EnergyStart, Greatest};
 use crate::results::outcome::{Outcome, RecordingFailed, Status, StepError};
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::{Effort, Sample};
+use crate::run::corner::Touching;
 use crate::run::observers::Seen;
 use crate::vehicle::PathCursor;
 
@@ -42,6 +43,8 @@ pub struct Run {
     pub history: History<f64>,
     pub(crate) cursor: PathCursor,
     seen: Seen,
+    /// What touches at the start of a step of fixed length.
+    met: Vec<Touching>,
     pub(crate) effort: Effort,
     /// The integration under error control; none at a fixed step.
     front: Option<Box<Front>>,
@@ -84,6 +87,7 @@ impl Run {
             mass_kg: model.body().mass_kg(),
             actions: Actions::with_room(&model.system().forces),
             seen: Seen::new(model),
+            met: Vec::with_capacity(start.history.memory.contacts.len()),
             breaks_s: model.breaks_s(),
             taken: None,
         }

@@ -5,6 +5,7 @@ use crate::forces::contact::Touch;
 use crate::model::Model;
 use crate::motion::vector::V3;
 use crate::results::outcome::FirstTouch;
+use crate::run::corner::Touching;
 
 /// A sphere against a part of a face, as first touches tell it.
 #[derive(Clone, Copy)]
@@ -63,16 +64,12 @@ impl Seen {
     }
 }
 
-/// Watches the first evaluation of a step.
-pub(super) struct SeenAt<'s> {
-    pub model: &'s Model,
-    pub seen: &'s mut Seen,
-    pub time_s: f64,
-}
+/// Collects what touches: the one observer of steps, as each kind is a whole kernel in the build.
+pub(super) struct Met<'a>(pub &'a mut Vec<Touching>);
 
-impl Observer<f64> for SeenAt<'_> {
+impl Observer<f64> for Met<'_> {
     #[inline(always)]
     fn contacts(&mut self, touch: &Touch<f64>) {
-        self.seen.note(self.model, self.time_s, touch.into());
+        self.0.push(touch.into());
     }
 }

@@ -4,7 +4,7 @@ use super::built::{Built, dual_frames, dual_history, dual_state, dual_system};
 use super::events::Scene;
 use super::trouble::Trouble;
 use occupant_core::forces::{Actions, History};
-use occupant_core::kernel::System;
+use occupant_core::kernel::{Scratch, System};
 use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
 use occupant_core::motion::dual::Dual;
@@ -20,6 +20,7 @@ pub(super) struct Tangent<'a, const N: usize> {
     model: &'a Model,
     built: &'a mut [Built],
     system: System<Dual<N>>,
+    scratch: Scratch<Dual<N>>,
     pub state: State<Dual<N>>,
     pub history: History<Dual<N>>,
     cursor: PathCursor,
@@ -61,7 +62,16 @@ impl<'a, const N: usize> Tangent<'a, N> {
             after: history.clone(),
             spare: history.clone(),
         };
-        Ok(Tangent { state, history, system, model, built, cursor: PathCursor::default(), front })
+        Ok(Tangent {
+            state,
+            history,
+            scratch: Scratch::blank(&system.skeleton),
+            system,
+            model,
+            built,
+            cursor: PathCursor::default(),
+            front,
+        })
     }
 
     fn frames(&mut self, t_s: f64, middle_s: f64) -> Frames<Dual<N>> {
@@ -76,7 +86,8 @@ impl<'a, const N: usize> Tangent<'a, N> {
         }
         let frames = self.frames(time_s, time_s);
         scene.begin(time_s, &self.state);
-        rate_at_start(&self.system, &self.state, &frames, &mut self.history, &mut scene.actions);
+        let Tangent { system, scratch, state, history, .. } = self;
+        rate_at_start(system, scratch, state, &frames, history, &mut scene.actions, &mut State::zero(state.shape()));
     }
 
     /// A step that the plain run has taken; `stop_s` is the next break of the path, `scene` sees where it began.
@@ -90,15 +101,15 @@ impl<'a, const N: usize> Tangent<'a, N> {
     fn rk4(&mut self, step: Step, scene: &mut Scene<N>) {
         let middle_s = 0.5 * (step.start_s + step.end_s);
         let [start, middle, end] = [step.start_s, middle_s, step.end_s].map(|t| self.frames(t, middle_s));
-        let (system, history) = (&self.system, &mut self.history);
+        let Tangent { system, scratch, history, .. } = self;
         let h = Dual::new(step.length_s(), [0.0; N]);
         scene.begin(step.start_s, &self.state);
-        self.state = rk4::step(&self.state, h, |stage, state, rate| {
-            *rate = match stage {
-                rk4::Stage::Start => rate_at_start(system, state, &start, history, &mut scene.actions),
-                rk4::Stage::Middle => rate_within(system, state, &middle, history),
-                rk4::Stage::End => rate_within(system, state, &end, history),
+        self.state = rk4::step(&self.state, h, |stage, state, rate| match stage {
+            rk4::Stage::Start => {
+                rate_at_start(system, scratch, state, &start, history, &mut scene.actions, rate);
             }
+            rk4::Stage::Middle => rate_within(system, scratch, state, &middle, history, rate),
+            rk4::Stage::End => rate_within(system, scratch, state, &end, history, rate),
         });
     }
 
@@ -108,21 +119,20 @@ impl<'a, const N: usize> Tangent<'a, N> {
         let middle_s = 0.5 * (t + step.end_s);
         let places = [t, t + 0.5 * h, t + 0.75 * h, step.end_s];
         let [start, half, late, end] = places.map(|at_s| self.frames(at_s, middle_s));
-        let (system, front) = (&self.system, &mut self.front);
+        let Tangent { system, scratch, front, .. } = self;
         if !front.rate_is_known {
             scene.begin(t, &front.to);
-            front.rates[1] = rate_at_start(system, &front.to, &start, &mut front.after, &mut scene.actions);
+            let Front { to, after, rates: [_, rate], .. } = front;
+            rate_at_start(system, scratch, to, &start, after, &mut scene.actions, rate);
         }
         front.spare.take_over(&front.after);
         let (k1, history) = (front.rates[1], &mut front.spare);
-        let (to, [.., k4]) = stages(&front.to, &k1, h, |stage, state, rate| {
-            *rate = match stage {
-                Stage::Within(0.5) => rate_within(system, state, &half, history),
-                Stage::Within(_) => rate_within(system, state, &late, history),
-                Stage::End => {
-                    scene.begin(step.end_s, state);
-                    rate_at_start(system, state, &end, history, &mut scene.actions)
-                }
+        let (to, [.., k4]) = stages(&front.to, &k1, h, |stage, state, rate| match stage {
+            Stage::Within(0.5) => rate_within(system, scratch, state, &half, history, rate),
+            Stage::Within(_) => rate_within(system, scratch, state, &late, history, rate),
+            Stage::End => {
+                scene.begin(step.end_s, state);
+                rate_at_start(system, scratch, state, &end, history, &mut scene.actions, rate);
             }
         });
         front.step = step;
@@ -157,27 +167,31 @@ impl<const N: usize> Front<N> {
     }
 }
 
-// The kernel in duals is large: these two are the only copies of it for each number of directions.
+// The kernel in duals is large: these two are the only copies of it.
 
 /// The rate at an accepted step, which the history takes over and `actions` shows.
 #[inline(never)]
 fn rate_at_start<const N: usize>(
     system: &System<Dual<N>>,
+    scratch: &mut Scratch<Dual<N>>,
     state: &State<Dual<N>>,
     frames: &Frames<Dual<N>>,
     history: &mut History<Dual<N>>,
     actions: &mut Actions<Dual<N>>,
-) -> State<Dual<N>> {
-    system.rate_observed::<true>(state, frames, history, actions)
+    rate: &mut State<Dual<N>>,
+) {
+    system.rate_with::<true>(scratch, state, frames, history, actions, rate);
 }
 
 /// The rate within a step.
 #[inline(never)]
 fn rate_within<const N: usize>(
     system: &System<Dual<N>>,
+    scratch: &mut Scratch<Dual<N>>,
     state: &State<Dual<N>>,
     frames: &Frames<Dual<N>>,
     history: &mut History<Dual<N>>,
-) -> State<Dual<N>> {
-    system.rate::<false>(state, frames, history)
+    rate: &mut State<Dual<N>>,
+) {
+    system.rate_with::<false>(scratch, state, frames, history, &mut (), rate);
 }

@@ -121,7 +121,11 @@ pub fn simulate_many<T, R: Recorder>(
     mut on_end: impl FnMut(Ended<T, R>) -> ControlFlow<()>,
 ) {
     let under_way = (0..MOST_PLACES).map(|_| None).collect();
-    let jobs: &mut dyn Jobs = &mut JobList { jobs: jobs.into_iter(), on_end: &mut on_end, under_way, nobody: () };
+    run_all(kernel, &mut JobList { jobs: jobs.into_iter(), on_end: &mut on_end, under_way, nobody: () });
+}
+
+/// Compiled here, once for each kind of lanes, whatever jobs there are and whoever brings them.
+fn run_all(kernel: Kernel, jobs: &mut dyn Jobs) {
     // whether all were run or the caller broke off, there is nothing left to do
     let _ = match kernel {
         #[cfg(target_arch = "x86_64")]
@@ -132,8 +136,7 @@ pub fn simulate_many<T, R: Recorder>(
     };
 }
 
-/// Where the models of a group come from and go to, and what their jobs bring besides. Behind it everything is compiled once
-/// for each kind of lanes, whatever jobs there are.
+/// Where the models of a group come from and go to, and what their jobs bring besides.
 trait Jobs {
     /// The model of the next job, which gets `place`.
     fn next(&mut self, place: usize) -> Option<Model>;
