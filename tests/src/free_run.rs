@@ -51,7 +51,7 @@ impl FreeRun {
         let FreeRun { system, history, frames } = self;
         let mut state = *state;
         for _ in 0..steps {
-            state = rk4::step(&state, h, |_, s, rate| *rate = system.rate::<false>(s, frames, history));
+            state = rk4::step(&state, h, |_, s, rate| *rate = system.rate::<false>(s, frames, history, &mut ()));
         }
         state
     }

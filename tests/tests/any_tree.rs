@@ -151,8 +151,12 @@ fn a_pendulum_on_a_mount_swings_as_its_closed_form_says() {
         let (kernel, mut history) = bare(skeleton);
         let push = random.vector(100.0);
         let vehicle = Moving { acceleration: V3::of(&push), ..Moving::space() };
-        let found =
-            kernel.rate::<false>(&state, &Frames { time: 0.0, moving: [Moving::space(), vehicle] }, &mut history);
+        let found = kernel.rate::<false>(
+            &state,
+            &Frames { time: 0.0, moving: [Moving::space(), vehicle] },
+            &mut history,
+            &mut (),
+        );
         // (I_y + M l²) α̈ = M l (a_x cos α + (g + a_z) (−sin α)), the rod hanging along −Z
         let (part, l) = (&tree.parts[1], 0.3);
         let about = part.inertia_kg_m2[(1, 1)] + part.mass_kg * l * l;

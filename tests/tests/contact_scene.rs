@@ -74,11 +74,11 @@ fn faces_that_are_far_at_a_commit_are_not_missed_before_the_next() {
         let (state, moved) = (state.to_core(), moved.to_core());
 
         let mut before = Seen::default();
-        kernel.rate_observed::<true>(&state, &frames, &mut culled, &mut before);
+        kernel.rate::<true>(&state, &frames, &mut culled, &mut before);
         let mut all = History::new(&kernel.forces, culled.memory.clone());
         let (mut some, mut every) = (Seen::default(), Seen::default());
-        let found = kernel.rate_observed::<false>(&moved, &frames, &mut culled, &mut some);
-        let expected = kernel.rate_observed::<false>(&moved, &frames, &mut all, &mut every);
+        let found = kernel.rate::<false>(&moved, &frames, &mut culled, &mut some);
+        let expected = kernel.rate::<false>(&moved, &frames, &mut all, &mut every);
         assert_eq!(found, expected);
         assert_eq!(some.0, every.0);
         new_touches += every.0.iter().filter(|pair| !before.0.contains(pair)).count();

@@ -144,7 +144,7 @@ impl Instant {
     /// Number of pairs that exert a force.
     pub fn touches(&mut self) -> usize {
         let mut count = Count(0);
-        self.system.rate_observed::<false>(&self.state, &self.frames, &mut self.history, &mut count);
+        self.system.rate::<false>(&self.state, &self.frames, &mut self.history, &mut count);
         count.0
     }
 }

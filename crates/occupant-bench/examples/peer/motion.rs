@@ -62,8 +62,9 @@ fn places(model: &Model, now: &Instant) -> Vec<Vec<[f64; 3]>> {
     let mut found = vec![ends(model, &now)];
     for i in 1..=steps {
         let (system, frames, history) = (&now.system, &now.frames, &mut now.history);
-        now.state =
-            rk4::step(&now.state, STEP_S, |_, state, rate| *rate = system.rate::<false>(state, frames, history));
+        now.state = rk4::step(&now.state, STEP_S, |_, state, rate| {
+            *rate = system.rate::<false>(state, frames, history, &mut ())
+        });
         if i.is_multiple_of(STEPS_PER_PLACE) {
             found.push(ends(model, &now));
         }

@@ -211,7 +211,7 @@ macro_rules! kinds {
                 &self,
                 at: &Instant<'_, S>,
                 history: &mut History<S>,
-                observer: &mut impl Observer<S>,
+                observer: &mut (impl Observer<S> + ?Sized),
                 load: &mut Load<S>,
             ) {
                 $($Kind::apply::<S, COMMIT>(

@@ -1,7 +1,7 @@
-//! The rate of a run alone, in the instructions of AVX where the processor has them.
+//! A run alone: its rate in the instructions of AVX where the processor has them, and all that an evaluation derives.
 
-use crate::forces::{History, Observer};
-use crate::kernel::{Scratch, System};
+use crate::forces::{History, Load, Observer};
+use crate::kernel::{Evaluation, Scratch, System};
 use crate::motion::frame::Frames;
 use crate::motion::state::State;
 
@@ -21,7 +21,62 @@ impl System<f64> {
         #[cfg(target_arch = "x86_64")]
         x86_64::rate_alone::<COMMIT>(self, scratch, state, frames, history, observer, rate);
         #[cfg(not(target_arch = "x86_64"))]
-        self.rate_with::<COMMIT>(scratch, state, frames, history, observer, rate);
+        self.rate_once::<COMMIT>(scratch, state, frames, history, observer, rate);
+    }
+
+    /// Rate of change of `state`; see [`System::rate_with`].
+    pub fn rate<const COMMIT: bool>(
+        &self,
+        state: &State<f64>,
+        frames: &Frames<f64>,
+        history: &mut History<f64>,
+        observer: &mut dyn Observer<f64>,
+    ) -> State<f64> {
+        let mut rate = State::zero(state.shape());
+        self.rate_once::<COMMIT>(&mut Scratch::blank(&self.skeleton), state, frames, history, observer, &mut rate);
+        rate
+    }
+
+    /// Everything that [`System::rate`] derives.
+    pub fn evaluate<const COMMIT: bool>(
+        &self,
+        state: &State<f64>,
+        frames: &Frames<f64>,
+        history: &mut History<f64>,
+        observer: &mut dyn Observer<f64>,
+    ) -> Evaluation<f64> {
+        let mut scratch = Scratch::blank(&self.skeleton);
+        self.derive_once::<COMMIT>(&mut scratch, state, frames, history, observer);
+        let Scratch { kinematics, load: Load { wrench, power }, sweep } = scratch;
+        Evaluation { kinematics, wrench, accelerations: sweep.accelerations, power }
+    }
+
+    /// [`System::rate_with`] by [`System::derive_once`].
+    fn rate_once<const COMMIT: bool>(
+        &self,
+        scratch: &mut Scratch<f64>,
+        state: &State<f64>,
+        frames: &Frames<f64>,
+        history: &mut History<f64>,
+        observer: &mut dyn Observer<f64>,
+        rate: &mut State<f64>,
+    ) {
+        self.derive_once::<COMMIT>(scratch, state, frames, history, observer);
+        scratch.sweep.accelerations.write_rate(&self.skeleton.layout, state, scratch.load.power, rate);
+    }
+
+    /// [`System::derive`] in instructions that every processor has. It is inlined whole wherever it is called: outside the
+    /// steps of a run that is here alone.
+    #[inline(never)]
+    fn derive_once<const COMMIT: bool>(
+        &self,
+        scratch: &mut Scratch<f64>,
+        state: &State<f64>,
+        frames: &Frames<f64>,
+        history: &mut History<f64>,
+        observer: &mut dyn Observer<f64>,
+    ) {
+        self.derive::<COMMIT>(scratch, state, frames, history, observer);
     }
 }
 
@@ -32,7 +87,7 @@ mod x86_64 {
     use crate::motion::lanes::has_avx2;
 
     /// [`System::rate_alone`].
-    #[inline]
+    #[inline(always)]
     pub(super) fn rate_alone<const COMMIT: bool>(
         system: &System<f64>,
         scratch: &mut Scratch<f64>,
@@ -46,7 +101,7 @@ mod x86_64 {
             // SAFETY: just asked
             unsafe { rate_alone_avx2::<COMMIT>(system, scratch, state, frames, history, observer, rate) }
         } else {
-            system.rate_with::<COMMIT>(scratch, state, frames, history, observer, rate)
+            system.rate_once::<COMMIT>(scratch, state, frames, history, observer, rate)
         }
     }
 

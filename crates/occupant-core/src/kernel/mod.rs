@@ -88,29 +88,9 @@ impl<S: Scalar> Scratch<S> {
 }
 
 impl<S: Scalar> System<S> {
-    /// Rate of change of `state`. With `COMMIT` the history first takes over the present position, which must be that of
-    /// an accepted step; without it the history is only read.
-    #[inline]
-    pub fn rate<const COMMIT: bool>(&self, state: &State<S>, frames: &Frames<S>, history: &mut History<S>) -> State<S> {
-        self.rate_observed::<COMMIT>(state, frames, history, &mut ())
-    }
-
-    /// [`System::rate`] with an observer.
-    #[inline(always)]
-    pub fn rate_observed<const COMMIT: bool>(
-        &self,
-        state: &State<S>,
-        frames: &Frames<S>,
-        history: &mut History<S>,
-        observer: &mut impl Observer<S>,
-    ) -> State<S> {
-        let mut rate = State::zero(state.shape());
-        self.rate_with::<COMMIT>(&mut Scratch::blank(&self.skeleton), state, frames, history, observer, &mut rate);
-        rate
-    }
-
-    /// The same, written to `rate`, with a place for what is on the way that is used again: clearing and copying cost lanes a
-    /// fifth of an evaluation.
+    /// Rate of change of `state`, written to `rate`, with a place for what is on the way that is used again: clearing and
+    /// copying cost lanes a fifth of an evaluation. With `COMMIT` the history first takes over the present position, which
+    /// must be that of an accepted step; without it the history is only read.
     #[inline(always)]
     pub fn rate_with<const COMMIT: bool>(
         &self,
@@ -125,21 +105,6 @@ impl<S: Scalar> System<S> {
         scratch.sweep.accelerations.write_rate(&self.skeleton.layout, state, scratch.load.power, rate);
     }
 
-    /// Everything that [`System::rate`] derives.
-    #[inline(always)]
-    pub fn evaluate<const COMMIT: bool>(
-        &self,
-        state: &State<S>,
-        frames: &Frames<S>,
-        history: &mut History<S>,
-        observer: &mut impl Observer<S>,
-    ) -> Evaluation<S> {
-        let mut scratch = Scratch::blank(&self.skeleton);
-        self.derive::<COMMIT>(&mut scratch, state, frames, history, observer);
-        let Scratch { kinematics, load: Load { wrench, power }, sweep } = scratch;
-        Evaluation { kinematics, wrench, accelerations: sweep.accelerations, power }
-    }
-
     /// Motion, loads and accelerations.
     #[inline(always)]
     fn derive<const COMMIT: bool>(
@@ -148,7 +113,7 @@ impl<S: Scalar> System<S> {
         state: &State<S>,
         frames: &Frames<S>,
         history: &mut History<S>,
-        observer: &mut impl Observer<S>,
+        observer: &mut (impl Observer<S> + ?Sized),
     ) {
         let Scratch { kinematics: k, load, sweep } = scratch;
         let root = self.skeleton.mount.as_ref().map(|mount| mount.of(frames));
