@@ -3,7 +3,7 @@ use std::path::Path;
 use super::{answer, code, err, json, out};
 
 /// What `occupant new` can start from.
-const TEMPLATES: [&str; 5] = ["driver", "right-hand-drive", "rear-seat", "side", "rollover"];
+const TEMPLATES: [&str; 7] = ["driver", "right-hand-drive", "rear-seat", "side", "rollover", "edr", "sensors"];
 
 /// A fresh folder with a template as case.toml.
 fn folder_with(template: &str) -> tempfile::TempDir {

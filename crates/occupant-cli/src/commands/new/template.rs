@@ -14,6 +14,10 @@ pub(super) enum Template {
     Side,
     /// A belted driver in a quarter-turn rollover
     Rollover,
+    /// A belted driver in a crash that an event data recorder has kept
+    Edr,
+    /// A belted driver in a crash that sensors in the car have recorded
+    Sensors,
 }
 
 /// Sections and the comments before them.
@@ -34,6 +38,8 @@ impl Template {
             Template::RearSeat => changed(driver, include_str!("rear-seat.toml")),
             Template::Side => changed(driver, include_str!("side.toml")),
             Template::Rollover => changed(driver, include_str!("rollover.toml")),
+            Template::Edr => changed(driver, include_str!("edr.toml")),
+            Template::Sensors => changed(driver, include_str!("sensors.toml")),
         }
     }
 }
