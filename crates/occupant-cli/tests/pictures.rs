@@ -95,14 +95,52 @@ fn a_strip_becomes_a_png_of_twice_its_size() {
 }
 
 #[test]
+fn a_scenario_is_drawn_as_it_starts() {
+    let folder = folder_with_run();
+    let words = ["view", "case.toml", "--set", "title=\"Seated\"", "--views", "side"];
+    let output = answer(folder.path(), &words);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let seated = read(folder.path(), "case-view.svg");
+    assert!(seated.contains(">Seated<") && seated.contains(">-10 ms<") && seated.contains("before a run"));
+    // as the first output of its run
+    let run = answer(folder.path(), &["view", "run.mcap", "--times", "-10 ms", "--views", "side"]);
+    assert_eq!(code(&run), 0, "{}", err(&run));
+    let body = |svg: &str| svg.split_once("<clipPath").unwrap().1.split_once("</svg>").unwrap().0.to_owned();
+    let of_run = body(&read(folder.path(), "run-view.svg"));
+    let [seated, of_run] = [body(&seated), of_run].map(|svg| svg.matches("<polygon").count());
+    assert!(seated > 10 && seated == of_run, "{seated} {of_run}");
+}
+
+#[test]
+fn a_film_has_a_frame_for_each_time() {
+    let folder = folder_with_run();
+    for (more, frames) in [(&["--times", "0,1,2 ms"][..], 3), (&["--slow-motion", "100", "--views", "top,front"], 99)] {
+        let words = [&["view", "run.mcap", "-o", "film.gif", "--force"], more].concat();
+        let output = answer(folder.path(), &words);
+        assert_eq!((code(&output), err(&output)), (0, "wrote film.gif\n".to_owned()));
+        let bytes = fs::read(folder.path().join("film.gif")).unwrap();
+        let mut film = gif::DecodeOptions::new().read_info(&bytes[..]).unwrap();
+        let mut found = 0;
+        while film.read_next_frame().unwrap().is_some() {
+            found += 1;
+        }
+        assert_eq!(found, frames);
+    }
+}
+
+#[test]
 fn wrong_words_for_a_view_are_answered() {
     let folder = folder_with_run();
-    let cases: [(&[&str], &str); 6] = [
-        (&["view", "run.mcap", "-o", "v.pdf"], "ends with .svg or .png"),
+    let cases: [(&[&str], &str); 10] = [
+        (&["view", "run.mcap", "-o", "v.pdf"], "ends with .svg, .png, .gif or .mp4"),
         (&["view", "run.mcap", "-o", "v.svg", "--times", "9 s"], "the outputs go from"),
         (&["view", "run.mcap", "-o", "v.svg", "--times", "soon"], "is not a time"),
         (&["view", "run.mcap", "-o", "v.svg", "--views", "back"], "possible values"),
-        (&["view", "case.toml", "-o", "v.svg"], "holds no results"),
+        (&["view", "case.toml", "-o", "v.gif"], "does not move before it is run"),
+        (&["view", "case.toml", "-o", "v.svg", "--times", "0"], "no times before it is run"),
+        (&["view", "case.toml", "-o", "v.svg", "--set", "path.speed=1 N"], "path.speed"),
+        (&["view", "run.mcap", "-o", "v.svg", "--set", "path.speed=1"], "these are results"),
+        (&["view", "run.mcap", "-o", "v.gif", "--slow-motion", "1e4"], "at most 3000 are made"),
         (&["view", "none.mcap", "-o", "v.svg"], "cannot be read"),
     ];
     for (words, said) in cases {

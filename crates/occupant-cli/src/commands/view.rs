@@ -1,13 +1,20 @@
 //! `occupant view`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::results::sample::Sample;
+use occupant_core::run::simulate::simulate;
 
 use super::flags::history::seconds;
-use crate::base::{Failure, deliver, file_name, note, refuse_input, with_word};
+use crate::base::{Failure, by_ending, deliver, file_name, note, refuse_input, with_word};
 use crate::files::results::Results;
+use crate::files::scenario::{self, ScenarioArgs};
 use crate::pictures::Format;
 use crate::pictures::body::Snapshot;
-use crate::pictures::view::{Strip, View, draw};
+use crate::pictures::film::{FRAMES_A_SECOND, Film};
+use crate::pictures::view::{Strip, View, draw, frames};
 
 /// Pixels of a PNG for each unit of the drawing.
 const PIXELS: f64 = 2.0;
@@ -17,18 +24,22 @@ const EVERY_MS: f64 = 40.0;
 const MOST_BY_DEFAULT: usize = 12;
 /// With `--times`, no more than this.
 const MOST: usize = 120;
+/// Most frames of a film.
+const MOST_FRAMES: usize = 3000;
 
-/// Draw the body in the compartment from the side, from above and from ahead, at chosen times
+/// Draw the body in the compartment from the side, from above and from ahead, at chosen times or as a film
 ///
-/// A strip as in the report's Figs 21 to 38: one column a time, one row a view, all to one scale, with belts, and with
-/// contacts as arrows of the force on the body. Vehicle axes.
+/// Of results, a strip as in the report's Figs 21 to 38: one column a time, one row a view, all to one scale, with belts, and
+/// with contacts as arrows of the force on the body. Of a scenario, how the body sits at its start, before any run. Vehicle
+/// axes.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// The results of `occupant run`
-    #[arg(value_name = "RUN.mcap")]
-    run: PathBuf,
+    /// The results of `occupant run`, or a scenario
+    #[arg(value_name = "RUN.mcap|SCENARIO")]
+    input: PathBuf,
 
-    /// The picture: NAME.svg or NAME.png; RUN-view.svg beside the run if absent
+    /// The picture: NAME.svg or NAME.png; NAME-view.svg beside the input if absent. NAME.gif is a film, as is NAME.mp4 where
+    /// the program ffmpeg is
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
@@ -41,34 +52,141 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TIMES", allow_hyphen_values = true, value_parser = times)]
     times: Option<Times>,
 
-    /// Views, in order
-    #[arg(
-        long,
-        value_name = "VIEWS",
-        value_enum,
-        value_delimiter = ',',
-        default_values = ["side", "top", "front"]
-    )]
+    /// Views, in order, of side, top and front; all of them if absent, of a film the side view
+    #[arg(long, value_name = "VIEWS", value_enum, value_delimiter = ',')]
     views: Vec<View>,
+
+    /// How many times slower than life a film plays
+    #[arg(long, value_name = "TIMES", default_value = "20", value_parser = slow_motion)]
+    slow_motion: f64,
+
+    /// Change a value of the scenario, such as --set body.preset=female05; may be repeated
+    #[arg(long = "set", value_name = "PATH.TO.KEY=VALUE")]
+    overrides: Vec<String>,
 }
 
 pub(crate) fn view(args: &Args) -> Result<(), Failure> {
-    let output = args.output.clone().unwrap_or_else(|| with_word(&args.run.with_extension("svg"), "-view"));
-    let format = Format::of_output(&output)?;
-    refuse_input(&output, &args.run)?;
-    let results = Results::open(&args.run)?;
+    let output = args.output.clone().unwrap_or_else(|| with_word(&args.input.with_extension("svg"), "-view"));
+    let kind = Kind::of(&output)?;
+    refuse_input(&output, &args.input)?;
+    if by_ending(&args.input, &[("toml", ()), ("json", ())]).is_some() {
+        return seated(args, &output, kind);
+    }
+    if !args.overrides.is_empty() {
+        return Err(Failure::with_help("--set changes a scenario, and these are results", "run the scenario with it"));
+    }
+    let results = Results::open(&args.input)?;
     results.notes().iter().for_each(note);
-    let outputs = outputs(&results, args.times.as_ref())?;
-    let mut views: Vec<View> = Vec::new();
-    for view in &args.views {
+    let wanted = match (&args.times, kind) {
+        (Some(times), _) => times.0.clone(),
+        (None, Kind::Picture(_)) => regular(span_s(&results)),
+        (None, Kind::Film(_)) => frames_s(span_s(&results), args.slow_motion)?,
+    };
+    let moments = moments(&results, &outputs(&results, &wanted)?)?;
+    let strip = Strip { model: &results.model, moments, views: views(args, kind), origin: origin(&results) };
+    let bytes = match kind {
+        Kind::Picture(format) => picture(&strip, format)?,
+        Kind::Film(film) => {
+            let help = "write a .gif; --times and --slow-motion make it shorter";
+            film.encode(strip.moments.len(), &frames(&strip)).map_err(|e| Failure::with_help(e, help))?
+        }
+    };
+    deliver(&output, args.force, &bytes)
+}
+
+/// What is made.
+#[derive(Clone, Copy)]
+enum Kind {
+    Picture(Format),
+    Film(Film),
+}
+
+impl Kind {
+    fn of(output: &Path) -> Result<Self, Failure> {
+        let kind = Format::of(output).map(Kind::Picture).or_else(|| Film::of(output).map(Kind::Film));
+        kind.ok_or_else(|| Failure::ending(output, ".svg, .png, .gif or .mp4"))
+    }
+}
+
+fn picture(strip: &Strip<'_>, format: Format) -> Result<Vec<u8>, Failure> {
+    format.encode(&draw(strip), PIXELS).map_err(|e| Failure::with_help(e, "draw fewer times"))
+}
+
+/// Each view once, in the order asked for.
+fn views(args: &Args, kind: Kind) -> Vec<View> {
+    let all: &[View] = match kind {
+        Kind::Film(_) => &[View::Side],
+        Kind::Picture(_) => View::value_variants(),
+    };
+    let asked = if args.views.is_empty() { all } else { &args.views };
+    let mut views = Vec::new();
+    for view in asked {
         if !views.contains(view) {
             views.push(*view);
         }
     }
-    let strip = Strip { model: &results.model, moments: moments(&results, &outputs)?, views, origin: origin(&results) };
-    let bytes = format.encode(&draw(&strip), PIXELS);
-    let bytes = bytes.map_err(|e| Failure::with_help(e, "draw fewer times"))?;
-    deliver(&output, args.force, &bytes)
+    views
+}
+
+/// Draws how the body of a scenario sits at its start.
+fn seated(args: &Args, output: &Path, kind: Kind) -> Result<(), Failure> {
+    let Kind::Picture(format) = kind else {
+        let help = "run it, and make the film of its results";
+        return Err(Failure::with_help("a scenario does not move before it is run", help));
+    };
+    if args.times.is_some() {
+        return Err(Failure::with_help(
+            "a scenario has no times before it is run",
+            "leave --times out, or run it first",
+        ));
+    }
+    let scenario = ScenarioArgs { scenario: args.input.clone(), overrides: args.overrides.clone() };
+    let opened = scenario::open(&scenario)?;
+    scenario::warn(&opened.warnings);
+    let mut first = First(None);
+    let run = simulate(&opened.model, &mut first);
+    let moments: Vec<Snapshot> = first.0.into_iter().collect();
+    if let (true, Err(error)) = (moments.is_empty(), run) {
+        return Err(Failure::BrokeOff(format!("error: {error}")));
+    }
+    let origin = format!("{}, before a run", file_name(&args.input));
+    let strip = Strip { model: &opened.model, moments, views: views(args, kind), origin };
+    deliver(output, args.force, &picture(&strip, format)?)
+}
+
+/// Keeps the first output of a run and ends it there.
+struct First(Option<Snapshot>);
+
+impl Recorder for First {
+    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        self.0 = Some(Snapshot::of(sample));
+        Ok(Flow::Stop)
+    }
+}
+
+/// How many times slower than life.
+fn slow_motion(text: &str) -> Result<f64, String> {
+    let factor = text.parse().ok().filter(|factor| (0.01..=1e4).contains(factor));
+    factor.ok_or_else(|| "expected a number from 0.01 to 10000, such as 20".to_owned())
+}
+
+/// First and last time of the outputs, s.
+fn span_s(results: &Results) -> [f64; 2] {
+    let at = &results.checkpoints;
+    [at[0].time_s, at[at.len() - 1].time_s]
+}
+
+/// The times of a film's frames, s.
+fn frames_s([first_s, last_s]: [f64; 2], slow_motion: f64) -> Result<Vec<f64>, Failure> {
+    let every_s = 1.0 / (f64::from(FRAMES_A_SECOND) * slow_motion);
+    let count = ((last_s - first_s) / every_s + 1e-6).floor() as usize + 1;
+    if count > MOST_FRAMES {
+        return Err(Failure::with_help(
+            format!("the film would have {count} frames; at most {MOST_FRAMES} are made"),
+            "give a smaller --slow-motion",
+        ));
+    }
+    Ok((0..count).map(|i| first_s + i as f64 * every_s).collect())
 }
 
 /// Times, s.
@@ -96,12 +214,11 @@ fn times(list: &str) -> Result<Times, String> {
 }
 
 /// Indices of the outputs to draw, in order.
-fn outputs(results: &Results, wanted: Option<&Times>) -> Result<Vec<usize>, Failure> {
+fn outputs(results: &Results, wanted: &[f64]) -> Result<Vec<usize>, Failure> {
     let at: Vec<f64> = results.checkpoints.iter().map(|c| c.time_s).collect();
-    let (first, last) = (at[0], at[at.len() - 1]);
-    let wanted = wanted.map_or_else(|| regular(first, last), |times| times.0.clone());
+    let [first, last] = span_s(results);
     let half_interval = 0.5 * results.model.setup().time.output_s * (1.0 + 1e-9);
-    let nearest = |time: f64| {
+    let nearest = |&time: &f64| {
         if time < first - half_interval || time > last + half_interval {
             return Err(Failure::with_help(
                 format!("no output near {time} s: the outputs go from {first} s to {last} s"),
@@ -113,11 +230,11 @@ fn outputs(results: &Results, wanted: Option<&Times>) -> Result<Vec<usize>, Fail
         let nearer = (time - at[before]).abs() < (at[after] - time).abs();
         Ok(if nearer { before } else { after })
     };
-    wanted.into_iter().map(nearest).collect()
+    wanted.iter().map(nearest).collect()
 }
 
 /// Every 40 ms, or every 80, 200, 400, … in a long run.
-fn regular(first_s: f64, last_s: f64) -> Vec<f64> {
+fn regular([first_s, last_s]: [f64; 2]) -> Vec<f64> {
     let span_ms = (last_s - first_s) * 1e3;
     let mut every_ms = EVERY_MS;
     for factor in [2.0, 2.5, 2.0].into_iter().cycle() {
@@ -178,12 +295,12 @@ mod tests {
     #[test]
     fn a_long_run_gets_fewer_pictures() {
         let last = |v: &[f64]| v[v.len() - 1];
-        let short = regular(0.0, 0.2);
+        let short = regular([0.0, 0.2]);
         assert_eq!(short.len(), 6);
         assert!((last(&short) - 0.2).abs() < 1e-12);
-        let long = regular(0.0, 2.4);
+        let long = regular([0.0, 2.4]);
         assert_eq!(long.len(), 7);
         assert!((long[1] - 0.4).abs() < 1e-12);
-        assert_eq!(regular(0.0, 0.0), [0.0]);
+        assert_eq!(regular([0.0, 0.0]), [0.0]);
     }
 }

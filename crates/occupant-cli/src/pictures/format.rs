@@ -62,11 +62,15 @@ impl Format {
 /// Most pixels of a picture: one more would need over 1 GB.
 const MOST_PIXELS: f64 = 250e6;
 
+fn png(svg: &str, pixels: f64) -> Result<Vec<u8>, String> {
+    render(svg, pixels)?.encode_png().map_err(|e| format!("the picture cannot be written as PNG: {e}"))
+}
+
 /// Renders a drawing with `pixels` pixels a user unit.
 ///
 /// # Errors
 /// Text that is no SVG; a picture without or with too many pixels.
-fn png(svg: &str, pixels: f64) -> Result<Vec<u8>, String> {
+pub(super) fn render(svg: &str, pixels: f64) -> Result<Pixmap, String> {
     let unread = |e: &dyn Display| format!("the drawing is no SVG that can be rendered: {e}");
     let document = Document::parse(svg).map_err(|e| unread(&e))?;
     let tree = Tree::from_str(&with_outlines(svg, &document), &Options::default()).map_err(|e| unread(&e))?;
@@ -82,7 +86,7 @@ fn png(svg: &str, pixels: f64) -> Result<Vec<u8>, String> {
     pixmap.fill(Color::WHITE);
     let scale = Transform::from_scale(pixmap.width() as f32 / size.width(), pixmap.height() as f32 / size.height());
     resvg::render(&tree, scale, &mut pixmap.as_mut());
-    pixmap.encode_png().map_err(|e| format!("the picture cannot be written as PNG: {e}"))
+    Ok(pixmap)
 }
 
 /// The drawing with a path of outlines in place of each text.

@@ -3,13 +3,18 @@
 use super::Strip;
 use super::projection::View;
 use super::window::Window;
+use crate::pictures::font::{self, Weight};
 
 /// Most times side by side; more begin another block below.
 const COLUMNS: usize = 6;
-/// Width of the widest panel.
-const PANEL: f64 = 230.0;
+/// Width of the widest panel of a strip.
+pub(crate) const PANEL: f64 = 230.0;
+/// The same of a film.
+pub(crate) const FILM_PANEL: f64 = 660.0;
 /// Room on the left for the names of the views.
 pub(crate) const LEFT: f64 = 84.0;
+/// Room beside the title and the legend.
+pub(crate) const MARGIN: f64 = 12.0;
 /// Room on top for the title.
 const TOP: f64 = 52.0;
 /// Room above a block for its times.
@@ -18,8 +23,10 @@ pub(crate) const TIMES: f64 = 24.0;
 const GAP: f64 = 8.0;
 /// Room below for scales and legend.
 const FOOT: f64 = 74.0;
-/// The title wants this much.
-const LEAST_WIDTH: f64 = 560.0;
+/// The legend wants this much.
+const LEAST_WIDTH: f64 = 760.0;
+/// The title.
+pub(crate) const HEADING: (f64, Weight) = (15.0, Weight::Bold);
 
 /// The measures of a sheet, in user units.
 pub(crate) struct Layout {
@@ -38,22 +45,24 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    pub(crate) fn of(strip: &Strip<'_>) -> Self {
+    /// Of a sheet that shows so many of the moments, the widest of its panels so wide.
+    pub(crate) fn of(strip: &Strip<'_>, shown: usize, panel: f64) -> Self {
         let window = Window::of(strip);
         let widths = strip.views.iter().map(|v| window.size_m(*v)[0]);
         let widest = widths.fold(0.0, f64::max);
-        let scale = PANEL / widest.max(1e-3);
-        let columns = strip.moments.len().clamp(1, COLUMNS);
-        let blocks = strip.moments.len().div_ceil(columns).max(1);
+        let scale = panel / widest.max(1e-3);
+        let columns = shown.clamp(1, COLUMNS);
+        let blocks = shown.div_ceil(columns).max(1);
         let (views, column) = (strip.views.clone(), widest * scale);
-        let width = (LEFT + columns as f64 * (column + GAP) + GAP).max(LEAST_WIDTH);
+        let title = 2.0 * MARGIN + font::width(&strip.model.setup().title, HEADING.0, HEADING.1);
+        let width = (LEFT + columns as f64 * (column + GAP) + GAP).max(LEAST_WIDTH).max(title);
         let mut layout = Layout { scale, window, width, height: 0.0, views, column, columns, block: 0.0 };
         layout.block = TIMES + layout.rows_above(layout.views.len());
         layout.height = TOP + blocks as f64 * layout.block + FOOT;
         layout
     }
 
-    /// Upper left corner, width and height of the panel of a moment in a row, centred in its column.
+    /// Upper left corner, width and height of the panel in a row of a moment, counted among those shown, centred in its column.
     pub(crate) fn panel(&self, moment: usize, row: usize) -> ([f64; 2], [f64; 2]) {
         let size = self.window.size_m(self.views[row]).map(|m| m * self.scale);
         let [x, y] = self.head(moment);

@@ -1,6 +1,6 @@
 //! Scales and legend below the panels, and the axes beside each row.
 
-use super::layout::Layout;
+use super::layout::{Layout, MARGIN};
 use super::panel::{CONTACT, Pen, SLACK, SURFACE, TAUT, arrow};
 use super::projection::View;
 use crate::pictures::font::{self, Weight};
@@ -29,7 +29,7 @@ pub(crate) fn name_row(svg: &mut Svg, view: View, y: f64) {
 /// The line of scales and signs, and the small print.
 pub(crate) fn draw(svg: &mut Svg, layout: &Layout, pen: &Pen<'_>) {
     let y = layout.foot() + 22.0;
-    let mut row = Row { svg, x: 12.0, y };
+    let mut row = Row { svg, x: MARGIN, y, end: layout.width - MARGIN };
     let bar_m = round_length(90.0 / layout.scale);
     row.scale_bar(bar_m * layout.scale, &format!("{bar_m} m"));
     if let Some(per_n) = pen.per_n {
@@ -52,45 +52,49 @@ pub(crate) fn draw(svg: &mut Svg, layout: &Layout, pen: &Pen<'_>) {
         row.stroke(&dashed, "surface before the body");
     }
     let print = Text { size: 9.5, fill: "#666666", ..SMALL };
-    let at = [12.0, layout.height - 12.0];
+    let at = [MARGIN, layout.height - 12.0];
     svg.text(at, &pen.strip.origin, &print);
 }
 
-/// A line of signs with labels that grows to the right.
+/// Signs with labels in lines that grow to the right.
 struct Row<'s> {
     svg: &'s mut Svg,
     x: f64,
     y: f64,
+    end: f64,
 }
 
 impl Row<'_> {
     fn scale_bar(&mut self, length: f64, label: &str) {
-        let (x, y) = (self.x, self.y);
+        let [x, y] = self.sign(length, label);
         let black = "stroke=\"#333333\" stroke-width=\"1.4\"";
         self.svg.segment([x, y], [x + length, y], black);
         for end in [x, x + length] {
             self.svg.segment([end, y - 4.0], [end, y + 4.0], black);
         }
-        self.label(length, label);
     }
 
     fn force(&mut self, length: f64, label: &str) {
-        let from = [self.x, self.y];
+        let from = self.sign(length, label);
         self.svg.circle(from, 1.7, &format!("fill=\"{CONTACT}\""));
         arrow(self.svg, from, [from[0] + length, from[1]], CONTACT);
-        self.label(length, label);
     }
 
     fn stroke(&mut self, look: &str, label: &str) {
-        let from = [self.x, self.y];
+        let from = self.sign(24.0, label);
         self.svg.segment(from, [from[0] + 24.0, from[1]], look);
-        self.label(24.0, label);
     }
 
-    fn label(&mut self, after: f64, label: &str) {
-        let at = self.x + after + 6.0;
-        self.svg.text([at, self.y + 4.0], label, &SMALL);
-        self.x = at + font::width(label, SMALL.size, SMALL.weight) + 20.0;
+    /// Writes the label of a sign of this length and says where that begins.
+    fn sign(&mut self, length: f64, label: &str) -> [f64; 2] {
+        let wide = length + 6.0 + font::width(label, SMALL.size, SMALL.weight);
+        if self.x + wide > self.end {
+            (self.x, self.y) = (MARGIN, self.y + 18.0);
+        }
+        let from = [self.x, self.y];
+        self.svg.text([from[0] + length + 6.0, from[1] + 4.0], label, &SMALL);
+        self.x += wide + 20.0;
+        from
     }
 }
 

@@ -13,7 +13,7 @@ mod window;
 use occupant_core::model::Model;
 
 pub(crate) use projection::View;
-pub(crate) use sheet::draw;
+pub(crate) use sheet::{draw, frames};
 
 use super::body::Snapshot;
 

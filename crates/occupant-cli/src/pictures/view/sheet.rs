@@ -1,10 +1,12 @@
 //! The sheet: title, panels with their times, scales.
 
-use super::layout::Layout;
+use std::ops::Range;
+
+use super::layout::{FILM_PANEL, HEADING, Layout, MARGIN, PANEL};
 use super::panel::Pen;
 use super::{Strip, legend, panel};
 use crate::base::text_table::trimmed;
-use crate::pictures::body::parts;
+use crate::pictures::body::{Snapshot, parts};
 use crate::pictures::font::Weight;
 use crate::pictures::svg::{Anchor, Svg, Text};
 
@@ -13,21 +15,31 @@ const LONGEST_FORCE: f64 = 70.0;
 
 /// The strip as SVG.
 pub(crate) fn draw(strip: &Strip<'_>) -> String {
-    let layout = Layout::of(strip);
+    let all = strip.moments.len();
+    sheet(strip, &Layout::of(strip, all, PANEL), 0..all)
+}
+
+/// The frames of a film as SVG, one for each moment, all with the same window and scales.
+pub(crate) fn frames<'s>(strip: &'s Strip<'_>) -> impl Fn(usize) -> String + Sync + 's {
+    let layout = Layout::of(strip, 1, FILM_PANEL);
+    move |moment| sheet(strip, &layout, moment..moment + 1)
+}
+
+fn sheet(strip: &Strip<'_>, layout: &Layout, shown: Range<usize>) -> String {
     let title = &strip.model.setup().title;
     let mut svg = Svg::new(layout.width, layout.height, title);
     svg.rect(0.0, 0.0, layout.width, layout.height, "fill=\"#ffffff\"");
-    let heading = Text { size: 15.0, weight: Weight::Bold, ..Text::default() };
-    svg.text([12.0, 24.0], title, &heading);
+    let heading = Text { size: HEADING.0, weight: HEADING.1, ..Text::default() };
+    svg.text([MARGIN, 24.0], title, &heading);
     let axes = "Vehicle axes: X forward, Y right, Z down. One scale in all panels.";
     let small = Text { size: 10.5, fill: "#555555", ..Text::default() };
-    svg.text([12.0, 41.0], axes, &small);
+    svg.text([MARGIN, 41.0], axes, &small);
     let parts = parts(strip.model.body());
     let pen = Pen { strip, parts: &parts, scale: layout.scale, per_n: force_scale(strip) };
-    for moment in 0..strip.moments.len() {
-        draw_moment(&mut svg, &layout, &pen, moment);
+    for (place, moment) in strip.moments[shown].iter().enumerate() {
+        draw_moment(&mut svg, layout, &pen, place, moment);
     }
-    legend::draw(&mut svg, &layout, &pen);
+    legend::draw(&mut svg, layout, &pen);
     svg.finish()
 }
 
@@ -39,22 +51,21 @@ fn force_scale(strip: &Strip<'_>) -> Option<f64> {
 }
 
 /// The column of one moment.
-fn draw_moment(svg: &mut Svg, layout: &Layout, pen: &Pen<'_>, moment: usize) {
-    let snapshot = &pen.strip.moments[moment];
-    let [x, y] = layout.head(moment);
+fn draw_moment(svg: &mut Svg, layout: &Layout, pen: &Pen<'_>, place: usize, moment: &Snapshot) {
+    let [x, y] = layout.head(place);
     let label = Text { size: 13.0, weight: Weight::Bold, anchor: Anchor::Middle, ..Text::default() };
     let middle = x + 0.5 * layout.column;
-    svg.text([middle, y + 16.0], &time_label(snapshot.time_s), &label);
+    svg.text([middle, y + 16.0], &time_label(moment.time_s), &label);
     for (row, &view) in pen.strip.views.iter().enumerate() {
-        let (corner, [width, height]) = layout.panel(moment, row);
-        if layout.begins_block(moment) {
+        let (corner, [width, height]) = layout.panel(place, row);
+        if layout.begins_block(place) {
             legend::name_row(svg, view, corner[1]);
         }
         let [x, y] = corner;
-        let name = format!("panel-{moment}-{}", view.name());
+        let name = format!("panel-{place}-{}", view.name());
         svg.begin_clip(&name, x, y, width, height);
         let corner_m = layout.window.corner_m(view);
-        panel::draw(svg, pen, snapshot, view, corner, corner_m);
+        panel::draw(svg, pen, moment, view, corner, corner_m);
         svg.end();
         svg.rect(x, y, width, height, "fill=\"none\" stroke=\"#cccccc\"");
     }
