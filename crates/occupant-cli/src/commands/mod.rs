@@ -6,6 +6,7 @@
 //! integration failed or it was interrupted; 2 it could not run (flags, files, the scenario). A reader that closes the pipe
 //! early has what it wanted: that is success.
 
+mod channels;
 mod check;
 mod compare;
 mod completions;
@@ -69,6 +70,7 @@ commands! {
     Check: check::check,
     New: new::new,
     Explain: explain::explain,
+    Channels: channels::channels,
     Schema: schema::print,
     Convert: convert::convert,
     Print: print::print_run,

@@ -7,6 +7,9 @@ use std::path::PathBuf;
 use crate::base::{Failure, publish, say};
 use template::Template;
 
+/// The scenario that is written unless another template is asked for.
+pub(super) const STARTER: &str = include_str!("new/driver.toml");
+
 /// Write a commented starter scenario that runs as it is
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {

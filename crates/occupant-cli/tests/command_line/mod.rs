@@ -1,5 +1,6 @@
 //! The command line as sentences: what a user types and what comes back.
 
+mod channels;
 mod check;
 mod files;
 mod interrupt;

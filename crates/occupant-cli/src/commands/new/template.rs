@@ -1,5 +1,7 @@
 //! The templates of `occupant new`: a driver's scenario, and what the others change of it, section by section.
 
+use super::STARTER;
+
 /// A scenario to start from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub(super) enum Template {
@@ -31,7 +33,7 @@ struct Section<'a> {
 impl Template {
     /// The scenario.
     pub(super) fn text(self) -> String {
-        let driver = include_str!("driver.toml");
+        let driver = STARTER;
         match self {
             Template::Driver => driver.to_owned(),
             Template::RightHandDrive => changed(&mirrored(driver), include_str!("right-hand-drive.toml")),

@@ -216,7 +216,7 @@ fn unknown(model: &Model, name: &str, nearest: Option<String>) -> Failure {
     let inside = matching(model, &format!("*{name}*"));
     let help = match (nearest, inside.first()) {
         (Some(nearest), _) => format!("did you mean `{nearest}`?"),
-        (None, Some(one)) => format!("a name is complete, such as `{}`; `*` stands for anything", one.name),
+        (None, Some(one)) => format!("a name is complete, such as `{}`; `*` stands for anything, and `occupant channels` lists them", one.name),
         (None, None) => {
             "names are such as head.acceleration.x, belt.lap.force, energy.balance; `occupant export -o all.csv` lists all"
                 .to_owned()

@@ -1,0 +1,86 @@
+//! `occupant channels`.
+
+use std::path::{Path, PathBuf};
+
+use occupant_core::model::Model;
+use occupant_core::results::channel::{Channel, channels as all_of};
+use occupant_core::scenario::{Draft, Format};
+use placed_text::did_you_mean;
+
+use super::new::STARTER;
+use crate::base::text_table::{Align, Table};
+use crate::base::{Failure, by_ending, talk};
+use crate::files::results::Results;
+use crate::files::scenario::{self, ScenarioArgs};
+
+/// List the channels of a run: name, unit, meaning
+///
+/// The names are those that --channel and --channels of other commands take, stars for parts of them allowed; {x,y,z} stands
+/// for as many channels.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Those alone with this word in their name or meaning, such as head, belt or energy
+    #[arg(value_name = "WORD")]
+    word: Option<String>,
+
+    /// Results or a scenario to list the channels of; the scenario that `occupant new` writes if absent
+    #[arg(long, value_name = "RUN.mcap|SCENARIO")]
+    of: Option<PathBuf>,
+}
+
+pub(crate) fn channels(args: &Args) -> Result<(), Failure> {
+    let model = match &args.of {
+        Some(file) => model_of(file)?,
+        None => starter()?,
+    };
+    let word = args.word.as_deref().unwrap_or_default().to_lowercase();
+    let all = all_of(&model);
+    let has_word = |text: &str| text.to_lowercase().contains(&word);
+    let found = all.iter().filter(|channel| has_word(&channel.name) || has_word(&channel.meaning));
+    let rows = rows(found);
+    if rows.is_empty() {
+        let words: Vec<&str> = all.iter().flat_map(|channel| channel.name.split(['.', '_'])).collect();
+        let help = did_you_mean(&word, &words, '`').unwrap_or_else(|| "`occupant channels` lists them all".to_owned());
+        return Err(Failure::with_help(format!("no channel has `{word}` in its name or meaning"), &help));
+    }
+    let mut table = Table::new(&[(Align::Left, &["channel", "unit", "meaning"])]);
+    rows.into_iter().for_each(|row| table.row(row));
+    talk::print(&table.text())
+}
+
+/// Name, unit and meaning; components of one vector in one row.
+fn rows<'a>(channels: impl Iterator<Item = &'a Channel>) -> Vec<[String; 3]> {
+    let mut rows: Vec<(&str, Vec<&str>, &Channel)> = Vec::new();
+    for channel in channels {
+        let (stem, component) = channel.name.rsplit_once('.').unwrap_or(("", &channel.name));
+        match rows.last_mut() {
+            Some((own, components, first)) if *own == stem && first.meaning == channel.meaning => {
+                components.push(component);
+            }
+            _ => rows.push((stem, vec![component], channel)),
+        }
+    }
+    let row = |(stem, components, first): (&str, Vec<&str>, &Channel)| {
+        let name = match &components[..] {
+            [_] => first.name.clone(),
+            several => format!("{stem}.{{{}}}", several.join(",")),
+        };
+        [name, first.unit.symbol().to_owned(), first.meaning.clone()]
+    };
+    rows.into_iter().map(row).collect()
+}
+
+fn model_of(file: &Path) -> Result<Model, Failure> {
+    if by_ending(file, &[("toml", ()), ("json", ())]).is_none() {
+        return Ok(Results::open(file)?.model);
+    }
+    let opened = scenario::open(&ScenarioArgs { scenario: file.to_owned(), overrides: Vec::new() })?;
+    Ok(opened.model)
+}
+
+fn starter() -> Result<Model, Failure> {
+    let wrong = |problems| Failure::plain(format!("the starter scenario cannot be read: {problems}"));
+    let draft = Draft::read_bytes(STARTER.as_bytes(), Some(Format::Toml), "starter").map_err(wrong)?;
+    let loaded = draft.load(&|name| Err(format!("{name}: it names no files"))).map_err(wrong)?;
+    Ok(loaded.model().map_err(wrong)?.0)
+}
