@@ -1,0 +1,12 @@
+"""Simulator of a car's occupant in a crash or a violent manoeuvre.
+
+>>> import occupant
+>>> scenario = occupant.Scenario("scenarios/cart-lap-torso.toml")
+>>> scenario["path.speed"] = "25 mph"
+>>> run = scenario.run()
+>>> run.measures["hic15"], run["head.acceleration.resultant"].max()
+"""
+
+from ._occupant import OccupantError, Run, Scenario, Study
+
+__all__ = ["OccupantError", "Run", "Scenario", "Study"]

@@ -1,0 +1,24 @@
+//! Occupant for Python: scenarios from files, texts and dicts, runs, studies; time histories as NumPy arrays.
+//!
+//! Holds no physics and no file format of its own: it hands Python's values to the crates below and theirs back. Runs go on
+//! without Python's lock.
+
+mod convert;
+mod run;
+mod scenario;
+mod study;
+mod trouble;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+mod _occupant {
+    #[pymodule_export]
+    use super::run::Run;
+    #[pymodule_export]
+    use super::scenario::Scenario;
+    #[pymodule_export]
+    use super::study::Study;
+    #[pymodule_export]
+    use super::trouble::OccupantError;
+}

@@ -1,0 +1,125 @@
+"""The module as a user calls it, and against the command where that is built."""
+
+import json
+import os
+import subprocess
+import threading
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import occupant
+
+ROOT = Path(__file__).resolve().parents[3]
+CART = ROOT / "scenarios" / "cart-lap-torso.toml"
+COMMAND = ROOT / "target" / "release" / "occupant"
+
+
+@pytest.fixture(scope="module")
+def run():
+    scenario = occupant.Scenario(CART)
+    scenario["time.end"] = "60 ms"
+    return scenario.run()
+
+
+def test_a_run_has_arrays_in_si_units(run):
+    assert run.status == "completed"
+    head = run["head.acceleration.resultant"]
+    assert head.dtype == np.float64 and head.shape == run.time.shape
+    assert run.time[0] == 0.0 and abs(run.time[-1] - 0.06) < 1e-12
+    peak_g = run.summary["accelerations"]["head"]["peak_g"]
+    assert abs(head.max() / 9.80665 - peak_g) < 1e-9 * peak_g
+    assert run.measures["hic15"] > 0
+    both = run.series_of("head.acceleration.*", "belt.lap.force")
+    assert set(both) >= {"head.acceleration.x", "head.acceleration.resultant", "belt.lap.force"}
+    assert np.array_equal(both["head.acceleration.resultant"], head)
+    assert {c["unit"] for c in run.channels("belt.*.force")} == {"N"}
+
+
+def test_a_channel_that_is_not_there_is_a_key_error(run):
+    with pytest.raises(KeyError, match="head.acceleration.x"):
+        run["head.acceleration.w"]
+
+
+def test_a_dict_is_a_scenario():
+    free_fall = {
+        "title": "Free fall",
+        "time": {"end": 0.1},
+        "path": {"kind": "fixed"},
+        "body": {"preset": "male50"},
+        "joints": {"preset": "male50"},
+        "initial_state": {"q": [0, 0, 2] + [0] * 28, "rates": np.zeros(31)},
+    }
+    free_fall["initial_state"]["rates"] = free_fall["initial_state"]["rates"].tolist()
+    scenario = occupant.Scenario(free_fall)
+    # an accelerometer reads nothing in free fall
+    assert np.abs(scenario.run()["head.acceleration.resultant"]).max() < 1e-9
+    again = occupant.Scenario.from_text(scenario.to_toml())
+    assert again.run().time.shape == scenario.run().time.shape
+
+
+def test_values_are_set_and_taken_away():
+    scenario = occupant.Scenario(CART)
+    scenario["time.end"] = 0.02
+    whole = scenario.copy()
+    del scenario["belts.torso"]
+    scenario["title"] = "1.5"
+    scenario["belts.lap.slack"] = np.float64(0.5)
+    left = scenario.run()
+    assert left.summary["title"] == "1.5"
+    assert not left.channels("belt.torso.*") and whole.run().channels("belt.torso.*")
+
+
+def test_what_is_wrong_is_told_with_its_place():
+    scenario = occupant.Scenario(CART)
+    scenario["path.speed"] = "20 lbf"
+    with pytest.raises(occupant.OccupantError, match="path.speed") as raised:
+        scenario.run()
+    [problem] = [p for p in raised.value.problems if p["severity"] == "error"]
+    assert problem["path"] == "path.speed" and "20 lbf" in problem["found"]
+    with pytest.raises(occupant.OccupantError, match="line|toml|:1"):
+        occupant.Scenario.from_text("title = ")
+    with pytest.raises(FileNotFoundError):
+        occupant.Scenario("none.toml")
+    with pytest.raises(occupant.OccupantError, match="yaml"):
+        occupant.Scenario.from_text("", format="yaml")
+
+
+def test_a_study_is_a_table(tmp_path):
+    (tmp_path / "base.toml").write_text(CART.read_text())
+    study = tmp_path / "study.toml"
+    study.write_text(
+        'base = "base.toml"\nset = { "time.end" = "30 ms" }\ndesign.kind = "full_factorial"\n'
+        '[[parameters]]\nname = "speed"\npath = "path.speed"\nlist = ["10 mph", "20 mph", "30 mph"]\n'
+    )
+    study = occupant.Study(study)
+    tables = [study.run(threads=threads) for threads in (1, 2)]
+    assert len(study) == 3 and list(tables[0]["run"]) == [0, 1, 2]
+    for name in tables[0]:
+        if name not in ("ending", "speed"):
+            assert np.array_equal(tables[0][name], tables[1][name], equal_nan=True), name
+    assert tables[0]["ending"] == ["completed"] * 3
+    alone = study.scenario(1).run()
+    assert tables[0]["hic15"][1] == alone.measures["hic15"]
+    with pytest.raises(IndexError):
+        study.scenario(3)
+
+
+def test_runs_leave_other_threads_alone():
+    scenario = occupant.Scenario(CART)
+    results = {}
+    threads = [threading.Thread(target=lambda i=i: results.__setitem__(i, scenario.run())) for i in range(3)]
+    [thread.start() for thread in threads]
+    [thread.join() for thread in threads]
+    heads = [results[i]["head.acceleration.resultant"] for i in range(3)]
+    assert all(np.array_equal(heads[0], head) for head in heads)
+
+
+@pytest.mark.skipif(not os.access(COMMAND, os.X_OK), reason="the command is not built")
+def test_figures_are_those_of_the_command():
+    words = [COMMAND, "run", CART, "--json", "--no-mcap", "--quiet"]
+    command = json.loads(subprocess.run(words, capture_output=True, check=True).stdout)
+    own = occupant.Scenario(CART).run().summary
+    for each in ("accelerations", "measures", "contacts", "energy"):
+        assert own[each] == command[each], each
