@@ -77,7 +77,7 @@ def test_what_is_wrong_is_told_with_its_place():
     with pytest.raises(occupant.OccupantError, match="path.speed") as raised:
         scenario.run()
     [problem] = [p for p in raised.value.problems if p["severity"] == "error"]
-    assert problem["path"] == "path.speed" and "20 lbf" in problem["found"]
+    assert problem["path"] == "path.speed" and "lbf" in problem["found"] and "speed" in problem["found"]
     with pytest.raises(occupant.OccupantError, match="line|toml|:1"):
         occupant.Scenario.from_text("title = ")
     with pytest.raises(FileNotFoundError):
