@@ -191,7 +191,7 @@ impl Compartment {
         let carried = frame.velocity + frame.omega.cross(&(point - frame.origin));
         let relative = velocity - carried;
         let slip = relative - normal * normal.dot(&relative);
-        let spring = &material.spring;
+        let spring = material.force.bilinear().expect("the cases have springs");
         let soft = depth.min(spring.break_m) * spring.k1_n_per_m;
         let press = soft + (depth - spring.break_m).max(0.0) * spring.k2_n_per_m;
         let speed = slip.norm_squared() + material.friction_speed_m_s.powi(2);

@@ -5,7 +5,7 @@
 //! of x_s each way (our decision). At the last node nothing may pass: R(x) = Δs_{n+1} = 0. R rises strictly with x.
 
 use super::MOST_NODES;
-use super::device::Feed;
+use super::feed::Feed;
 use super::tension::WebbingLaw;
 use crate::forces::decay::decay;
 use crate::motion::scalar::Scalar;
@@ -62,11 +62,13 @@ pub(super) struct Solved<S: Scalar> {
     pub(super) straps: [Tense<S>; MOST_NODES],
     /// Webbing passed beyond the last node, which is none but for rounding, m.
     pub(super) residual: S,
+    /// The same where it is more than that and no tensions were found; else 0.
+    pub(super) unsolved: S,
 }
 
 /// R and its derivative at x, and the straps.
 #[inline(always)]
-fn march<S: Scalar>(
+pub(super) fn march<S: Scalar>(
     webbing: &WebbingLaw<S>,
     feed: &Feed<'_, S>,
     runs: &[Run<S>],
@@ -113,7 +115,7 @@ impl<S: Scalar> Run<S> {
 }
 
 /// The chain as it is: slack, or at the root of R.
-#[inline(never)]
+#[inline(always)]
 pub(super) fn solve<S: Scalar>(
     webbing: &WebbingLaw<S>,
     feed: &Feed<'_, S>,
@@ -175,7 +177,9 @@ pub(super) fn solve<S: Scalar>(
         strap.tension += broken;
         *strap = strap.zip(&slack, &|tense, slack| S::select(is_slack, slack, tense));
     }
-    Solved { x: S::select(is_slack, least, x), straps, residual: S::select(is_slack, o, r) }
+    let residual = S::select(is_slack, o, r);
+    let unsolved = S::select(done, o, S::of(f64::MIN_POSITIVE).max(residual.abs()));
+    Solved { x: S::select(is_slack, least, x), straps, residual, unsolved }
 }
 
 impl<S: Copy> Tense<S> {

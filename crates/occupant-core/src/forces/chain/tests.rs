@@ -113,7 +113,7 @@ fn lines(count: usize, returned: f64) -> Function {
         let strain = 0.2 * i as f64 / count as f64;
         [strain, 110e3 * strain * (1.0 + 2.0 * strain)]
     };
-    Function { points: (0..=count).map(point).collect(), returned: vec![returned; count] }
+    Function::lines((0..=count).map(point).collect(), returned)
 }
 
 fn webbing(returned: f64) -> Function {
@@ -149,8 +149,7 @@ fn fixed() -> Device {
 }
 
 fn limiter(points: &[[f64; 2]]) -> Device {
-    let function = Function { points: points.to_vec(), returned: vec![0.01; points.len() - 1] };
-    Device { limiter: Some(function), second: None, reel: None }
+    Device { limiter: Some(Function::lines(points.to_vec(), 0.01)), second: None, reel: None }
 }
 
 /// Straps, what they remember, and how they lie.

@@ -4,6 +4,7 @@ mod belts;
 mod bodies;
 mod carts;
 mod limits;
+mod materials;
 mod meaning;
 mod messages;
 mod mount;
