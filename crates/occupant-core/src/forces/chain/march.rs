@@ -129,7 +129,8 @@ pub(super) fn solve<S: Scalar>(
     let foot = |run: &Run<S>| run.length / (S::one() + webbing.reach(o, run).0);
     let passed = feed.at(least).passed;
     let surplus = runs.iter().fold(passed, |sum, run| sum + (run.before - foot(run)));
-    let is_slack = (!feed.is_open & !surplus.lt(o)) | is_free;
+    let is_number = surplus.abs().lt(S::of(1e300));
+    let is_slack = (!feed.is_open & !surplus.lt(o) & is_number) | is_free;
     let length = runs.iter().fold(o, |sum, run| sum + run.length);
     let limit = length * S::of(1e-13);
 
@@ -154,7 +155,7 @@ pub(super) fn solve<S: Scalar>(
         let next = S::select(halves, middle, newton);
         // no number between the ends of the bracket, or a step within the last bit
         let stays = !(newton.lt(x) | x.lt(newton));
-        let is_found = stays | is_bracketed & !(low.lt(middle) & middle.lt(high));
+        let is_found = (stays | is_bracketed & !(low.lt(middle) & middle.lt(high))) & r.abs().lt(S::of(1e300));
         x = S::select(done | is_found, x, next);
         done = done | is_found;
     }

@@ -125,6 +125,12 @@ impl Element for Chains {
         past.map(f)
     }
 
+    fn failure(data: &[Chain], past: &[ChainPast<f64>]) -> Option<String> {
+        let (chain, past) = data.iter().zip(past).find(|(_, past)| past.device.unsolved > 0.0)?;
+        let left_m = past.device.unsolved;
+        Some(format!("no tensions were found of the belt {}: {left_m:.1e} m of webbing are left over", chain.belt))
+    }
+
     #[inline(always)]
     fn apply<S: Scalar, const COMMIT: bool>(
         law: &Vec<ChainLaw<S>>,

@@ -36,7 +36,7 @@ fn what_is_wrong_with_materials_is_said_at_its_place() {
         ("materials.foam={ library = \"dash_10\" }".to_owned(), "did you mean \"dash_s10\"?"),
         (foam("returned_each = [0.5]"), "one for each interval"),
         (foam("unload_slope = 1e4"), "at least the greatest slope of loading"),
-        (foam("atb = { r = 0.3, g = 0.0 }"), "ATB's quadratic makes"),
+        (foam("atb = { r = 0.3, g = 0.6 }"), "ATB's quadratic makes"),
         (foam("unload_depth = [0, 1], unload_force = [0, 1]"), "`unload_force` without `unload_slope`"),
         (foam("rate = { speed = [-1, 0], factor = [1] }"), "as many in one as in the other"),
         (foam("friction_over_slip = { speed = [0, 0.1], factor = [1, 0.3] }"), "sticks and slips"),

@@ -3,6 +3,7 @@
 mod belts;
 mod bodies;
 mod carts;
+mod devices;
 mod limits;
 mod materials;
 mod meaning;
