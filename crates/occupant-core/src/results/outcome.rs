@@ -63,7 +63,9 @@ pub enum StepError {
         component: String,
     },
     /// Forces could not be worked out.
-    #[error("at t = {time_s:.6} s, in a step of {step_s:.3e} s, {why}; a smaller step, or smoother curves of the element may help")]
+    #[error(
+        "at t = {time_s:.6} s, in a step of {step_s:.3e} s, {why}; a smaller step, or smoother curves of the element may help"
+    )]
     Unsolved {
         /// Start of the step, s.
         time_s: f64,

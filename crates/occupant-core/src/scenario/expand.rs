@@ -67,7 +67,8 @@ fn from_library(sources: &mut Sources, root: &mut Table) {
         for (name, entry) in root.get_mut(key).and_then(|entry| entry.node.as_table_mut()).into_iter().flatten() {
             let named = entry.node.get("library").and_then(Node::as_str).map(str::to_owned);
             let of = |of: &str, named: &str| library.root.get(of)?.as_table()?.get(named);
-            let Some((named, base)) = named.and_then(|named| Some((of(key, &named)?, named))).map(|(b, n)| (n, b)) else {
+            let Some((named, base)) = named.and_then(|named| Some((of(key, &named)?, named))).map(|(b, n)| (n, b))
+            else {
                 continue;
             };
             let id = sources.named(LIBRARY).unwrap_or_else(|| sources.add(LIBRARY, library.text()));

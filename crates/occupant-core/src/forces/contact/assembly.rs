@@ -97,13 +97,7 @@ fn plane<S: Scalar>(face: &FlatFace, radius_m: f64) -> Plane<S> {
     Plane { normal: V3::of(&face.normal), reach: S::of(radius_m + face.offset_m) }
 }
 
-fn pair(
-    parts: &[usize],
-    surfaces: &[Surface],
-    faces: &[FlatFace],
-    materials: &[Material],
-    share: f64,
-) -> Pair<f64> {
+fn pair(parts: &[usize], surfaces: &[Surface], faces: &[FlatFace], materials: &[Material], share: f64) -> Pair<f64> {
     let first = &faces[parts[0]];
     let (u, v) = first.plane_axes();
     let flat = |p: &Point3<f64>| [u.dot(&p.coords), v.dot(&p.coords)];

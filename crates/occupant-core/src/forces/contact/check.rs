@@ -51,8 +51,10 @@ fn check_material(m: &Material, problems: &mut Problems) {
     }
     let factor = Steps::new(&m.friction_factors[0]);
     let places = m.friction_factors[0].iter().map(|row| row[0]);
-    if let Some(slip) = places.into_iter().find(|slip| factor.at(slip + m.friction_speed_m_s) < 0.5 * factor.at(*slip)) {
-        let found = format!("friction that falls by more than half within {} m/s from {slip} m/s", m.friction_speed_m_s);
+    if let Some(slip) = places.into_iter().find(|slip| factor.at(slip + m.friction_speed_m_s) < 0.5 * factor.at(*slip))
+    {
+        let found =
+            format!("friction that falls by more than half within {} m/s from {slip} m/s", m.friction_speed_m_s);
         problems.warning(format!("{path}.friction_over_slip"), found, "less: such friction sticks and slips by itself");
     }
 }

@@ -55,7 +55,8 @@ impl FunctionLaw<f64> {
     /// The greatest slope of loading and unloading up to x, and whether f falls anywhere on the way.
     pub(crate) fn steepness(&self, x: f64) -> (f64, bool) {
         let ends = self.pieces.iter().skip(1).map(|next| next.f.from.min(x)).chain([x]);
-        let slopes = self.pieces.iter().zip(ends).map(|(piece, end)| (piece.f.slopes(end.max(piece.f.from)), piece.returned));
+        let slopes =
+            self.pieces.iter().zip(ends).map(|(piece, end)| (piece.f.slopes(end.max(piece.f.from)), piece.returned));
         slopes.fold((0.0, false), |(most, falls), ([least, steepest], mu)| {
             ((steepest / mu).max(most), falls || least.is_nan() || least < 0.0)
         })

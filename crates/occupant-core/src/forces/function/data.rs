@@ -158,11 +158,7 @@ impl Function {
 /// Reports what is wrong with points of a curve.
 pub(super) fn check_points(points: &[[f64; 2]], path: &str, goes: Goes, falls: &str, problems: &mut Problems) {
     if points.len() < 2 || points[0] != [0.0, 0.0] {
-        problems.error(
-            path,
-            format!("{} points, the first not (0, 0)", points.len()),
-            "(0, 0) and at least one more",
-        );
+        problems.error(path, format!("{} points, the first not (0, 0)", points.len()), "(0, 0) and at least one more");
     }
     for (i, pair) in points.windows(2).enumerate() {
         let ([x, force], [next_x, next_force]) = (pair[0], pair[1]);

@@ -48,7 +48,9 @@ impl DeflectionLaw<f64> {
             loading: FunctionLaw::new(&Function { points: times(&data.loading.points), ..data.loading.clone() }),
             unloading: match &data.unloading {
                 Unloading::Stretch => Back::Stretch,
-                Unloading::Slope { n_per_m, least } if least.is_empty() => Back::Slope(share * n_per_m, elastic(&nothing)),
+                Unloading::Slope { n_per_m, least } if least.is_empty() => {
+                    Back::Slope(share * n_per_m, elastic(&nothing))
+                }
                 Unloading::Slope { n_per_m, least } => Back::Slope(share * n_per_m, elastic(least)),
                 Unloading::Quadratic { returned, set } => Back::Quadratic([*returned, *set]),
             },

@@ -99,7 +99,8 @@ impl ForceDeflection {
             let ([_, work], (_, energy)) = (law.loading(x), law.respond(x, x, 0.0));
             share = energy / work;
             if work - energy < lost - 1e-9 * work {
-                let found = format!("a way back that makes energy at {x:.6} m, where it returns {share:.3} of the work");
+                let found =
+                    format!("a way back that makes energy at {x:.6} m, where it returns {share:.3} of the work");
                 problems.error(path, found, "a law whose loss never falls: a smaller share, or another way back");
                 return;
             }
@@ -109,7 +110,11 @@ impl ForceDeflection {
             && (share - returned).abs() > 0.01
         {
             let found = format!("r = {returned}, of which ATB's quadratic makes {share:.3} at the last point");
-            problems.warning(format!("{path}.atb.r"), found, "an r that it can meet, or `returned`, which is met exactly");
+            problems.warning(
+                format!("{path}.atb.r"),
+                found,
+                "an r that it can meet, or `returned`, which is met exactly",
+            );
         }
     }
 

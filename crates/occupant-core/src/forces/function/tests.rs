@@ -53,11 +53,8 @@ fn what_a_closed_path_loses_follows_from_the_greatest_alone() {
         let target = if random(&mut seed) < 0.3 { 0.0 } else { 0.05 * random(&mut seed) };
         for i in 1..=20_000 {
             let x = before.0 + (target - before.0) * f64::from(i) / 20_000.0;
-            let (from, force) = if i == 1 {
-                before
-            } else {
-                (before.0 + (target - before.0) * f64::from(i - 1) / 20_000.0, before.1)
-            };
+            let (from, force) =
+                if i == 1 { before } else { (before.0 + (target - before.0) * f64::from(i - 1) / 20_000.0, before.1) };
             greatest = greatest.max(x);
             let now = law.respond(x, greatest).force;
             work += 0.5 * (force + now) * (x - from);
@@ -139,7 +136,10 @@ fn the_force_does_not_jump_on_any_path() {
                 (x, greatest) = (x + step, greatest.max(x + step));
                 let force = law.respond(x, greatest, 0.0).0;
                 // steepest is found at 200 places
-                assert!((force - last).abs() <= 1.5 * steepest * step.abs() + 1e-9, "{name} at {x} of {greatest}: {last} {force}");
+                assert!(
+                    (force - last).abs() <= 1.5 * steepest * step.abs() + 1e-9,
+                    "{name} at {x} of {greatest}: {last} {force}"
+                );
                 last = force;
             }
         }
@@ -192,7 +192,8 @@ fn what_a_factor_of_speed_takes_is_its_closed_integral() {
 
 #[test]
 fn a_damper_is_there_from_its_depth_on_and_never_pulls() {
-    let data = ForceDeflection { viscous: Some([200.0, 0.02]), ..ForceDeflection::lines(vec![[0.0, 0.0], [1.0, 1e4]], 1.0) };
+    let data =
+        ForceDeflection { viscous: Some([200.0, 0.02]), ..ForceDeflection::lines(vec![[0.0, 0.0], [1.0, 1e4]], 1.0) };
     let law = DeflectionLaw::new(&data, 1.0);
     for (depth, closing, force) in [(0.0, 9.0, 0.0), (0.01, 4.0, 500.0), (0.03, 4.0, 1100.0), (0.03, -4.0, 0.0)] {
         assert!((law.respond(depth, depth, closing).0 - force).abs() < 1e-9, "{depth} {closing}");
@@ -210,7 +211,9 @@ fn returned(points: Vec<[f64; 2]>, r: f64, g: f64) -> (f64, Vec<String>) {
 #[test]
 fn the_quadratic_returns_what_its_cuts_let_it_and_says_so() {
     let line = || vec![[0.0, 0.0], [0.1, 1e4]];
-    for (r, g, found) in [(0.2, 0.0, 2.0 / 3.0), (0.8, 0.0, 0.8), (1.0, 0.0, 1.0), (0.2, 0.3, 0.7 * 2.0 / 3.0), (0.9, 0.3, 0.7)] {
+    for (r, g, found) in
+        [(0.2, 0.0, 2.0 / 3.0), (0.8, 0.0, 0.8), (1.0, 0.0, 1.0), (0.2, 0.3, 0.7 * 2.0 / 3.0), (0.9, 0.3, 0.7)]
+    {
         let (share, said) = returned(line(), r, g);
         assert!((share - found).abs() < 1e-12, "{r} {g}: {share}");
         assert_eq!(said.is_empty(), (share - r).abs() < 0.01, "{said:?}");
@@ -244,7 +247,10 @@ fn laws_that_make_energy_or_cannot_be_followed_are_refused() {
     for (law, expected) in [
         (ForceDeflection::lines(falling.clone(), 0.5), "needs `unload_slope`"),
         (ForceDeflection { unloading: slope(30e3, &[]), ..plain.clone() }, "at least the greatest slope of loading"),
-        (ForceDeflection { unloading: slope(60e3, &[[0.0, 0.0], [0.01, 400.0]]), ..plain.clone() }, "below that of loading"),
+        (
+            ForceDeflection { unloading: slope(60e3, &[[0.0, 0.0], [0.01, 400.0]]), ..plain.clone() },
+            "below that of loading",
+        ),
         (ForceDeflection { rate: vec![[-1.0, 1.2], [0.0, 1.0]], ..plain.clone() }, "factors that do not fall"),
         (ForceDeflection { rate: vec![[-1.0, 0.5], [1.0, 1.2]], ..plain.clone() }, "1 at speed 0"),
         (ForceDeflection { spike: vec![[0.0, 0.0], [0.01, 50.0]], ..plain.clone() }, "a force of 0 at its last point"),

@@ -14,11 +14,7 @@ const LIMITER_RETURNS: f64 = 0.01;
 /// Webbing: its tension over its strain, straight between points; beyond the last the last line goes on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend(
-    "x-exactly-one" = [["strain", "library"]],
-    "x-at-most-one" = [["returned", "returned_each"]],
-    "x-together" = [["strain", "force"]],
-))]
+#[schemars(extend("x-at-most-one" = [["returned", "returned_each"]]))]
 pub(crate) struct WebbingSection {
     /// Strains, from 0 on.
     pub(crate) strain: Option<Vec<Ratio<NOT_NEGATIVE>>>,
@@ -48,11 +44,7 @@ pub(crate) struct ViscousSection {
 /// A limiter: belt force over the webbing that it has given; a first rise is webbing that tightens on the spool.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend(
-    "x-exactly-one" = [["payout", "library"]],
-    "x-at-most-one" = [["returned", "returned_each"]],
-    "x-together" = [["payout", "force"]],
-))]
+#[schemars(extend("x-at-most-one" = [["returned", "returned_each"]]))]
 pub(crate) struct LimiterSection {
     /// Webbing given, from 0 on.
     pub(crate) payout: Option<Vec<Length<NOT_NEGATIVE>>>,

@@ -16,9 +16,8 @@ use placed_text::with_key;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend(
-    "x-exactly-one" = [["k1", "depth", "library"]],
-    "x-at-most-one" = [["returned", "returned_each", "unload_slope", "atb"]],
-    "x-together" = [["k2", "delta_b"], ["depth", "force"], ["unload_depth", "unload_force"]],
+    "x-at-most-one" = [["k1", "depth"], ["k1", "library"], ["returned", "returned_each", "unload_slope", "atb"]],
+    "x-together" = [["k2", "delta_b"], ["unload_depth", "unload_force"]],
 ))]
 pub(crate) struct MaterialSection {
     /// Name of a material of the library, which gives all that is not said beside it.
@@ -146,10 +145,14 @@ pub(super) fn materials(b: &mut Builder, scenario: &Scenario) -> Vec<Material> {
 
 fn material(b: &mut Builder, name: &str, s: &MaterialSection) -> Material {
     let path = with_key("materials", name);
+    if s.k1.is_none() && s.depth.is_none() {
+        b.error(&path, format!("`{path}` has none of `k1`, `depth`, `library`"), "one of them");
+    }
     let friction = b.needed(&path, "friction", &s.friction);
     let plain = match &s.k1 {
         Some(k1) => {
-            let keys = ["shape", "beyond", "returned", "returned_each", "unload_slope", "atb", "spike", "rate", "viscous"];
+            let keys =
+                ["shape", "beyond", "returned", "returned_each", "unload_slope", "atb", "spike", "rate", "viscous"];
             b.refuse_keys(&path, &keys, |key| format!("`{key}` beside `k1`"), "`depth` and `force` instead of `k1`");
             let mu1 = b.needed(&path, "mu1", &s.mu1);
             Material::new(name, spring(k1, &s.k2, &s.delta_b, mu1, &s.mu2), friction)
@@ -160,12 +163,14 @@ fn material(b: &mut Builder, name: &str, s: &MaterialSection) -> Material {
             Material::new(name, deflection(b, &path, s), friction)
         }
     };
-    let over_slip = s.friction_over_slip.as_ref().map(|t| {
-        points(b, &format!("{path}.friction_over_slip"), ["speed", "factor"], &t.speed, &t.factor)
-    });
-    let over_force = s.friction_over_force.as_ref().map(|t| {
-        points(b, &format!("{path}.friction_over_force"), ["force", "factor"], &t.force, &t.factor)
-    });
+    let over_slip = s
+        .friction_over_slip
+        .as_ref()
+        .map(|t| points(b, &format!("{path}.friction_over_slip"), ["speed", "factor"], &t.speed, &t.factor));
+    let over_force = s
+        .friction_over_force
+        .as_ref()
+        .map(|t| points(b, &format!("{path}.friction_over_force"), ["force", "factor"], &t.force, &t.factor));
     Material {
         friction_factors: [over_slip, over_force].map(Option::unwrap_or_default),
         friction_speed_m_s: si_or(&s.friction_speed, plain.friction_speed_m_s),

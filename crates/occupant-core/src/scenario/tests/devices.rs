@@ -95,7 +95,9 @@ fn what_breaks_or_is_released_is_lost_with_its_energy() {
 #[test]
 fn a_guide_with_a_normal_lets_go_of_what_pulls_away() {
     for (normal, holds) in [("[1, 0, 0]", true), ("[-1, 0, 0]", false)] {
-        let guide = format!("belts.b.nodes[1]={{ name = \"g\", on = \"upper_torso\", at = [0.12, 0, 0.2], normal = {normal}, friction = 0.2 }}");
+        let guide = format!(
+            "belts.b.nodes[1]={{ name = \"g\", on = \"upper_torso\", at = [0.12, 0, 0.2], normal = {normal}, friction = 0.2 }}"
+        );
         let mut last = Vec::new();
         run(&belted(&[&guide, "belts.b.pretension=50"]), |_, straps| {
             last = straps.iter().map(|strap| strap.passes).collect();
@@ -133,7 +135,13 @@ fn a_pulled_buckle_goes_its_way_until_it_stalls() {
     let (free, work) = ways("");
     for (time, way) in free {
         let age = time - 0.012;
-        let expected = if age < 0.0 { 0.0 } else if age < 0.01 { 3.0 * age } else { (0.03 + 2.0 * (age - 0.01)).min(0.05) };
+        let expected = if age < 0.0 {
+            0.0
+        } else if age < 0.01 {
+            3.0 * age
+        } else {
+            (0.03 + 2.0 * (age - 0.01)).min(0.05)
+        };
         assert!((way - expected).abs() < 1e-12, "{time}: {way} {expected}");
     }
     assert!(work > 1.0, "{work}");

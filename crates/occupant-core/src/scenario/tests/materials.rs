@@ -60,7 +60,9 @@ fn listed(section: &str) -> Vec<String> {
 #[test]
 fn every_entry_of_the_library_is_listed_sound_and_tells_its_source() {
     let library = crate::scenario::presets::library().unwrap();
-    for (section, of) in [("MaterialSection", "materials"), ("WebbingSection", "webbings"), ("LimiterSection", "limiters")] {
+    for (section, of) in
+        [("MaterialSection", "materials"), ("WebbingSection", "webbings"), ("LimiterSection", "limiters")]
+    {
         let entries = library.root.get(of).unwrap().as_table().unwrap();
         let names: Vec<&String> = entries.keys().collect();
         assert_eq!(names, listed(section).iter().collect::<Vec<_>>(), "{of}");
@@ -91,6 +93,10 @@ fn what_is_said_beside_the_library_holds() {
     assert_eq!((material.friction, &law.loading.returned[..]), (0.7, &[0.1, 0.2, 0.3, 0.4][..]));
     // 1000 lbf at 3 in
     assert_eq!(law.loading.points[3], [3.0 * 0.0254, 1000.0 * 4.448_221_615_260_5]);
+    let one = ["materials.foam={ library = \"dash_s10\" }", "materials.foam.force[3]=\"1100 lbf\""];
+    let (model, ..) = changed(&one).unwrap();
+    let Force::Deflection(law) = &model.setup().materials[0].force else { panic!("a spring") };
+    assert_eq!(law.loading.points[3], [3.0 * 0.0254, 1100.0 * 4.448_221_615_260_5]);
     let (model, ..) = changed(&["materials.foam={ library = \"dash_s10\", unload_slope = \"2000 lbf/in\" }"]).unwrap();
     let Force::Deflection(law) = &model.setup().materials[0].force else { panic!("a spring") };
     assert!(matches!(law.unloading, crate::forces::function::Unloading::Slope { .. }));

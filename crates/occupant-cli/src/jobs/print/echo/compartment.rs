@@ -35,7 +35,8 @@ fn materials(case: &Case, units: Units) -> Table {
         let slopes = spring.map_or(["FUNCTION".to_owned(), "-".to_owned(), "-".to_owned()], |s| {
             [k.show(s.k1_n_per_m), k.show(s.k2_n_per_m), l.show(s.break_m)]
         });
-        let shares = spring.map_or(["-".to_owned(), "-".to_owned()], |s| [s.returned_1, s.returned_2].map(|mu| r.show(mu)));
+        let shares =
+            spring.map_or(["-".to_owned(), "-".to_owned()], |s| [s.returned_1, s.returned_2].map(|mu| r.show(mu)));
         let rubs = [r.show(material.friction), v.show(material.friction_speed_m_s), memory.to_owned()];
         table.row_of(&[&[material.name.clone()], &slopes, &shares, &rubs]);
     }

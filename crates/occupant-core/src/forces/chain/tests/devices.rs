@@ -1,8 +1,8 @@
 //! Devices at the first node: spools, limiters, pretensioners, release.
 
+use super::super::data::*;
 use super::super::device::Phase;
 use super::super::{Chains, MOST_NODES};
-use super::super::data::*;
 use super::{Rig, at, chain, fixed, limiter, reel, webbing};
 use crate::forces::element::Element;
 use crate::forces::function::Function;
@@ -125,7 +125,12 @@ fn a_limiter_at_an_anchor_bottoms_where_it_is_steep() {
     }
     // slack, with what it gave still given
     assert_eq!((rig.pulls[0], rig.past.device.greatest), (0.0, greatest));
-    assert!(rig.work < held && (rig.work / (rig.stored() + rig.lost()) - 1.0).abs() < 2e-3, "{} {}", rig.work, rig.lost());
+    assert!(
+        rig.work < held && (rig.work / (rig.stored() + rig.lost()) - 1.0).abs() < 2e-3,
+        "{} {}",
+        rig.work,
+        rig.lost()
+    );
 }
 
 fn drawn_out(device: Device, by: f64) -> Rig {

@@ -195,11 +195,7 @@ impl<S: Scalar> Past<S> {
     fn respond(&self, stop: &Stop<S>, excess: S) -> Reply<S> {
         let found = stop.respond(excess, self.greatest);
         let top = excess.max(self.greatest).max(S::zero());
-        Reply {
-            torque: found.force,
-            stored: stop.returned_to(found.loading)[1],
-            lost: self.lost + lost(stop, top),
-        }
+        Reply { torque: found.force, stored: stop.returned_to(found.loading)[1], lost: self.lost + lost(stop, top) }
     }
 }
 

@@ -356,7 +356,9 @@ fn the_preset_is_gebods_table() {
     let is = |stop: &Stop<f64>, coefficient: f64| {
         let torque = stop.value(12_f64.to_radians());
         let [_, back, lost] = stop.returned_to(1.0);
-        assert!((torque - coefficient * 144.0 * unit).abs() < 1e-9 * torque && (back / (back + lost) - 0.7).abs() < 1e-12);
+        assert!(
+            (torque - coefficient * 144.0 * unit).abs() < 1e-9 * torque && (back / (back + lost) - 0.7).abs() < 1e-12
+        );
     };
     let rows: [Row; 5] = [
         (LOWER_BACK, (10.0, 20.0), (10.0, 5.0), 5.0),
