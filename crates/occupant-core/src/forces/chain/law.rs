@@ -145,10 +145,19 @@ impl<S: Scalar> ChainLaw<S> {
         Lies { ways, places, bends, course }
     }
 
-    /// The chain at one instant, from what it remembers. Within the function that calls it, which may be compiled for wide
-    /// registers: lanes cannot use theirs in a function of its own.
+    /// The chain at one instant, from what it remembers.
     #[inline(always)]
     pub(super) fn now(&self, at: &Instant<'_, S>, past: &ChainPast<S>) -> Now<'_, S> {
+        if S::IS_WIDE { self.within(at, past) } else { self.apart(at, past) }
+    }
+
+    #[inline(never)]
+    fn apart(&self, at: &Instant<'_, S>, past: &ChainPast<S>) -> Now<'_, S> {
+        self.within(at, past)
+    }
+
+    #[inline(always)]
+    fn within(&self, at: &Instant<'_, S>, past: &ChainPast<S>) -> Now<'_, S> {
         let lies = self.lies(at, past);
         let taut = self.straps.taut(at.frames.time, &lies.course, past);
         Now { lies, taut }
@@ -183,7 +192,9 @@ impl<S: Scalar> ChainLaw<S> {
             }
         }
         past.each(&mut next, &mut |a, b| *a = S::select(fresh, *b, *a));
-        Left { lanes: lanes & fresh, stored: self.straps.stored_in_all(&now.taut) }
+        let lanes = lanes & fresh;
+        let stored = if S::any(lanes) { self.straps.stored_in_all(&now.taut) } else { S::zero() };
+        Left { lanes, stored }
     }
 
     /// What is gone where webbing has left a node or was freed is lost at the first node, but for what is booked as passing

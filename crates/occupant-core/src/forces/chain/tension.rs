@@ -67,6 +67,12 @@ impl<S: Scalar> WebbingLaw<S> {
         }
     }
 
+    /// Strain at which tension begins.
+    #[inline(always)]
+    pub(super) fn foot(&self, run: &Run<S>) -> S {
+        if self.viscous.is_some() { self.reach(S::zero(), run).0 } else { run.set }
+    }
+
     /// The Maxwell branch a time h after the last commit as a spring, exact for a constant rate of strain since: with
     /// a = exp(−h/τ) and b = (1 − a)τ/h, e = a eᶜ + b (ε − εᶜ). Its stiffness κb and the strain where it is free.
     #[inline(always)]

@@ -115,6 +115,16 @@ impl<S: Scalar> DeflectionLaw<S> {
     /// Force (N) and recoverable energy (J) at a depth (m) after a greatest depth, while the depth grows by `closing` (m/s).
     #[inline(always)]
     pub(crate) fn respond(&self, depth: S, greatest: S, closing: S) -> (S, S) {
+        if S::IS_WIDE { self.within(depth, greatest, closing) } else { self.apart(depth, greatest, closing) }
+    }
+
+    #[inline(never)]
+    fn apart(&self, depth: S, greatest: S, closing: S) -> (S, S) {
+        self.within(depth, greatest, closing)
+    }
+
+    #[inline(always)]
+    fn within(&self, depth: S, greatest: S, closing: S) -> (S, S) {
         let (o, top) = (S::zero(), depth.max(greatest));
         let (mut force, mut energy) = match &self.unloading {
             Back::Stretch => {
