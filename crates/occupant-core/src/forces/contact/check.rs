@@ -70,7 +70,8 @@ fn check_skins(data: &ContactData<'_>, body: &Body, problems: &mut Problems) {
     }
     let mut skins = own.skins.iter().filter_map(|skin| data.materials.get(*skin));
     if let Some(soft) = skins.find(|m| !is_skin(&m.force) || m.friction_factors.iter().any(|rows| !rows.is_empty())) {
-        let found = format!("the skin {} is not of lines that rise", soft.name);
+        let why = if soft.force.bilinear().is_some() { "has no stiffness" } else { "is not of lines that rise alone" };
+        let found = format!("the skin {} {why}", soft.name);
         let expected = "positive k1 and k2, or forces that rise with `returned` alone: skins deform in series";
         problems.error("self_contact.skin", found, expected);
     }
