@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 use occupant_core::body::tti12::{self, TTI12};
 use occupant_core::forces::belt::{Belt, RestLength};
 use occupant_core::forces::contact::EdgeForce;
-use occupant_core::forces::contact::material::{DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
+use occupant_core::forces::contact::material::Material;
 use occupant_core::forces::contact::surface::{Facing, Frame, Outline, Surface};
 use occupant_core::forces::joint::{AngularSpring, BallJoint, HingeJoint, Joints, Stop};
 use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating};
@@ -71,12 +71,8 @@ fn materials() -> Vec<Material> {
         ("glass", 300.0, 1.0, 2700.0, 0.3, 0.2),
         ("wheel", 100.0, 2.0, 500.0, 0.3, 0.4),
     ]
-    .map(|(name, k1, break_in, k2, mu, friction)| Material {
-        name: name.into(),
-        spring: spring(k1 * LBF_N / INCH_M, break_in * INCH_M, k2 * LBF_N / INCH_M, mu, mu),
-        friction,
-        friction_speed_m_s: DEFAULT_FRICTION_SPEED_M_S,
-        memory: Memory::Reset,
+    .map(|(name, k1, break_in, k2, mu, friction)| {
+        Material::new(name, spring(k1 * LBF_N / INCH_M, break_in * INCH_M, k2 * LBF_N / INCH_M, mu, mu), friction)
     })
     .into()
 }

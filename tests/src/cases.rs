@@ -5,7 +5,7 @@ use occupant_core::body::tti12::TTI12;
 use occupant_core::body::{Body, SEGMENTS, SegmentProperties};
 use occupant_core::forces::belt::{Belt, RestLength};
 use occupant_core::forces::contact::EdgeForce;
-use occupant_core::forces::contact::material::{DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
+use occupant_core::forces::contact::material::Material;
 use occupant_core::forces::contact::surface::{Facing, Frame, Outline, Surface};
 use occupant_core::forces::joint::Joints;
 use occupant_core::forces::spring::BilinearSpring;
@@ -128,13 +128,7 @@ pub fn spring(k1: f64, break_m: f64, k2: f64, mu1: f64, mu2: f64) -> BilinearSpr
 
 /// A material of that spring, without friction, that forgets its crush.
 pub fn smooth(spring: BilinearSpring) -> Material {
-    Material {
-        name: "smooth".into(),
-        spring,
-        friction: 0.0,
-        friction_speed_m_s: DEFAULT_FRICTION_SPEED_M_S,
-        memory: Memory::Reset,
-    }
+    Material::new("smooth", spring, 0.0)
 }
 
 /// The whole plane through the origin of space with normal `axis`, of material 0.

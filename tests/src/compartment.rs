@@ -12,7 +12,6 @@ use occupant_core::forces::contact::EdgeForce;
 use occupant_core::forces::contact::OPEN;
 use occupant_core::forces::contact::PairHistory;
 use occupant_core::forces::contact::flat_face::FlatFace;
-use occupant_core::forces::contact::material;
 use occupant_core::forces::contact::material::Material;
 use occupant_core::forces::contact::surface::Facing;
 use occupant_core::forces::contact::surface::Frame;
@@ -191,7 +190,7 @@ impl Compartment {
         let carried = frame.velocity + frame.omega.cross(&(point - frame.origin));
         let relative = velocity - carried;
         let slip = relative - normal * normal.dot(&relative);
-        let spring = &material.spring;
+        let spring = material.force.bilinear().expect("the cases have springs");
         let soft = depth.min(spring.break_m) * spring.k1_n_per_m;
         let press = soft + (depth - spring.break_m).max(0.0) * spring.k2_n_per_m;
         let speed = slip.norm_squared() + material.friction_speed_m_s.powi(2);
@@ -234,17 +233,13 @@ fn point_velocity(
 }
 
 fn material(random: &mut Random) -> Material {
-    Material {
-        name: "random".to_owned(),
-        spring: BilinearSpring {
-            k1_n_per_m: random.between(1e3, 1e4),
-            k2_n_per_m: random.between(1e4, 5e4),
-            break_m: random.between(0.02, 0.5),
-            returned_1: random.between(0.1, 1.0),
-            returned_2: random.between(0.1, 1.0),
-        },
-        friction: random.between(0.1, 1.0),
-        friction_speed_m_s: random.between(0.05, 1.0),
-        memory: material::Memory::Reset,
-    }
+    let spring = BilinearSpring {
+        k1_n_per_m: random.between(1e3, 1e4),
+        k2_n_per_m: random.between(1e4, 5e4),
+        break_m: random.between(0.02, 0.5),
+        returned_1: random.between(0.1, 1.0),
+        returned_2: random.between(0.1, 1.0),
+    };
+    let plain = Material::new("random", spring, random.between(0.1, 1.0));
+    Material { friction_speed_m_s: random.between(0.05, 1.0), ..plain }
 }

@@ -94,7 +94,7 @@ fn cart_of(i: usize, text: &str) -> Case {
     let mut setup = loaded.and_then(|s| s.build()).unwrap().0;
     let scale = 1.0 + 0.07 * i as f64;
     for material in &mut setup.materials {
-        material.spring.k1_n_per_m *= scale;
+        material.force.bilinear_mut().unwrap().k1_n_per_m *= scale;
         material.friction /= scale;
         if i.is_multiple_of(2) {
             material.memory = Memory::Retain;

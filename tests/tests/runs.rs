@@ -65,8 +65,9 @@ fn several_threads_that_share_a_model_get_the_same_bits() {
 fn far_too_stiff() -> Setup {
     let mut setup = lap(Integrator::Rk4 { step_s: 1e-3 });
     for material in &mut setup.materials {
-        material.spring.k1_n_per_m *= 1e6;
-        material.spring.k2_n_per_m *= 1e6;
+        let spring = material.force.bilinear_mut().unwrap();
+        spring.k1_n_per_m *= 1e6;
+        spring.k2_n_per_m *= 1e6;
     }
     setup.joints.ball_mut(tti12::NECK).unwrap().damping_n_m_s = 1e4;
     setup

@@ -275,8 +275,9 @@ impl Scaled {
             segment.inertia_kg_m2 *= lambda;
         }
         for material in &mut setup.materials {
-            material.spring.k1_n_per_m *= lambda;
-            material.spring.k2_n_per_m *= lambda;
+            let spring = material.force.bilinear_mut().unwrap();
+            spring.k1_n_per_m *= lambda;
+            spring.k2_n_per_m *= lambda;
         }
         for belt in &mut setup.belts {
             belt.webbing.k1_n_per_m *= lambda;

@@ -59,8 +59,8 @@ const FAULTS: &[Fault] = &[
         "lower stop",
     ),
     (|s| s.joints.epsilon = 0.5, "joints.epsilon", "0.5"),
-    (|s| s.materials[0].spring.k1_n_per_m = -5.0, "materials.seat.k1", "-5 N/m"),
-    (|s| s.materials[0].spring.returned_1 = 1.2, "materials.seat.mu1", "1.2"),
+    (|s| s.materials[0].force.bilinear_mut().unwrap().k1_n_per_m = -5.0, "materials.seat.k1", "-5 N/m"),
+    (|s| s.materials[0].force.bilinear_mut().unwrap().returned_1 = 1.2, "materials.seat.mu1", "1.2"),
     (|s| s.materials[0].friction = -0.1, "materials.seat.friction", "-0.1"),
     (|s| s.materials[0].friction_speed_m_s = 0.0, "materials.seat.friction_speed", "0 m/s"),
     (|s| s.surfaces[1].name = "cushion".into(), "surfaces.cushion", "a second surface"),
@@ -225,7 +225,7 @@ fn the_case_without_faults_is_accepted_without_a_warning() {
 #[test]
 fn what_is_odd_but_usable_is_a_warning() {
     let mut setup = sound();
-    setup.materials[0].spring.returned_2 = 0.0;
+    setup.materials[0].force.bilinear_mut().unwrap().returned_2 = 0.0;
     setup.joints.ball_mut(tti12::NECK).unwrap().stop = Some(Stop { begin_rad: 0.5, full_rad: 1.0, damping_n_m_s: 0.1 });
     let model = Model::new(setup).unwrap();
     let paths: Vec<_> = model.warnings().iter().map(|p| p.path.as_str()).collect();

@@ -6,7 +6,7 @@
 use std::hint::black_box;
 use std::ops::ControlFlow;
 
-use occupant_bench::{self as scene, Instant, STEP_S, TOUCHING_S};
+use occupant_bench::{self as scene, Instant, LIMITED_S, STEP_S, TOUCHING_S};
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
 use occupant_core::run::batch::{Job, Kernel, simulate_many};
@@ -14,11 +14,19 @@ use occupant_core::run::batch::{Job, Kernel, simulate_many};
 /// A piece of work: calls that are counted.
 type Work = fn(count: usize);
 
-const WORKS: [(&str, Work); 7] = [
+const WORKS: [(&str, Work); 10] = [
     ("evaluation_bare", bare),
     ("evaluation_joints_and_belts", held),
     ("evaluation_full_within_step", within),
     ("evaluation_full_step_start", start),
+    ("evaluation_three_point", |n| belted(Instant::full(&scene::belted(), LIMITED_S), n)),
+    ("evaluation_three_point_step_start", |n| {
+        let mut now = Instant::full(&scene::belted(), LIMITED_S);
+        for _ in 0..n {
+            black_box(black_box(&mut now).commit());
+        }
+    }),
+    ("evaluation_three_point_left_out", |n| belted(Instant::full(&scene::belted(), LIMITED_S).unbelted(), n)),
     ("step_rk4", step),
     ("run_step_scalar", |n| run(Kernel::Scalar, 1, n)),
     ("run_step_lanes4", |n| run(Kernel::Lanes4, 4, n)),
@@ -66,6 +74,12 @@ fn start(count: usize) {
     let mut now = instant();
     for _ in 0..count {
         black_box(black_box(&mut now).commit());
+    }
+}
+
+fn belted(mut now: Instant, count: usize) {
+    for _ in 0..count {
+        black_box(black_box(&mut now).rate());
     }
 }
 

@@ -19,6 +19,12 @@ use occupant_core::vehicle::PathCursor;
 /// The scenario's text.
 pub const TEXT: &str = include_str!("../car.toml");
 
+/// A driver in a three-point belt, as shipped.
+pub const BELTED: &str = include_str!("../../../scenarios/three-point.toml");
+
+/// Instant of that crash that is timed, s: on the limiter, webbing slides over the rings.
+pub const LIMITED_S: f64 = 0.06;
+
 /// Step of the integrator, s.
 pub const STEP_S: f64 = 1e-4;
 
@@ -27,13 +33,22 @@ pub const TOUCHING_S: f64 = 0.09;
 
 /// The scenario, read and checked.
 pub fn load() -> Loaded {
+    read(TEXT)
+}
+
+fn read(text: &str) -> Loaded {
     let no_file = |name: &str| Err(format!("{name}: the scene has no file beside it"));
-    Scenario::from_text(TEXT, Format::Toml, "car.toml", &no_file).expect("the scene is valid")
+    Scenario::from_text(text, Format::Toml, "car.toml", &no_file).expect("the scene is valid")
 }
 
 /// The model.
 pub fn model() -> Model {
     load().model().expect("the scene is valid").0
+}
+
+/// The driver in a three-point belt.
+pub fn belted() -> Model {
+    read(BELTED).model().expect("the scene is valid").0
 }
 
 /// Models for a sweep: all different, all of one structure.
@@ -43,7 +58,7 @@ pub fn models(count: usize) -> Vec<Model> {
         let mut setup = setup.clone();
         let scale = 1.0 + 0.02 * i as f64;
         for material in &mut setup.materials {
-            material.spring.k1_n_per_m *= scale;
+            material.force.bilinear_mut().expect("the scene has springs").k1_n_per_m *= scale;
         }
         for belt in &mut setup.belts {
             belt.webbing.k1_n_per_m /= scale;
@@ -98,6 +113,16 @@ impl Instant {
         now.system.forces.contacts = ContactSystem::default();
         let memory = Memory { contacts: Vec::new(), ..self.history.memory.clone() };
         now.history = History::new(&now.system.forces, memory);
+        now
+    }
+
+    /// The same instant without belts over several nodes.
+    pub fn unbelted(&self) -> Instant {
+        let mut now = self.clone();
+        now.system.forces.chains = Vec::new();
+        let memory = Memory { chains: Vec::new(), ..self.history.memory.clone() };
+        now.history = History::new(&now.system.forces, memory);
+        now.commit();
         now
     }
 

@@ -63,13 +63,18 @@ fn read_surface(back: &mut Back<'_>, layout: &CompartmentLayout, surface: &Surfa
 }
 
 fn read_material(back: &mut Back<'_>, material: &Material, number: u32) {
-    let spring = &material.spring;
+    let Some(spring) = material.force.bilinear() else {
+        back.misfit(format!("materials.{}: on cards a material is two straight lines, `k1` and `k2`", material.name));
+        return;
+    };
     back.misfit_if(
         material.memory != Memory::Reset,
         format!("materials.{}.memory = \"retain\": cards forget", material.name),
     );
     let usual = material.friction_speed_m_s == DEFAULT_FRICTION_SPEED_M_S;
     back.misfit_if(!usual, format!("materials.{}.friction_speed: cards cannot choose it", material.name));
+    let has_factors = material.friction_factors.iter().any(|rows| !rows.is_empty());
+    back.misfit_if(has_factors, format!("materials.{}: friction on cards is one number", material.name));
     let slopes = [("STIF1", spring.k1_n_per_m), ("STIF2", spring.k2_n_per_m), ("DELB", spring.break_m)];
     let losses = [("AMU1", spring.returned_1), ("AMU2", spring.returned_2), ("COFR", material.friction)];
     back.set_numbered(number, slopes);

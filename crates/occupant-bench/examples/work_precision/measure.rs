@@ -63,8 +63,9 @@ impl Case {
         let variants = VARIANTS.map(|factor| {
             let mut setup = base.clone();
             for material in &mut setup.materials {
-                material.spring.k1_n_per_m *= factor;
-                material.spring.k2_n_per_m *= factor;
+                let Some(spring) = material.force.bilinear_mut() else { continue };
+                spring.k1_n_per_m *= factor;
+                spring.k2_n_per_m *= factor;
             }
             let reference = run(&setup, Integrator::Rk4 { step_s: 4e-6 });
             (setup, reference)

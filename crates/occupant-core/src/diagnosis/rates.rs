@@ -130,7 +130,7 @@ pub(super) fn of_spheres(
     let one = |sphere: usize| {
         let own = || pairs(model).filter(move |&(s, _)| s == sphere).map(|(_, f)| f);
         let share = setup.body.spheres[sphere].share;
-        let slope = |&surface: &usize| share * material_of(setup, surface).spring.steepest_n_per_m();
+        let slope = |&surface: &usize| share * material_of(setup, surface).force.steepest_n_per_m();
         let stiffest = own().max_by(|a, b| slope(a).total_cmp(&slope(b)))?;
         let site = &model.system().spheres[sphere];
         let (_, centre, _) = model.system().sphere(&mobility.kinematics, sphere);

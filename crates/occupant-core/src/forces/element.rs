@@ -97,6 +97,12 @@ pub trait Element: Copy + Debug {
         true
     }
 
+    /// What of them could not be worked out within the last step, in words; none where all was. What they remember may then
+    /// be no numbers.
+    fn failure(_data: Self::Data<'_>, _past: &[Self::Past<f64>]) -> Option<String> {
+        None
+    }
+
     /// Brings what one remembers back into range after its numbers were changed a little.
     fn confine(_past: &mut Self::Past<f64>) {}
 

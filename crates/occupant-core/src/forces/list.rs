@@ -290,6 +290,11 @@ macro_rules! kinds {
                 if is_finite { Ok(()) } else { Err(Misfit::NotFinite) }
             }
 
+            /// What of elements with these data could not be worked out; see [`Element::failure`].
+            pub(crate) fn failure(&self, data: &Data<'_>) -> Option<String> {
+                None$(.or_else(|| $Kind::failure(data.$kind, &self.$kind)))+
+            }
+
             /// Brings all back into range after numbers were changed a little.
             pub fn confine(&mut self) {
                 $(self.$kind.iter_mut().for_each($Kind::confine);)+

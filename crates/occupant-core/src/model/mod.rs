@@ -265,7 +265,7 @@ fn seat_of<'a>(
     let back = plane(seating.back, "back", &|middle| Vector3::x() * (seating.heels_m[0] - middle.x).signum());
     let (cushion, back) = (cushion?, back?);
     let material = setup.materials.get(setup.surface_material(seating.cushion))?;
-    Some(Seat { cushion, back, spring: &material.spring })
+    Some(Seat { cushion, back, force: &material.force })
 }
 
 /// Gives every point of the body its velocity at the start.

@@ -11,7 +11,9 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::body::tree::Limb;
 use crate::body::{Body, Segment};
-use crate::forces::spring::{BilinearSpring, Spring};
+use crate::forces::contact::material::Force;
+use crate::forces::function::DeflectionLaw;
+use crate::forces::spring::Spring;
 use crate::model::pose::{Pose, along, leaned};
 use crate::model::seating::{Seating, angle_of};
 use crate::motion::state::State;
@@ -49,7 +51,7 @@ pub(crate) struct Seat<'a> {
     /// Plane of the back.
     pub back: SeatPlane,
     /// Loading curve of the cushion.
-    pub spring: &'a BilinearSpring,
+    pub force: &'a Force,
 }
 
 /// Seats `body`; velocities are zero. Problems are reported under `posture` and `seat`.
@@ -140,7 +142,7 @@ fn sink(
         return None;
     }
     let load = carried * gravity_m_s2 / support;
-    let depth = depth_under(seat.spring, load);
+    let depth = depth_under(seat.force, load);
     if depth.is_none() {
         problems.error("materials", "a cushion without stiffness", "a positive k1 and k2");
     }
@@ -148,7 +150,11 @@ fn sink(
 }
 
 /// Deformation at which the loading curve reaches `load` (N), m.
-fn depth_under(spring: &BilinearSpring, load: f64) -> Option<f64> {
+fn depth_under(force: &Force, load: f64) -> Option<f64> {
+    let spring = match force {
+        Force::Bilinear(spring) => spring,
+        Force::Deflection(law) => return DeflectionLaw::new(law, 1.0).depth_under(load),
+    };
     let first = spring.k1_n_per_m * spring.break_m;
     let depth =
         if load <= first { load / spring.k1_n_per_m } else { spring.break_m + (load - first) / spring.k2_n_per_m };

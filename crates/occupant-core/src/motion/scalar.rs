@@ -44,6 +44,10 @@ pub trait Scalar:
     /// Whether numbers carry derivatives.
     const HAS_SLOPES: bool = false;
 
+    /// Whether numbers fill wide registers, which only functions compiled for them can use: what computes with such numbers has
+    /// to be part of its caller. Of others large parts are functions of their own, of which there is one for all callers.
+    const IS_WIDE: bool = false;
+
     /// One truth value per lane.
     type Mask: Copy + Debug + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
 

@@ -62,6 +62,18 @@ pub enum StepError {
         /// Which component.
         component: String,
     },
+    /// Forces could not be worked out.
+    #[error(
+        "at t = {time_s:.6} s, in a step of {step_s:.3e} s, {why}; a smaller step, or smoother curves of the element may help"
+    )]
+    Unsolved {
+        /// Start of the step, s.
+        time_s: f64,
+        /// Step, s.
+        step_s: f64,
+        /// Of what, and what is left over.
+        why: String,
+    },
     /// The error control asks for a step below the smallest allowed.
     #[error(
         "at t = {time_s:.6} s the error control asks for a step of {step_s:.3e} s, below the smallest allowed, {min_step_s:.3e} s \

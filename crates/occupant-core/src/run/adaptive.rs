@@ -126,7 +126,11 @@ impl Run {
             self.control.reject(h, trial.error);
             let wanted_s = self.control.wanted_s;
             if wanted_s < control.min_step_s {
-                return Err(too_small(start_s, wanted_s, control, trial.error));
+                let failure = front.failure(model).filter(|_| !trial.error.is_finite());
+                return Err(failure.map_or_else(
+                    || too_small(start_s, wanted_s, control, trial.error),
+                    |why| StepError::Unsolved { time_s: start_s, step_s: h, why },
+                ));
             }
         }
     }

@@ -139,6 +139,11 @@ impl Front {
         crossing.end_behind_corner()
     }
 
+    /// What could not be worked out within the last trial, in words.
+    pub(super) fn failure(&self, model: &Model) -> Option<String> {
+        self.trial.memory.failure(&model.setup().forces(&[]))
+    }
+
     /// Notes what touches at the end of the step, as all outputs before it are recorded.
     pub(super) fn note(&mut self, model: &Model, seen: &mut Seen) {
         for touching in &self.met {

@@ -12,10 +12,10 @@ pub mod simulate;
 
 pub use fixed::{Step, Stretch};
 
-use adaptive::{Control, Memory};
+use adaptive::{Control, Memory as Wanted};
 use front::Front;
 
-use crate::forces::{Actions, History};
+use crate::forces::{Actions, History, Memory};
 use crate::model::setup::Integrator;
 use crate::model::{Model, frames};
 use crate::motion::frame::VEHICLE;
@@ -48,7 +48,7 @@ pub struct Run {
     pub(crate) effort: Effort,
     /// The integration under error control; none at a fixed step.
     front: Option<Box<Front>>,
-    control: Memory,
+    control: Wanted,
     energy_start: Option<EnergyStart>,
     start_gravity_j: f64,
     greatest: Greatest,
@@ -80,7 +80,7 @@ impl Run {
                     Some(Box::new(front))
                 }
             },
-            control: Memory::new(first_step(integrator)),
+            control: Wanted::new(first_step(integrator)),
             energy_start: None,
             start_gravity_j: energy::gravity(skeleton, &Kinematics::new(skeleton, &start.state)),
             greatest: Greatest::default(),
@@ -104,7 +104,7 @@ impl Run {
         run.state = state(&from.state)?;
         run.history = History::new(&model.system().forces, from.memory.clone());
         run.effort = progress.effort;
-        run.control = Memory { wanted_s: progress.wanted_s, error: progress.step_error };
+        run.control = Wanted { wanted_s: progress.wanted_s, error: progress.step_error };
         if run.front.is_some() {
             let step = from.under_way.as_ref();
             run.front = Some(Box::new(match step {
@@ -202,11 +202,7 @@ impl Run {
     /// Takes over the state after a step, if it is one of numbers.
     pub(crate) fn accept(&mut self, model: &Model, next: State<f64>, step: Step) -> Result<(), StepError> {
         if !next.is_finite() {
-            return Err(StepError::NotFinite {
-                time_s: step.start_s,
-                step_s: step.length_s(),
-                component: broken_component(model, &next),
-            });
+            return Err(broken(model, &self.history.memory, step, &next));
         }
         self.state = next;
         self.accept_time(step);
@@ -258,6 +254,15 @@ fn first_step(integrator: &Integrator) -> f64 {
     match *integrator {
         Integrator::Rk4 { step_s } => step_s,
         Integrator::Adaptive { min_step_s, max_step_s, .. } => (10.0 * min_step_s).min(max_step_s),
+    }
+}
+
+/// Why a step did not lead to numbers.
+pub(crate) fn broken(model: &Model, memory: &Memory<f64>, step: Step, next: &State<f64>) -> StepError {
+    let (time_s, step_s) = (step.start_s, step.length_s());
+    match memory.failure(&model.setup().forces(&[])) {
+        Some(why) => StepError::Unsolved { time_s, step_s, why },
+        None => StepError::NotFinite { time_s, step_s, component: broken_component(model, next) },
     }
 }
 

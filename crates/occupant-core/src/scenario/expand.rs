@@ -12,13 +12,16 @@ use crate::body::tti12::TTI12;
 use placed_text::{Document, Entry, Format, Node, Sources, Table, Value};
 
 /// Two keys of which a later layer's one, or an override's, replaces an earlier layer's other.
-const RIVALS: [[&str; 2]; 6] = [
+const RIVALS: [[&str; 2]; 9] = [
     ["mass", "weight"],
     ["peak", "delta_v"],
     ["slack", "length"],
     ["angle", "angles"],
     ["pitch", "axis"],
     ["c2", "moments"],
+    ["returned", "returned_each"],
+    ["returned", "unload_slope"],
+    ["returned", "atb"],
 ];
 
 /// The other key of two that say the same thing in two ways.
@@ -51,9 +54,46 @@ pub(super) fn expand(sources: &mut Sources, root: &Node) -> Node {
     if let Some(table) = explicit.as_table_mut() {
         table
             .extend([("body", body), ("joints", joints)].into_iter().filter_map(|(key, e)| Some((key.to_owned(), e?))));
+        from_library(sources, table);
     }
     explicit
 }
+
+/// Lays what the library has of a name under what refers to it by `library`, and tells its source where nothing is told.
+fn from_library(sources: &mut Sources, root: &mut Table) {
+    let Some(library) = presets::library() else { return };
+    let mut told = Table::new();
+    for key in presets::IN_LIBRARY {
+        for (name, entry) in root.get_mut(key).and_then(|entry| entry.node.as_table_mut()).into_iter().flatten() {
+            let named = entry.node.get("library").and_then(Node::as_str).map(str::to_owned);
+            let of = |of: &str, named: &str| library.root.get(of)?.as_table()?.get(named);
+            let Some((named, base)) = named.and_then(|named| Some((of(key, &named)?, named))).map(|(b, n)| (n, b))
+            else {
+                continue;
+            };
+            let id = sources.named(LIBRARY).unwrap_or_else(|| sources.add(LIBRARY, library.text()));
+            let base = Entry { node: base.node.moved_to(id), ..base.clone() };
+            let mut whole = laid_over(Some(base), entry.clone());
+            whole.node.as_table_mut().and_then(|table| table.shift_remove("library"));
+            *entry = whole;
+            if let Some(source) = of("provenance", &format!("{key}.{named}")) {
+                told.insert(format!("{key}.{name}"), Entry { node: source.node.moved_to(id), ..source.clone() });
+            }
+        }
+    }
+    if told.is_empty() {
+        return;
+    }
+    let span = told[0].node.span;
+    let own = root.entry("provenance".to_owned());
+    let own = own.or_insert_with(|| Entry { key_span: span, node: Node::new(span, Value::Table(Table::new())) });
+    for (path, source) in told {
+        own.node.as_table_mut().map(|table| table.entry(path).or_insert(source));
+    }
+}
+
+/// What messages call the library.
+const LIBRARY: &str = "library";
 
 /// Name of a joint, and whether it is a hinge.
 type JointWord = (String, bool);

@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 
 use nalgebra::{UnitQuaternion, Vector2};
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 
 use super::expand::{expand, written};
 use super::sections::{BodySection, occupant};
@@ -84,6 +85,20 @@ const OLD: &str = "male50-1970";
 fn male50() -> Option<&'static Document> {
     static READ: OnceLock<Option<Document>> = OnceLock::new();
     READ.get_or_init(|| written("preset male50", include_str!("presets/male50-1970.toml"))).as_ref()
+}
+
+/// Sections of a scenario that the library has entries for.
+pub(super) const IN_LIBRARY: [&str; 3] = ["materials", "webbings", "limiters"];
+
+/// Materials, webbings and limiters of public texts, with their sources.
+pub(super) fn library() -> Option<&'static Document> {
+    static READ: OnceLock<Option<Document>> = OnceLock::new();
+    READ.get_or_init(|| written("library", include_str!("presets/library.toml"))).as_ref()
+}
+
+/// An entry of a section of the library.
+pub(super) fn from_library<T: DeserializeOwned>(section: &str, name: &str) -> Option<T> {
+    T::deserialize(library()?.root.get(section)?.get(name)?).ok()
 }
 
 /// Joints with elastic limits, by name.

@@ -5,6 +5,7 @@ use super::site::TrackLaw;
 use super::{ChainLaw, ChainPast, MOST_ARCS, MOST_NODES};
 use crate::body::Body;
 use crate::forces::element::Instant;
+use crate::forces::function::Goes;
 use nalgebra::Vector3;
 use placed_text::{Problem, Problems, with_key};
 
@@ -19,7 +20,7 @@ pub(super) fn data(chains: &[Chain], body: &Body, problems: &mut Problems) {
         let path = with_key("belts", &chain.belt);
         nodes(chain, body, &path, problems);
         let falls = "forces that rise from point to point";
-        chain.webbing.check(&format!("{path}.webbing"), true, falls, problems);
+        chain.webbing.check(&format!("{path}.webbing"), Goes::Up, falls, problems);
         device(chain, &path, problems);
         if let Some([stiffness, time]) = chain.viscous {
             problems.check_positive(&format!("{path}.webbing.viscous.stiffness"), stiffness, "N");
@@ -140,7 +141,7 @@ fn device(chain: &Chain, path: &str, problems: &mut Problems) {
     let limiters = chain.device.limiter.iter().map(|law| (law, "limiter"));
     let second = chain.device.second.iter().map(|(law, ..)| (law, "second_limiter"));
     for (law, key) in limiters.chain(second) {
-        law.check(&format!("{path}.{key}"), false, falls, problems);
+        law.check(&format!("{path}.{key}"), Goes::NotDown, falls, problems);
     }
     let Some(reel) = &chain.device.reel else { return };
     problems.check_positive(&format!("{path}.retractor.on_spool"), reel.on_spool_m, "m");

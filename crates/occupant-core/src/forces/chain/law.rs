@@ -35,6 +35,13 @@ pub(super) struct Now<'a, S: Scalar> {
     pub(super) taut: Taut<'a, S>,
 }
 
+/// Where webbing left a node or was freed at an accepted step.
+pub(super) struct Left<S: Scalar> {
+    pub(super) lanes: S::Mask,
+    /// What was recoverable before, J.
+    stored: S,
+}
+
 impl ChainLaw<f64> {
     pub(super) fn new(chain: &Chain, belt: usize, body: &Body) -> Self {
         let last = chain.nodes.len().saturating_sub(1);
@@ -116,6 +123,7 @@ impl<S: Copy> ChainLaw<S> {
 
 impl<S: Scalar> ChainLaw<S> {
     /// Places of the nodes, and the webbing along them.
+    #[inline(always)]
     pub(super) fn lies(&self, at: &Instant<'_, S>, past: &ChainPast<S>) -> Lies<S> {
         let (o, count) = (S::zero(), self.nodes.len());
         let nowhere = Place { centre: V3::zero(), radius: o, is_sphere: false, may_leave: false };
@@ -137,16 +145,26 @@ impl<S: Scalar> ChainLaw<S> {
         Lies { ways, places, bends, course }
     }
 
-    /// The chain at one instant, from what it remembers. A call of its own: it is large, and the kernel is built for many kinds
-    /// of numbers and observers.
-    #[inline(never)]
+    /// The chain at one instant, from what it remembers.
+    #[inline(always)]
     pub(super) fn now(&self, at: &Instant<'_, S>, past: &ChainPast<S>) -> Now<'_, S> {
+        if S::IS_WIDE { self.within(at, past) } else { self.apart(at, past) }
+    }
+
+    #[inline(never)]
+    fn apart(&self, at: &Instant<'_, S>, past: &ChainPast<S>) -> Now<'_, S> {
+        self.within(at, past)
+    }
+
+    #[inline(always)]
+    fn within(&self, at: &Instant<'_, S>, past: &ChainPast<S>) -> Now<'_, S> {
         let lies = self.lies(at, past);
         let taut = self.straps.taut(at.frames.time, &lies.course, past);
         Now { lies, taut }
     }
 
     /// Forces of the webbing on the nodes, space axes, N.
+    #[inline(always)]
     pub(super) fn forces(&self, now: &Now<'_, S>) -> [V3<S>; MOST_NODES] {
         let (mut list, mut strap) = ([V3::zero(); MOST_NODES], 0);
         for (k, node) in self.nodes.iter().enumerate() {
@@ -158,17 +176,38 @@ impl<S: Scalar> ChainLaw<S> {
         list
     }
 
-    /// Remembers an accepted step.
-    pub(super) fn commit(&self, at: &Instant<'_, S>, past: &mut ChainPast<S>) {
-        let (now, mut next) = (self.now(at, past), *past);
+    /// Remembers an accepted step. Where the webbing then left a node, or was freed: the energy that it had, which the next
+    /// look at the chain is compared with ([`ChainLaw::settle`]).
+    #[inline(always)]
+    pub(super) fn commit(&self, at: &Instant<'_, S>, now: &Now<'_, S>, past: &mut ChainPast<S>) -> Left<S> {
+        let mut next = *past;
         self.straps.commit(at.frames.time, &now.taut, past, &mut next);
-        self.commit_nodes(at, &now, &mut next);
+        self.commit_nodes(at, now, &mut next);
         next.device.time = at.frames.time;
         let fresh = at.frames.time.gt(past.device.time);
+        let mut lanes = next.device.free.gt(past.device.free);
+        for (k, node) in self.nodes.iter().enumerate().filter(|(_, node)| !node.is_sphere()) {
+            if node.may_leave {
+                lanes = lanes | next.nodes[k].on.lt(past.nodes[k].on);
+            }
+        }
         past.each(&mut next, &mut |a, b| *a = S::select(fresh, *b, *a));
+        let lanes = lanes & fresh;
+        let stored = if S::any(lanes) { self.straps.stored_in_all(&now.taut) } else { S::zero() };
+        Left { lanes, stored }
+    }
+
+    /// What is gone where webbing has left a node or was freed is lost at the first node, but for what is booked as passing
+    /// through nodes with the next step.
+    #[inline(always)]
+    pub(super) fn settle(&self, left: &Left<S>, now: &Now<'_, S>, past: &mut ChainPast<S>) {
+        let gone = left.stored - self.straps.stored_in_all(&now.taut) - self.straps.passing(&now.taut, past);
+        let lost = &mut past.nodes[0].lost;
+        *lost = S::select(left.lanes, *lost + gone, *lost);
     }
 
     /// Nodes at an accepted step. At most one sphere comes on or goes off: that which is furthest beyond.
+    #[inline(always)]
     fn commit_nodes(&self, at: &Instant<'_, S>, now: &Now<'_, S>, next: &mut ChainPast<S>) {
         let (o, mut most) = (S::zero(), S::zero());
         let beyond = |k: usize, next: &ChainPast<S>| {

@@ -5,7 +5,7 @@
 //! of x_s each way (our decision). At the last node nothing may pass: R(x) = Δs_{n+1} = 0. R rises strictly with x.
 
 use super::MOST_NODES;
-use super::device::Feed;
+use super::feed::Feed;
 use super::tension::WebbingLaw;
 use crate::forces::decay::decay;
 use crate::motion::scalar::Scalar;
@@ -62,11 +62,13 @@ pub(super) struct Solved<S: Scalar> {
     pub(super) straps: [Tense<S>; MOST_NODES],
     /// Webbing passed beyond the last node, which is none but for rounding, m.
     pub(super) residual: S,
+    /// The same where it is more than that and no tensions were found; else 0.
+    pub(super) unsolved: S,
 }
 
 /// R and its derivative at x, and the straps.
 #[inline(always)]
-fn march<S: Scalar>(
+pub(super) fn march<S: Scalar>(
     webbing: &WebbingLaw<S>,
     feed: &Feed<'_, S>,
     runs: &[Run<S>],
@@ -112,8 +114,45 @@ impl<S: Scalar> Run<S> {
     }
 }
 
+/// The search for the root of R: Newton's method in a bracket that shrinks.
+struct Bracket<S> {
+    x: S,
+    low: S,
+    high: S,
+    /// |R| before.
+    last: S,
+}
+
+impl<S: Scalar> Bracket<S> {
+    /// From x on, below which there is nothing less than `least`, but where the first node is open.
+    #[inline(always)]
+    fn new(x: S, is_open: S::Mask, least: S) -> Self {
+        Bracket { x, low: S::select(is_open, S::of(-1e300), least), high: S::of(1e300), last: S::of(1e300) }
+    }
+
+    /// Takes a step from R and its derivative at x, but where `done`; true where none is left to take.
+    #[inline(always)]
+    fn step(&mut self, r: S, slope: S, done: S::Mask) -> S::Mask {
+        let Bracket { x, low, high, last } = self;
+        let below = r.lt(S::zero());
+        (*low, *high) = (S::select(below, *x, *low), S::select(below, *high, *x));
+        let (newton, middle) = (*x - r / slope, (*low + *high) * S::of(0.5));
+        let is_bracketed = low.gt(S::of(-1e290)) & high.lt(S::of(1e290));
+        let leaves = !(low.lt(newton) & newton.lt(*high));
+        // a step that did not halve R has met a corner, or the last bits
+        let is_slow = !(r.abs() * S::of(2.0)).lt(*last);
+        *last = r.abs();
+        let next = S::select(is_bracketed & (leaves | is_slow), middle, newton);
+        // no number between the ends of the bracket, or a step within the last bit
+        let stays = !(newton.lt(*x) | x.lt(newton));
+        let is_found = (stays | is_bracketed & !(low.lt(middle) & middle.lt(*high))) & r.abs().lt(S::of(1e300));
+        *x = S::select(done | is_found, *x, next);
+        is_found
+    }
+}
+
 /// The chain as it is: slack, or at the root of R.
-#[inline(never)]
+#[inline(always)]
 pub(super) fn solve<S: Scalar>(
     webbing: &WebbingLaw<S>,
     feed: &Feed<'_, S>,
@@ -124,58 +163,56 @@ pub(super) fn solve<S: Scalar>(
     let (o, least) = (S::zero(), feed.least());
     let mut straps = [Tense::none(); MOST_NODES];
     // without tension: what is left over when every strap has the length that it lies at
-    let foot = |run: &Run<S>| run.length / (S::one() + webbing.reach(o, run).0);
     let passed = feed.at(least).passed;
+    let foot = |run: &Run<S>| run.length / (S::one() + webbing.foot(run));
     let surplus = runs.iter().fold(passed, |sum, run| sum + (run.before - foot(run)));
-    let is_slack = (!feed.is_open & !surplus.lt(o)) | is_free;
+    let is_number = surplus.abs().lt(S::of(1e300));
+    let is_slack = (!feed.is_open & !surplus.lt(o) & is_number) | is_free;
     let length = runs.iter().fold(o, |sum, run| sum + run.length);
     let limit = length * S::of(1e-13);
 
-    let mut x = S::select(feed.is_open, start, start.max(least));
-    let (mut low, mut high) = (S::select(feed.is_open, S::of(-1e300), least), S::of(1e300));
-    let (mut done, mut r, mut slope, mut last) = (is_slack, o, S::one(), S::of(1e300));
+    let mut bracket = Bracket::new(S::select(feed.is_open, start, start.max(least)), feed.is_open, least);
+    let (mut done, mut r, mut slope) = (is_slack, o, S::one());
     for _ in 0..MARCHES {
-        (r, slope) = march(webbing, feed, runs, x, &mut straps);
+        (r, slope) = march(webbing, feed, runs, bracket.x, &mut straps);
         done = done | r.abs().lt(limit);
         if !S::any(!done) {
             break;
         }
-        let below = r.lt(o);
-        (low, high) = (S::select(below, x, low), S::select(below, high, x));
-        let (newton, middle) = (x - r / slope, (low + high) * S::of(0.5));
-        let is_bracketed = low.gt(S::of(-1e290)) & high.lt(S::of(1e290));
-        let leaves = !(low.lt(newton) & newton.lt(high));
-        // a step that did not halve R has met a corner, or the last bits
-        let is_slow = !(r.abs() * S::of(2.0)).lt(last);
-        last = r.abs();
-        let halves = is_bracketed & (leaves | is_slow);
-        let next = S::select(halves, middle, newton);
-        // no number between the ends of the bracket, or a step within the last bit
-        let stays = !(newton.lt(x) | x.lt(newton));
-        let is_found = stays | is_bracketed & !(low.lt(middle) & middle.lt(high));
-        x = S::select(done | is_found, x, next);
-        done = done | is_found;
+        done = done | bracket.step(r, slope, done);
     }
+    let mut x = bracket.x;
     if S::HAS_SLOPES {
         // one more step gives the exact derivative and leaves the value as it is
         x -= (r - r.value_alone()) / slope.value_alone();
         (r, _) = march(webbing, feed, runs, x, &mut straps);
     }
+    let residual = S::select(is_slack, o, r);
+    let unsolved = S::select(done, o, S::of(f64::MIN_POSITIVE).max(residual.abs()));
     let broken = S::select(done, o, S::of(f64::NAN));
-    for (i, (run, strap)) in runs.iter().zip(&mut straps).enumerate() {
+    straps[..runs.len()].iter_mut().for_each(|strap| strap.tension += broken);
+    if S::any(is_slack) {
+        slacken(webbing, runs, passed, is_slack, &mut straps);
+    }
+    Solved { x: S::select(is_slack, least, x), straps, residual, unsolved }
+}
+
+/// Straps without tension: nothing passes but what the first node gives.
+#[inline(always)]
+fn slacken<S: Scalar>(
+    webbing: &WebbingLaw<S>,
+    runs: &[Run<S>],
+    passed: S,
+    is_slack: S::Mask,
+    straps: &mut [Tense<S>; MOST_NODES],
+) {
+    let o = S::zero();
+    for (i, (run, strap)) in runs.iter().zip(straps).enumerate() {
         let fed = if i == 0 { passed } else { o };
-        let slack = Tense {
-            tension: o,
-            unstretched: run.before + fed,
-            strain: webbing.reach(o, run).0,
-            loading: o,
-            fed,
-            play: run.play,
-        };
-        strap.tension += broken;
+        let (unstretched, strain, play) = (run.before + fed, webbing.foot(run), run.play);
+        let slack = Tense { tension: o, unstretched, strain, loading: o, fed, play };
         *strap = strap.zip(&slack, &|tense, slack| S::select(is_slack, slack, tense));
     }
-    Solved { x: S::select(is_slack, least, x), straps, residual: S::select(is_slack, o, r) }
 }
 
 impl<S: Copy> Tense<S> {

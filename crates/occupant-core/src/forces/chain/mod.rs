@@ -5,12 +5,15 @@
 //! belt remembers changes at accepted steps alone (`past`): within a step the forces are a function of place and time.
 
 mod check;
+mod cue;
 mod data;
 mod device;
+mod feed;
 mod law;
 mod march;
 mod past;
 mod path;
+mod reel;
 mod results;
 mod site;
 mod tension;
@@ -122,6 +125,12 @@ impl Element for Chains {
         past.map(f)
     }
 
+    fn failure(data: &[Chain], past: &[ChainPast<f64>]) -> Option<String> {
+        let (chain, past) = data.iter().zip(past).find(|(_, past)| past.device.unsolved > 0.0)?;
+        let left_m = past.device.unsolved;
+        Some(format!("no tensions were found of the belt {}: {left_m:.1e} m of webbing are left over", chain.belt))
+    }
+
     #[inline(always)]
     fn apply<S: Scalar, const COMMIT: bool>(
         law: &Vec<ChainLaw<S>>,
@@ -167,6 +176,7 @@ impl Element for Chains {
 }
 
 /// What one chain does. A commit of the same time as the last changes nothing, so that a resumed run has the same bits.
+#[inline(always)]
 fn act<S: Scalar, const COMMIT: bool>(
     chain: &ChainLaw<S>,
     at: &Instant<'_, S>,
@@ -174,10 +184,22 @@ fn act<S: Scalar, const COMMIT: bool>(
     load: &mut Load<S>,
     show: &mut impl FnMut(&StrapAction<S>),
 ) {
-    if COMMIT && S::any(at.frames.time.gt(past.device.time)) {
-        chain.commit(at, past);
+    let mut left = None;
+    // a loop, so that there is one copy of what is looked at twice
+    let now = loop {
+        let now = chain.now(at, past);
+        if !COMMIT || left.is_some() || !S::any(at.frames.time.gt(past.device.time)) {
+            break now;
+        }
+        left = Some(chain.commit(at, &now, past));
+    };
+    if let Some(left) = left.filter(|left| S::any(left.lanes)) {
+        chain.settle(&left, &now, past);
     }
-    let now = chain.now(at, past);
+    let unsolved = now.taut.solved.unsolved;
+    if S::any(unsolved.gt(S::zero())) {
+        past.device.unsolved = unsolved;
+    }
     let frame = &at.frames[VEHICLE];
     for (k, force) in chain.forces(&now).into_iter().enumerate().take(chain.nodes.len()) {
         let Some(segment) = chain.nodes[k].segment(at) else { continue };

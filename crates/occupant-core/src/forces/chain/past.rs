@@ -99,6 +99,10 @@ numbers! {
         free,
         /// Work of actuators since the start, J.
         driven,
+        /// Recoverable energy of the limiter, J.
+        stored,
+        /// Webbing left over, m, where the tensions were not found: the run ends.
+        unsolved,
     }
 }
 

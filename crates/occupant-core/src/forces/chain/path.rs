@@ -52,6 +52,7 @@ fn is_on<S: Scalar>(place: &Place<S>, past: &NodePast<S>) -> S::Mask {
 }
 
 /// The webbing along `places`; `past` says which of them it passes, and senses of normals.
+#[inline(always)]
 pub(super) fn bends<S: Scalar>(places: &[Place<S>], past: &[NodePast<S>; MOST_NODES]) -> [Bend<S>; MOST_NODES] {
     let (o, none) = (S::zero(), V3::zero());
     let empty = Bend { span: o, arc: o, back: none, ahead: none, wrap: o, normal: none, touch: none };

@@ -70,7 +70,7 @@ struct Arc<S> {
 }
 
 impl<S: Scalar> StrapAction<S> {
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn new(
         chain: &ChainLaw<S>,
         at: &Instant<'_, S>,
@@ -106,6 +106,7 @@ impl<S: Scalar> StrapAction<S> {
 }
 
 /// The spheres of a strap that begins and ends at these nodes.
+#[inline(always)]
 fn arcs<S: Scalar>(
     chain: &ChainLaw<S>,
     at: &Instant<'_, S>,

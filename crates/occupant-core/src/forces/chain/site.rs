@@ -1,11 +1,11 @@
 //! Nodes of a chain: where they are, how they slide or are pulled, and when the webbing comes out of them.
 
 use super::data::{NEVER, Node, Site, Stroke, Track};
-use super::device::Steps;
 use super::past::{DevicePast, NodePast};
 use super::path::Place;
 use crate::body::Body;
 use crate::forces::element::Instant;
+use crate::forces::function::steps::Steps;
 use crate::motion::frame::VEHICLE;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
@@ -20,7 +20,7 @@ pub(super) struct NodeLaw<S> {
     /// Whether a strap ends here.
     pub(super) rubs: bool,
     strength: S,
-    may_leave: bool,
+    pub(super) may_leave: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -236,6 +236,7 @@ impl<S: Scalar> NodeLaw<S> {
 
     /// How it goes on from an accepted step with this force (space axes) of the webbing on it: its way and speed, whether the
     /// webbing still passes it, and the work of what pulls it. A stroke that has stalled has a speed below 0.
+    #[inline(always)]
     pub(super) fn commit(&self, at: &Instant<'_, S>, way: S, force: V3<S>, past: &mut NodePast<S>) -> S {
         let (o, mut work) = (S::zero(), S::zero());
         let leaves = match &self.site {

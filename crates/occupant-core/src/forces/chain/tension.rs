@@ -5,7 +5,8 @@
 
 use super::MOST_NODES;
 use super::data::{Chain, Rest};
-use super::device::{DeviceLaw, Feed, Phase};
+use super::device::{DeviceLaw, Phase};
+use super::feed::Feed;
 use super::march::{Run, Solved, solve};
 use super::past::{ChainPast, NodePast};
 use crate::forces::decay::decay;
@@ -64,6 +65,12 @@ impl<S: Scalar> WebbingLaw<S> {
             None => self.curve.reach(tension, run.greatest, run.set),
             Some(_) => self.curve.reach_beside(tension, run.greatest, run.set, run.beside),
         }
+    }
+
+    /// Strain at which tension begins.
+    #[inline(always)]
+    pub(super) fn foot(&self, run: &Run<S>) -> S {
+        if self.viscous.is_some() { self.reach(S::zero(), run).0 } else { run.set }
     }
 
     /// The Maxwell branch a time h after the last commit as a spring, exact for a constant rate of strain since: with
@@ -137,6 +144,7 @@ impl<S: Copy> Straps<S> {
 
 impl<S: Scalar> Straps<S> {
     /// The straps at one instant, from what they remember.
+    #[inline(always)]
     pub(super) fn taut(&self, time: S, course: &Course<S>, past: &ChainPast<S>) -> Taut<'_, S> {
         let o = S::zero();
         let none = Run { length: o, before: o, greatest: o, set: o, grip: o, hold: S::one(), play: o, beside: [o; 2] };
@@ -190,13 +198,40 @@ impl<S: Scalar> Straps<S> {
         if strap == 0 { webbing + self.device.stored(&taut.feed, taut.feed.delta(taut.solved.x)) } else { webbing }
     }
 
+    /// Recoverable energy of all straps and the limiter, J.
+    #[inline(always)]
+    pub(super) fn stored_in_all(&self, taut: &Taut<'_, S>) -> S {
+        (0..self.starts.len()).fold(S::zero(), |sum, strap| sum + self.stored(taut, strap))
+    }
+
+    /// Σ (P_j − P_{j−1}) Δs_j with the mean of old and new, J: lost where webbing has passed since the last commit.
+    #[inline(always)]
+    pub(super) fn passing(&self, taut: &Taut<'_, S>, past: &ChainPast<S>) -> S {
+        let (mut sum, mut before) = (S::zero(), S::zero());
+        for (strap, &node) in self.starts.iter().enumerate() {
+            let tense = &taut.solved.straps[strap];
+            let both = self.carried(taut, strap) + past.nodes[node].carried;
+            sum += if strap > 0 { S::of(0.5) * (both - before) * tense.fed } else { S::zero() };
+            before = both;
+        }
+        sum
+    }
+
+    /// P of a strap.
+    #[inline(always)]
+    fn carried(&self, taut: &Taut<'_, S>, strap: usize) -> S {
+        let tense = &taut.solved.straps[strap];
+        tense.tension * (S::one() + tense.strain) - self.stored_per_metre(taut, strap)
+    }
+
     /// Remembers in `next` an accepted step that began with `past`.
+    #[inline(always)]
     pub(super) fn commit(&self, time: S, taut: &Taut<'_, S>, past: &ChainPast<S>, next: &mut ChainPast<S>) {
         let (straps, half) = (&taut.solved.straps, S::of(0.5));
         let (mut before, mut greatest) = (S::zero(), S::zero());
         for (strap, &node) in self.starts.iter().enumerate() {
             let (tense, own) = (&straps[strap], &mut next.nodes[node]);
-            let carried = tense.tension * (S::one() + tense.strain) - self.stored_per_metre(taut, strap);
+            let carried = self.carried(taut, strap);
             let both = carried + own.carried;
             // (P_j − P_{j−1}) Δs_j with the mean of old and new
             own.lost += if strap > 0 { half * (both - before) * tense.fed } else { S::zero() };
@@ -221,15 +256,16 @@ impl<S: Scalar> Straps<S> {
         let payout = [next.nodes[0].fed, past.nodes[0].fed];
         self.device.commit(time, straps[0].tension, payout, &mut next.device);
         next.device.free = S::select(greatest.gt(self.strength), S::one(), next.device.free);
+        let feed = self.device.feed(time, &next.device, next.nodes[0].fed);
+        next.device.stored = self.device.stored(&feed, feed.delta(next.device.solution));
     }
 
     /// Books what passed at the first node: work of the pretensioner, or what limiter and spool have lost.
     fn book(&self, taut: &Taut<'_, S>, flow: S, past: &ChainPast<S>, next: &mut ChainPast<S>) {
         let (phase, o) = (past.device.phase, S::zero());
         let is_pulling = phase.gt(S::of(Phase::LOCKING)) & phase.lt(S::of(Phase::LOCKED));
-        let was = self.device.stored(&taut.feed, taut.feed.delta(past.nodes[0].fed - past.device.base));
         let is = self.device.stored(&taut.feed, taut.feed.delta(taut.solved.x));
         next.device.driven -= S::select(is_pulling, flow, o);
-        next.nodes[0].lost += S::select(is_pulling, o, flow - (is - was));
+        next.nodes[0].lost += S::select(is_pulling, o, flow - (is - past.device.stored));
     }
 }

@@ -97,13 +97,7 @@ fn plane<S: Scalar>(face: &FlatFace, radius_m: f64) -> Plane<S> {
     Plane { normal: V3::of(&face.normal), reach: S::of(radius_m + face.offset_m) }
 }
 
-fn pair<S: Scalar>(
-    parts: &[usize],
-    surfaces: &[Surface],
-    faces: &[FlatFace],
-    materials: &[Material],
-    share: f64,
-) -> Pair<S> {
+fn pair(parts: &[usize], surfaces: &[Surface], faces: &[FlatFace], materials: &[Material], share: f64) -> Pair<f64> {
     let first = &faces[parts[0]];
     let (u, v) = first.plane_axes();
     let flat = |p: &Point3<f64>| [u.dot(&p.coords), v.dot(&p.coords)];
@@ -113,7 +107,7 @@ fn pair<S: Scalar>(
             FaceOutline::Polygon(corners) => Outline::polygon(&corners.iter().map(flat).collect::<Vec<_>>()),
             FaceOutline::Disc { centre_m, radius_m, .. } => {
                 let [u, v] = flat(centre_m);
-                Outline::Disc { centre: V2 { u: S::of(u), v: S::of(v) }, radius: S::of(*radius_m) }
+                Outline::Disc { centre: V2 { u, v }, radius: *radius_m }
             }
             FaceOutline::Unbounded { .. } => Outline::Unbounded,
         };
@@ -125,6 +119,6 @@ fn pair<S: Scalar>(
         v: V3::of(&v),
         normal: V3::of(&first.normal),
         parts: parts.iter().map(part).collect(),
-        retain: S::of(if retains { 1.0 } else { 0.0 }),
+        retain: if retains { 1.0 } else { 0.0 },
     }
 }

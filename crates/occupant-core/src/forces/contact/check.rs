@@ -1,10 +1,13 @@
 //! What is wrong with materials and surfaces by themselves.
 
 use crate::body::Body;
+use crate::forces::contact::material::{Force, Material};
+use crate::forces::contact::self_contact::is_skin;
 use crate::forces::contact::solid::{Solid, build, concave_rad};
 use crate::forces::contact::{ContactData, ContactSystem, OPEN, PASSED};
 use crate::forces::element::Instant;
-use placed_text::{Problem, Problems};
+use crate::forces::function::steps::Steps;
+use placed_text::{Problem, Problems, with_key};
 
 /// More pairs of sphere and surface than this are a slip, or a mesh that should be made coarser.
 const MOST_PAIRS: usize = 200_000;
@@ -17,12 +20,7 @@ pub(super) fn check(data: &ContactData<'_>, body: &Body, problems: &mut Problems
         let found = format!("{count} surfaces for {} spheres, which are {pairs} pairs", body.spheres.len());
         problems.error("surfaces", found, format!("at most {MOST_PAIRS} pairs"));
     }
-    for m in materials {
-        let path = format!("materials.{}", m.name);
-        m.spring.check(&path, problems);
-        problems.check_at_least_zero(&format!("{path}.friction"), m.friction, "");
-        problems.check_positive(&format!("{path}.friction_speed"), m.friction_speed_m_s, "m/s");
-    }
+    materials.iter().for_each(|material| check_material(material, problems));
     problems.check_unique("surfaces", "surface", surfaces.iter().map(|s| s.name.as_str()));
     for surface in surfaces {
         let path = format!("surfaces.{}", surface.name);
@@ -37,6 +35,30 @@ pub(super) fn check(data: &ContactData<'_>, body: &Body, problems: &mut Problems
     check_skins(data, body, problems);
 }
 
+fn check_material(m: &Material, problems: &mut Problems) {
+    let path = with_key("materials", &m.name);
+    match &m.force {
+        Force::Bilinear(spring) => spring.check(&path, problems),
+        Force::Deflection(law) => law.check(&path, problems),
+    }
+    problems.check_at_least_zero(&format!("{path}.friction"), m.friction, "");
+    problems.check_positive(&format!("{path}.friction_speed"), m.friction_speed_m_s, "m/s");
+    for (rows, key) in m.friction_factors.iter().zip(["friction_over_slip", "friction_over_force"]) {
+        let rises = rows.windows(2).all(|rows| rows[1][0] > rows[0][0]);
+        if !rises || !rows.iter().flatten().all(|x| x.is_finite() && *x >= 0.0) {
+            problems.error(format!("{path}.{key}"), "another table", "numbers that rise, with factors of at least 0");
+        }
+    }
+    let factor = Steps::new(&m.friction_factors[0]);
+    let places = m.friction_factors[0].iter().map(|row| row[0]);
+    if let Some(slip) = places.into_iter().find(|slip| factor.at(slip + m.friction_speed_m_s) < 0.5 * factor.at(*slip))
+    {
+        let found =
+            format!("friction that falls by more than half within {} m/s from {slip} m/s", m.friction_speed_m_s);
+        problems.warning(format!("{path}.friction_over_slip"), found, "less: such friction sticks and slips by itself");
+    }
+}
+
 /// Skins deform in series, which needs a stiffness of each.
 fn check_skins(data: &ContactData<'_>, body: &Body, problems: &mut Problems) {
     let Some(own) = data.self_contact else { return };
@@ -47,9 +69,11 @@ fn check_skins(data: &ContactData<'_>, body: &Body, problems: &mut Problems) {
         problems.error("self_contact.pairs", "no such sphere", "spheres of the body");
     }
     let mut skins = own.skins.iter().filter_map(|skin| data.materials.get(*skin));
-    if let Some(soft) = skins.find(|m| m.spring.k1_n_per_m.min(m.spring.k2_n_per_m) <= 0.0) {
-        let found = format!("the skin {} has no stiffness", soft.name);
-        problems.error("self_contact.skin", found, "positive k1 and k2: skins deform in series");
+    if let Some(soft) = skins.find(|m| !is_skin(&m.force) || m.friction_factors.iter().any(|rows| !rows.is_empty())) {
+        let why = if soft.force.bilinear().is_some() { "has no stiffness" } else { "is not of lines that rise alone" };
+        let found = format!("the skin {} {why}", soft.name);
+        let expected = "positive k1 and k2, or forces that rise with `returned` alone: skins deform in series";
+        problems.error("self_contact.skin", found, expected);
     }
 }
 

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::forces::function::ForceDeflection;
 use crate::forces::spring::BilinearSpring;
 
 /// Whether crush is remembered.
@@ -23,22 +24,66 @@ pub struct Material {
     /// Unique name.
     pub name: String,
     /// Normal force law.
-    pub spring: BilinearSpring,
+    pub force: Force,
     /// f, coefficient of friction.
     pub friction: f64,
+    /// Factors of f over the slip speed, m/s, and over the normal force, N; empty: 1.
+    pub friction_factors: [Vec<[f64; 2]>; 2],
     /// v_s, speed at which friction reaches 1/√2 of its full value. Default 0.127 m/s (5 in/s).
     pub friction_speed_m_s: f64,
     /// What is remembered after opening.
     pub memory: Memory,
 }
 
+/// Normal force over depth.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Force {
+    /// Two straight lines.
+    Bilinear(BilinearSpring),
+    /// A force function.
+    Deflection(Box<ForceDeflection>),
+}
+
+impl Force {
+    /// The spring, if it is one of two lines.
+    pub fn bilinear(&self) -> Option<&BilinearSpring> {
+        if let Force::Bilinear(spring) = self { Some(spring) } else { None }
+    }
+
+    /// The spring to be changed, if it is one of two lines.
+    pub fn bilinear_mut(&mut self) -> Option<&mut BilinearSpring> {
+        if let Force::Bilinear(spring) = self { Some(spring) } else { None }
+    }
+
+    /// Slope of the stiffest branch, N/m.
+    pub(crate) fn steepest_n_per_m(&self) -> f64 {
+        match self {
+            Force::Bilinear(spring) => spring.steepest_n_per_m(),
+            Force::Deflection(law) => law.steepest(),
+        }
+    }
+}
+
+impl From<BilinearSpring> for Force {
+    fn from(spring: BilinearSpring) -> Self {
+        Force::Bilinear(spring)
+    }
+}
+
+impl From<ForceDeflection> for Force {
+    fn from(law: ForceDeflection) -> Self {
+        Force::Deflection(Box::new(law))
+    }
+}
+
 impl Material {
     /// A material with the usual friction speed, which forgets its crush when a pair opens.
-    pub fn new(name: impl Into<String>, spring: BilinearSpring, friction: f64) -> Self {
+    pub fn new(name: impl Into<String>, force: impl Into<Force>, friction: f64) -> Self {
         Material {
             name: name.into(),
-            spring,
+            force: force.into(),
             friction,
+            friction_factors: [Vec::new(), Vec::new()],
             friction_speed_m_s: DEFAULT_FRICTION_SPEED_M_S,
             memory: Memory::default(),
         }

@@ -260,15 +260,17 @@ impl ContactSystem<f64> {
         self.member(touch).map_or(f64::INFINITY, of)
     }
 
-    /// Deformation at which the slope of a pair's spring changes, m.
+    /// Deformation at which the slope of a pair's spring changes, m; of a force function, which may bend often, none is.
     pub fn knee_m(&self, pair: usize, part: usize) -> f64 {
-        match (self.own.get(pair), self.pairs.get(pair)) {
+        let law = match (self.own.get(pair), self.pairs.get(pair)) {
             (Some(own), _) => &own.law,
             (None, Some(faces)) => &faces.parts[part].law,
             (None, None) => &self.solids.pairs[pair - self.pairs.len()].law,
+        };
+        match &law.force {
+            ForceLaw::Bilinear(spring) => spring.knee(),
+            ForceLaw::Deflection(_) => f64::INFINITY,
         }
-        .spring
-        .knee()
     }
 
     /// Pair states where an earlier run ended: the listed pairs of sphere and surface have passed, all others that overlap

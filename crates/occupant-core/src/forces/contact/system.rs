@@ -14,9 +14,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::forces::contact::encounter::Approach;
 use crate::forces::contact::face::{Offset, Outline, V2};
-use crate::forces::contact::material::Material;
+use crate::forces::contact::material::{Force, Material};
 use crate::forces::contact::self_contact::SelfPairs;
 use crate::forces::contact::solid::Solids;
+use crate::forces::function::DeflectionLaw;
+use crate::forces::function::steps::Steps;
 use crate::forces::spring::Spring;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
@@ -58,9 +60,18 @@ pub struct Part<S> {
 /// Constants of a material.
 #[derive(Clone, Debug)]
 pub(crate) struct MaterialLaw<S> {
-    pub(crate) spring: Spring<S>,
+    pub(crate) force: ForceLaw<S>,
     pub(crate) friction: S,
     pub(crate) friction_speed_squared: S,
+    /// Of f over the slip speed and over the normal force.
+    pub(crate) friction_factors: [Steps<S>; 2],
+}
+
+/// Constants of a normal force law.
+#[derive(Clone, Debug)]
+pub(crate) enum ForceLaw<S> {
+    Bilinear(Spring<S>),
+    Deflection(Box<DeflectionLaw<S>>),
 }
 
 /// A sphere against a face: coplanar parts that share edges.
@@ -281,13 +292,13 @@ impl<S: Scalar> Pair<S> {
         greatest: S,
     ) -> Touch<S> {
         let radius = approach.radius;
-        let law = self.law(part, depth, greatest);
-        let normal_force = w * law.force;
+        let meeting = approach.meeting(self.normal, radius, depth, greatest, w);
+        let law = self.law(part, &meeting);
         let stored = w * law.energy;
         let edge_force = law.energy * S::select(w.lt(S::one()), S::one(), S::zero()) / radius;
         let edge = (self.u * offset.away.u + self.v * offset.away.v) * edge_force;
 
-        let touch = Touch {
+        Touch {
             sphere: group.sphere,
             frame: group.frame,
             pair: index,
@@ -295,26 +306,25 @@ impl<S: Scalar> Pair<S> {
             weight: w,
             normal: self.normal,
             depth,
-            closing: -self.normal.dot(approach.velocity),
+            closing: meeting.closing,
             velocity: approach.velocity,
-            normal_force,
+            normal_force: law.force,
             edge,
-            friction: V3::zero(),
+            friction: law.rubbing(&meeting),
             stored,
-            slip: V3::zero(),
-        };
-        touch.rubbing(&law, approach, radius)
+            slip: meeting.slip,
+        }
     }
 
-    /// Spring and friction of the part that each lane is nearest to.
+    /// Force and friction of the part that each lane is nearest to.
     #[inline(always)]
-    fn law(&self, part: S, depth: S, greatest: S) -> Law<S> {
-        let of = |p: &Part<S>| p.law.at(depth, greatest);
-        let mut law = of(&self.parts[0]);
-        for (i, p) in self.parts.iter().enumerate().skip(1) {
+    fn law(&self, part: S, meeting: &Meeting<S>) -> Law<S> {
+        let o = S::zero();
+        let mut law = Law { force: o, energy: o, friction: o, friction_speed_squared: o };
+        for (i, p) in self.parts.iter().enumerate() {
             let here = S::of(i as f64 - 0.5).lt(part) & part.lt(S::of(i as f64 + 0.5));
             if S::any(here) {
-                let l = of(p);
+                let l = p.law.at(meeting);
                 law = Law {
                     force: S::select(here, l.force, law.force),
                     energy: S::select(here, l.energy, law.energy),
@@ -327,29 +337,77 @@ impl<S: Scalar> Pair<S> {
     }
 }
 
-/// What a material does at one deformation.
+/// How a sphere meets a material.
+#[derive(Clone, Copy)]
+pub(super) struct Meeting<S> {
+    /// Δ and Δ_m, m.
+    depth: S,
+    greatest: S,
+    /// w.
+    weight: S,
+    /// Δ̇, m/s.
+    pub closing: S,
+    /// v_t of A, m/s.
+    pub slip: V3<S>,
+}
+
+impl<S: Scalar> Approach<S> {
+    /// With a point A that lies `lever` from the centre against N̂.
+    #[inline(always)]
+    pub(super) fn meeting(&self, normal: V3<S>, lever: S, depth: S, greatest: S, weight: S) -> Meeting<S> {
+        let velocity = self.velocity + self.omega.cross(normal * -lever);
+        let slip = velocity - normal * normal.dot(velocity);
+        Meeting { depth, greatest, weight, closing: -normal.dot(self.velocity), slip }
+    }
+}
+
+/// What a material does where it is met.
 pub(super) struct Law<S> {
+    /// wF, N.
     pub force: S,
+    /// U, J.
     pub energy: S,
     friction: S,
     friction_speed_squared: S,
 }
 
-impl<S: Scalar> MaterialLaw<S> {
+impl<S: Scalar> Law<S> {
+    /// Friction, N.
+    #[inline(always)]
+    pub(super) fn rubbing(&self, meeting: &Meeting<S>) -> V3<S> {
+        let speed = (meeting.slip.norm_squared() + self.friction_speed_squared).sqrt();
+        meeting.slip * -(self.friction * self.force / speed)
+    }
+}
+
+impl MaterialLaw<f64> {
     /// Of a material whose forces are multiplied by `share`.
     pub(super) fn new(material: &Material, share: f64) -> Self {
         MaterialLaw {
-            spring: Spring::new(&material.spring.times(share)),
-            friction: S::of(material.friction),
-            friction_speed_squared: S::of(material.friction_speed_m_s.powi(2)),
+            force: match &material.force {
+                Force::Bilinear(spring) => ForceLaw::Bilinear(Spring::new(&spring.times(share))),
+                Force::Deflection(law) => ForceLaw::Deflection(Box::new(DeflectionLaw::new(law, share))),
+            },
+            friction: material.friction,
+            friction_speed_squared: material.friction_speed_m_s.powi(2),
+            friction_factors: material.friction_factors.each_ref().map(|rows| Steps::new(rows)),
         }
     }
+}
 
-    /// Force and energy at deformation `depth` after a greatest deformation `greatest`.
+impl<S: Scalar> MaterialLaw<S> {
     #[inline(always)]
-    pub(super) fn at(&self, depth: S, greatest: S) -> Law<S> {
-        let (force, energy) = self.spring.respond(depth, greatest);
-        let (friction, friction_speed_squared) = (self.friction, self.friction_speed_squared);
+    pub(super) fn at(&self, meeting: &Meeting<S>) -> Law<S> {
+        let (force, energy) = match &self.force {
+            ForceLaw::Bilinear(spring) => spring.respond(meeting.depth, meeting.greatest),
+            ForceLaw::Deflection(law) => law.respond(meeting.depth, meeting.greatest, meeting.closing),
+        };
+        let (force, friction_speed_squared) = (meeting.weight * force, self.friction_speed_squared);
+        let [over_slip, over_force] = &self.friction_factors;
+        let mut friction = self.friction;
+        if over_slip.len() + over_force.len() > 0 {
+            friction = over_slip.scale(over_force.scale(friction, force), meeting.slip.norm_squared().sqrt());
+        }
         Law { force, energy, friction, friction_speed_squared }
     }
 }
@@ -361,19 +419,6 @@ impl Touch<f64> {
         let (velocity, slip) = (-self.velocity, -self.slip);
         let (sphere, part) = if self.sphere == spheres[0] { (spheres[1], 1.0) } else { (spheres[0], 0.0) };
         Touch { sphere, part, normal, friction, velocity, slip, ..*self }
-    }
-}
-
-impl<S: Scalar> Touch<S> {
-    /// With the friction of its normal force, at a point A that lies `lever` from the centre against N̂.
-    #[inline(always)]
-    pub(super) fn rubbing(self, law: &Law<S>, approach: &Approach<S>, lever: S) -> Self {
-        let arm = self.normal * -lever;
-        let velocity = approach.velocity + approach.omega.cross(arm);
-        let slip = velocity - self.normal * self.normal.dot(velocity);
-        let speed = (slip.norm_squared() + law.friction_speed_squared).sqrt();
-        let friction = slip * -(law.friction * self.normal_force / speed);
-        Touch { friction, slip, ..self }
     }
 }
 

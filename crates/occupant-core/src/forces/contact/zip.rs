@@ -1,12 +1,14 @@
 //! Contact laws number by number.
 
-use super::{ContactSystem, MaterialLaw, Pair, Part, Plane};
+use super::{ContactSystem, ForceLaw, MaterialLaw, Pair, Part, Plane};
 use crate::forces::element::Unlike;
 
 /// Other pairs of spheres and surfaces, because of other surfaces, frames, seams or lists of spheres.
 pub(crate) const OTHER_PAIRS: Unlike = Unlike("the spheres meet other surfaces");
 /// Surfaces of another kind, or with another number of corners.
 pub(crate) const OTHER_OUTLINES: Unlike = Unlike("the surfaces have other outlines or numbers of corners");
+/// Materials with other parts of their laws, or with another number of points.
+const OTHER_LAWS: Unlike = Unlike("the materials have other force laws or numbers of points");
 
 impl<S: Copy> ContactSystem<S> {
     pub(super) fn zip<A: Copy, T>(
@@ -59,16 +61,35 @@ impl<S: Copy> Part<S> {
             return Err(OTHER_PAIRS);
         }
         let outline = self.outline.zip(&other.outline, f);
-        Ok(Part { surface: self.surface, outline: outline.ok_or(OTHER_OUTLINES)?, law: self.law.zip(&other.law, f) })
+        Ok(Part { surface: self.surface, outline: outline.ok_or(OTHER_OUTLINES)?, law: self.law.zip(&other.law, f)? })
     }
 }
 
 impl<S: Copy> MaterialLaw<S> {
-    pub(super) fn zip<A: Copy, T>(&self, other: &MaterialLaw<A>, f: &impl Fn(S, A) -> T) -> MaterialLaw<T> {
-        MaterialLaw {
-            spring: self.spring.zip(&other.spring, f),
+    pub(super) fn zip<A: Copy, T>(
+        &self,
+        other: &MaterialLaw<A>,
+        f: &impl Fn(S, A) -> T,
+    ) -> Result<MaterialLaw<T>, Unlike> {
+        let factors = self.friction_factors.iter().zip(&other.friction_factors);
+        if factors.clone().any(|(a, b)| a.len() != b.len()) {
+            return Err(OTHER_LAWS);
+        }
+        let [over_slip, over_force] = &self.friction_factors;
+        Ok(MaterialLaw {
+            force: match (&self.force, &other.force) {
+                (ForceLaw::Bilinear(a), ForceLaw::Bilinear(b)) => ForceLaw::Bilinear(a.zip(b, f)),
+                (ForceLaw::Deflection(a), ForceLaw::Deflection(b)) => {
+                    ForceLaw::Deflection(Box::new(a.zip(b, f).ok_or(OTHER_LAWS)?))
+                }
+                _ => return Err(OTHER_LAWS),
+            },
             friction: f(self.friction, other.friction),
             friction_speed_squared: f(self.friction_speed_squared, other.friction_speed_squared),
-        }
+            friction_factors: [
+                over_slip.zip(&other.friction_factors[0], f),
+                over_force.zip(&other.friction_factors[1], f),
+            ],
+        })
     }
 }

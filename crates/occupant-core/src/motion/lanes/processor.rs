@@ -47,6 +47,8 @@ macro_rules! lanes {
         in_place!([] $Lanes);
 
         impl Scalar for $Lanes {
+            const IS_WIDE: bool = true;
+
             type Mask = $Mask;
 
             #[inline(always)]

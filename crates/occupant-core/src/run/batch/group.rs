@@ -16,7 +16,7 @@ use crate::motion::frame::{Moving, VEHICLE};
 use crate::motion::integrate::rk4::Stages;
 use crate::motion::state::State;
 use crate::results::outcome::{RecordingFailed, Status};
-use crate::run::Run;
+use crate::run::{Run, broken};
 
 /// Runs side by side in lanes of `L`.
 pub(super) struct Group<L: Machine> {
@@ -126,7 +126,12 @@ impl<L: Machine> Group<L> {
         }
         let state = self.lane_state(i, &place.run);
         let next = match place.run.accept(&place.model, state, place.step) {
-            Err(error) => Next::ended(Status::Failed(error)),
+            Err(_) => {
+                let kept = place.run.history.memory.clone();
+                self.fetch_history(i, &mut place.run);
+                let failed = std::mem::replace(&mut place.run.history.memory, kept);
+                Next::ended(Status::Failed(broken(&place.model, &failed, place.step, &state)))
+            }
             Ok(()) => {
                 self.fetch_history(i, &mut place.run);
                 place.output(jobs.recorder(i))

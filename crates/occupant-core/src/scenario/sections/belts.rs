@@ -4,9 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::builder::Builder;
-use super::chains::{NodeSection, StrokeSection};
 use super::materials::spring;
+use super::nodes::NodeSection;
 use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, point, si_or};
+use super::retractors::StrokeSection;
 use super::three_point::{Preset, Side};
 use super::{Force, Length, Ratio, Scenario, Stiffness};
 use crate::body::Body;

@@ -9,6 +9,7 @@ use super::joints::JointSection;
 use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, all_si, si_or};
 use super::{Angle, AngularVelocity, Moment, MomentPerAngle2, MomentPerAngle3, Ratio, RotationalStiffness};
 use crate::body::{Joint, JointRow};
+use crate::forces::function::Function;
 use crate::forces::joint::limit::{Bend, Centre, Curve, Friction, Limits, Lock, Stop, Turn};
 use crate::forces::spring::LEAST_FRACTION;
 use placed_text::{Problem, with_key};
@@ -158,7 +159,7 @@ fn bend_limit(b: &mut Builder, path: &str, section: &BendLimitSection) -> Bend<f
     let (Some(azimuths), Some(angles)) = (&section.azimuths, &section.angles) else {
         return Bend::new(Curve::constant(b.needed(path, "angle", &section.angle)), torque);
     };
-    let points = points(azimuths, angles);
+    let points = pairs(azimuths, angles);
     let turn = std::f64::consts::TAU;
     let rise = points.windows(2).all(|both| both[0][0] < both[1][0]);
     let starts = points.first().is_some_and(|first| first[0].abs() <= 0.5 * turn + 1e-9);
@@ -176,7 +177,7 @@ fn bend_limit(b: &mut Builder, path: &str, section: &BendLimitSection) -> Bend<f
 fn stop(b: &mut Builder, path: &str, section: &Option<StopTorqueSection>) -> Stop<f64> {
     let Some(section) = section else {
         b.error(path, format!("`{path}` has no key `torque`"), "torque = { c2 = \"5 in lbf/deg^2\" } or the like");
-        return Stop { torque: Curve::polynomial([0.0; 3]), returned: 1.0 };
+        return Stop::polynomial([0.0; 3], 1.0);
     };
     let path = &with_key(path, "torque");
     let coefficients = [si_or(&section.c1, 0.0), si_or(&section.c2, 0.0), si_or(&section.c3, 0.0)];
@@ -186,11 +187,10 @@ fn stop(b: &mut Builder, path: &str, section: &Option<StopTorqueSection>) -> Sto
         let expected = "at least 0.01: unloading needs some slope";
         b.report(Problem::warning(with_key(path, "returned"), found, expected));
     }
-    let returned = returned.max(LEAST_FRACTION);
     let (Some(angles), Some(moments)) = (&section.angles, &section.moments) else {
-        return Stop { torque: Curve::polynomial(coefficients), returned };
+        return Stop::polynomial(coefficients, returned);
     };
-    let points = points(angles, moments);
+    let points = pairs(angles, moments);
     let rise = points.windows(2).all(|both| both[0][0] < both[1][0]);
     if points.len() < 2 || angles.len() != moments.len() || points[0] != [0.0; 2] || !rise {
         let found = format!("{} angles and {} moments", angles.len(), moments.len());
@@ -203,11 +203,11 @@ fn stop(b: &mut Builder, path: &str, section: &Option<StopTorqueSection>) -> Sto
     if coefficients != [0.0; 3] {
         b.error(path, "coefficients and points of one torque", "c1, c2, c3, or angles and moments");
     }
-    Stop { torque: Curve::lines(&points), returned }
+    Stop::new(&Function::lines(points, returned))
 }
 
 /// Pairs of two lists.
-fn points<const X: usize, const Y: usize, const R: usize, const Q: usize>(
+fn pairs<const X: usize, const Y: usize, const R: usize, const Q: usize>(
     x: &[super::Quantity<X, R>],
     y: &[super::Quantity<Y, Q>],
 ) -> Vec<[f64; 2]> {

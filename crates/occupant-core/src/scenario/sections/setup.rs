@@ -39,6 +39,7 @@ pub(in crate::scenario) fn setup(
     };
     let mut joints = joints.of_tree(body.tree);
     references(&document.root, None).into_iter().for_each(|problem| b.report(problem));
+    let materials = materials::materials(b, explicit);
     let surfaces = surfaces::surfaces(b, explicit, &body);
     let solids = solids::solids(b, explicit, &body);
     let self_contact = self_contact::self_contact(b, explicit, &body);
@@ -64,7 +65,7 @@ pub(in crate::scenario) fn setup(
         body,
         joints,
         gravity_m_s2,
-        materials: materials::materials(explicit),
+        materials,
         surfaces,
         solids,
         edge_force: surfaces::edge_force(explicit),

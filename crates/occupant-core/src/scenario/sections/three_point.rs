@@ -8,11 +8,13 @@ use serde::{Deserialize, Serialize};
 
 use super::belts::BeltSection;
 use super::builder::Builder;
-use super::chains::NodeSection;
+use super::functions::WebbingSection;
+use super::nodes::NodeSection;
 use super::quantity::si_or;
 use super::{Length, Ratio, Scenario};
 use crate::body::Body;
 use crate::forces::function::Function;
+use crate::scenario::presets;
 
 /// Belts placed by the seat and the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -49,10 +51,10 @@ const TRACK_LEANS_RAD: f64 = 40.0 * std::f64::consts::PI / 180.0;
 /// How deep a pelvis sinks into a cushion, m.
 const SINKS_M: f64 = 0.03;
 
-/// Webbing of the example deck of the ATB program (lbf at strains); what unloading returns is ours.
-pub(super) fn webbing() -> Function {
-    let rows = [[0.0, 0.0], [0.01, 150.0], [0.02, 300.0], [0.03, 450.0], [0.05, 850.0], [0.1, 3500.0]];
-    Function { points: rows.map(|[strain, lbf]| [strain, 4.448_221_615_260_5 * lbf]).to_vec(), returned: vec![0.6; 5] }
+/// Webbing of a preset that names none.
+pub(super) fn webbing(b: &mut Builder) -> Function {
+    let webbing: Option<WebbingSection> = presets::from_library("webbings", "webbing_atb");
+    webbing.map_or_else(|| Function::lines(Vec::new(), 1.0), |webbing| webbing.function(b, "webbings").0)
 }
 
 /// The nodes of a preset of the belt at `path`.

@@ -13,7 +13,7 @@ use nalgebra::Vector3;
 const DRIVER: &str = include_str!("../../../../../scenarios/three-point.toml");
 
 /// A scenario with these changes, or what is said of it.
-fn changed(text: &str, changes: &[&str]) -> Result<(Model, String), String> {
+pub(super) fn changed(text: &str, changes: &[&str]) -> Result<(Model, String), String> {
     let mut draft = Draft::read(text, Format::Toml, "test").unwrap();
     changes.iter().for_each(|change| draft.set(change).unwrap());
     let built = draft.load(&no_files).and_then(|scenario| scenario.model());

@@ -35,7 +35,11 @@ fn numbers_arrive_in_si() {
     assert_relative_eq!(setup.body.mass_kg(), 173.55 / 386.04 * lbf_s2_per_in, max_relative = 1e-14);
     assert_eq!(setup.body.spheres.len(), 17);
     assert_relative_eq!(setup.gravity_m_s2, 386.04 * 0.0254, max_relative = 1e-15);
-    assert_relative_eq!(setup.materials[0].spring.k1_n_per_m, 48.0 * lbf_s2_per_in, max_relative = 1e-15);
+    assert_relative_eq!(
+        setup.materials[0].force.bilinear().unwrap().k1_n_per_m,
+        48.0 * lbf_s2_per_in,
+        max_relative = 1e-15
+    );
     assert_relative_eq!(
         setup.joints[tti12::NECK].ball().unwrap().damping_n_m_s,
         20.0 * 4.4482216152605 * 0.0254,

@@ -80,8 +80,9 @@ fn defaults_are_those_of_the_description() {
     assert_eq!(foam.friction_speed_m_s, DEFAULT_FRICTION_SPEED_M_S);
     assert_eq!(foam.memory, Memory::Reset);
     // Linear without a break, one returned fraction for both ranges.
-    assert_eq!(foam.spring.k2_n_per_m, foam.spring.k1_n_per_m);
-    assert_eq!(foam.spring.returned_2, 0.5);
+    let spring = foam.force.bilinear().unwrap();
+    assert_eq!(spring.k2_n_per_m, spring.k1_n_per_m);
+    assert_eq!(spring.returned_2, 0.5);
 }
 
 #[test]

@@ -3,7 +3,9 @@
 mod belts;
 mod bodies;
 mod carts;
+mod devices;
 mod limits;
+mod materials;
 mod meaning;
 mod messages;
 mod mount;

@@ -72,7 +72,7 @@ fn joints_of_dummies_carry_what_their_calibration_asks() {
         let (spring, bend) = (neck.lock.unwrap().stiffness, neck.bend.as_ref().unwrap());
         let torque = |degrees: f64, azimuth: f64| {
             let excess = degrees.to_radians() - bend.angle.around(azimuth).0;
-            spring * degrees.to_radians() + bend.stop.torque.value(excess.max(0.0))
+            spring * degrees.to_radians() + bend.stop.value(excess.max(0.0))
         };
         let [back, ahead] = [torque(extension.0, std::f64::consts::PI), torque(flexion.0, 0.0)];
         // as many digits as the presets have
@@ -84,7 +84,7 @@ fn joints_of_dummies_carry_what_their_calibration_asks() {
     // from 90° + 15° of flexion on, counted from a centre at 45°
     let hip = |beyond: f64| {
         let excess = (90.0 - 45.0 + beyond).to_radians() - hip.angle.around(0.0).0;
-        hip.stop.torque.value(excess.max(0.0)) / lbf_ft
+        hip.stop.value(excess.max(0.0)) / lbf_ft
     };
     assert!(hip(30.0) < 70.0 && (hip(45.0) - 150.0).abs() < 1.5, "{} {}", hip(30.0), hip(45.0));
     let joints = ["upper_back", "lower_back"].map(|joint| limits(&setup, joint).lock.unwrap().stiffness);

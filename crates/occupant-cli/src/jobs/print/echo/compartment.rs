@@ -21,22 +21,24 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
 }
 
 fn materials(case: &Case, units: Units) -> Table {
-    let (k, l, v) = (units.of(NewtonPerMetre), units.of(Metre), units.of(MetrePerSecond));
+    let (k, l, v, r) = (units.of(NewtonPerMetre), units.of(Metre), units.of(MetrePerSecond), units.of(One));
     let mut table = Table::new(
         units.heading("MATERIALS ({}, {}, {})", &[NewtonPerMetre, Metre, MetrePerSecond]),
         "<MATERIAL|K1|K2|BREAK AT|RETURNED 1|RETURNED 2|FRICTION|FULL FROM|<AFTER OPENING",
     );
     for material in &case.model.setup().materials {
-        let s = &material.spring;
         let memory = match material.memory {
             Memory::Reset => "RECOVERS",
             Memory::Retain => "STAYS CRUSHED",
         };
-        table.row_of(&[
-            &[material.name.clone(), k.show(s.k1_n_per_m), k.show(s.k2_n_per_m), l.show(s.break_m)],
-            &units.of(One).vector([s.returned_1, s.returned_2, material.friction]),
-            &[v.show(material.friction_speed_m_s), memory.to_owned()],
-        ]);
+        let spring = material.force.bilinear();
+        let slopes = spring.map_or(["FUNCTION".to_owned(), "-".to_owned(), "-".to_owned()], |s| {
+            [k.show(s.k1_n_per_m), k.show(s.k2_n_per_m), l.show(s.break_m)]
+        });
+        let shares =
+            spring.map_or(["-".to_owned(), "-".to_owned()], |s| [s.returned_1, s.returned_2].map(|mu| r.show(mu)));
+        let rubs = [r.show(material.friction), v.show(material.friction_speed_m_s), memory.to_owned()];
+        table.row_of(&[&[material.name.clone()], &slopes, &shares, &rubs]);
     }
     table
 }

@@ -50,10 +50,9 @@ impl SelfPairs<f64> {
         let pair = |data: &SelfContact, spheres: [usize; 2]| {
             let skins = spheres.map(|sphere| &materials[data.skins[sphere]]);
             let share = spheres.map(|sphere| body.spheres[sphere].share);
-            let [one, other] = [0, 1].map(|i| skins[i].spring.times(share[i]));
             let retain = skins.iter().any(|skin| skin.memory == Memory::Retain);
             let pair = Material {
-                spring: series(&one, &other),
+                force: series([0, 1].map(|i| (&skins[i].force, share[i]))),
                 friction: (skins[0].friction * skins[1].friction).sqrt(),
                 friction_speed_m_s: skins[0].friction_speed_m_s.max(skins[1].friction_speed_m_s),
                 ..skins[0].clone()
@@ -164,9 +163,10 @@ impl<S: Scalar> SelfPair<S> {
         if !S::any(live) {
             return;
         }
-        let law = self.law.at(depth, greatest);
         let (approach, weight) = (self.approach(at), S::select(live, S::one(), S::zero()));
-        let plain = Touch {
+        let meeting = approach.meeting(-normal, lever(depth, approach.radius), depth, greatest, weight);
+        let law = self.law.at(&meeting);
+        let touch = Touch {
             sphere: self.spheres[0],
             frame: SPACE,
             pair: number,
@@ -174,15 +174,14 @@ impl<S: Scalar> SelfPair<S> {
             weight,
             normal: -normal,
             depth,
-            closing: normal.dot(approach.velocity),
+            closing: meeting.closing,
             velocity: approach.velocity,
-            normal_force: weight * law.force,
+            normal_force: law.force,
             edge: V3::zero(),
-            friction: V3::zero(),
+            friction: law.rubbing(&meeting),
             stored: weight * law.energy,
-            slip: V3::zero(),
+            slip: meeting.slip,
         };
-        let touch = plain.rubbing(&law, &approach, lever(depth, approach.radius));
         self.push(&touch, approach.centre, live, at, load);
         show(&touch);
     }
@@ -228,12 +227,10 @@ impl<S: Copy> SelfPairs<S> {
         if self.pairs.len() != other.pairs.len() || pairs.clone().any(|(a, b)| a.spheres != b.spheres) {
             return Err(OTHER_PAIRS);
         }
-        let pair = |(a, b): (&SelfPair<S>, &SelfPair<A>)| SelfPair {
-            spheres: a.spheres,
-            law: a.law.zip(&b.law, f),
-            retain: f(a.retain, b.retain),
+        let pair = |(a, b): (&SelfPair<S>, &SelfPair<A>)| {
+            Ok(SelfPair { spheres: a.spheres, law: a.law.zip(&b.law, f)?, retain: f(a.retain, b.retain) })
         };
         let &SelfPairs { first, surface, spheres, .. } = self;
-        Ok(SelfPairs { first, surface, pairs: pairs.map(pair).collect(), spheres })
+        Ok(SelfPairs { first, surface, pairs: pairs.map(pair).collect::<Result<_, _>>()?, spheres })
     }
 }

@@ -13,6 +13,7 @@ mod series;
 mod tests;
 
 pub(crate) use law::{SelfPairs, lever};
+pub(crate) use series::is_skin;
 
 use crate::body::Body;
 

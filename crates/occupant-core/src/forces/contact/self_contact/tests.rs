@@ -1,8 +1,10 @@
 use approx::assert_relative_eq;
 
 use super::SelfContact;
-use super::series::series;
+use super::series::{series, springs};
 use crate::body::{Body, shape};
+use crate::forces::contact::material::Force;
+use crate::forces::function::{DeflectionLaw, ForceDeflection};
 use crate::forces::spring::{BilinearSpring, Spring};
 
 fn spring(k1: f64, break_m: f64, k2: f64, mu1: f64, mu2: f64) -> BilinearSpring {
@@ -32,7 +34,7 @@ fn loaded_m(spring: &BilinearSpring, force_n: f64) -> f64 {
 fn two_skins_are_two_springs_with_one_force() {
     let one = spring(80e3, 0.02, 200e3, 0.7, 0.5);
     let other = spring(30e3, 0.06, 30e3, 0.3, 0.4);
-    let pair = series(&one, &other);
+    let pair = springs(&one, &other);
     assert_relative_eq!(pair.k1_n_per_m * pair.break_m, 1600.0, max_relative = 1e-12);
     for force_n in [100.0, 700.0, 1599.0] {
         let parts_m = [&one, &other].map(|spring| loaded_m(spring, force_n));
@@ -54,7 +56,7 @@ fn beyond_the_first_knee_the_curves_meet_at_three_times_its_force() {
         (spring(155.9e3, 0.0254, 80.6e3, 0.7, 0.7), spring(155.9e3, 0.0254, 80.6e3, 0.7, 0.7)),
         (spring(1e6, 0.0, 1e6, 0.2, 0.2), spring(10e3, 0.03, 100e3, 1.0, 0.1)),
     ] {
-        let pair = series(&one, &other);
+        let pair = springs(&one, &other);
         let knee_n = pair.k1_n_per_m * pair.break_m;
         for force_n in [knee_n, 3.0 * knee_n] {
             let whole_m = loaded_m(&one, force_n) + loaded_m(&other, force_n);
@@ -80,11 +82,41 @@ fn beyond_the_first_knee_the_curves_meet_at_three_times_its_force() {
 
 #[test]
 fn skins_without_knees_have_a_pair_without_one() {
-    let pair = series(&BilinearSpring::linear(60e3, 0.5), &BilinearSpring::linear(30e3, 0.2));
+    let pair = springs(&BilinearSpring::linear(60e3, 0.5), &BilinearSpring::linear(30e3, 0.2));
     assert_relative_eq!(pair.k1_n_per_m, 20e3, max_relative = 1e-12);
     assert_eq!((pair.k1_n_per_m, pair.returned_1), (pair.k2_n_per_m, pair.returned_2));
     // compliances of unloading add: 0.5/60 + 0.2/30 = 0.015 per kN/m
     assert_relative_eq!(pair.returned_1 / pair.k1_n_per_m, 1.5e-5, max_relative = 1e-12);
+}
+
+/// A function and a spring in series give way, and go back, as both do under one force.
+#[test]
+fn skins_of_lines_are_two_functions_with_one_force() {
+    let lines = ForceDeflection::lines(vec![[0.0, 0.0], [0.01, 100.0], [0.02, 900.0], [0.03, 1200.0]], 0.3);
+    let plain = spring(30e3, 0.01, 90e3, 0.5, 0.9);
+    let whole = series([(&lines.clone().into(), 2.0), (&plain.into(), 1.0)]);
+    let Force::Deflection(whole) = whole else { panic!("a spring") };
+    let (whole, one) = (DeflectionLaw::new(&whole, 1.0), DeflectionLaw::new(&lines, 2.0));
+    for top in [50.0, 250.0, 700.0, 1900.0, 4000.0] {
+        let deep = [one.depth_under(top).unwrap(), loaded_m(&plain, top)];
+        let all = whole.depth_under(top).unwrap();
+        // measured: 1e-15 m
+        assert!((deep[0] + deep[1] - all).abs() < 1e-12, "{top}: {deep:?} {all}");
+        for share in [0.8, 0.3, 0.05] {
+            let force = share * top;
+            let back = |depth: &dyn Fn(f64) -> f64, top: f64| {
+                let (mut low, mut high) = (0.0, top);
+                for _ in 0..80 {
+                    let middle = 0.5 * (low + high);
+                    (low, high) = if depth(middle) < force { (middle, high) } else { (low, middle) };
+                }
+                high
+            };
+            let parts = back(&|x| one.respond(x, deep[0], 0.0).0, deep[0]) + deformation_m(&plain, force, deep[1]);
+            let both = back(&|x| whole.respond(x, all, 0.0).0, all);
+            assert!((parts - both).abs() < 1e-12, "{top} {share}: {parts} {both}");
+        }
+    }
 }
 
 fn names(body: &Body) -> Vec<[&str; 2]> {

@@ -165,9 +165,10 @@ impl<S: Scalar> Union<S> {
         greatest: S,
     ) -> Touch<S> {
         let Nearest { part, depth, normal } = nearest;
-        let law = self.law.at(depth, greatest);
         let weight = S::select(live, S::one(), S::zero());
-        let touch = Touch {
+        let meeting = approach.meeting(normal, lever(depth, approach.radius), depth, greatest, weight);
+        let law = self.law.at(&meeting);
+        Touch {
             sphere: group.sphere,
             frame: group.frame,
             pair,
@@ -175,15 +176,14 @@ impl<S: Scalar> Union<S> {
             weight,
             normal,
             depth,
-            closing: -normal.dot(approach.velocity),
+            closing: meeting.closing,
             velocity: approach.velocity,
-            normal_force: weight * law.force,
+            normal_force: law.force,
             edge: V3::zero(),
-            friction: V3::zero(),
+            friction: law.rubbing(&meeting),
             stored: weight * law.energy,
-            slip: V3::zero(),
-        };
-        touch.rubbing(&law, approach, lever(depth, approach.radius))
+            slip: meeting.slip,
+        }
     }
 }
 
@@ -200,15 +200,13 @@ impl<S: Copy> Solids<S> {
         if self.groups != other.groups || !pairs.clone().all(members) || self.shapes.len() != other.shapes.len() {
             return Err(OTHER_PAIRS);
         }
-        let union = |(a, b): (&Union<S>, &Union<A>)| Union {
-            members: a.members.clone(),
-            law: a.law.zip(&b.law, f),
-            retain: f(a.retain, b.retain),
+        let union = |(a, b): (&Union<S>, &Union<A>)| {
+            Ok(Union { members: a.members.clone(), law: a.law.zip(&b.law, f)?, retain: f(a.retain, b.retain) })
         };
         let shapes = self.shapes.iter().zip(&other.shapes).map(|(a, b)| a.zip(b, f).ok_or(OTHER_OUTLINES));
         Ok(Solids {
             groups: self.groups.clone(),
-            pairs: pairs.map(union).collect(),
+            pairs: pairs.map(union).collect::<Result<_, _>>()?,
             shapes: shapes.collect::<Result<_, _>>()?,
         })
     }

@@ -61,7 +61,7 @@ fn check_bend(angle: &Curve<f64>, is_twisted: bool, is_in_the_middle: bool, path
 }
 
 fn check_stop(stop: &Stop<f64>, path: &str, problems: &mut Problems) {
-    let (steepest, falls) = stop.torque.steepness(PI);
+    let (steepest, falls) = stop.steepness(PI);
     if falls || steepest.is_nan() || steepest <= 0.0 {
         let found = if falls { "a torque that falls somewhere" } else { "no torque at all" };
         problems.error(format!("{path}.torque"), found, "a torque that rises with the angle beyond the limit");

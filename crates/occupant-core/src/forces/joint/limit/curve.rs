@@ -1,53 +1,16 @@
-//! Piecewise cubics: torque over what a joint is bent beyond its limit, and the limit over the azimuth.
+//! Periodic curves: the limit of a joint over the azimuth.
 
 use std::f64::consts::TAU;
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::forces::function::Cubic;
 use crate::motion::scalar::Scalar;
 
 /// A curve of cubics, the first of which reaches down and the last up without end.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Curve<S> {
-    pieces: Vec<Piece<S>>,
-}
-
-/// c₀ + c₁s + c₂s² + c₃s³ in s = x − `from`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Piece<S> {
-    from: S,
-    c: [S; 4],
-    /// ∫ of the curve from its first `from` to this one.
-    area: S,
-}
-
-impl<S: Copy> Piece<S> {
-    #[inline(always)]
-    fn zip<A: Copy, T>(&self, other: &Piece<A>, f: &impl Fn(S, A) -> T) -> Piece<T> {
-        let ([p, q, r, s], [t, u, v, w]) = (self.c, other.c);
-        let c = [f(p, t), f(q, u), f(r, v), f(s, w)];
-        Piece { from: f(self.from, other.from), c, area: f(self.area, other.area) }
-    }
-}
-
-impl<S: Scalar> Piece<S> {
-    #[inline(always)]
-    fn value(&self, x: S) -> S {
-        let ([c0, c1, c2, c3], s) = (self.c, x - self.from);
-        c0 + (c1 + (c2 + c3 * s) * s) * s
-    }
-
-    #[inline(always)]
-    fn slope(&self, x: S) -> S {
-        let ([_, c1, c2, c3], s) = (self.c, x - self.from);
-        c1 + (c2 * S::of(2.0) + c3 * (S::of(3.0) * s)) * s
-    }
-
-    #[inline(always)]
-    fn area(&self, x: S) -> S {
-        let ([c0, c1, c2, c3], s) = (self.c, x - self.from);
-        self.area + (c0 + (c1 * S::of(0.5) + (c2 * S::of(1.0 / 3.0) + c3 * (S::of(0.25) * s)) * s) * s) * s
-    }
+    pieces: Vec<Cubic<S>>,
 }
 
 impl<S: Copy> Curve<S> {
@@ -63,29 +26,13 @@ impl<S: Copy> Curve<S> {
 
 impl<S: Scalar> Curve<S> {
     #[inline(always)]
-    fn piece(&self, x: S) -> Piece<S> {
-        let Some((first, others)) = self.pieces.split_first() else { return Curve::none() };
-        let later = |found: Piece<S>, next: &Piece<S>| {
+    fn piece(&self, x: S) -> Cubic<S> {
+        let Some((first, others)) = self.pieces.split_first() else { return Cubic::none() };
+        let later = |found: Cubic<S>, next: &Cubic<S>| {
             let before = x.lt(next.from);
             found.zip(next, &|a, b| S::select(before, a, b))
         };
         others.iter().fold(*first, later)
-    }
-
-    fn none() -> Piece<S> {
-        Piece { from: S::zero(), c: [S::zero(); 4], area: S::zero() }
-    }
-
-    /// Value at x.
-    #[inline(always)]
-    pub(crate) fn value(&self, x: S) -> S {
-        self.piece(x).value(x)
-    }
-
-    /// ∫ from where the curve begins to x.
-    #[inline(always)]
-    pub(super) fn area(&self, x: S) -> S {
-        self.piece(x).area(x)
     }
 
     /// Value and slope of a periodic curve at an angle of −π to π.
@@ -101,19 +48,7 @@ impl<S: Scalar> Curve<S> {
 impl Curve<f64> {
     /// The same value everywhere.
     pub(crate) fn constant(value: f64) -> Self {
-        Curve::of(vec![(-std::f64::consts::PI, [value, 0.0, 0.0, 0.0])])
-    }
-
-    /// c₁x + c₂x² + c₃x³.
-    pub(crate) fn polynomial([c1, c2, c3]: [f64; 3]) -> Self {
-        Curve::of(vec![(0.0, [0.0, c1, c2, c3])])
-    }
-
-    /// Straight lines through points with rising x; the last goes on.
-    pub(crate) fn lines(points: &[[f64; 2]]) -> Self {
-        let line =
-            |(&[x, y], &[next_x, next_y]): (&[f64; 2], &[f64; 2])| (x, [y, (next_y - y) / (next_x - x), 0.0, 0.0]);
-        Curve::of(points.iter().zip(points.iter().skip(1)).map(line).collect())
+        Curve { pieces: vec![Cubic { from: -std::f64::consts::PI, c: [value, 0.0, 0.0, 0.0] }] }
     }
 
     /// The periodic cubic spline of period 2π through points with x that rise within less than that.
@@ -135,18 +70,9 @@ impl Curve<f64> {
         let piece = |i: usize| {
             let (m, n, h) = (second[i], second[next(i)], length(i));
             let cubic = [points[i][1], rise(i) - h * (2.0 * m + n) / 6.0, 0.5 * m, (n - m) / (6.0 * h)];
-            (points[i][0], cubic)
+            Cubic { from: points[i][0], c: cubic }
         };
-        Curve::of((0..count).map(piece).collect())
-    }
-
-    fn of(cubics: Vec<(f64, [f64; 4])>) -> Self {
-        let mut pieces: Vec<Piece<f64>> = Vec::with_capacity(cubics.len());
-        for (from, c) in cubics {
-            let area = pieces.last().map_or(0.0, |before| before.area(from));
-            pieces.push(Piece { from, c, area });
-        }
-        Curve { pieces }
+        Curve { pieces: (0..count).map(piece).collect() }
     }
 
     /// Least and greatest value of a periodic curve, on a fine grid.
@@ -160,12 +86,5 @@ impl Curve<f64> {
     pub(super) fn is_even(&self) -> bool {
         let angles = (0..720).map(|i| f64::from(i) * TAU / 1440.0);
         angles.into_iter().all(|angle| (self.around(angle).0 - self.around(-angle).0).abs() < 1e-6)
-    }
-
-    /// The greatest slope up to x, and whether the curve falls anywhere on the way, on a fine grid.
-    pub(super) fn steepness(&self, x: f64) -> (f64, bool) {
-        let places = (0..=360).map(|i| x * f64::from(i) / 360.0);
-        let slopes = places.map(|x| self.piece(x).slope(x));
-        slopes.fold((0.0, false), |(most, falls), slope| (slope.max(most), falls || slope.is_nan() || slope < 0.0))
     }
 }

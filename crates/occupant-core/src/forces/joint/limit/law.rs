@@ -1,25 +1,19 @@
 //! Elastic limits of joints: torques that are gradients, with loss on unloading, and dry friction.
 //!
 //! With the excess χ, what a joint is bent or turned beyond its limit, and χ_m the greatest committed since it was last
-//! inside, the torque is f(x*), x* = χ_m − (χ_m − χ)/μ: the force function f while loading, and on return a line that gives
-//! back the share μ of the work. Stored: μ∫₀^{x*} f. Lost: (1 − μ)∫₀^{χ_m} f, which grows with χ_m only.
+//! inside, the torque is that of a force function with its way back by stretch ([`crate::forces::function`]).
 
 use super::curve::Curve;
 use super::lock::{Lock, LockPast, Pair};
 use super::triads::{Pose, Triads};
 use crate::body::Joint;
 use crate::forces::element::Instant;
+use crate::forces::function::FunctionLaw;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
-/// A resistance that grows beyond a limit.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Stop<S> {
-    /// Torque over the excess, N·m over rad.
-    pub(crate) torque: Curve<S>,
-    /// μ, the share of its work that it gives back.
-    pub(crate) returned: S,
-}
+/// A resistance that grows beyond a limit: torque over the excess, N·m over rad.
+pub(crate) type Stop<S> = FunctionLaw<S>;
 
 /// Limit of the bend θ.
 #[derive(Clone, Debug, PartialEq)]
@@ -132,17 +126,11 @@ pub struct LimitAction<S> {
     pub(super) dissipated: S,
 }
 
-impl<S: Copy> Stop<S> {
-    fn zip<A: Copy, T>(&self, other: &Stop<A>, f: &impl Fn(S, A) -> T) -> Stop<T> {
-        Stop { torque: self.torque.zip(&other.torque, f), returned: f(self.returned, other.returned) }
-    }
-}
-
 impl<S: Copy> LimitLaw<S> {
     /// Laws of equal shape can be computed side by side.
     pub(super) fn shape(&self) -> (Joint, [usize; 4], Option<bool>) {
-        let bend = self.bend.as_ref().map_or([0; 2], |bend| [bend.angle.len(), bend.stop.torque.len()]);
-        let turn = self.turn.as_ref().map_or(0, |turn| turn.stop.torque.len());
+        let bend = self.bend.as_ref().map_or([0; 2], |bend| [bend.angle.len(), bend.stop.len()]);
+        let turn = self.turn.as_ref().map_or(0, |turn| turn.stop.len());
         let slips = self.lock.as_ref().map(|lock| lock.slips);
         (self.joint, [bend[0], bend[1], turn, usize::from(self.friction.is_some())], slips)
     }
@@ -190,32 +178,31 @@ impl<S: Scalar> Past<S> {
     pub(super) fn start(stop: Option<(&Stop<S>, S)>) -> Self {
         stop.map_or(Past::none(), |(stop, excess)| {
             let greatest = excess.max(S::zero());
-            Past { greatest, lost: -stop.lost(greatest) }
+            Past { greatest, lost: -lost(stop, greatest) }
         })
     }
 }
 
-impl<S: Scalar> Stop<S> {
-    /// (1 − μ)∫₀^χ f.
+impl<S: Scalar> Past<S> {
     #[inline(always)]
-    fn lost(&self, greatest: S) -> S {
-        (S::one() - self.returned) * self.torque.area(greatest)
-    }
-
-    #[inline(always)]
-    fn commit(&self, excess: S, past: &mut Past<S>) {
+    fn commit(&mut self, stop: &Stop<S>, excess: S) {
         let (o, beyond) = (S::zero(), excess.gt(S::zero()));
-        past.lost = S::select(beyond, past.lost, past.lost + self.lost(past.greatest));
-        past.greatest = S::select(beyond, past.greatest.max(excess), o);
+        self.lost = S::select(beyond, self.lost, self.lost + lost(stop, self.greatest));
+        self.greatest = S::select(beyond, self.greatest.max(excess), o);
     }
 
     #[inline(always)]
-    fn respond(&self, excess: S, past: &Past<S>) -> Reply<S> {
-        let top = excess.max(past.greatest);
-        let x = (top - (top - excess) / self.returned).max(S::zero());
-        let stored = self.returned * self.torque.area(x);
-        Reply { torque: self.torque.value(x), stored, lost: past.lost + self.lost(top.max(S::zero())) }
+    fn respond(&self, stop: &Stop<S>, excess: S) -> Reply<S> {
+        let found = stop.respond(excess, self.greatest);
+        let top = excess.max(self.greatest).max(S::zero());
+        Reply { torque: found.force, stored: stop.returned_to(found.loading)[1], lost: self.lost + lost(stop, top) }
     }
+}
+
+/// What a stop has lost up to an excess.
+#[inline(always)]
+fn lost<S: Scalar>(stop: &Stop<S>, greatest: S) -> S {
+    stop.returned_to(greatest)[2]
 }
 
 impl<S: Scalar> LimitAction<S> {
@@ -338,10 +325,10 @@ impl<S: Scalar> Bend<S> {
             let (limit, rise) = self.angle.around(pose.azimuth());
             let excess = pose.bend() - limit;
             if COMMIT {
-                self.stop.commit(excess, past);
+                past.commit(&self.stop, excess);
             }
             let moment = pose.swinging() * rise - pose.bending();
-            action.push(near, moment, excess, &self.stop.respond(excess, past));
+            action.push(near, moment, excess, &past.respond(&self.stop, excess));
         }
         near
     }
@@ -369,9 +356,9 @@ impl<S: Scalar> Turn<S> {
         let near = near & excess.gt(S::zero());
         if COMMIT || S::any(near) {
             if COMMIT {
-                self.stop.commit(excess, past);
+                past.commit(&self.stop, excess);
             }
-            action.push(near, axis() * -sign, excess, &self.stop.respond(excess, past));
+            action.push(near, axis() * -sign, excess, &past.respond(&self.stop, excess));
         }
         near
     }

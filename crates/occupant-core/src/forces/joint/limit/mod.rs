@@ -214,8 +214,7 @@ fn rates(data: &Joints, limits: &Limits, mobility: &Mobility<'_>) -> Vec<Rate> {
     let hinge = mobility.skeleton.layout.hinge_slot(row.carrying()[1].index()).map(|hinge| mobility.of_hinge(hinge));
     let turning = hinge.unwrap_or(z.dot(&(relative * z)));
     let spring = |stop: &Stop<f64>, by: &str, give: f64| {
-        let slope = stop.torque.steepness(ESTIMATE_RAD).0 / stop.returned;
-        Rate::of_spring(row.name.to_owned(), by.to_owned(), 1.0 / give, slope)
+        Rate::of_spring(row.name.to_owned(), by.to_owned(), 1.0 / give, stop.steepness(ESTIMATE_RAD).0)
     };
     let bend = limits.bend.as_ref().map(|bend| spring(&bend.stop, "limit", greatest(across(&relative, &z))));
     let turn = limits.turn.as_ref().map(|turn| spring(&turn.stop, "limit", turning));

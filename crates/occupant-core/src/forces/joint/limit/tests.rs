@@ -9,6 +9,7 @@ use crate::body::Body;
 use crate::body::tti12::{LEFT_HIP, LEFT_KNEE, LEFT_SHOULDER, LOWER_BACK, NECK, RIGHT_HIP, RIGHT_SHOULDER};
 use crate::body::tti12::{RIGHT_ELBOW, UPPER_BACK};
 use crate::diagnosis::tests::model_of;
+use crate::forces::function::Function;
 use crate::forces::joint::DAMPING;
 use crate::forces::joint::limit::{Centre, LOST_AT, STORED_AT};
 use crate::model::Model;
@@ -40,7 +41,7 @@ impl Numbers {
 }
 
 fn quadratic(returned: f64) -> Stop<f64> {
-    Stop { torque: Curve::polynomial([3.0, 40.0, 5.0]), returned }
+    Stop::polynomial([3.0, 40.0, 5.0], returned)
 }
 
 fn azimuthal() -> Bend<f64> {
@@ -208,7 +209,7 @@ fn straight_and_folded_joints_have_finite_torques_and_slopes() {
 #[test]
 fn work_is_what_is_stored_and_lost() {
     let mut numbers = Numbers(5);
-    let table = Stop { torque: Curve::lines(&[[0.0, 0.0], [0.2, 4.0], [0.3, 40.0]]), returned: 0.3 };
+    let table = Stop::new(&Function::lines(vec![[0.0, 0.0], [0.2, 4.0], [0.3, 40.0]], 0.3));
     for stop in [quadratic(0.6), quadratic(1.0), table] {
         let (mut past, mut angle, mut work) = (Past::none(), -0.1, 0.0);
         for _ in 0..60 {
@@ -216,12 +217,12 @@ fn work_is_what_is_stored_and_lost() {
             let count = 2000;
             for i in 0..count {
                 let at = angle + (to - angle) * (f64::from(i) + 0.5) / f64::from(count);
-                work += stop.respond(at, &past).torque * (to - angle) / f64::from(count);
-                stop.commit(at, &mut past);
+                work += past.respond(&stop, at).torque * (to - angle) / f64::from(count);
+                past.commit(&stop, at);
             }
             angle = to;
-            stop.commit(angle, &mut past);
-            let reply = stop.respond(angle, &past);
+            past.commit(&stop, angle);
+            let reply = past.respond(&stop, angle);
             assert!(reply.stored >= 0.0 && reply.lost >= 0.0);
             assert!(
                 (work - reply.stored - reply.lost).abs() < 2e-4 * (1.0 + work),
@@ -353,8 +354,11 @@ fn the_preset_is_gebods_table() {
     let unit = 4.4482216152605 * 0.0254;
     let limits = |joint: Joint| joints.limits.iter().find(|limits| limits.joint == joint).unwrap();
     let is = |stop: &Stop<f64>, coefficient: f64| {
-        let torque = stop.torque.value(12_f64.to_radians());
-        assert!((torque - coefficient * 144.0 * unit).abs() < 1e-9 * torque && stop.returned == 0.7);
+        let torque = stop.value(12_f64.to_radians());
+        let [_, back, lost] = stop.returned_to(1.0);
+        assert!(
+            (torque - coefficient * 144.0 * unit).abs() < 1e-9 * torque && (back / (back + lost) - 0.7).abs() < 1e-12
+        );
     };
     let rows: [Row; 5] = [
         (LOWER_BACK, (10.0, 20.0), (10.0, 5.0), 5.0),

@@ -1,0 +1,41 @@
+//! What sets a device of a belt off: a time known before the run, or something that the belt watches at accepted steps.
+
+use super::data::{Cue, NEVER, Watched};
+use crate::motion::scalar::Scalar;
+
+/// Constants of a cue.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CueLaw<S> {
+    pub(super) due: S,
+    watch: Option<(Watched, [S; 3])>,
+}
+
+impl<S: Copy> CueLaw<S> {
+    /// What it watches; cues that watch the same can be computed side by side.
+    pub(super) fn watched(&self) -> Option<usize> {
+        self.watch.map(|(of, _)| of as usize)
+    }
+
+    pub(super) fn zip<A: Copy, T>(&self, other: &CueLaw<A>, f: &impl Fn(S, A) -> T) -> CueLaw<T> {
+        let both = self.watch.iter().zip(&other.watch).next();
+        let watch = both.map(|((of, a), (_, b))| (*of, std::array::from_fn(|i| f(a[i], b[i]))));
+        CueLaw { due: f(self.due, other.due), watch }
+    }
+}
+
+impl<S: Scalar> CueLaw<S> {
+    pub(super) fn new(cue: &Cue) -> Self {
+        let watch = cue.watch.map(|w| (w.of, [w.threshold, w.lasting_s, w.delay_s].map(S::of)));
+        CueLaw { due: S::of(cue.due_s), watch }
+    }
+
+    /// When it is due and since when its condition holds; `seen` are the quantities in the order of [`Watched`].
+    #[inline(always)]
+    pub(super) fn commit(&self, time: S, seen: &[S; 4], due: &mut S, since: &mut S) {
+        let Some((of, [threshold, lasting, delay])) = self.watch else { return };
+        let holds = !seen[of as usize].lt(threshold);
+        *since = S::select(holds, since.min(time), S::of(NEVER));
+        let fires = holds & !(time - *since).lt(lasting) & due.gt(S::of(0.5 * NEVER));
+        *due = S::select(fires, time + delay, *due);
+    }
+}

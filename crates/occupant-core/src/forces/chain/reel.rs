@@ -1,0 +1,109 @@
+//! A spool: when it locks, and what its pretensioner pulls.
+
+use super::cue::CueLaw;
+use super::data::{Pull, Reel};
+use super::device::Phase;
+use super::past::DevicePast;
+use crate::forces::function::steps::Steps;
+use crate::motion::scalar::Scalar;
+
+/// Constants of a spool.
+#[derive(Clone, Debug)]
+pub(super) struct ReelLaw<S> {
+    on_spool: S,
+    pub(super) tension: S,
+    pub(super) lock: CueLaw<S>,
+    lock_after: [S; 2],
+    pub(super) pull: Option<PullLaw<S>>,
+}
+
+/// Constants of a pretensioner.
+#[derive(Clone, Debug)]
+pub(super) struct PullLaw<S> {
+    pub(super) cue: CueLaw<S>,
+    pub(super) table: Steps<S>,
+    pub(super) by_force: Option<S>,
+    stall: S,
+}
+
+impl ReelLaw<f64> {
+    pub(super) fn new(reel: &Reel) -> Self {
+        let pull = |pull: &Pull| PullLaw {
+            cue: CueLaw::new(&pull.cue),
+            table: Steps::new(&pull.table),
+            by_force: pull.by_force,
+            stall: pull.stall_n,
+        };
+        ReelLaw {
+            on_spool: reel.on_spool_m,
+            tension: reel.tension_n,
+            lock: CueLaw::new(&reel.lock),
+            lock_after: reel.lock_after,
+            pull: reel.pull.as_ref().map(pull),
+        }
+    }
+}
+
+impl<S: Copy> ReelLaw<S> {
+    /// What must be equal for two to be computed side by side.
+    pub(super) fn shape(&self) -> [Option<usize>; 4] {
+        let pull = self.pull.as_ref();
+        [
+            self.lock.watched(),
+            pull.map(|pull| pull.table.len()),
+            pull.and_then(|pull| pull.by_force).map(|_| 0),
+            pull.and_then(|pull| pull.cue.watched()),
+        ]
+    }
+
+    pub(super) fn zip<A: Copy, T>(&self, other: &ReelLaw<A>, f: &impl Fn(S, A) -> T) -> ReelLaw<T> {
+        let pull = |(a, b): (&PullLaw<S>, &PullLaw<A>)| PullLaw {
+            cue: a.cue.zip(&b.cue, f),
+            table: a.table.zip(&b.table, f),
+            by_force: a.by_force.zip(b.by_force).map(|(a, b)| f(a, b)),
+            stall: f(a.stall, b.stall),
+        };
+        ReelLaw {
+            on_spool: f(self.on_spool, other.on_spool),
+            tension: f(self.tension, other.tension),
+            lock: self.lock.zip(&other.lock, f),
+            lock_after: std::array::from_fn(|i| f(self.lock_after[i], other.lock_after[i])),
+            pull: self.pull.as_ref().zip(other.pull.as_ref()).map(pull),
+        }
+    }
+}
+
+impl<S: Scalar> ReelLaw<S> {
+    /// Where the pretensioner comes to its end; it begins where it is due.
+    #[inline(always)]
+    pub(super) fn commit_pull(&self, time: S, seen: &[S; 4], past: &mut DevicePast<S>) -> S::Mask {
+        let Some(pull) = &self.pull else { return S::truth(false) };
+        let [tension, payout, speed, _] = *seen;
+        pull.cue.commit(time, seen, &mut past.pull_due, &mut past.pull_since);
+        let is_pulling = past.phase.gt(S::of(Phase::LOCKING)) & past.phase.lt(S::of(Phase::LOCKED));
+        let age = time - past.pull_due;
+        let mut stops = !age.lt(pull.table.end()) | !tension.lt(pull.stall);
+        if pull.by_force.is_some() {
+            stops = stops | (!speed.lt(S::zero()) & tension.gt(pull.table.at(age)));
+        }
+        let stops = stops & is_pulling;
+        let fires = !age.lt(S::zero()) & !past.pulled.gt(S::zero());
+        past.phase = S::select(fires, S::of(Phase::PULLING), past.phase);
+        past.mark = S::select(fires, payout, past.mark);
+        past.pulled = S::select(fires, S::one(), past.pulled);
+        stops
+    }
+
+    /// Where an open spool locks; it begins to where its trigger has fired.
+    #[inline(always)]
+    pub(super) fn commit_lock(&self, time: S, payout: S, past: &mut DevicePast<S>) -> S::Mask {
+        let is_open = past.phase.lt(S::of(Phase::LOCKING));
+        let begins = is_open & !time.lt(past.lock_due);
+        past.phase = S::select(begins, S::of(Phase::LOCKING), past.phase);
+        past.mark = S::select(begins, payout, past.mark);
+        let is_locking = past.phase.lt(S::of(Phase::PULLING)) & past.phase.gt(S::of(Phase::OPEN));
+        let [after, within] = self.lock_after;
+        let locks = is_locking & (!(payout - past.mark).lt(after) | !(time - past.lock_due).lt(within));
+        locks | (past.phase.lt(S::of(Phase::PULLING)) & !payout.lt(self.on_spool))
+    }
+}

@@ -1,0 +1,200 @@
+//! A loading curve with its way back by stretch.
+//!
+//! Loading follows f. Unloading returns the share μ of what each interval took: with M(x) = ∫₀ˣ μ the force at x after a
+//! greatest x_m is f(x*), M(x*) = M(x_m) − (x_m − x), and 0 where the right side is negative; loading again goes back the same
+//! way. ∫₀^{x*} μ f is recoverable. With two intervals this is the spring of contacts ([`crate::forces::spring`]). What is lost,
+//! ∫(1 − μ) f up to x_m, never falls.
+
+use super::cubic::Cubic;
+use super::data::Function;
+use crate::forces::spring::LEAST_FRACTION;
+use crate::motion::scalar::Scalar;
+
+/// Constants of a force function.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct FunctionLaw<S> {
+    pieces: Vec<Piece<S>>,
+}
+
+/// One interval; what is said of its beginning has the index 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Piece<S> {
+    /// f from x₀ on.
+    f: Cubic<S>,
+    /// 1/slope at x₀; 0 of a plateau.
+    give: S,
+    /// μ.
+    returned: S,
+    /// M(x₀).
+    way: S,
+    /// ∫μf and ∫(1 − μ)f up to x₀.
+    energy: S,
+    lost: S,
+}
+
+impl FunctionLaw<f64> {
+    pub(crate) fn new(data: &Function) -> Self {
+        Self::of(data.pieces())
+    }
+
+    /// c₁x + c₂x² + c₃x³, of which everywhere the share μ comes back.
+    pub(crate) fn polynomial([c1, c2, c3]: [f64; 3], returned: f64) -> Self {
+        Self::of([(Cubic { from: 0.0, c: [0.0, c1, c2, c3] }, returned)])
+    }
+
+    fn of(cubics: impl IntoIterator<Item = (Cubic<f64>, f64)>) -> Self {
+        let mut law = FunctionLaw { pieces: Vec::new() };
+        for (f, mu) in cubics {
+            let give = if f.c[1] > 0.0 { 1.0 / f.c[1] } else { 0.0 };
+            let [way, energy, lost] = law.pieces.last().map_or([0.0; 3], |before| before.returned_to(f.from));
+            law.pieces.push(Piece { f, give, returned: mu.max(LEAST_FRACTION), way, energy, lost });
+        }
+        law
+    }
+
+    /// The greatest slope of loading and unloading up to x, and whether f falls anywhere on the way.
+    pub(crate) fn steepness(&self, x: f64) -> (f64, bool) {
+        let ends = self.pieces.iter().skip(1).map(|next| next.f.from.min(x)).chain([x]);
+        let slopes =
+            self.pieces.iter().zip(ends).map(|(piece, end)| (piece.f.slopes(end.max(piece.f.from)), piece.returned));
+        slopes.fold((0.0, false), |(most, falls), ([least, steepest], mu)| {
+            ((steepest / mu).max(most), falls || least.is_nan() || least < 0.0)
+        })
+    }
+}
+
+impl<S: Copy> Piece<S> {
+    #[inline(always)]
+    fn zip<A: Copy, T>(&self, other: &Piece<A>, f: &impl Fn(S, A) -> T) -> Piece<T> {
+        Piece {
+            f: self.f.zip(&other.f, f),
+            give: f(self.give, other.give),
+            returned: f(self.returned, other.returned),
+            way: f(self.way, other.way),
+            energy: f(self.energy, other.energy),
+            lost: f(self.lost, other.lost),
+        }
+    }
+}
+
+impl<S: Scalar> Piece<S> {
+    /// M, ∫μf and ∫(1 − μ)f up to x.
+    #[inline(always)]
+    fn returned_to(&self, x: S) -> [S; 3] {
+        let (share, work) = (self.returned * (x - self.f.from), self.f.work(x));
+        [self.way + share, self.energy + self.returned * work, self.lost + (S::one() - self.returned) * work]
+    }
+
+    /// Slope at x₀: of a straight line everywhere.
+    #[inline(always)]
+    fn slope(&self) -> S {
+        self.f.c[1]
+    }
+}
+
+impl<S: Copy> FunctionLaw<S> {
+    /// How many intervals it has; functions of equally many can be computed side by side.
+    pub(crate) fn len(&self) -> usize {
+        self.pieces.len()
+    }
+
+    pub(crate) fn zip<A: Copy, T>(&self, other: &FunctionLaw<A>, f: &impl Fn(S, A) -> T) -> FunctionLaw<T> {
+        FunctionLaw { pieces: self.pieces.iter().zip(&other.pieces).map(|(a, b)| a.zip(b, f)).collect() }
+    }
+}
+
+/// A force with its slope, and x* where loading has it.
+pub(crate) struct Response<S> {
+    pub(crate) force: S,
+    pub(crate) slope: S,
+    pub(crate) loading: S,
+}
+
+impl<S: Scalar> FunctionLaw<S> {
+    /// The last piece of which `begins` says that it begins before the place that is looked for, or the first. Of pieces in
+    /// order it says so of all before that one.
+    #[inline(always)]
+    fn piece(&self, begins: impl Fn(&Piece<S>) -> S::Mask) -> Piece<S> {
+        let Some((first, others)) = self.pieces.split_first() else {
+            let o = S::zero();
+            return Piece { f: Cubic::none(), give: o, returned: o, way: o, energy: o, lost: o };
+        };
+        let mut found = *first;
+        for next in others {
+            let mask = begins(next);
+            if !S::any(mask) {
+                break;
+            }
+            found = if S::any(!mask) { found.zip(next, &|a, b| S::select(mask, b, a)) } else { *next };
+        }
+        found
+    }
+
+    /// f.
+    #[inline(always)]
+    pub(crate) fn value(&self, x: S) -> S {
+        self.piece(|next| next.f.from.lt(x)).f.value(x)
+    }
+
+    /// M, the recoverable energy, and what is lost up to x*.
+    #[inline(always)]
+    pub(crate) fn returned_to(&self, loading: S) -> [S; 3] {
+        self.piece(|next| next.f.from.lt(loading)).returned_to(loading)
+    }
+
+    /// Force at `x` after a greatest x_m.
+    #[inline(always)]
+    pub(crate) fn respond(&self, x: S, greatest: S) -> Response<S> {
+        let o = S::zero();
+        let loads = !x.lt(greatest);
+        let way = self.returned_to(greatest)[0] - (greatest - x);
+        let back = self.piece(|next| next.way.lt(way));
+        let ahead = self.piece(|next| next.f.from.lt(x));
+        let loading = S::select(loads, x, back.f.from + (way - back.way) / back.returned).max(o);
+        let f = ahead.f.zip(&back.f, &|a, b| S::select(loads, a, b));
+        let slope = f.slope(loading);
+        let slope = S::select(loads, slope, slope / back.returned);
+        let pulls = loads | way.gt(o);
+        Response { force: S::select(pulls, f.value(loading), o), slope: S::select(pulls, slope, o), loading }
+    }
+
+    /// x at which straight lines have the force `force` after a greatest x_m, dx/dforce, and x*; the least where there are many.
+    #[inline(always)]
+    pub(crate) fn reach(&self, force: S, greatest: S, set: S) -> (S, S, S) {
+        let piece = self.piece(|next| next.f.c[0].lt(force));
+        let loading = piece.f.from + (force - piece.f.c[0]) * piece.give;
+        let loads = !loading.lt(greatest);
+        let x = S::select(loads, loading, piece.way + piece.returned * (loading - piece.f.from) + set);
+        (x, S::select(loads, piece.give, piece.give * piece.returned), loading)
+    }
+
+    /// Like [`FunctionLaw::reach`], with a spring of stiffness κ and length `rest` beside it.
+    #[inline(always)]
+    pub(crate) fn reach_beside(&self, force: S, greatest: S, set: S, [kappa, rest]: [S; 2]) -> (S, S, S) {
+        // of a piece: the force of both where it begins, loading and unloading
+        let up = |p: &Piece<S>| p.f.c[0] + kappa * (p.f.from - rest);
+        let down = |p: &Piece<S>| p.f.c[0] + kappa * (p.way + set - rest);
+        let piece = self.piece(|next| up(next).lt(force));
+        let ahead = piece.f.from + (force - up(&piece)) / (piece.slope() + kappa);
+        let other = self.piece(|next| down(next).lt(force));
+        let back = other.f.from + (force - down(&other)) / (other.slope() + kappa * other.returned);
+        let loads = !ahead.lt(greatest);
+        let x = S::select(loads, ahead, other.returned_to(back)[0] + set);
+        let give = S::one() / (S::select(loads, piece.slope(), other.slope() / other.returned) + kappa);
+        (x, give, S::select(loads, ahead, back))
+    }
+
+    /// x_m − M(x_m), the deformation that stays.
+    #[inline(always)]
+    pub(crate) fn set(&self, greatest: S) -> S {
+        greatest - self.returned_to(greatest)[0]
+    }
+
+    /// Where a line with the slope K and the value `from` at 0, steeper than f everywhere, crosses f; at least 0.
+    #[inline(always)]
+    pub(crate) fn crossing(&self, from: S, slope: S) -> S {
+        let line = |p: &Piece<S>| from + slope * p.f.from;
+        let piece = self.piece(|next| line(next).lt(next.f.c[0]));
+        (piece.f.from + (piece.f.c[0] - line(&piece)) / (slope - piece.slope())).max(S::zero())
+    }
+}

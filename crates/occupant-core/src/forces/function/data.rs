@@ -1,0 +1,177 @@
+//! Force functions as data, and what can be wrong with them by themselves.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::cubic::Cubic;
+use crate::forces::spring::LEAST_FRACTION;
+use placed_text::Problems;
+
+/// A loading curve f from (0, 0) on, and the share of its work that comes back.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Function {
+    /// Deformation and force (N).
+    pub points: Vec<[f64; 2]>,
+    /// μ of each interval, 0 to 1.
+    pub returned: Vec<f64>,
+    /// What it is between points.
+    pub shape: Shape,
+    /// What it is beyond the last.
+    pub beyond: Beyond,
+}
+
+/// A curve between points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(rename = "ShapeChoice")]
+pub enum Shape {
+    /// Straight.
+    #[default]
+    Lines,
+    /// Smooth, rising and falling with the points alone.
+    Monotone,
+}
+
+/// A curve beyond its last point.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(rename = "BeyondChoice")]
+pub enum Beyond {
+    /// Goes on with its last slope.
+    #[default]
+    Extends,
+    /// Keeps its last force.
+    Holds,
+}
+
+/// Force over depth of contact, with all that it may depend on besides.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ForceDeflection {
+    /// f; its returned fractions count where `unloading` is by stretch.
+    pub loading: Function,
+    /// The way back.
+    pub unloading: Unloading,
+    /// s, a force of the first loading that breaks down: from (0, 0) to force 0; empty if there is none.
+    pub spike: Vec<[f64; 2]>,
+    /// c, a factor over the speed of deformation, m/s; empty: 1.
+    pub rate: Vec<[f64; 2]>,
+    /// Damping C, N·s/m, and the depth at which it is fully there, m.
+    pub viscous: Option<[f64; 2]>,
+}
+
+/// How the force goes back.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Unloading {
+    /// Each interval by its returned fraction.
+    Stretch,
+    /// With a slope K, N/m, down to a curve g; empty: 0.
+    Slope {
+        /// K.
+        n_per_m: f64,
+        /// Points of g.
+        least: Vec<[f64; 2]>,
+    },
+    /// By the quadratic of the ATB program.
+    Quadratic {
+        /// R, the share that is to come back.
+        returned: f64,
+        /// G, the deformation that stays, as a share of the greatest.
+        set: f64,
+    },
+}
+
+/// How a curve must go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Goes {
+    /// Every interval rises.
+    Up,
+    /// None falls, the first rises.
+    NotDown,
+    /// As it will, above 0.
+    Anywhere,
+}
+
+impl Function {
+    /// Straight lines, of all of which the same share comes back.
+    pub fn lines(points: Vec<[f64; 2]>, returned: f64) -> Self {
+        let returned = vec![returned; points.len().saturating_sub(1)];
+        Function { points, returned, shape: Shape::Lines, beyond: Beyond::Extends }
+    }
+
+    /// Its cubics, each with its returned fraction.
+    pub(super) fn pieces(&self) -> impl Iterator<Item = (Cubic<f64>, f64)> {
+        let mut cubics = match self.shape {
+            Shape::Lines => Cubic::lines(&self.points),
+            Shape::Monotone => Cubic::monotone(&self.points),
+        };
+        if let (Some(end), Some(last)) = (self.points.last(), cubics.last()) {
+            match (self.beyond, self.shape) {
+                (Beyond::Holds, _) => cubics.push(Cubic::line(*end, 0.0)),
+                (Beyond::Extends, Shape::Monotone) => cubics.push(Cubic::line(*end, last.slope(end[0]))),
+                (Beyond::Extends, Shape::Lines) => {}
+            }
+        }
+        let last = self.returned.last().copied().unwrap_or(1.0);
+        let shares = self.returned.clone().into_iter().chain(std::iter::repeat(last));
+        cubics.into_iter().zip(shares)
+    }
+
+    /// x of the last point.
+    pub fn end(&self) -> f64 {
+        self.points.last().map_or(0.0, |point| point[0])
+    }
+
+    /// The greatest force within its points, N.
+    pub(crate) fn greatest_n(&self) -> f64 {
+        self.points.iter().fold(0.0, |most, point| most.max(point[1]))
+    }
+
+    /// The greatest slope between its points.
+    pub(super) fn steepest_loading(&self) -> f64 {
+        self.slopes().fold(0.0, |most: f64, (slope, _)| most.max(slope))
+    }
+
+    /// The greatest slope of loading and unloading.
+    pub(crate) fn steepest(&self) -> f64 {
+        self.slopes().fold(0.0, |most: f64, (slope, mu)| most.max(slope / mu.max(LEAST_FRACTION)))
+    }
+
+    /// The greatest slope of each interval, and its μ.
+    fn slopes(&self) -> impl Iterator<Item = (f64, f64)> {
+        let ends = self.points.iter().skip(1);
+        self.pieces().zip(ends).map(|((cubic, mu), end)| (cubic.slopes(end[0])[1], mu))
+    }
+
+    /// Reports what is wrong with it; `falls`: how to mend a force that falls.
+    pub(crate) fn check(&self, path: &str, goes: Goes, falls: &str, problems: &mut Problems) {
+        check_points(&self.points, path, goes, falls, problems);
+        let path = format!("{path}.returned");
+        if self.returned.len() + 1 != self.points.len() || self.returned.iter().any(|mu| !(0.0..=1.0).contains(mu)) {
+            problems.error(path, "other numbers", "one number, or one for each interval, from 0 to 1");
+        } else if let Some(mu) = self.returned.iter().find(|mu| **mu < LEAST_FRACTION) {
+            let found = format!("{mu}, which counts as {LEAST_FRACTION}");
+            problems.warning(path, found, "at least 0.01: unloading needs some slope");
+        }
+    }
+}
+
+/// Reports what is wrong with points of a curve.
+pub(super) fn check_points(points: &[[f64; 2]], path: &str, goes: Goes, falls: &str, problems: &mut Problems) {
+    if points.len() < 2 || points[0] != [0.0, 0.0] {
+        problems.error(path, format!("{} points, the first not (0, 0)", points.len()), "(0, 0) and at least one more");
+    }
+    for (i, pair) in points.windows(2).enumerate() {
+        let ([x, force], [next_x, next_force]) = (pair[0], pair[1]);
+        if !(next_x > x && next_x.is_finite()) {
+            problems.error(path, format!("{next_x} after {x}"), "deformations that rise from point to point");
+        }
+        let is_right = match goes {
+            Goes::Up => next_force > force,
+            Goes::NotDown => next_force > force || next_force == force && i > 0,
+            Goes::Anywhere => next_force >= 0.0,
+        };
+        if !(is_right && next_force.is_finite()) {
+            problems.error(path, format!("a force of {next_force} N after {force} N"), falls);
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! Force–deflection of contact: a loading curve, a way back, a spike of the first loading, and factors of speed.
+//!
+//! With δ_m the greatest deformation (the present one counts), F_m = f(δ_m) and A = ∫₀^{δ_m} f, the way back is one of
+//!
+//! - *stretch*: [`super::curve`];
+//! - *slope*: F = max(g(δ), F_m − K(δ_m − δ), 0), with K above all slopes of f and g;
+//! - *quadratic*, that of the ATB program: 0 below Gδ_m, then a₁y + a₂y² with y = δ − Gδ_m, L = δ_m − Gδ_m,
+//!   a₁ = max(0, 2(3RA/L − F_m)/L), a₂ = (F_m/L − a₁)/L, and where a₂ < 0 instead a₁ = F_m/L, a₂ = 0. These cuts let the share
+//!   that comes back be R only between F_mL/3A and F_mL/2A.
+//!
+//! The spike adds s(δ_m) clamp01(1 − (δ_m − δ)/l), l = min(2 mm, δ_m): full while the deformation grows, gone 2 mm after it
+//! turned, so that nothing jumps (our decision). All this is a function of δ and δ_m alone, of which U is recoverable; what
+//! is lost, ∫f + ∫s − U at δ_m, must not fall with δ_m (`dissipation`). Factors of speed c(δ̇) with c(0) = 1 and a
+//! damper C δ̇ clamp01(δ/δ_f) only ever take energy away; the whole force is cut at 0.
+
+use super::curve::FunctionLaw;
+use super::data::{ForceDeflection, Function, Unloading};
+use super::steps::Steps;
+use crate::motion::scalar::Scalar;
+
+/// Way on which a spike is gone after it turned, m.
+const FADES_M: f64 = 2e-3;
+
+/// Constants of a force–deflection law.
+#[derive(Clone, Debug)]
+pub(crate) struct DeflectionLaw<S> {
+    loading: FunctionLaw<S>,
+    unloading: Back<S>,
+    spike: Option<FunctionLaw<S>>,
+    rate: Steps<S>,
+    viscous: Option<[S; 2]>,
+}
+
+#[derive(Clone, Debug)]
+enum Back<S> {
+    Stretch,
+    Slope(S, FunctionLaw<S>),
+    Quadratic([S; 2]),
+}
+
+impl DeflectionLaw<f64> {
+    /// Of a law whose forces are multiplied by `share`.
+    pub(crate) fn new(data: &ForceDeflection, share: f64) -> Self {
+        let times = |points: &[[f64; 2]]| points.iter().map(|[x, force]| [*x, share * force]).collect();
+        let elastic = |points: &[[f64; 2]]| FunctionLaw::new(&Function::lines(times(points), 1.0));
+        let nothing = [[0.0, 0.0], [1.0, 0.0]];
+        DeflectionLaw {
+            loading: FunctionLaw::new(&Function { points: times(&data.loading.points), ..data.loading.clone() }),
+            unloading: match &data.unloading {
+                Unloading::Stretch => Back::Stretch,
+                Unloading::Slope { n_per_m, least } if least.is_empty() => {
+                    Back::Slope(share * n_per_m, elastic(&nothing))
+                }
+                Unloading::Slope { n_per_m, least } => Back::Slope(share * n_per_m, elastic(least)),
+                Unloading::Quadratic { returned, set } => Back::Quadratic([*returned, *set]),
+            },
+            spike: data.spike.last().map(|[end, _]| {
+                let after = [*end + 1.0, 0.0];
+                elastic(&[&data.spike[..], &[after]].concat())
+            }),
+            rate: Steps::new(&data.rate),
+            viscous: data.viscous.map(|[damping, depth]| [share * damping, depth]),
+        }
+    }
+
+    /// The least depth at which loading, at rest, reaches a force, m; none within 10 m.
+    pub(crate) fn depth_under(&self, force: f64) -> Option<f64> {
+        let (mut low, mut high) = (0.0, 1e-3);
+        while self.loading(high)[0] < force {
+            (low, high) = (high, 1.2 * high);
+            if high > 10.0 {
+                return None;
+            }
+        }
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            (low, high) = if self.loading(middle)[0] < force { (middle, high) } else { (low, middle) };
+        }
+        Some(high)
+    }
+
+    /// f and s together, and their work, up to a deformation.
+    pub(super) fn loading(&self, x: f64) -> [f64; 2] {
+        let of = |law: &FunctionLaw<f64>| [law.value(x), law.returned_to(x)[1..].iter().sum()];
+        let ([force, work], [more, again]) = (of(&self.loading), self.spike.as_ref().map_or([0.0; 2], of));
+        [force + more, work + again]
+    }
+}
+
+impl<S: Copy> DeflectionLaw<S> {
+    /// The same number by number with another; none where that has other parts or numbers of points.
+    pub(crate) fn zip<A: Copy, T>(&self, other: &DeflectionLaw<A>, f: &impl Fn(S, A) -> T) -> Option<DeflectionLaw<T>> {
+        let unloading = match (&self.unloading, &other.unloading) {
+            (Back::Stretch, Back::Stretch) => Back::Stretch,
+            (Back::Slope(k, g), Back::Slope(other, h)) if g.len() == h.len() => Back::Slope(f(*k, *other), g.zip(h, f)),
+            (Back::Quadratic([a, b]), Back::Quadratic([c, d])) => Back::Quadratic([f(*a, *c), f(*b, *d)]),
+            _ => return None,
+        };
+        let spike = self.spike.as_ref().zip(other.spike.as_ref());
+        let is_like = self.loading.len() == other.loading.len()
+            && self.spike.as_ref().map(FunctionLaw::len) == other.spike.as_ref().map(FunctionLaw::len)
+            && self.rate.len() == other.rate.len()
+            && self.viscous.is_some() == other.viscous.is_some();
+        is_like.then(|| DeflectionLaw {
+            loading: self.loading.zip(&other.loading, f),
+            unloading,
+            spike: spike.map(|(a, b)| a.zip(b, f)),
+            rate: self.rate.zip(&other.rate, f),
+            viscous: self.viscous.zip(other.viscous).map(|([a, b], [c, d])| [f(a, c), f(b, d)]),
+        })
+    }
+}
+
+impl<S: Scalar> DeflectionLaw<S> {
+    /// Force (N) and recoverable energy (J) at a depth (m) after a greatest depth, while the depth grows by `closing` (m/s).
+    #[inline(always)]
+    pub(crate) fn respond(&self, depth: S, greatest: S, closing: S) -> (S, S) {
+        if S::IS_WIDE { self.within(depth, greatest, closing) } else { self.apart(depth, greatest, closing) }
+    }
+
+    #[inline(never)]
+    fn apart(&self, depth: S, greatest: S, closing: S) -> (S, S) {
+        self.within(depth, greatest, closing)
+    }
+
+    #[inline(always)]
+    fn within(&self, depth: S, greatest: S, closing: S) -> (S, S) {
+        let (o, top) = (S::zero(), depth.max(greatest));
+        let (mut force, mut energy) = match &self.unloading {
+            Back::Stretch => {
+                let found = self.loading.respond(depth, top);
+                (found.force, self.loading.returned_to(found.loading)[1])
+            }
+            Back::Slope(slope, least) => self.by_slope(*slope, least, depth, top),
+            Back::Quadratic(both) => self.by_quadratic(*both, depth, top),
+        };
+        if let Some(spike) = &self.spike {
+            let way = top.min(S::of(FADES_M)).max(S::of(1e-12));
+            let (full, left) = (spike.value(top), (S::one() - (top - depth) / way).clamp01());
+            force += full * left;
+            energy += full * way * left * left * S::of(0.5);
+        }
+        force = self.rate.scale(force, closing);
+        if let Some([damping, fully]) = self.viscous {
+            force = (force + damping * closing * (depth / fully).clamp01()).max(o);
+        }
+        (force, energy)
+    }
+
+    #[inline(always)]
+    fn by_slope(&self, slope: S, least: &FunctionLaw<S>, depth: S, top: S) -> (S, S) {
+        let line = |x: S| self.loading.value(top) - slope * (top - x);
+        let crossing = least.crossing(line(S::zero()), slope).min(top);
+        let above = depth.gt(crossing);
+        let force = S::select(above, line(depth), least.value(depth));
+        let below = least.returned_to(depth.min(crossing))[1];
+        let more = (line(crossing) + line(depth)) * (depth - crossing) * S::of(0.5);
+        (force.max(S::zero()), below + S::select(above, more, S::zero()))
+    }
+
+    #[inline(always)]
+    fn by_quadratic(&self, [returned, set]: [S; 2], depth: S, top: S) -> (S, S) {
+        let (o, two) = (S::zero(), S::of(2.0));
+        let [_, kept, lost] = self.loading.returned_to(top);
+        let (area, force) = (kept + lost, self.loading.value(top));
+        let length = (top - set * top).max(S::of(1e-12));
+        let first = (two * (S::of(3.0) * returned * area / length - force) / length).max(o);
+        let second = (force / length - first) / length;
+        let is_straight = second.lt(o);
+        let (first, second) = (S::select(is_straight, force / length, first), second.max(o));
+        let y = (depth - set * top).max(o);
+        ((first + second * y) * y, (first * S::of(0.5) + second * y * S::of(1.0 / 3.0)) * y * y)
+    }
+}
