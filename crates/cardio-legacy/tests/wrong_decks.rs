@@ -293,6 +293,19 @@ fn a_small_fini_ends_the_file() {
 }
 
 #[test]
+fn what_stands_in_place_of_fini_begins_no_deck() {
+    for wrong in [" FINI", "FIN", "END"] {
+        let deck = driver(|lines| lines[118] = wrong.into());
+        for strictness in [Strictness::Default, Strictness::Lenient] {
+            let (decks, diagnostics) = parse_as(&deck, strictness);
+            assert_eq!(decks.len(), 1, "{diagnostics}");
+            assert_eq!(errors(&deck), []);
+            assert_eq!(warnings(&deck), [found(Rule::NoFinalCard, 119, "")]);
+        }
+    }
+}
+
+#[test]
 fn a_blank_card_before_the_titles_is_shown_where_it_stands() {
     let blank = driver(|lines| lines.insert(0, String::new()));
     assert_eq!(errors(&blank), [found(Rule::UnexpectedCard, 1, "")]);

@@ -3,6 +3,8 @@
 use std::collections::HashSet;
 use std::fmt;
 
+use crate::shown::number;
+
 /// How bad a problem is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
@@ -107,7 +109,7 @@ impl Problems {
     pub fn check_positive(&mut self, path: &str, value: f64, unit: &str) -> bool {
         let is_good = value > 0.0 && value.is_finite();
         if !is_good {
-            self.error(path, format!("{value} {unit}").trim_end(), "a positive number");
+            self.error(path, format!("{} {unit}", number(value)).trim_end(), "a positive number");
         }
         is_good
     }
@@ -115,7 +117,7 @@ impl Problems {
     /// Adds an error unless `value` is zero or positive.
     pub fn check_at_least_zero(&mut self, path: &str, value: f64, unit: &str) {
         if !(value >= 0.0 && value.is_finite()) {
-            self.error(path, format!("{value} {unit}").trim_end(), "zero or a positive number");
+            self.error(path, format!("{} {unit}", number(value)).trim_end(), "zero or a positive number");
         }
     }
 

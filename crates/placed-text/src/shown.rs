@@ -15,6 +15,12 @@ pub fn plain(text: &str) -> String {
     escaped(text.chars(), |c| is_hidden(c) && !matches!(c, '\n' | '\t' | '\u{c}'))
 }
 
+/// A number as people write it: with an exponent where it would be a row of zeros, `1e-300`.
+pub fn number(value: f64) -> String {
+    let is_plain = value == 0.0 || !value.is_finite() || (1e-6..1e12).contains(&value.abs());
+    if is_plain { value.to_string() } else { format!("{value:e}") }
+}
+
 /// A text in one line: all hidden characters as in [`plain`], the middle of a long one left out.
 pub fn shown(text: &str) -> String {
     shortened(text, LONGEST)
@@ -59,5 +65,11 @@ mod tests {
         assert_eq!(shortened(&"é".repeat(9), 9), "é".repeat(9));
         assert_eq!(shortened("0123456789", 5), "01…89");
         assert_eq!(shown(&"x".repeat(100_000_000)).chars().count(), LONGEST);
+    }
+
+    #[test]
+    fn numbers_have_no_rows_of_zeros() {
+        let written = [0.0, -0.25, 1e-6, 123_456_789.0, 1e-300, -2.5e300, f64::INFINITY, 1e-7].map(number);
+        assert_eq!(written, ["0", "-0.25", "0.000001", "123456789", "1e-300", "-2.5e300", "inf", "1e-7"]);
     }
 }

@@ -25,6 +25,8 @@ type SeriesRead = BTreeMap<u8, Vec<DeckCard>>;
 const WORD: Columns = Columns::new(1, 4);
 const FINI: &str = "FINI";
 const PLOT_SERIES: u8 = 16;
+/// Two titles and a card with a number: fewer cards begin no deck.
+const FEWEST_CARDS: usize = 3;
 
 /// How a file of decks is read.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,6 +68,10 @@ fn read_file(bytes: &[u8], sink: &mut Sink) -> Vec<Deck> {
     while let Some(card) = reader.card() {
         if starts_with_fini(card) {
             reader.end_file(card);
+            return decks;
+        }
+        if reader.at > 0 && reader.cards.len() - reader.at < FEWEST_CARDS {
+            reader.leave_rest(card);
             return decks;
         }
         let before = reader.sink.errors();
@@ -125,6 +131,19 @@ impl<'a> Reader<'a> {
                 .at(Columns::new(1, 80))
                 .report(self.sink);
         }
+    }
+
+    /// Cards behind a deck that are neither the final one nor another deck.
+    fn leave_rest(&mut self, card: &PunchedCard) {
+        let word = card.text_of(WORD);
+        Diagnostic::new(
+            Rule::NoFinalCard,
+            format!("`{word}` stands where the final card should; nothing from here on is read"),
+        )
+        .on(card)
+        .in_card(CardId { series: FINAL_CARD, letter: None, number: None })
+        .at(WORD)
+        .report(self.sink);
     }
 
     /// Reports what stands behind the word on a card that holds nothing else.

@@ -210,9 +210,26 @@ impl Definition {
         }
         for &(injury, severity) in self.risks {
             let probability = (self.curve)(value, severity, dummy);
-            measure.risks.extend(probability.map(|probability| Risk { injury, probability }));
+            measure.risks.extend(probability.map(|probability| Risk { injury, probability, agrees: true }));
         }
+        measure.compare_risks();
         measure
+    }
+}
+
+impl Measure {
+    /// Finds risks, of ever worse injuries, that cannot both be: the worse one is the more likely.
+    fn compare_risks(&mut self) {
+        for worse in 1..self.risks.len() {
+            if self.risks[worse].probability > self.risks[worse - 1].probability {
+                self.risks[worse - 1..=worse].iter_mut().for_each(|risk| risk.agrees = false);
+            }
+        }
+        let crossed: Vec<&str> = self.risks.iter().filter(|risk| !risk.agrees).map(|risk| risk.injury).collect();
+        if !crossed.is_empty() {
+            let found = format!("the curves of {} cross: their risks are not to be quoted", crossed.join(", "));
+            self.remark = Some(self.remark.take().map_or_else(|| found.clone(), |known| format!("{known}; {found}")));
+        }
     }
 }
 

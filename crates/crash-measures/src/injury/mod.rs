@@ -102,6 +102,9 @@ pub struct Risk {
     pub injury: &'static str,
     /// 0 to 1.
     pub probability: f64,
+    /// Whether its curve agrees with those of milder and of worse injuries, which cannot be less and more likely: curves were
+    /// fitted one by one and cross.
+    pub agrees: bool,
 }
 
 /// All measures, in the order of a dummy from head to femur. The list has the same names for every run.
@@ -109,12 +112,18 @@ pub fn assess(signals: &Signals, options: &Options) -> Vec<Measure> {
     Readings::new(signals, options).measures()
 }
 
+/// So many samples are needed for a half of them to say anything.
+const FEWEST: usize = 4;
+
 /// By which part of its value each of `measures`, made of `signals`, changes at most when the even or the odd samples are left out:
-/// a spike that one sample shows counts. 0 where that is not known, or less than 1 % of all limits.
+/// a spike that one sample shows counts. All of it where there are fewer than four samples; 0 where the change is not known, or less
+/// than 1 % of all limits.
 pub fn coarseness(signals: &Signals, options: &Options, measures: &[Measure]) -> Vec<f64> {
     let halves = [0, 1].map(|first| assess(&signals.every_other(first), options));
     let change = |whole: &Measure, half: &Measure| {
-        let (value, change) = (whole.value?, (half.value? - whole.value?).abs());
+        let value = whole.value?;
+        let half = half.value.or((signals.len() < FEWEST).then_some(0.0))?;
+        let change = (half - value).abs();
         let matters = whole.limits.iter().all(|limit| change > 0.01 * limit.most);
         matters.then_some(change / value.abs()).filter(|part| part.is_finite())
     };

@@ -57,9 +57,25 @@ fn known_pulses_give_known_measures() {
     let middle = 0.5 * (hic.from_s.unwrap() + hic.to_s.unwrap());
     assert!((middle - 0.53).abs() < 1e-4, "{middle}");
     let remark = of(&found, "nij").remark.as_deref();
-    assert_eq!(remark, Some("in tension and extension"));
+    let crossed = "the curves of neck AIS3+, neck AIS4+ cross: their risks are not to be quoted";
+    assert_eq!(remark, Some(format!("in tension and extension; {crossed}").as_str()));
     let femur = of(&found, "right_femur");
     assert!((femur.risks[0].probability - 0.064_320).abs() < 1e-6);
+}
+
+#[test]
+fn an_injury_that_is_worse_and_more_likely_is_marked() {
+    // curves of Nij: AIS4+ above AIS3+ up to 0.690, AIS3+ above AIS2+ from 1.516 on
+    for (nij, agree) in [(0.5, [true, false, false]), (1.0, [true; 3]), (2.0, [false, false, true])] {
+        let mut signals = dummy();
+        for values in [&mut signals.neck_n[2], &mut signals.neck_n_m[1]] {
+            values.iter_mut().for_each(|v| *v *= nij / 0.664_229);
+        }
+        let found = assess(&signals, &Options::default());
+        let risks = &of(&found, "nij").risks;
+        assert_eq!(risks.iter().map(|risk| risk.agrees).collect::<Vec<_>>(), agree, "{risks:?}");
+        assert!(risks.windows(2).all(|pair| pair[0].probability >= pair[1].probability || !pair[1].agrees));
+    }
 }
 
 #[test]
@@ -130,6 +146,17 @@ fn a_spike_of_one_sample_is_too_coarse_whichever_half_it_stands_in() {
     for [chest, head] in [at(300), at(301)] {
         assert!((chest - 0.5).abs() < 0.01 && head < 1e-4, "{chest} {head}");
     }
+}
+
+#[test]
+fn too_few_samples_to_leave_any_out_are_too_coarse() {
+    let mut signals = dummy();
+    signals.all_mut().for_each(|values| *values = values.iter().copied().step_by(200).take(3).collect());
+    signals.interval_s = 0.02;
+    let measures = assess(&signals, &Options::default());
+    let off = coarseness(&signals, &Options::default(), &measures);
+    let spoiled = |name| off[measures.iter().position(|m| m.name == name).unwrap()];
+    assert_eq!([spoiled("head_peak"), spoiled("neck_tension")], [1.0, 1.0]);
 }
 
 #[test]

@@ -70,7 +70,9 @@ pub(crate) fn table<R: IntoIterator<Item = String>>(
 
 /// A number with so many decimals; one that no column holds, with an exponent.
 pub(crate) fn number(value: f64, decimals: usize) -> String {
-    if value.abs() < 1e6 { format!("{value:.decimals$}") } else { format!("{value:.2e}") }
+    let digits = if value.abs() < 1e6 { format!("{value:.decimals$}") } else { format!("{value:.2e}") };
+    let is_nothing = digits.bytes().all(|digit| b"-0.".contains(&digit));
+    if is_nothing { digits.replace('-', "") } else { digits }
 }
 
 /// A number with so many decimals at most: without the zeros at its end.

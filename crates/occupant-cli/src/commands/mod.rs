@@ -33,6 +33,7 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use placed_text::shown;
 
 use crate::base::{Done, Failure, say, written};
 
@@ -94,9 +95,14 @@ pub fn main() -> ExitCode {
 pub fn answer(words: impl IntoIterator<Item = OsString>) -> ExitCode {
     match Cli::try_parse_from(words) {
         Ok(cli) => exit_code(done(cli.command)),
-        Err(wrong) if wrong.use_stderr() => wrong.exit(),
+        Err(wrong) if wrong.use_stderr() => exit_code(Err(Failure::CouldNotRun(in_lines(&wrong.render().to_string())))),
         Err(help) => exit_code(written(help.print()).map(Done::from)),
     }
+}
+
+/// A text with words of the command line in it, each line of it safe to show.
+fn in_lines(text: &str) -> String {
+    text.trim_end().lines().map(shown).collect::<Vec<_>>().join("\n")
 }
 
 /// Says what went wrong, if anything, and gives the exit code.

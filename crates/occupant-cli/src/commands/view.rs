@@ -76,7 +76,7 @@ pub(crate) fn view(args: &Args) -> Result<(), Failure> {
         return Err(Failure::with_help("--set changes a scenario, and these are results", "run the scenario with it"));
     }
     let results = Results::open(&args.input)?;
-    results.notes().iter().for_each(note);
+    results.notes().iter().chain(&results.doubt()).for_each(note);
     let wanted = match (&args.times, kind) {
         (Some(times), _) => times.0.clone(),
         (None, Kind::Picture(_)) => regular(span_s(&results)),

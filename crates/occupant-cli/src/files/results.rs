@@ -97,9 +97,15 @@ impl Results {
         }
     }
 
-    /// How well the run kept its energy, up to its last output.
-    pub(crate) fn balance(&self) -> Balance {
-        self.outcome().energy.balance
+    /// Why its histories are not to be trusted, if its energy balance says so.
+    pub(crate) fn doubt(&self) -> Option<String> {
+        let energy = self.outcome().energy;
+        let worth = match energy.balance {
+            Balance::Kept => return None,
+            Balance::Doubtful => "doubtful",
+            Balance::Lost => "worth nothing",
+        };
+        Some(format!("{}: what it holds is {worth}, its energy balance is {}", self.path.display(), energy.found()))
     }
 
     /// What a user should know before trusting the results, in words.

@@ -2,6 +2,7 @@
 
 mod channels;
 mod check;
+mod exit_codes;
 mod files;
 mod interrupt;
 mod new;

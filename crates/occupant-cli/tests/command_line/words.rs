@@ -42,6 +42,21 @@ fn words_that_mean_nothing_are_refused() {
 }
 
 #[test]
+fn words_that_are_refused_are_shown_escaped_and_shortened() {
+    let folder = folder_with_case();
+    let hostile = format!("\u{1b}[31m\u{202e}{}", "x".repeat(100_000));
+    for words in
+        [&["run", "case.toml", "--ensemble", &hostile][..], &["measures", "x.mcap", "--dummy", &hostile], &[&hostile]]
+    {
+        let output = answer(folder.path(), words);
+        let said = err(&output);
+        assert_eq!(code(&output), 2);
+        assert!(said.len() < 2000 && said.contains("\\u202ex") && said.contains("--help"), "{said:.2000}");
+        assert!(!said.contains(['\u{1b}', '\u{202e}']), "{said:?}");
+    }
+}
+
+#[test]
 fn keys_are_explained_wherever_they_stand() {
     let folder = folder_with_case();
     let told = |words: &[&str]| {

@@ -190,5 +190,14 @@ fn ratings_of_a_run_without_results_mean_nothing() {
         assert_eq!(output.status.code(), Some(1), "{said}");
         assert!(said.contains(expected) && said.contains("the ratings mean nothing"), "{said}");
         assert!(String::from_utf8(output.stdout).unwrap().contains("compared"), "{said}");
+        // nor do its histories and pictures
+        for words in [
+            ["export", file, "-f", "-o", "x.csv"],
+            ["plot", file, "-f", "-o", "x.svg"],
+            ["view", file, "-f", "-o", "v.svg"],
+        ] {
+            let said = err(&answer(here, &words));
+            assert!(said.contains(expected), "{words:?}: {said}");
+        }
     }
 }

@@ -108,9 +108,13 @@ impl Greatest {
 
     /// How well a run of a body of `mass_kg` kept its energy.
     pub(crate) fn check(&self, mass_kg: f64) -> EnergyCheck {
-        let is_of_vehicle = self.kinetic_j > 0.5 * mass_kg * FASTEST_M_S.powi(2);
+        let [rest_j, fastest_j] = [REST_M_S, FASTEST_M_S].map(|speed_m_s| 0.5 * mass_kg * speed_m_s * speed_m_s);
+        let is_of_vehicle = self.kinetic_j > fastest_j;
         let (reference, reference_j) = if is_of_vehicle {
             ("greatest work of gravity and force elements", self.work_j)
+        } else if self.kinetic_j > 0.0 && self.kinetic_j < rest_j {
+            // of a body that sits still there is nothing but rounding to be compared
+            ("kinetic energy at 1 cm/s", rest_j)
         } else {
             ("greatest kinetic energy in the vehicle", self.kinetic_j)
         };
@@ -124,6 +128,9 @@ impl Greatest {
     }
 }
 
+/// A body that is slower all the time sits still.
+const REST_M_S: f64 = 0.01;
+
 /// How well a run kept its energy, up to its last output.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct EnergyCheck {
@@ -131,7 +138,7 @@ pub struct EnergyCheck {
     /// moved or pulled.
     pub balance_error: f64,
     /// The greatest kinetic energy relative to the vehicle; where that takes speeds above 100 m/s, which are the vehicle's, the
-    /// greatest work of gravity and force elements.
+    /// greatest work of gravity and force elements; of a body slower than 1 cm/s that of 1 cm/s.
     pub reference: &'static str,
     /// Its size, J.
     pub reference_j: f64,
@@ -196,4 +203,18 @@ pub fn kinetic(body: &Skeleton<f64>, k: &Kinematics<f64>, frame: &Moving<f64>) -
 pub fn gravity(body: &Skeleton<f64>, k: &Kinematics<f64>) -> f64 {
     let height = |n: usize| body.links[n].mass * k.cg(body, n).z;
     body.gravity * (0..body.links.len()).map(height).sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_body_that_sits_still_is_judged_by_what_matters_and_not_by_what_rounding_leaves() {
+        let still = |imbalance_j| Greatest { kinetic_j: 1e-14, work_j: 1e-9, imbalance_j }.check(79.0);
+        assert_eq!((still(1e-8).balance, still(1e-8).reference), (Balance::Kept, "kinetic energy at 1 cm/s"));
+        assert_eq!(still(1e-3).balance, Balance::Lost);
+        // nothing moved or pulled: nothing is known
+        assert!(Greatest::default().check(79.0).balance_error.is_nan());
+    }
 }

@@ -20,11 +20,11 @@ pub(crate) fn remarks(measures: &[Measure]) -> String {
     remarks.iter().map(|(remark, labels)| format!("{}: {remark}\n", labels.join(", "))).collect()
 }
 
-/// Risks of injury, a line for each curve; one from a marked measure is marked.
+/// Risks of injury, a line for each curve; one from a marked measure is marked, and one whose curve contradicts another.
 pub(crate) fn risks(measures: &[Measure], marks: &Marks) -> String {
     let rows = measures.iter().flat_map(|m| m.risks.iter().map(move |risk| (m, risk))).map(|(m, risk)| {
-        let percent = marks.put(m.figure.unwrap_or(m.name), number(100.0 * risk.probability, 1));
-        [risk.injury.to_owned(), m.label.to_owned(), percent]
+        let mark = if risk.agrees && !marks.spoils(m.figure.unwrap_or(m.name)) { " " } else { "!" };
+        [risk.injury.to_owned(), m.label.to_owned(), number(100.0 * risk.probability, 1) + mark]
     });
     text_table::table(&[(Left, &["injury", "from"]), (Right, &["risk, %"])], rows)
 }

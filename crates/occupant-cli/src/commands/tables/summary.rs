@@ -31,10 +31,15 @@ impl<'a> Marks<'a> {
         Marks { unstable: Some(unstable.into_iter().collect()), ..self }
     }
 
+    /// Whether a caveat touches the figure.
+    pub(crate) fn spoils(&self, figure: &str) -> bool {
+        self.caveats.iter().any(|caveat| caveat.touches(figure))
+    }
+
     /// The text of a figure with its marks, or with the room for them, so that columns stay in line.
     pub(crate) fn put(&self, figure: &str, mut text: String) -> String {
         if !self.caveats.is_empty() {
-            text.push(if self.caveats.iter().any(|caveat| caveat.touches(figure)) { '!' } else { ' ' });
+            text.push(if self.spoils(figure) { '!' } else { ' ' });
         }
         if let Some(unstable) = &self.unstable {
             text.push(if unstable.contains(figure) { '*' } else { ' ' });

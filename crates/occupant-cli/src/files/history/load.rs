@@ -3,6 +3,7 @@
 use crash_measures::signal::{CfcFamily, Interpolant, Interpolation, resultant, uniform_interval};
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, Series, channels, find, matching};
+use placed_text::number;
 
 use super::filter::{FAMILIES, family_name};
 use super::{Column, Filter, Histories, filtered};
@@ -49,7 +50,7 @@ pub(crate) fn load(results: &Results, channels: Vec<Channel>, treatment: Treatme
         Untreated::Run(what) => Failure::plain(format!("{}: {what}", results.path.display())),
         Untreated::Channel { name, reason } => too_coarse(results, &name, &reason),
     })?;
-    histories.notes.splice(0..0, results.notes());
+    histories.notes.splice(0..0, results.notes().into_iter().chain(results.doubt()));
     Ok(histories)
 }
 
@@ -164,8 +165,9 @@ fn resample(histories: &mut Histories, interval_s: f64) -> Result<(), String> {
     if samples * histories.columns.len() as f64 > MOST_VALUES {
         let of = histories.columns.len();
         return Err(format!(
-            "samples {interval_s} s apart are {samples:.1e} of {of} channels each; give an interval that makes at most \
-             {MOST_VALUES:.0e} values"
+            "samples {} s apart are {samples:.1e} of {of} channels each; give an interval that makes at most \
+             {MOST_VALUES:.0e} values",
+            number(interval_s)
         ));
     }
     for column in &mut histories.columns {

@@ -5,7 +5,6 @@ mod rating;
 
 use std::path::Path;
 
-use occupant_study::ending::Balance;
 use serde::Serialize;
 
 use crate::base::text_table::facts;
@@ -77,8 +76,6 @@ impl Remarks {
         let name = run.path.display();
         if let Some(reason) = run.ending().and_then(|ending| ending.reason()) {
             self.worthless.push(format!("{name}: {reason}"));
-        } else if run.balance() == Balance::Doubtful {
-            self.notes.push(format!("{name}: its energy balance is off by more than 1 %: the ratings are doubtful"));
         }
     }
 }

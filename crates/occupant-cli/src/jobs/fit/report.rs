@@ -40,7 +40,8 @@ fn overview(result: &FitResult) -> String {
         ("as good", format!("scores up to {:.5} ({})", result.near.score, result.near.near.by)),
     ];
     for warning in &result.warnings {
-        lines.push(("warning", warning.clone()));
+        let note = warning.strip_prefix("note: ");
+        lines.push((note.map_or("warning", |_| "note"), note.unwrap_or(warning).to_owned()));
     }
     facts(&lines)
 }

@@ -1,9 +1,9 @@
 //! Segments and spheres of the body.
 
 use crate::body::{Body, Place, SegmentProperties};
-use placed_text::Problems;
+use placed_text::{Problems, number};
 
-/// A sphere may lie this far beside even a short segment, m.
+/// A sphere may lie this far beside even a short segment, m, and mass be spread so far.
 const WIDEST_M: f64 = 0.3;
 
 /// Whether there are as many segments and places of joints as the tree has.
@@ -89,6 +89,14 @@ fn check_segment(p: &SegmentProperties, path: &str, problems: &mut Problems) {
         sound &= problems.check_positive(&format!("{path}.inertia"), *value, &format!("kg·m² about {axis}"));
     }
     let sum: f64 = inertia.sum();
+    let (gyration_m, most_m) = ((0.5 * sum / p.mass_kg).sqrt(), p.length_m.max(WIDEST_M));
+    if sound && gyration_m > most_m {
+        let found = format!(
+            "{} kg with these moments of inertia, a radius of gyration of {gyration_m:.2e} m",
+            number(p.mass_kg)
+        );
+        problems.warning(format!("{path}.mass"), found, format!("at most {most_m} m, the size of the segment"));
+    }
     for (axis, value) in ["I_x", "I_y", "I_z"].iter().zip(inertia.iter()) {
         // Iᵢ ≤ Iⱼ + Iₖ, with a part in 10⁹ for rounded input
         if sound && 2.0 * value > sum * (1.0 + 1e-9) {

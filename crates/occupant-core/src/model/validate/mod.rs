@@ -10,7 +10,7 @@ use crate::body::tti12::TTI12;
 use crate::model::seating::InitialPosture;
 use crate::model::setup::Setup;
 pub(super) use path::check_path;
-use placed_text::Problems;
+use placed_text::{Problems, number};
 
 /// Reports every problem of the numbers of `setup`.
 pub(crate) fn check(setup: &Setup, problems: &mut Problems) {
@@ -25,7 +25,7 @@ pub(crate) fn check(setup: &Setup, problems: &mut Problems) {
     if !(setup.gravity_m_s2 >= 0.0 && setup.gravity_m_s2.is_finite()) {
         problems.error(
             "gravity",
-            format!("{} m/s²", setup.gravity_m_s2),
+            format!("{} m/s²", number(setup.gravity_m_s2)),
             "zero or a positive acceleration (it acts downwards)",
         );
     }
@@ -53,6 +53,10 @@ fn check_posture(posture: &InitialPosture, problems: &mut Problems) {
         InitialPosture::Coordinates(_) | InitialPosture::Continued { .. } => return,
     };
     for (key, angle_rad) in angles_rad.iter().filter(|(_, angle)| angle.is_nan() || angle.abs() > PI) {
-        problems.error(format!("{path}.{key}"), format!("{}°", angle_rad.to_degrees()), "an angle from −180° to 180°");
+        problems.error(
+            format!("{path}.{key}"),
+            format!("{}°", number(angle_rad.to_degrees())),
+            "an angle from −180° to 180°",
+        );
     }
 }

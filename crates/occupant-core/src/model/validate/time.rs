@@ -1,7 +1,7 @@
 //! Times and the integrator.
 
 use crate::model::setup::{Integrator, TimeSpan};
-use placed_text::Problems;
+use placed_text::{Problems, number};
 
 /// More steps than this are a slip of the pen.
 const MOST_STEPS: f64 = 1e9;
@@ -13,7 +13,7 @@ pub(super) fn check_time(time: &TimeSpan, integrator: &Integrator, problems: &mu
     if !(span_s > 0.0 && span_s.is_finite()) {
         problems.error(
             "time.end",
-            format!("a run from {} s to {} s", time.start_s, time.end_s),
+            format!("a run from {} s to {} s", number(time.start_s), number(time.end_s)),
             "an end after the start",
         );
     }
@@ -21,7 +21,7 @@ pub(super) fn check_time(time: &TimeSpan, integrator: &Integrator, problems: &mu
         if problems.check_positive(path, interval_s, "s") && span_s / interval_s > most {
             problems.error(
                 path,
-                format!("{interval_s} s, which makes {:.1e} {what}", span_s / interval_s),
+                format!("{} s, which makes {:.1e} {what}", number(interval_s), span_s / interval_s),
                 format!("at most {most:.0e} {what}"),
             );
         }
@@ -38,7 +38,7 @@ pub(super) fn check_time(time: &TimeSpan, integrator: &Integrator, problems: &mu
             if max_step_s < min_step_s {
                 problems.error(
                     "integrator.max_step",
-                    format!("{max_step_s} s, below the smallest step {min_step_s} s"),
+                    format!("{} s, below the smallest step {} s", number(max_step_s), number(min_step_s)),
                     "a largest step above the smallest",
                 );
             }

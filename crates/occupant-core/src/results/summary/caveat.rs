@@ -8,6 +8,11 @@ use super::{Peak, RunStatus, word};
 use crate::body::{Body, Joint, Limb, Segment};
 use crate::results::energy::{Balance, EnergyCheck};
 
+/// Peaks of forces, depths and places are known of outputs this far apart, s, and a rounding error more.
+const APART_S: f64 = 2e-3 + 1e-9;
+/// The figures that are such peaks.
+const PEAKS: [&str; 6] = ["belts.*", "straps.*", "joints.*", "muscles.*", "contacts.*", "head_excursion.*"];
+
 /// Why some figures of a run are not to be quoted as they stand.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Caveat {
@@ -110,18 +115,25 @@ impl Caveat {
         Caveat::new(format!("{}_cut", row.name), text, figures_of(body, limb))
     }
 
-    /// Measures that change by a part of their value when every other output is left out; none if there are none.
+    /// Outputs between which too much happens: measures that change by a part of their value when every other one is left out,
+    /// and peaks of what nobody has looked at so; none if all are close enough.
     pub(super) fn too_coarse(interval_s: f64, off: &[(&Measure, f64)]) -> Option<Self> {
-        let (worst, most) = off.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let worst = off.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+        let of_measures = worst.map(|(worst, most)| {
+            let (count, label, percent) = (off.len(), worst.label, 100.0 * most);
+            format!("{count} measures: without every other output {label} changes by {percent:.0} %")
+        });
+        let is_apart = interval_s > APART_S;
+        let of_peaks = is_apart.then(|| "peaks of forces, depths and places, which ask for 2 ms at most".to_owned());
+        let spoiled: Vec<String> = of_peaks.into_iter().chain(of_measures).collect();
         let text = format!(
-            "outputs every {} ms are too coarse for {} measures: without every other output {} changes by {:.0} %; a \
-             shorter output.interval mends it, or `measures --interval`",
+            "outputs every {} ms are too coarse for {}; a shorter output.interval mends it, or `measures --interval`",
             (1e9 * interval_s).round() / 1e6,
-            off.len(),
-            worst.label,
-            100.0 * most
+            spoiled.join(", and for ")
         );
-        Some(Caveat::new("outputs_too_coarse", text, names_of(off.iter().map(|(m, _)| *m))))
+        let mut figures = names_of(off.iter().map(|(m, _)| *m));
+        figures.extend(PEAKS.iter().filter(|_| is_apart).map(|name| (*name).to_owned()));
+        (!spoiled.is_empty()).then(|| Caveat::new("outputs_too_coarse", text, figures))
     }
 
     /// A body that the dummy of limits and risks is not.

@@ -1,5 +1,7 @@
 //! All measures of a run as one flat list: for tables of many runs, for studies, for fits.
 
+use std::collections::HashSet;
+
 use crash_measures::unit::Unit::{self, Joule, Metre, MetrePerSecond, MetrePerSecondSquared, Newton, One, Second};
 
 use super::{Acceleration, Excursion, FirstContact, Level, Summary};
@@ -93,11 +95,12 @@ impl Summary {
 #[derive(Default)]
 struct List {
     figures: Vec<Figure>,
+    names: HashSet<String>,
 }
 
 impl List {
     fn has(&self, name: &str) -> bool {
-        self.figures.iter().any(|f| f.name == name)
+        self.names.contains(name)
     }
 
     fn add(&mut self, name: impl Into<String>, unit: Unit, value: impl Into<Option<f64>>) {
@@ -106,6 +109,7 @@ impl List {
         while self.has(&name) {
             name.push('_');
         }
+        self.names.insert(name.clone());
         let value = value.into().filter(|x| x.is_finite());
         self.figures.push(Figure { name, unit: unit.symbol(), value });
     }

@@ -265,6 +265,11 @@ fn outputs_too_coarse_say_so_and_closer_ones_do_not() {
     let coarse = found("5 ms").unwrap();
     assert!(coarse.touches("nij") && coarse.touches("hic15") && coarse.touches("head.peak"), "{coarse:?}");
     assert!(coarse.text.contains("outputs every 5 ms"), "{}", coarse.text);
+    assert!(["belts.lap.peak", "contacts.head.peak", "head_excursion.forward"].iter().all(|f| coarse.touches(f)));
+    let near = found("1 ms").unwrap();
+    assert!(!near.touches("belts.lap.peak") && !near.text.contains("peaks of forces"), "{near:?}");
+    // two outputs, of which none can be left out
+    assert!(found("1 s").unwrap().touches("head.peak"));
     assert_eq!(found("0.1 ms"), None);
 }
 

@@ -9,7 +9,7 @@ use super::posture::PostureSection;
 use super::{Angle, Scenario};
 use crate::body::Tree;
 use crate::model::setup::Setup;
-use placed_text::{Problem, Step, child, follow, parse_path, targets, to_text};
+use placed_text::{Problem, Step, child, follow, number, parse_path, targets, to_text};
 
 /// What is usual of one kind of number, and what an unusual one is likely to be.
 struct Usual {
@@ -38,7 +38,7 @@ const fn usual(
 
 /// Where, from what to what, in which unit, in words, of what, and the slip.
 #[rustfmt::skip]
-const USUAL: [Usual; 10] = [
+const USUAL: [Usual; 11] = [
     usual(&["gravity"], 9.5..=10.1, ["m/s²", "9.5 to 10.1 m/s²", "gravity on earth",
         "386.09 is standard gravity in in/s², 32.17 in ft/s²"]),
     usual(&["body.segments"], 3.0..=250.0, ["kg", "3 kg to 250 kg", "the mass of a person",
@@ -48,6 +48,8 @@ const USUAL: [Usual; 10] = [
     usual(&["body.spheres.*.radius"], 0.005..=0.5, ["m", "5 mm to 0.5 m", "the radius of a sphere of the body", METRES]),
     usual(&["materials.*.k1", "belts.*.k1"], 500.0..=1e9, ["N/m", "500 N/m to 1 GN/m", "the stiffness of a part of a car",
         "bare numbers are N/m unless units = \"in-lbf-s\" says lbf/in; 1 lbf/in is 175 N/m"]),
+    usual(&["materials.*.friction"], 0.0..=3.0, ["", "0 to 3", "a coefficient of friction",
+        "it is the force along the surface over that into it"]),
     usual(&["belts.*.anchors[*]", "posture.heels[*]"], -10.0..=10.0, ["m", "within 10 m of the origin", "a place in a vehicle", METRES]),
     usual(&["posture.middle_torso", "posture.upper_torso", "posture.lower_torso"], -45.0..=90.0,
         [DEGREES, "−45° to 90°", "the lean of a person who sits", LEAN]),
@@ -96,8 +98,9 @@ fn warn_unless(b: &mut Builder, values: Vec<(String, f64)>, usual: &Usual) {
         0 => String::new(),
         n => format!(", and so are {n} more"),
     };
-    let value = (value * 1e6).round() / 1e6;
-    let found = format!("{value} {} is unusual for {}{more}", usual.unit, usual.what);
+    let rounded = (value * 1e6).round() / 1e6;
+    let value = number(if rounded == 0.0 { value } else { rounded });
+    let found = format!("{} is unusual for {}{more}", format!("{value} {}", usual.unit).trim_end(), usual.what);
     b.report(Problem::warning(path, found, usual.in_words).with_hint(Some(usual.slip)));
 }
 

@@ -229,6 +229,12 @@ fn what_no_person_and_no_vehicle_does_is_said() {
             "warning: -90 ° is unusual for the lean of a person who sits",
         ),
         ("elbows = -60", "elbows = 90".to_owned(), "warning: 90 ° is unusual for the angle of elbows"),
+        (
+            "[body]",
+            "[body]\nsegments.head.mass = 1e-6\n".to_owned(),
+            "warning: 0.000001 kg with these moments of inertia",
+        ),
+        ("friction = 0.8", "friction = 1e6".to_owned(), "warning: 1000000 is unusual for a coefficient of friction"),
         ("[body]", belt("-0.3"), ""),
         ("[body]", belt("0.0"), "warning: anchor 1 lies 0."),
         ("[-0.15, -0.23, 0.23]", "[0.08, -0.1, 0.03]".to_owned(), "of the sphere left_thigh of radius 0."),

@@ -1,0 +1,106 @@
+//! Every command ends alike: 0 done, 1 it ran and broke off, 2 it could not run.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use super::{answer, code, err, folder_with_case, out};
+
+/// What each command can do in the folder, in an order in which one has what another has made, and what it cannot.
+const COMMANDS: [[&str; 2]; 19] = [
+    ["run case.toml -f -o run.mcap --set time.end=0.02", "run none.toml"],
+    [
+        "export run.mcap -f -o test.csv --channels lower_torso.acceleration.x",
+        "export run.mcap -o e.csv --channels none",
+    ],
+    ["sweep study.toml -o sweep", "sweep none.toml"],
+    ["study report sweep -f", "study report none"],
+    ["fit study.toml --to test.csv -o fit", "fit study.toml --to none.csv -o none"],
+    ["check case.toml", "check none.toml"],
+    ["new new.toml -f", "new none/new.toml"],
+    ["explain path", "explain none"],
+    ["schema", "schema --of none"],
+    ["convert deck.dat -f -o deck.toml", "convert none.dat"],
+    ["print run.mcap", "print none.mcap"],
+    ["plot run.mcap -f", "plot run.mcap -o plot.none"],
+    ["compare run.mcap test.csv", "compare run.mcap none.csv"],
+    ["measures run.mcap", "measures run.mcap --dummy none"],
+    ["view run.mcap -f", "view none.mcap"],
+    ["report run.mcap -f", "report none.mcap"],
+    ["risk case.toml", "risk none.csv"],
+    [
+        "sensitivity case.toml --to head.peak --of belts.lap.k1 --set time.end=0.005",
+        "sensitivity case.toml --to none --of none",
+    ],
+    ["completions bash", "completions none"],
+];
+
+const STUDY: &str = "base = \"case.toml\"\nseed = 1\n[set]\n\"time.end\" = \"10 ms\"\n\
+    [design]\nkind = \"latin_hypercube\"\nsamples = 3\n\
+    [[parameters]]\npath = \"belts.lap.k1\"\nrange = { from = \"50 kN/m\", to = \"90 kN/m\" }\n\
+    [fit]\nobjective = \"rms\"\nbudget = 8\n";
+
+const DECK: &str = include_str!("../../../../scenarios/decks/driver-lap-torso.dat");
+
+fn words(line: &str) -> Vec<&str> {
+    line.split(' ').collect()
+}
+
+#[test]
+fn the_table_has_every_command() {
+    let folder = folder_with_case();
+    let help = out(&answer(folder.path(), &["--help"]));
+    let section =
+        help.split("Commands:\n").nth(1).and_then(|rest| rest.split("\n\n").next()).expect("a list of commands");
+    let listed = section.lines().filter(|line| line.starts_with("  ") && !line.starts_with("   "));
+    let mut listed: Vec<&str> =
+        listed.filter_map(|line| line.split_whitespace().next()).filter(|name| *name != "help").collect();
+    let mut known: Vec<&str> = COMMANDS.iter().map(|[good, _]| words(good)[0]).collect();
+    listed.sort_unstable();
+    known.sort_unstable();
+    assert_eq!(listed, known);
+}
+
+/// The same with no room for a byte, on standard output or in a file.
+#[cfg(target_os = "linux")]
+fn without_room(folder: &Path, line: &str) -> Output {
+    let program = assert_cmd::cargo::cargo_bin!("occupant").display();
+    let script = format!("trap '' XFSZ; ulimit -f 0; exec {program} {line} > /dev/full");
+    Command::new("sh").args(["-c", &script]).current_dir(folder).output().expect("a shell")
+}
+
+/// Files that have their final names.
+fn files(folder: &Path, found: &mut BTreeMap<String, Vec<u8>>) {
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        let name = path.display().to_string();
+        if path.is_dir() {
+            files(&path, found);
+        } else if !name.contains(".partial") && !name.ends_with(".lock") {
+            found.insert(name, fs::read(&path).expect("a file"));
+        }
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn every_command_ends_with_0_when_done_1_when_it_broke_off_and_2_when_it_could_not_run() {
+    let folder = folder_with_case();
+    fs::write(folder.path().join("study.toml"), STUDY).expect("a study");
+    fs::write(folder.path().join("deck.dat"), DECK).expect("a deck");
+    for [good, bad] in COMMANDS {
+        let output = answer(folder.path(), &words(good));
+        assert_eq!(code(&output), 0, "{good}: {}", err(&output));
+        let (mut before, mut after) = (BTreeMap::new(), BTreeMap::new());
+        files(folder.path(), &mut before);
+        let output = without_room(folder.path(), good);
+        assert_eq!(code(&output), 1, "{good}: {}", err(&output));
+        assert!(err(&output).contains("error: "), "{good}: {}", err(&output));
+        let output = answer(folder.path(), &words(bad));
+        assert_eq!((code(&output), out(&output)), (2, String::new()), "{bad}: {}", err(&output));
+        assert!(err(&output).contains("error: "), "{bad}: {}", err(&output));
+        files(folder.path(), &mut after);
+        assert!(before == after, "{good}: a file was changed or left half written");
+    }
+}
