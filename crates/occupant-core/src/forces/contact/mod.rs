@@ -6,6 +6,7 @@ mod encounter;
 pub(crate) mod face;
 pub mod flat_face;
 mod hints;
+mod law;
 pub mod material;
 mod results;
 pub mod self_contact;
@@ -16,6 +17,7 @@ mod zip;
 
 pub(crate) use assembly::FASTEST_M_S;
 pub(crate) use hints::ContactHints;
+pub(crate) use law::{ForceLaw, MaterialLaw};
 pub use system::*;
 
 use crate::body::Body;
