@@ -6,6 +6,9 @@ use super::super::{Chains, MOST_NODES};
 use super::{Rig, at, chain, fixed, limiter, reel, webbing};
 use crate::forces::element::Element;
 use crate::forces::function::Function;
+use crate::results::outcome::StepError;
+use crate::run::Run;
+use crate::scenario::{Draft, Format};
 
 #[test]
 fn a_spool_locks_without_a_jump_and_its_limiter_meets_its_curve_again() {
@@ -152,4 +155,19 @@ fn tensions_that_are_not_found_are_told() {
     rig.past.device.unsolved = 3e-4;
     let why = Chains::failure(&[data], &[rig.past]).unwrap();
     assert_eq!(why, "no tensions were found of the belt belt: 3.0e-4 m of webbing are left over");
+}
+
+/// A run ends there with the belt's name.
+#[test]
+fn a_run_without_tensions_ends_with_its_belt() {
+    let text = include_str!("../../../../../../scenarios/three-point.toml");
+    let mut draft = Draft::read(text, Format::Toml, "test").unwrap();
+    draft.set("integrator={ kind = \"rk4\", step = \"0.1 ms\" }").unwrap();
+    let loaded = draft.load(&|name| Err(name.to_owned())).unwrap();
+    let model = loaded.model().unwrap_or_else(|said| panic!("{said}")).0;
+    let mut run = Run::new(&model);
+    run.history.memory.chains[0].nodes[0].unstretched = f64::NAN;
+    let ended = run.advance_to(&model, 1e-3);
+    let Err(StepError::Unsolved { time_s, why, .. }) = ended else { panic!("{ended:?}") };
+    assert!(time_s == 0.0 && why.contains("of the belt driver"), "{why}");
 }
