@@ -21,7 +21,7 @@ const COMMANDS: [[&str; 2]; 20] = [
     ["new new.toml -f", "new none/new.toml"],
     ["explain path", "explain none"],
     ["schema", "schema --of none"],
-    ["channels head", "channels none"],
+    ["channels head", "channels head --of none.mcap"],
     ["convert deck.dat -f -o deck.toml", "convert none.dat"],
     ["print run.mcap", "print none.mcap"],
     ["plot run.mcap -f", "plot run.mcap -o plot.none"],
