@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 use super::{answer, code, err, folder_with_case, out};
 
 /// What each command can do in the folder, in an order in which one has what another has made, and what it cannot.
-const COMMANDS: [[&str; 2]; 19] = [
+const COMMANDS: [[&str; 2]; 20] = [
     ["run case.toml -f -o run.mcap --set time.end=0.02", "run none.toml"],
     [
         "export run.mcap -f -o test.csv --channels lower_torso.acceleration.x",
@@ -21,6 +21,7 @@ const COMMANDS: [[&str; 2]; 19] = [
     ["new new.toml -f", "new none/new.toml"],
     ["explain path", "explain none"],
     ["schema", "schema --of none"],
+    ["channels head", "channels head --of none.mcap"],
     ["convert deck.dat -f -o deck.toml", "convert none.dat"],
     ["print run.mcap", "print none.mcap"],
     ["plot run.mcap -f", "plot run.mcap -o plot.none"],

@@ -70,7 +70,7 @@ pub(crate) fn kept(
     vehicle: &FrameMotion,
     state: &State<f64>,
 ) -> Settled {
-    settled(setup, &Vector6::zeros(), &load(setup, data, system, vehicle, state))
+    settled(setup, &Vector6::zeros(), &load(setup, data, &mut system.clone(), vehicle, state))
 }
 
 fn settled(setup: &Setup, x: &Vector6<f64>, r: &Vector6<f64>) -> Settled {
@@ -92,7 +92,8 @@ pub(crate) fn settle(
     state: State<f64>,
 ) -> (State<f64>, Settled) {
     let weight_n = setup.body.mass_kg() * setup.gravity_m_s2;
-    let residual = |x: &Vector6<f64>| load(setup, data, system, vehicle, &moved(&state, x));
+    let mut system = system.clone();
+    let mut residual = |x: &Vector6<f64>| load(setup, data, &mut system, vehicle, &moved(&state, x));
     let mut x = Vector6::zeros();
     let mut r = residual(&x);
     let mut damping = 1e-3;
@@ -100,7 +101,7 @@ pub(crate) fn settle(
         if r.norm() < 1e-9 * weight_n.max(1.0) {
             break;
         }
-        let j = jacobian(&x, &residual);
+        let j = jacobian(&x, &mut residual);
         let normal = j.tr_mul(&j);
         let gradient = j.tr_mul(&r);
         let scale = normal.diagonal().max();
@@ -148,15 +149,15 @@ fn turned_by(vector: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::identity() + cross * sine + cross * cross * (1.0 - cosine)
 }
 
-/// Resultant force (N) and moment about T1 over the lever (N) of contacts, belts and weight on the resting body.
+/// Resultant force (N) and moment about T1 over the lever (N) of contacts, belts and weight on the resting body, by which belts
+/// are laid.
 fn load(
     setup: &Setup,
     data: &Data<'_>,
-    system: &System<f64>,
+    system: &mut System<f64>,
     vehicle: &FrameMotion,
     state: &State<f64>,
 ) -> Vector6<f64> {
-    let mut system = system.clone();
     // at rest: no friction, no damping
     let mut still = frames(setup.time.start_s, vehicle);
     still[VEHICLE].velocity = V3::zero();
@@ -165,7 +166,7 @@ fn load(
     let at = Instant { k: &k, state, frames: &still, spheres: &system.spheres };
     system.forces.lay(data, &setup.body, &at);
     let mut history = system.forces.start(&at);
-    let e = at_rest(&system, state, &still, &mut history);
+    let e = at_rest(system, state, &still, &mut history);
     let (mut force, mut moment) = (V3::zero(), V3::zero());
     for (n, (wrench, link)) in e.wrench.iter().zip(&system.skeleton.links).enumerate() {
         let weight = V3 { x: 0.0, y: 0.0, z: -link.mass * system.skeleton.gravity };
@@ -216,7 +217,7 @@ pub(crate) fn carry(system: &mut System<f64>, state: &State<f64>, still: &Frames
 }
 
 /// Central differences over a hundredth of a millimetre to either side (or the like in rotation).
-fn jacobian(x: &Vector6<f64>, residual: &impl Fn(&Vector6<f64>) -> Vector6<f64>) -> Matrix6<f64> {
+fn jacobian(x: &Vector6<f64>, residual: &mut impl FnMut(&Vector6<f64>) -> Vector6<f64>) -> Matrix6<f64> {
     let h = 1e-5;
     let mut j = Matrix6::zeros();
     for i in 0..6 {

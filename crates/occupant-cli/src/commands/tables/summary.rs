@@ -181,7 +181,8 @@ fn trust(summary: &Summary, written: &Written, marks: &Marks) -> String {
     let EnergyCheck { balance_error, reference, reference_j, .. } = summary.energy;
     let error = if balance_error.is_finite() { format!("error {balance_error:.1e}") } else { "not known".to_owned() };
     let error = marks.put("energy.balance_error", error);
-    lines.push(("energy balance", format!("{} of the {reference}, {reference_j:.0} J", error.trim_end())));
+    let of_j = number(reference_j, if reference_j < 1.0 { 4 } else { 0 });
+    lines.push(("energy balance", format!("{} of the {reference}, {of_j} J", error.trim_end())));
     lines.push(("integration", integration(summary)));
     match written {
         Written::Nothing => {}
