@@ -8,7 +8,7 @@ use occupant_core::results::channel::{Series, find};
 use occupant_core::results::summary::{Caveat, RunStatus, Summarizer, Summary};
 use occupant_core::run::simulate::simulate;
 use occupant_tests::measure::assert_below;
-use occupant_tests::room::setup;
+use occupant_tests::room::{ends_alike_side_by_side, setup};
 
 const DRIVER: &str = include_str!("../../scenarios/templates/driver.toml");
 const TEMPLATES: [(&str, &str); 5] = [
@@ -144,6 +144,48 @@ fn a_settled_body_at_rest_stays_at_1_g() {
         assert_eq!(level.len(), 1001);
         let off = level.iter().map(|a| (a / 9.80665 - 1.0).abs()).fold(0.0, f64::max);
         assert_below(&format!("{segment} off 1 g"), off, 0.02);
+    }
+}
+
+/// Who sleeps in a parked car feels his weight and nothing else: joints have given way until what they lean on carries them.
+#[test]
+fn a_limp_body_that_has_settled_stays_at_1_g() {
+    for segments in [12, 15, 17] {
+        let parked = ["path={ kind = \"fixed\" }", "time.end=1", "output.interval=\"5 ms\"", "posture.limp=true"];
+        let count = format!("body.segment_count={segments}");
+        let model = Model::new(setup(DRIVER, &[&parked[..], &[&count]].concat())).unwrap();
+        let names = model.body().tree.segment_rows().iter().map(|row| format!("{}.acceleration.resultant", row.name));
+        let mut series = Series::new(names.map(|name| find(&model, &name).unwrap()).collect());
+        let outcome = simulate(&model, &mut series).unwrap();
+        assert_below("energy balance", outcome.energy.balance_error, 1e-4);
+        let off = series.values.iter().flatten().map(|a| (a / 9.80665 - 1.0).abs()).fold(0.0, f64::max);
+        assert_below(&format!("any of {segments} segments off 1 g"), off, 0.02);
+        let settled = model.start().settled.unwrap();
+        assert_below("left over, N", settled.residual_force_n, 1e-4);
+        assert_below("lack of a joint, N m", settled.lack.map_or(0.0, |lack| lack.moment_n_m), 1e-4);
+    }
+}
+
+/// Nothing holds the posture of one who is limp and awake: his joints are within their limits, where they have no moment.
+#[test]
+fn what_a_joint_lacks_to_hold_the_posture_is_said() {
+    let parked = |more: &str| Model::new(setup(DRIVER, &["path={ kind = \"fixed\" }", more])).unwrap();
+    let lack = |model: &Model| model.start().settled.unwrap().lack.unwrap();
+    let limp = lack(&parked("time.end=0.1"));
+    assert!(limp.moment_n_m > 5.0, "{limp:?}");
+    let braced = Model::new(setup(BRACED, &["path={ kind = \"fixed\" }", "muscles.*.tone=1"])).unwrap();
+    assert_below("lack of a body with tone, N m", lack(&braced).moment_n_m, 1e-3);
+}
+
+#[test]
+fn bodies_of_more_segments_that_touch_themselves_end_alike_side_by_side() {
+    for segments in [15, 17] {
+        ends_alike_side_by_side(|i| {
+            let (count, speed) =
+                (format!("body.segment_count={segments}"), format!("path.delta_v=\"{} km/h\"", 50 - 2 * i));
+            let full = ["body.sphere_set=full", "self_contact={ skin = \"padding\" }", "time.end=0.1"];
+            Model::new(setup(DRIVER, &[&full[..], &[&count, &speed]].concat())).unwrap()
+        });
     }
 }
 
