@@ -7,7 +7,7 @@ use occupant_core::forces::contact::EdgeForce;
 use occupant_core::forces::contact::material::Material;
 use occupant_core::forces::contact::surface::{Facing, Frame, Outline, Surface};
 use occupant_core::forces::joint::{AngularSpring, BallJoint, HingeJoint, Joints, Stop};
-use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating};
+use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating, Settling};
 use occupant_core::model::setup::{Integrator, OutputOptions, Setup, TimeSpan};
 use occupant_core::vehicle::{
     PulseDefinition, PulsePath, PulseShape, Strength, TravelDirection, VehiclePath, VehiclePose,
@@ -58,7 +58,7 @@ pub fn seating() -> Seating {
             ("elbows", (-60_f64).to_radians()),
         ]),
         heels_m: [27.0 * INCH_M, 13.0 * INCH_M],
-        settle: false,
+        settle: Settling::Not,
     }
 }
 

@@ -30,8 +30,8 @@ pub struct Fall {
     pub left: f64,
 }
 
-/// Lets a body of full spheres that can touch itself fall from an attitude of `seed`.
-pub fn fall(seed: u64) -> Fall {
+/// Lets a body of full spheres that can touch itself fall from an attitude of `seed`, and looks at it for `end_s`.
+pub fn fall(seed: u64, end_s: f64) -> Fall {
     let mut random = Random::new(seed);
     let whole = random.turn();
     let mut state = ReportCoordinates { q: [0.0; DOF], rates: [0.0; DOF] }.to_state();
@@ -47,7 +47,7 @@ pub fn fall(seed: u64) -> Fall {
         let bend = random.between(0.2, 1.2);
         *angle = if limb < 2 { -bend } else { bend };
     }
-    let mut setup = setup(CELL, &[]);
+    let mut setup = setup(CELL, &[&format!("time.end={end_s}")]);
     setup.posture = InitialPosture::Coordinates(Box::new(ReportCoordinates::from_state(&state).unwrap()));
     let model = Model::new(setup).unwrap();
     let (mut beyond_m, mut kinetic_j, mut most_j) = (f64::NEG_INFINITY, 0.0, 0.0_f64);

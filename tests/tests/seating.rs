@@ -6,7 +6,7 @@ use occupant_core::body::{Body, Segment};
 use occupant_core::forces::contact::surface::Outline;
 use occupant_core::forces::joint::{BallJoint, HingeJoint, Joints};
 use occupant_core::model::Model;
-use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating};
+use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating, Settling};
 use occupant_core::model::setup::{Integrator, Setup};
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::{Contact, Sample};
@@ -264,7 +264,7 @@ fn stiff(damping: f64) -> Joints {
 }
 
 /// How far the pelvis goes in 0.1 s with stiff joints, m.
-fn drift(settle: bool, damping: f64) -> f64 {
+fn drift(settle: Settling, damping: f64) -> f64 {
     let mut setup = seated(|s| s.settle = settle);
     setup.joints = stiff(damping);
     setup.integrator = Integrator::Rk4 { step_s: 2e-5 };
@@ -284,7 +284,7 @@ fn drift(settle: bool, damping: f64) -> f64 {
 
 #[test]
 fn a_settled_body_with_locked_joints_leaves_no_residual_and_stays_where_it_is() {
-    let model = Model::new(seated(|s| s.settle = true)).unwrap();
+    let model = Model::new(seated(|s| s.settle = Settling::Locked)).unwrap();
     let settled = model.start().settled.unwrap();
     // Measured: 1.5e-12.
     assert_below("residual, of the weight", settled.residual_force_n / settled.weight_n, 1e-8);
@@ -294,16 +294,16 @@ fn a_settled_body_with_locked_joints_leaves_no_residual_and_stays_where_it_is() 
     // Measured: 0.00666.
     assert_within("moved, m", settled.moved_m, [1e-3, 0.1]);
     // joints that give way slowly let it creep in proportion to 1/J
-    let (soft, hard) = (drift(true, 250.0), drift(true, 500.0));
+    let (soft, hard) = (drift(Settling::Locked, 250.0), drift(Settling::Locked, 500.0));
     // Measured: 2.7e-5.
     assert_below("drift of rigid joints by extrapolation, m", 2.0 * hard - soft, 1e-4);
     // Measured: 0.00397.
-    assert_within("drift of an unsettled body, m", drift(false, 500.0), [1e-3, 0.1]);
+    assert_within("drift of an unsettled body, m", drift(Settling::Not, 500.0), [1e-3, 0.1]);
 }
 
 #[test]
 fn settling_keeps_the_posture() {
-    let states = [false, true].map(|settle| {
+    let states = [Settling::Not, Settling::Locked].map(|settle| {
         let model = Model::new(seated(|s| s.settle = settle)).unwrap();
         let k = occupant_core::motion::kinematics::Kinematics::new(&model.system().skeleton, &model.start().state);
         k.axes.map(|a| a.to_matrix()).to_vec()

@@ -14,19 +14,18 @@ use occupant_core::run::batch::{Job, Kernel, simulate_many};
 /// A piece of work: calls that are counted.
 type Work = fn(count: usize);
 
-const WORKS: [(&str, Work); 10] = [
+const WORKS: [(&str, Work); 14] = [
     ("evaluation_bare", bare),
     ("evaluation_joints_and_belts", held),
-    ("evaluation_full_within_step", within),
-    ("evaluation_full_step_start", start),
-    ("evaluation_three_point", |n| belted(Instant::full(&scene::belted(), LIMITED_S), n)),
-    ("evaluation_three_point_step_start", |n| {
-        let mut now = Instant::full(&scene::belted(), LIMITED_S);
-        for _ in 0..n {
-            black_box(black_box(&mut now).commit());
-        }
-    }),
-    ("evaluation_three_point_left_out", |n| belted(Instant::full(&scene::belted(), LIMITED_S).unbelted(), n)),
+    ("evaluation_full_within_step", |n| rates(n, instant())),
+    ("evaluation_full_step_start", |n| commits(n, instant())),
+    ("evaluation_three_point", |n| rates(n, Instant::full(&scene::belted(), LIMITED_S))),
+    ("evaluation_three_point_step_start", |n| commits(n, Instant::full(&scene::belted(), LIMITED_S))),
+    ("evaluation_three_point_left_out", |n| rates(n, Instant::full(&scene::belted(), LIMITED_S).unbelted())),
+    ("evaluation_solids_12_within_step", |n| rates(n, among_solids(&[]))),
+    ("evaluation_solids_12_step_start", |n| commits(n, among_solids(&[]))),
+    ("evaluation_solids_17_full_within_step", |n| rates(n, among_solids(&FULL_17))),
+    ("evaluation_solids_17_full_step_start", |n| commits(n, among_solids(&FULL_17))),
     ("step_rk4", step),
     ("run_step_scalar", |n| run(Kernel::Scalar, 1, n)),
     ("run_step_lanes4", |n| run(Kernel::Lanes4, 4, n)),
@@ -63,23 +62,15 @@ fn held(count: usize) {
     }
 }
 
-fn within(count: usize) {
-    let mut now = instant();
+fn rates(count: usize, mut now: Instant) {
     for _ in 0..count {
         black_box(black_box(&mut now).rate());
     }
 }
 
-fn start(count: usize) {
-    let mut now = instant();
+fn commits(count: usize, mut now: Instant) {
     for _ in 0..count {
         black_box(black_box(&mut now).commit());
-    }
-}
-
-fn belted(mut now: Instant, count: usize) {
-    for _ in 0..count {
-        black_box(black_box(&mut now).rate());
     }
 }
 
@@ -92,6 +83,13 @@ fn step(count: usize) {
 
 fn instant() -> Instant {
     Instant::full(&scene::model(), TOUCHING_S)
+}
+
+/// 17 segments with a full set of spheres.
+const FULL_17: [&str; 2] = ["body.segment_count=17", "body.sphere_set=full"];
+
+fn among_solids(set: &[&str]) -> Instant {
+    Instant::full(&scene::model_among_solids(set), TOUCHING_S)
 }
 
 /// `side_by_side` whole runs of `steps` steps with everything that goes with a step: path, outputs, touches noted.

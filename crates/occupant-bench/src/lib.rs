@@ -13,7 +13,7 @@ use occupant_core::motion::integrate::rk4::{self, Stage, Stages};
 use occupant_core::motion::kinematics::Kinematics;
 use occupant_core::motion::layout::MOST_SEGMENTS;
 use occupant_core::motion::state::{State, Work};
-use occupant_core::scenario::{Format, Loaded, Scenario};
+use occupant_core::scenario::{Draft, Format, Loaded, Scenario};
 use occupant_core::vehicle::PathCursor;
 
 /// The scenario's text.
@@ -25,11 +25,30 @@ pub const BELTED: &str = include_str!("../../../scenarios/three-point.toml");
 /// Instant of that crash that is timed, s: on the limiter, webbing slides over the rings.
 pub const LIMITED_S: f64 = 0.06;
 
+const SOLIDS: &str = include_str!("../../../scenarios/templates/driver.toml");
+
+/// Solids of that car that stand far from the driver.
+const LEFT_OUT: [&str; 9] = [
+    "left_window",
+    "right_window",
+    "left_front_pillar",
+    "right_front_pillar",
+    "left_middle_pillar",
+    "right_middle_pillar",
+    "right_door",
+    "roof",
+    "rear_end",
+];
+
 /// Step of the integrator, s.
 pub const STEP_S: f64 = 1e-4;
 
 /// Instant of the crash that is timed, s: belts taut, seat, floor and wheel touched by seven pairs.
 pub const TOUCHING_S: f64 = 0.09;
+
+fn no_file(name: &str) -> Result<Vec<u8>, String> {
+    Err(format!("{name}: the scene has no file beside it"))
+}
 
 /// The scenario, read and checked.
 pub fn load() -> Loaded {
@@ -37,7 +56,6 @@ pub fn load() -> Loaded {
 }
 
 fn read(text: &str) -> Loaded {
-    let no_file = |name: &str| Err(format!("{name}: the scene has no file beside it"));
     Scenario::from_text(text, Format::Toml, "car.toml", &no_file).expect("the scene is valid")
 }
 
@@ -49,6 +67,15 @@ pub fn model() -> Model {
 /// The driver in a three-point belt.
 pub fn belted() -> Model {
     read(BELTED).model().expect("the scene is valid").0
+}
+
+/// The driver of `occupant new` among 15 of the solids of his car, with these changes.
+pub fn model_among_solids(set: &[&str]) -> Model {
+    let mut draft = Draft::read(SOLIDS, Format::Toml, "driver.toml").expect("the scene is valid");
+    let left_out = LEFT_OUT.iter().map(|solid| format!("solids.{solid}=null"));
+    let words = set.iter().map(|word| (*word).to_owned()).chain(left_out);
+    words.for_each(|word| draft.set(&word).expect("the scene is valid"));
+    draft.load(&no_file).and_then(|loaded| loaded.model()).expect("the scene is valid").0
 }
 
 /// Models for a sweep: all different, all of one structure.

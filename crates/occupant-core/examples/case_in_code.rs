@@ -14,7 +14,7 @@ use occupant_core::forces::contact::surface::{Frame, Outline, Surface};
 use occupant_core::forces::joint::Joints;
 use occupant_core::forces::spring::BilinearSpring;
 use occupant_core::model::Model;
-use occupant_core::model::seating::{InitialPosture, Seating};
+use occupant_core::model::seating::{InitialPosture, Seating, Settling};
 use occupant_core::model::setup::{Integrator, Setup, SetupBuilder};
 use occupant_core::results::summary::Summarizer;
 use occupant_core::run::simulate::simulate;
@@ -96,7 +96,7 @@ pub(crate) fn cart() -> Result<Setup, Box<dyn Error>> {
             ("elbows", (-60_f64).to_radians()),
         ]),
         heels_m: [27.0 * INCH_M, 13.0 * INCH_M],
-        settle: false,
+        settle: Settling::Not,
     });
     Ok(case.build(stop_from(20.0 * MPH_M_S)?, posture, 0.2))
 }

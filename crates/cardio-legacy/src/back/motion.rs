@@ -6,7 +6,7 @@ use occupant_core::body::tti12::{LOWER_BACK, UPPER_BACK};
 use occupant_core::forces::belt::{Belt, RestLength};
 use occupant_core::forces::contact::{PASSED, PairHistory};
 use occupant_core::model::Model;
-use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating};
+use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating, Settling};
 use occupant_core::motion::report_coordinates::ReportCoordinates;
 use occupant_core::results::sample::Sample;
 
@@ -64,7 +64,7 @@ fn passed_on(back: &mut Back<'_>, layout: &CompartmentLayout, passed: &[(usize, 
 }
 
 fn seated(back: &mut Back<'_>, layout: &CompartmentLayout, seating: &Seating) {
-    back.misfit_if(seating.settle, "posture.settle: cards have no settling");
+    back.misfit_if(seating.settle != Settling::Not, "posture.settle: cards have no settling");
     let number = |at: usize| back.setup.surfaces.get(at).and_then(|s| layout.number_of(&s.name));
     let (cushion, rest) = (number(seating.cushion), number(seating.back));
     let right_hand_drive = back.digits("SWP").is_some_and(|d| d.starts_with('-'));

@@ -1,5 +1,6 @@
 //! The model: a checked [`Setup`] with all that can be computed before the first step. Immutable, shared by all threads.
 
+mod limp;
 mod pose;
 pub mod seat;
 pub mod seating;
@@ -13,12 +14,13 @@ use crate::forces::contact::OPEN;
 use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::solid::Solids;
 use crate::forces::sphere::Site;
-use crate::forces::{Forces, History, Instant};
+use crate::forces::{Data, Forces, History, Instant};
 use crate::kernel::System;
+use crate::model::limp::{Rest, sink};
 use crate::model::pose::hang;
 use crate::model::seat::{Seat, SeatPlane, Seated, seat};
-use crate::model::seating::{InitialPosture, InitialVelocity, Seating};
-use crate::model::settle::{Settled, carry, kept, settle};
+use crate::model::seating::{InitialPosture, InitialVelocity, Seating, Settling};
+use crate::model::settle::{Settled, carry, kept, lack, settle};
 use crate::model::setup::Setup;
 use crate::motion::frame::{Frames, Moving};
 use crate::motion::kinematics::Kinematics;
@@ -171,29 +173,8 @@ fn begin(setup: &Setup, faces: &[FlatFace], problems: &mut Problems) -> Option<(
     let data = setup.forces(faces);
     let forces = Forces::new(&data, &setup.body);
     let mut system = System { skeleton, spheres: Site::all(&setup.body), forces };
-    let (mut state, seated, settled, unsettled) = match &setup.posture {
-        InitialPosture::Coordinates(q) | InitialPosture::Continued { coordinates: q, .. } => {
-            (q.to_state(), None, None, None)
-        }
-        InitialPosture::Mounted(mounting) => {
-            let carrier = mounting.carrier(&vehicle);
-            let mut state = hang(&setup.body, mounting, &carrier);
-            set_velocity(&mut state, &InitialVelocity::WithVehicle, &carrier);
-            (state, None, None, None)
-        }
-        InitialPosture::Seated(seating) => {
-            let place = seat_of(setup, faces, &system.forces.contacts.solids, seating, &vehicle, problems)?;
-            let (state, seated) = seat(&setup.body, seating, &place, &vehicle, setup.gravity_m_s2, problems)?;
-            if seating.settle {
-                let (state, settled) = settle(setup, &data, &system, &vehicle, state);
-                settled.warn(problems);
-                (state, Some(seated), Some(settled), None)
-            } else {
-                let unsettled = kept(setup, &data, &system, &vehicle, &state);
-                (state, Some(seated), None, Some(unsettled))
-            }
-        }
-    };
+    let Placed { mut state, seated, mut settled, unsettled, rest } =
+        place(setup, faces, &data, &system, &vehicle, problems)?;
     if !state.is_finite() {
         problems.error("posture", "coordinates that are not finite numbers", "numbers");
         return None;
@@ -206,15 +187,74 @@ fn begin(setup: &Setup, faces: &[FlatFace], problems: &mut Problems) -> Option<(
     let forces = &mut system.forces;
     forces.lay(&data, &setup.body, &at);
     forces.begin(&data, &setup.body, &at, problems);
+    rest.iter().for_each(|rest| rest.keep(forces));
     let mut history = forces.start(&at);
+    rest.iter().for_each(|rest| rest.hold(&mut history));
     if let InitialPosture::Continued { passed, .. } = &setup.posture {
         history.memory.contacts = forces.contacts.continued(&at, passed);
         warn_apart(setup, forces, &history, passed, problems);
     }
-    if settled.is_some() {
-        carry(&mut system, &state.still(), &frames(start_s, &vehicle.held()), &history);
+    if let Some(settled) = &mut settled {
+        let (still, standing) = (state.still(), frames(start_s, &vehicle.held()));
+        carry(&mut system, &still, &standing, &history);
+        settled.lack = lack(&system, &setup.body, &still, &standing, &history);
     }
     Some((system, Start { state, history, seated, settled, unsettled }))
+}
+
+/// Where a body begins.
+struct Placed {
+    state: State<f64>,
+    seated: Option<Seated>,
+    settled: Option<Settled>,
+    unsettled: Option<Settled>,
+    rest: Option<Rest>,
+}
+
+impl Placed {
+    fn at(state: State<f64>) -> Self {
+        Placed { state, seated: None, settled: None, unsettled: None, rest: None }
+    }
+}
+
+/// Places the body by what the setup says of its posture.
+fn place(
+    setup: &Setup,
+    faces: &[FlatFace],
+    data: &Data<'_>,
+    system: &System<f64>,
+    vehicle: &FrameMotion,
+    problems: &mut Problems,
+) -> Option<Placed> {
+    let seating = match &setup.posture {
+        InitialPosture::Seated(seating) => seating,
+        InitialPosture::Coordinates(q) | InitialPosture::Continued { coordinates: q, .. } => {
+            return Some(Placed::at(q.to_state()));
+        }
+        InitialPosture::Mounted(mounting) => {
+            let carrier = mounting.carrier(vehicle);
+            let mut state = hang(&setup.body, mounting, &carrier);
+            set_velocity(&mut state, &InitialVelocity::WithVehicle, &carrier);
+            return Some(Placed::at(state));
+        }
+    };
+    let on = seat_of(setup, faces, &system.forces.contacts.solids, seating, vehicle, problems)?;
+    let (state, seated) = seat(&setup.body, seating, &on, vehicle, setup.gravity_m_s2, problems)?;
+    let mut placed = Placed { seated: Some(seated), ..Placed::at(state) };
+    match seating.settle {
+        Settling::Not => placed.unsettled = Some(kept(setup, data, system, vehicle, &state)),
+        Settling::Locked => {
+            let (state, settled) = settle(setup, data, system, vehicle, state);
+            (placed.state, placed.settled) = (state, Some(settled));
+        }
+        Settling::Limp => {
+            let (seated, _) = settle(setup, data, system, vehicle, state);
+            let (state, settled, rest) = sink(setup, data, system, vehicle, seated);
+            (placed.state, placed.settled, placed.rest) = (state, Some(settled), Some(rest));
+        }
+    }
+    placed.settled.inspect(|settled| settled.warn(problems));
+    Some(placed)
 }
 
 /// Names the pairs that are said to have passed each other and do not overlap: they are open, as if they were not listed.

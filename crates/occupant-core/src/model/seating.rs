@@ -26,8 +26,20 @@ pub struct Seating {
     pub angles_rad: Vec<(String, f64)>,
     /// X_VH, Z_VH: the heels in vehicle axes.
     pub heels_m: [f64; 2],
-    /// Move the seated body as one piece until contact and belt forces carry it.
-    pub settle: bool,
+    /// What is moved from there.
+    pub settle: Settling,
+}
+
+/// What is moved of a seated body until contacts, belts and weight balance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Settling {
+    /// Nothing, as the report seats a body.
+    Not,
+    /// The body as one piece, its joints locked.
+    #[default]
+    Locked,
+    /// Every joint, as of one who sleeps.
+    Limp,
 }
 
 impl Seating {

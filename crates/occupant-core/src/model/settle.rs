@@ -1,4 +1,5 @@
-//! Settling: the seated body moves as one piece until contacts and belts carry it.
+//! Settling: the seated body moves as one piece until contacts and belts carry it. What is [`limp`](super::limp) gives way in
+//! its joints too.
 //!
 //! Our decision (the report has none): joints locked, posture kept; the six freedoms of the rigid body are found by a
 //! damped Newton iteration on the resultant force and moment of contacts, belts and weight, every contact on its loading
@@ -7,6 +8,7 @@
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use serde::{Serialize, Serializer};
 
+use crate::body::Body;
 use crate::forces::{Data, History, Instant};
 use crate::kernel::{Evaluation, System};
 use crate::model::frames;
@@ -14,7 +16,9 @@ use crate::model::setup::Setup;
 use crate::motion::dynamics::Wrench;
 use crate::motion::frame::{Frames, VEHICLE};
 use crate::motion::kinematics::Kinematics;
+use crate::motion::layout::{Freedom, MOST_SEGMENTS};
 use crate::motion::report_coordinates::quaternion;
+use crate::motion::skeleton::Skeleton;
 use crate::motion::state::State;
 use crate::motion::vector::{V3, v3};
 use crate::vehicle::FrameMotion;
@@ -22,7 +26,7 @@ use crash_measures::trig;
 use placed_text::Problems;
 
 /// Lever that turns moments into comparable forces, m.
-const LEVER_M: f64 = 0.3;
+pub(super) const LEVER_M: f64 = 0.3;
 /// Iterations at most.
 const ITERATIONS: usize = 200;
 
@@ -40,6 +44,17 @@ pub struct Settled {
     pub residual_moment_n_m: f64,
     /// Weight of the body, N.
     pub weight_n: f64,
+    /// The joint that lacks most to hold the posture, of a body whose joints have something to hold.
+    pub lack: Option<Lack>,
+}
+
+/// What a joint lacks at the start to hold the posture: with it the body would rest, without it sags from there.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Lack {
+    /// Name of the joint.
+    pub joint: &'static str,
+    /// Moment beyond that of its springs, limits, locks and muscles, N·m.
+    pub moment_n_m: f64,
 }
 
 fn in_degrees<S: Serializer>(angle_rad: &f64, serializer: S) -> Result<S::Ok, S::Error> {
@@ -80,6 +95,7 @@ fn settled(setup: &Setup, x: &Vector6<f64>, r: &Vector6<f64>) -> Settled {
         residual_force_n: r.fixed_rows::<3>(0).norm(),
         residual_moment_n_m: r.fixed_rows::<3>(3).norm() * LEVER_M,
         weight_n: setup.body.mass_kg() * setup.gravity_m_s2,
+        lack: None,
     }
 }
 
@@ -139,7 +155,7 @@ fn moved(state: &State<f64>, x: &Vector6<f64>) -> State<f64> {
 }
 
 /// The rotation of a rotation vector (rad).
-fn turned_by(vector: &Vector3<f64>) -> Matrix3<f64> {
+pub(super) fn turned_by(vector: &Vector3<f64>) -> Matrix3<f64> {
     let angle = vector.norm();
     if angle == 0.0 {
         return Matrix3::identity();
@@ -180,7 +196,7 @@ fn load(
 
 /// One evaluation, in one place: the kernel is inlined whole wherever it is called.
 #[inline(never)]
-fn at_rest(
+pub(super) fn at_rest(
     system: &System<f64>,
     state: &State<f64>,
     still: &Frames<f64>,
@@ -192,27 +208,59 @@ fn at_rest(
 /// Gives muscles at the start of a body that has settled what their joints carry there, at rest in frames that stand still.
 pub(crate) fn carry(system: &mut System<f64>, state: &State<f64>, still: &Frames<f64>, history: &History<f64>) {
     let e = at_rest(system, state, still, &mut history.clone());
-    let k = &e.kinematics;
-    // force and moment at its joint that each segment with all that hangs on it feels, from the tips inwards
-    let mut loads = e.wrench;
-    for (n, row) in system.skeleton.layout.rows().iter().enumerate().rev() {
-        let link = &system.skeleton.links[n];
-        let weight = v3(0.0, 0.0, -link.mass * system.skeleton.gravity);
+    let loads = loads_beyond(&system.skeleton, &e);
+    for muscle in &mut system.forces.muscles {
+        muscle.carry(&e.kinematics, |outer| -turning(&system.skeleton, &e.kinematics, &loads, outer));
+    }
+}
+
+/// The joint of a resting body that lacks most to hold its posture; none where all hold it.
+pub(super) fn lack(
+    system: &System<f64>,
+    body: &Body,
+    state: &State<f64>,
+    still: &Frames<f64>,
+    history: &History<f64>,
+) -> Option<Lack> {
+    let e = at_rest(system, state, still, &mut history.clone());
+    let loads = loads_beyond(&system.skeleton, &e);
+    let lacks = body.tree.segments().filter_map(|segment| {
+        let moment = turning(&system.skeleton, &e.kinematics, &loads, segment.index());
+        Some(Lack { joint: body.tree[body.tree.bearer(segment)?].name, moment_n_m: moment.norm_squared().sqrt() })
+    });
+    lacks.max_by(|a, b| a.moment_n_m.total_cmp(&b.moment_n_m)).filter(|lack| lack.moment_n_m > 0.0)
+}
+
+/// Force and moment at its joint that each segment of a resting body feels with all that hangs on it, N and N·m.
+pub(super) fn loads_beyond(skeleton: &Skeleton<f64>, e: &Evaluation<f64>) -> [Wrench<f64>; MOST_SEGMENTS] {
+    let (k, mut loads) = (&e.kinematics, e.wrench);
+    for (n, row) in skeleton.layout.rows().iter().enumerate().rev() {
+        let weight = v3(0.0, 0.0, -skeleton.links[n].mass * skeleton.gravity);
         loads[n].force += weight;
-        loads[n].moment += (k.cg(&system.skeleton, n) - k.joint[n]).cross(weight);
+        loads[n].moment += (k.cg(skeleton, n) - k.joint[n]).cross(weight);
         if let Some(parent) = row.parent {
             let Wrench { force, moment } = loads[n];
             loads[parent].force += force;
             loads[parent].moment += moment + (k.joint[n] - k.joint[parent]).cross(force);
         }
     }
-    for muscle in &mut system.forces.muscles {
-        muscle.carry(k, |outer| {
-            // of a pin the segments themselves carry what does not bend it
-            let hinge = system.skeleton.layout.hinge_slot(outer).map(|hinge| k.hinge_axis[hinge]);
-            let needed = -loads[outer].moment;
-            hinge.map_or(needed, |axis| axis * axis.dot(needed))
-        });
+    loads
+}
+
+/// The part of the moment on what hangs on a joint that turns it: of a pin the segments themselves carry what does not bend it.
+fn turning(
+    skeleton: &Skeleton<f64>,
+    k: &Kinematics<f64>,
+    loads: &[Wrench<f64>; MOST_SEGMENTS],
+    outer: usize,
+) -> V3<f64> {
+    let moment = loads[outer].moment;
+    match skeleton.layout.rows()[outer].freedom {
+        Freedom::Hinges(_) => {
+            let axes = skeleton.layout.rows()[outer].hinges().map(|hinge| k.hinge_axis[hinge]);
+            axes.fold(V3::zero(), |sum, axis| sum + axis * axis.dot(moment))
+        }
+        _ => moment,
     }
 }
 

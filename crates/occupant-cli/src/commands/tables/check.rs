@@ -8,6 +8,9 @@ use super::summary::Marks;
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, facts, table, trimmed};
 
+/// A joint that lacks less to hold its posture is said to hold it, N·m.
+const LEAST_LACK_N_M: f64 = 1.0;
+
 /// Everything that a user should see before a run.
 pub(crate) fn check_text(d: &Diagnosis) -> String {
     let mut parts = vec![format!("{}\n", shown(&d.title)), overview(d), segments(d)];
@@ -104,6 +107,11 @@ fn seating(seat: &SeatStart) -> String {
                 s.weight_n
             ),
         ));
+    }
+    if let Some(lack) = seat.settled.and_then(|s| s.lack).filter(|lack| lack.moment_n_m > LEAST_LACK_N_M) {
+        let joint = lack.joint.replace('_', " ");
+        let words = format!("nothing holds the posture: {joint} lacks {:.1} N·m, and the body sags; ", lack.moment_n_m);
+        lines.push(("joints", words + "muscles with tone hold it, posture.limp = true lets it sink before the run"));
     }
     if let Some(s) = seat.unsettled.filter(|s| s.residual_force_n > 0.1 * s.weight_n) {
         let left = format!("{:.0} N left over of a weight of {:.0} N", s.residual_force_n, s.weight_n);

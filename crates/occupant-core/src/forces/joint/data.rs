@@ -158,6 +158,16 @@ impl Joints {
         !self.limits.is_empty()
     }
 
+    /// Whether the neck of a body is one joint with the limit that GEBOD gives to one of two.
+    pub(crate) fn is_half_a_neck(&self) -> bool {
+        let marks = self.tree.landmarks();
+        let is_alone = |joint: &Joint| Some(self.tree[*joint].proximal) == marks.chest;
+        let Some(neck) = marks.neck.filter(is_alone) else { return false };
+        let has_spring = self[neck].ball().is_some_and(|ball| ball.spring.is_some());
+        let mut own = self.limits.iter().filter(|limits| limits.joint == neck);
+        !has_spring && own.any(|limits| limits.lock.is_none() && limits.is_of_gebod_neck())
+    }
+
     /// The joints' tree.
     pub fn tree(&self) -> &'static Tree {
         self.tree

@@ -49,6 +49,10 @@ struct Case {
     /// What can be touched: surfaces, solids, and where the body meets itself the parts of its spheres.
     surfaces: Vec<String>,
     meets_itself: bool,
+    /// Whether parts of the body may be left out, as on a rig.
+    is_mounted: bool,
+    /// [`Joints::is_half_a_neck`](crate::forces::joint::Joints::is_half_a_neck).
+    is_half_a_neck: bool,
     integrator: &'static str,
     time: TimeSpan,
 }
@@ -133,16 +137,17 @@ impl Summarizer {
         }
     }
 
-    /// What the outputs show of the body, then what is to know of measures alone.
+    /// What the outputs show of the body, then what is to know of its neck and of measures alone.
     fn caveats(&self, case: &Case, measures: &[Measure]) -> Vec<Caveat> {
         let mut caveats = self.signs.caveats(&case.body, &case.surfaces);
         let off = injury::coarseness(&self.signals, &self.options, measures);
         let off: Vec<_> = measures.iter().zip(off).filter(|(_, off)| *off > COARSE).collect();
-        let of_measures = [
+        let others = [
+            case.is_half_a_neck.then(Caveat::half_a_neck),
             Caveat::too_coarse(self.signals.interval_s, &off),
-            Caveat::other_dummy(self.options.dummy, case.body.mass_kg(), measures),
+            if case.is_mounted { None } else { Caveat::other_dummy(self.options.dummy, case.body.mass_kg(), measures) },
         ];
-        caveats.extend(of_measures.into_iter().flatten());
+        caveats.extend(others.into_iter().flatten());
         caveats
     }
 
@@ -215,6 +220,8 @@ impl Recorder for Summarizer {
             body: setup.body.clone(),
             surfaces: touchable(setup),
             meets_itself: setup.self_contact.is_some(),
+            is_mounted: setup.mounting().is_some(),
+            is_half_a_neck: setup.joints.is_half_a_neck(),
             integrator: setup.integrator.name(),
             time: setup.time,
         };

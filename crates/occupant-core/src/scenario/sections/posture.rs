@@ -11,7 +11,7 @@ use super::mount::mounting;
 use super::quantity::{all_si, si_or};
 use super::{Angle, Length, Scenario, Speed};
 use crate::body::{Body, Segment, Tree, both_sides};
-use crate::model::seating::{InitialPosture, InitialVelocity, Seating};
+use crate::model::seating::{InitialPosture, InitialVelocity, Seating, Settling};
 use crate::motion::report_coordinates::{DOF, ReportCoordinates};
 use crate::scenario::check::units_of;
 use placed_text::{Problem, with_key};
@@ -50,6 +50,9 @@ pub(crate) struct PostureSection {
     pub(crate) heels: Option<[Length; 2]>,
     /// Move the seated body as one piece until cushion, back and belts carry it; true if absent. False is the report's seating.
     pub(crate) settle: Option<bool>,
+    /// True: all joints give way while the body settles, as of one who sleeps, until limits, springs, locks and what it lies on
+    /// carry it; the posture is where it sinks from. False if absent.
+    pub(crate) limp: Option<bool>,
     /// True: every point starts with the velocity of the vehicle there. False: all start with the velocity of the
     /// vehicle's origin. True if absent.
     pub(crate) moves_with_vehicle: Option<bool>,
@@ -126,8 +129,21 @@ fn seating(b: &mut Builder, s: &Scenario, p: &PostureSection, tree: &Tree) -> Op
         lateral_m: si_or(&seat.y, 0.0),
         angles_rad: p.angles().map(|(name, angle)| (name.to_owned(), angle.si())).collect(),
         heels_m: p.heels.as_ref().map_or([0.0; 2], all_si),
-        settle: p.settle.unwrap_or(true),
+        settle: settling(b, p),
     })
+}
+
+fn settling(b: &mut Builder, p: &PostureSection) -> Settling {
+    match (p.settle.unwrap_or(true), p.limp == Some(true)) {
+        (true, true) => Settling::Limp,
+        (true, false) => Settling::Locked,
+        (false, is_limp) => {
+            if is_limp {
+                b.error("posture.limp", "a limp body that is not to settle", "settle = true, or no `limp`");
+            }
+            Settling::Not
+        }
+    }
 }
 
 /// Angles that are not said although the body asks for them, and said although it knows none of that name.

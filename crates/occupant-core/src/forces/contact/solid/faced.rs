@@ -67,7 +67,8 @@ impl<S: Scalar> Faced<S> {
     #[inline(always)]
     pub(crate) fn commit(&self, centre: V3<S>, radius: S, phase: &mut S) -> Distance<S> {
         let whole = self.whole.distance(centre);
-        let known = self.distance(centre, *phase);
+        let remembers = !phase.lt(S::of(FACE - 0.5));
+        let known = if S::any(remembers) { self.distance(centre, *phase) } else { whole };
         let touches = known.phi.lt(radius);
         if !S::any(touches) {
             *phase = S::of(OPEN);
@@ -75,8 +76,9 @@ impl<S: Scalar> Faced<S> {
         }
         let anew = phase.lt(S::of(TOUCHING)) | !(whole.phi - known.phi).gt(S::of(SAME_M));
         let chosen = S::select(anew, self.nearest_face(whole.normal), *phase);
+        let before = *phase;
         *phase = S::select(touches, chosen, S::of(OPEN));
-        self.distance(centre, *phase)
+        if S::any(!is(before - *phase, 0.0)) { self.distance(centre, *phase) } else { known }
     }
 
     /// The face whose normal is nearest to N̂, as what is remembered.

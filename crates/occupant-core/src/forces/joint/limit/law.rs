@@ -126,6 +126,13 @@ pub struct LimitAction<S> {
     pub(super) dissipated: S,
 }
 
+impl<S: Copy> LimitHistory<S> {
+    /// The lock holds what it holds in `other`.
+    pub(crate) fn hold_as(&mut self, other: &Self) {
+        self.lock = other.lock;
+    }
+}
+
 impl<S: Copy> LimitLaw<S> {
     /// Laws of equal shape can be computed side by side.
     pub(super) fn shape(&self) -> (Joint, [usize; 4], Option<bool>) {

@@ -1,0 +1,197 @@
+//! Settling of a limp body: all joints give way until contacts, belts, springs, locks and elastic limits carry it.
+//!
+//! Our decision (the report has none): where it comes to lie is the minimum of the potential energy V below the posture that
+//! it was seated in, at rest, without friction and damping; its muscles rest. Freedoms x are the displacement of T1, the turn
+//! of the first segment, of all that hangs on a ball joint about that joint, and of a hinge about its axis; −∂V/∂x is the load
+//! there. Newton's method, shifted so that it goes downhill:
+//!
+//! (H + λ1) δ = −g,   g = ∂V/∂x, H its differences, made symmetric
+//!
+//! A step is taken where V falls, ½(g + g′)·δ < 0. It begins where the body as one piece has settled: there springs and locks are
+//! at rest, and belts of one loop have their length and slack.
+
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+
+use super::settle::{LEVER_M, Settled, at_rest, loads_beyond, turned_by};
+use crate::forces::belt::Belts;
+use crate::forces::joint::JointSystem;
+use crate::forces::joint::limit::{JointLimits, LimitHistory};
+use crate::forces::{Data, Element, Forces, History, Instant};
+use crate::kernel::System;
+use crate::model::frames;
+use crate::model::setup::Setup;
+use crate::motion::frame::Frames;
+use crate::motion::kinematics::{Kinematics, axes};
+use crate::motion::layout::{Freedom, MOST_SEGMENTS};
+use crate::motion::report_coordinates::quaternion;
+use crate::motion::skeleton::Skeleton;
+use crate::motion::state::State;
+use crate::motion::vector::V3;
+use crate::vehicle::FrameMotion;
+use crash_measures::trig;
+
+/// A step moves or turns no freedom by more, m: the forces are stiff and only piecewise smooth.
+const MOST_STEP_M: f64 = 0.03;
+/// Each freedom is moved by so much for differences, m.
+const DIFFERENCE_M: f64 = 1e-6;
+/// Loads below this part of the weight are none.
+const REST: f64 = 1e-8;
+/// Steps at most.
+const MOST_STEPS: usize = 1000;
+
+/// A limp body at rest in a vehicle that stands still.
+struct Limp {
+    system: System<f64>,
+    still: Frames<f64>,
+    rest: Rest,
+}
+
+/// Lets a limp body sink from the posture `seated` to where it rests.
+pub(super) fn sink(
+    setup: &Setup,
+    data: &Data<'_>,
+    system: &System<f64>,
+    vehicle: &FrameMotion,
+    seated: State<f64>,
+) -> (State<f64>, Settled, Rest) {
+    let still = frames(setup.time.start_s, &vehicle.held());
+    let rest = Rest::of(setup, data, system, &still, &seated);
+    let mut limp = Limp { system: system.clone(), still, rest };
+    limp.system.forces.muscles.clear();
+    limp.rest.keep(&mut limp.system.forces);
+    let weight_n = setup.body.mass_kg() * setup.gravity_m_s2;
+    let (mut state, mut g) = (seated, limp.gradient(&seated));
+    let mut shift = 1e-3;
+    for _ in 0..MOST_STEPS {
+        if g.amax() < REST * weight_n.max(1.0) {
+            break;
+        }
+        let hessian = limp.hessian(&state, &g);
+        let scale = hessian.diagonal().amax();
+        let taken = std::iter::repeat_with(|| {
+            let tried = downhill(&hessian, &g, shift * scale).map(|step| {
+                let next = moved(&limp.system.skeleton, &state, &step);
+                let slope = limp.gradient(&next);
+                (next, (&g + &slope).dot(&step) < 0.0, slope)
+            });
+            let found = tried.filter(|(_, falls, _)| *falls);
+            shift = if found.is_some() { (shift * 0.2).max(1e-12) } else { shift * 4.0 };
+            found
+        });
+        let Some((next, _, slope)) = taken.take(40).flatten().next() else { break };
+        (state, g) = (next, slope);
+    }
+    (state, settled(&seated, &state, &g, weight_n), limp.rest)
+}
+
+/// Springs and locks at rest and belts laid on the body as it was seated.
+pub(super) struct Rest {
+    belts: <Belts as Element>::Law<f64>,
+    joints: JointSystem<f64>,
+    limits: Vec<LimitHistory<f64>>,
+}
+
+impl Rest {
+    fn of(setup: &Setup, data: &Data<'_>, system: &System<f64>, still: &Frames<f64>, seated: &State<f64>) -> Self {
+        let skeleton = Skeleton::new(&setup.body, 0.0);
+        let k = Kinematics::new(&skeleton, seated);
+        let law = JointSystem::new(data.joints, &skeleton, |_| 0.0);
+        let at = Instant { k: &k, state: seated, frames: still, spheres: &system.spheres };
+        let mut belts = system.forces.belts.clone();
+        Belts::lay(&mut belts, data.belts, &setup.body, &at);
+        Rest {
+            belts,
+            joints: JointSystem::new(data.joints, &skeleton, |i| law.beta(i, &k)),
+            limits: JointLimits::start(&system.forces.limits, &at),
+        }
+    }
+
+    /// Keeps them so of a body that lies elsewhere; to be called before anything remembers that it does.
+    pub(super) fn keep(&self, forces: &mut Forces<f64>) {
+        forces.belts.clone_from(&self.belts);
+        forces.joints = self.joints.clone();
+    }
+
+    /// Locks hold the posture that the body was seated in.
+    pub(super) fn hold(&self, history: &mut History<f64>) {
+        history.memory.limits.iter_mut().zip(&self.limits).for_each(|(past, seated)| past.hold_as(seated));
+    }
+}
+
+impl Limp {
+    /// ∂V/∂x at a place, in the order of [`moved`]: N, and N·m over the lever.
+    fn gradient(&self, state: &State<f64>) -> DVector<f64> {
+        let k = Kinematics::new(&self.system.skeleton, state);
+        let at = Instant { k: &k, state, frames: &self.still, spheres: &self.system.spheres };
+        let mut history = self.system.forces.start(&at);
+        self.rest.hold(&mut history);
+        let e = at_rest(&self.system, state, &self.still, &mut history);
+        let loads = loads_beyond(&self.system.skeleton, &e);
+        let mut g = Vec::with_capacity(6 + 3 * MOST_SEGMENTS);
+        g.extend([loads[0].force.x, loads[0].force.y, loads[0].force.z]);
+        for (row, load) in self.system.skeleton.layout.rows().iter().zip(&loads) {
+            let turning = load.moment * (1.0 / LEVER_M);
+            match row.freedom {
+                Freedom::Hinges(_) => g.extend(row.hinges().map(|hinge| e.kinematics.hinge_axis[hinge].dot(turning))),
+                _ => g.extend([turning.x, turning.y, turning.z]),
+            }
+        }
+        -DVector::from_vec(g)
+    }
+
+    /// ∂²V/∂x².
+    fn hessian(&self, state: &State<f64>, g: &DVector<f64>) -> DMatrix<f64> {
+        let column = |i: usize| {
+            let step = DVector::from_fn(g.len(), |j, _| if i == j { DIFFERENCE_M } else { 0.0 });
+            let next = moved(&self.system.skeleton, state, &step);
+            (self.gradient(&next) - g) / DIFFERENCE_M
+        };
+        let columns: Vec<DVector<f64>> = (0..g.len()).map(column).collect();
+        let hessian = DMatrix::from_columns(&columns);
+        (&hessian + hessian.transpose()) * 0.5
+    }
+}
+
+fn settled(seated: &State<f64>, state: &State<f64>, g: &DVector<f64>, weight_n: f64) -> Settled {
+    let [from, to] = [seated, state].map(|state| axes(&state.orientation(0)).to_matrix());
+    let turn = quaternion(&(to * from.transpose()));
+    Settled {
+        moved_m: (state.t1() - seated.t1()).norm_squared().sqrt(),
+        turned_rad: 2.0 * trig::atan2(turn.v.norm_squared().sqrt(), turn.w.abs()),
+        residual_force_n: g.rows(0, 3).norm(),
+        residual_moment_n_m: g.rows_range(3..).amax() * LEVER_M,
+        weight_n,
+        lack: None,
+    }
+}
+
+/// −(H + λ1)⁻¹g, shortened where it is too long; none where H + λ1 is not positive definite.
+fn downhill(hessian: &DMatrix<f64>, g: &DVector<f64>, shift: f64) -> Option<DVector<f64>> {
+    let shifted = hessian + DMatrix::from_diagonal_element(g.len(), g.len(), shift + 1e-9);
+    let step = -shifted.cholesky()?.solve(g);
+    let most = step.amax();
+    Some(if most > MOST_STEP_M { step * (MOST_STEP_M / most) } else { step })
+}
+
+/// The body with T1 moved by x[0..3] (m) and each joint turned by what follows (rad times the lever), with all that hangs on it.
+fn moved(skeleton: &Skeleton<f64>, state: &State<f64>, x: &DVector<f64>) -> State<f64> {
+    let (k, mut out) = (Kinematics::new(skeleton, state), *state);
+    out.set_t1(state.t1() + V3 { x: x[0], y: x[1], z: x[2] });
+    let mut turns = [Matrix3::<f64>::identity(); MOST_SEGMENTS];
+    let mut angles = x.iter().skip(3).map(|x| x / LEVER_M);
+    let mut next = || angles.next().unwrap_or_default();
+    for (n, row) in skeleton.layout.rows().iter().enumerate() {
+        let carried = row.parent.map_or(Matrix3::identity(), |parent| turns[parent]);
+        if let Freedom::Hinges(_) = row.freedom {
+            turns[n] = row.hinges().fold(carried, |turn, hinge| {
+                let angle = next();
+                out.hinge_mut()[hinge] += angle;
+                turn * turned_by(&(k.hinge_axis[hinge].to_vector() * angle))
+            });
+        } else {
+            turns[n] = carried * turned_by(&Vector3::new(next(), next(), next()));
+            out.set_orientation(row.slot, quaternion(&(turns[n] * k.axes[n].to_matrix())));
+        }
+    }
+    out
+}
