@@ -1,4 +1,4 @@
-//! Settling: the seated body moves as one piece until contacts and belts carry it. What is [`limp`](super::limp) gives way in
+//! Settling: the seated body moves as one piece until contacts and belts carry it. What is `limp` gives way in
 //! its joints too.
 //!
 //! Our decision (the report has none): joints locked, posture kept; the six freedoms of the rigid body are found by a

@@ -1,7 +1,7 @@
 //! Force functions: a force over a deformation x ≥ 0, with a memory of the greatest x alone.
 //!
 //! One curve ([`Function`]) serves webbing, limiters, stops of joints and contact; contact adds other ways back, a spike, and
-//! factors of speed ([`ForceDeflection`]). Tables that are no curves of force are [`steps::Steps`].
+//! factors of speed ([`ForceDeflection`]). Tables that are no curves of force are `steps::Steps`.
 
 pub(crate) mod cubic;
 mod curve;

@@ -38,7 +38,7 @@ fn materials(case: &Case, units: Units) -> Table {
         let shares =
             spring.map_or(["-".to_owned(), "-".to_owned()], |s| [s.returned_1, s.returned_2].map(|mu| r.show(mu)));
         let rubs = [r.show(material.friction), v.show(material.friction_speed_m_s), memory.to_owned()];
-        table.row_of(&[&[material.name.clone()], &slopes, &shares, &rubs]);
+        table.row_of(&[std::slice::from_ref(&material.name), &slopes, &shares, &rubs]);
     }
     table
 }
