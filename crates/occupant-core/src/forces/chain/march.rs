@@ -162,10 +162,8 @@ pub(super) fn solve<S: Scalar>(
 ) -> Solved<S> {
     let (o, least) = (S::zero(), feed.least());
     let mut straps = [Tense::none(); MOST_NODES];
-    // without tension: what is left over when every strap has the length that it lies at
     let passed = feed.at(least).passed;
-    let foot = |run: &Run<S>| run.length / (S::one() + webbing.foot(run));
-    let surplus = runs.iter().fold(passed, |sum, run| sum + (run.before - foot(run)));
+    let surplus = passed + surplus(webbing, runs);
     let is_number = surplus.abs().lt(S::of(1e300));
     let is_slack = (!feed.is_open & !surplus.lt(o) & is_number) | is_free;
     let length = runs.iter().fold(o, |sum, run| sum + run.length);
@@ -195,6 +193,13 @@ pub(super) fn solve<S: Scalar>(
         slacken(webbing, runs, passed, is_slack, &mut straps);
     }
     Solved { x: S::select(is_slack, least, x), straps, residual, unsolved }
+}
+
+/// What is left over without tension, when every strap has the length that it lies at, m.
+#[inline(always)]
+fn surplus<S: Scalar>(webbing: &WebbingLaw<S>, runs: &[Run<S>]) -> S {
+    let foot = |run: &Run<S>| run.length / (S::one() + webbing.foot(run));
+    runs.iter().fold(S::zero(), |sum, run| sum + (run.before - foot(run)))
 }
 
 /// Straps without tension: nothing passes but what the first node gives.

@@ -48,11 +48,7 @@ impl Parts<'_> {
         let path = with_key("belts", name);
         let (webbing, viscous) = self.webbing(b, &path, s);
         let mut device = self.device(b, &path, s, sections);
-        let rest = match (&s.slack, &s.pretension, &s.length) {
-            (_, Some(tension), _) => Rest::Pretension(tension.si()),
-            (_, _, Some(length)) => Rest::Length(length.si()),
-            (slack, ..) => Rest::Slack(si_or(slack, 0.0)),
-        };
+        let rest = rest(s);
         if device.reel.is_some() {
             let expected = "none of them: the spool's tension is the belt's";
             b.refuse_keys(
@@ -102,5 +98,14 @@ impl Parts<'_> {
             Some(webbing) => webbing.function(b, &with_key("webbings", name)),
             None => (three_point::webbing(b), None),
         }
+    }
+}
+
+/// What the unstretched length follows from.
+fn rest(s: &BeltSection) -> Rest {
+    match (&s.slack, &s.pretension, &s.length) {
+        (_, Some(tension), _) => Rest::Pretension(tension.si()),
+        (_, _, Some(length)) => Rest::Length(length.si()),
+        (slack, ..) => Rest::Slack(si_or(slack, 0.0)),
     }
 }
