@@ -254,15 +254,19 @@ impl<S: Scalar> LimitLaw<S> {
         let acts = if let Site::Hinge(limb) = self.site {
             let (angle, axis) = (at.state.hinge()[limb], k.hinge_axis[limb]);
             action.angles[0] = angle;
-            let act =
-                |turn: &Turn<S>| turn.act::<COMMIT>(S::truth(true), angle, || axis, &mut past.stops[1], &mut action);
-            self.turn.as_ref().map_or(S::truth(false), act)
+            // no closure for the library to call: it would be compiled without the registers of lanes
+            match &self.turn {
+                Some(turn) => turn.act::<COMMIT>(S::truth(true), angle, || axis, &mut past.stops[1], &mut action),
+                None => S::truth(false),
+            }
         } else {
             self.act_ball::<COMMIT>(&self.triads.pose(&k.axes[inner], &k.axes[outer]), past, &mut action)
         };
         let omega = k.omega[outer] - k.omega[inner];
-        let mut act = |lock: &Lock<S>| lock.act::<COMMIT>(&self.pair(at, omega), &mut past.lock, &mut action);
-        let locks = self.lock.as_ref().map_or(S::truth(false), &mut act);
+        let locks = match &self.lock {
+            Some(lock) => lock.act::<COMMIT>(&self.pair(at, omega), &mut past.lock, &mut action),
+            None => S::truth(false),
+        };
         action.moment = action.stop + action.lock;
         let Some(friction) = &self.friction else { return (action, acts | locks) };
         // T = −C_f ω/√(|ω|² + ω_f²)
