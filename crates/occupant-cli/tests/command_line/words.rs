@@ -57,6 +57,18 @@ fn words_that_are_refused_are_shown_escaped_and_shortened() {
 }
 
 #[test]
+fn pages_of_keys_are_what_the_command_writes() {
+    let folder = folder_with_case();
+    let docs = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    for of in ["scenario", "study"] {
+        let page = out(&answer(folder.path(), &["explain", "--of", of, "--markdown"]));
+        let file = docs.join(format!("keys-{of}.md"));
+        let is_same = std::fs::read_to_string(&file).is_ok_and(|text| text == page);
+        assert!(is_same, "write it anew: occupant explain --of {of} --markdown > {}", file.display());
+    }
+}
+
+#[test]
 fn keys_are_explained_wherever_they_stand() {
     let folder = folder_with_case();
     let told = |words: &[&str]| {
