@@ -122,7 +122,7 @@ pub fn coarseness(signals: &Signals, options: &Options, measures: &[Measure]) ->
     let halves = [0, 1].map(|first| assess(&signals.every_other(first), options));
     let change = |whole: &Measure, half: &Measure| {
         let value = whole.value?;
-        let half = half.value.or((signals.len() < FEWEST).then_some(0.0))?;
+        let half = if signals.len() < FEWEST { 0.0 } else { half.value? };
         let change = (half - value).abs();
         let matters = whole.limits.iter().all(|limit| change > 0.01 * limit.most);
         matters.then_some(change / value.abs()).filter(|part| part.is_finite())
