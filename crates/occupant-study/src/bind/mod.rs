@@ -155,11 +155,14 @@ impl<'a> Binder<'a> {
     fn refuse_many(&mut self) {
         let section = &self.text.section;
         let fit = section.fit.as_ref();
+        let perturbations = section.ensemble.as_ref().map_or(&[][..], |ensemble| &ensemble.perturbations);
+        // a parameter of several paths counts as often
+        let times = |paths: &Option<Vec<String>>| paths.as_ref().map_or(1, |paths| paths.len().max(1));
         let lists = [
-            ("parameters", section.parameters.len()),
+            ("parameters", section.parameters.iter().map(|parameter| times(&parameter.paths)).sum()),
             ("set", section.set.len()),
             ("correlations", section.correlations.len()),
-            ("ensemble.perturbations", section.ensemble.as_ref().map_or(0, |ensemble| ensemble.perturbations.len())),
+            ("ensemble.perturbations", perturbations.iter().map(|each| times(&each.paths)).sum()),
             ("fit.channels", fit.map_or(0, |fit| fit.channels.len())),
             ("fit.tests", fit.map_or(0, |fit| fit.tests.len())),
         ];

@@ -103,7 +103,11 @@ fn nonsense_is_refused() {
 fn lists_of_ten_thousands_are_refused_at_once() {
     let parameters = "[[parameters]]\npath = \"nothing\"\n".repeat(1001);
     let sets: String = (0..1001).map(|i| format!("\"nothing{i}\" = 1\n")).collect();
-    for (text, found) in [(parameters, "parameters"), (format!("[set]\n{sets}"), "set")] {
+    let paths = format!(
+        "[[parameters]]\nname = \"all\"\npaths = [{}]\nrange = {{ from = 0, to = 1 }}\n",
+        "\"nothing\", ".repeat(1001)
+    );
+    for (text, found) in [(parameters, "parameters"), (paths, "parameters"), (format!("[set]\n{sets}"), "set")] {
         let text = StudyText::read(&format!("base = \"short.toml\"\n{text}"), Format::Toml, "study.toml").unwrap();
         let problems = text.bind(base(), &[], &no_files).unwrap_err();
         assert_eq!(problems.len(), 1, "{problems}");
