@@ -9,7 +9,7 @@ use std::thread;
 
 use color_quant::NeuQuant;
 use rayon::prelude::*;
-use resvg::tiny_skia::Pixmap;
+use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
 
 use super::format::render;
 use crate::base::by_ending;
@@ -116,8 +116,11 @@ impl Colours {
     /// The place in the palette of each pixel.
     fn indices(&self, pixels: &Pixmap) -> Vec<u8> {
         let mut known = HashMap::new();
-        let index = |pixel: &[u8]| *known.entry(pixel.to_vec()).or_insert_with(|| self.nearest.index_of(pixel) as u8);
-        pixels.data().chunks_exact(4).map(index).collect()
+        let index = |pixel: &PremultipliedColorU8| {
+            let colour = [pixel.red(), pixel.green(), pixel.blue(), pixel.alpha()];
+            *known.entry(colour).or_insert_with(|| self.nearest.index_of(&colour) as u8)
+        };
+        pixels.pixels().iter().map(index).collect()
     }
 }
 
