@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use occupant_core::forces::joint::{DAMPING, JointSystem};
 use occupant_core::forces::sphere::Site;
 use occupant_core::forces::{Forces, History, Memory};
-use occupant_core::kernel;
+use occupant_core::kernel::{self, Situation};
 use occupant_core::motion::frame::Frames;
 use occupant_core::motion::frame::Moving;
 use occupant_core::motion::integrate::rk4;
@@ -51,7 +51,8 @@ impl FreeRun {
         let FreeRun { system, history, frames } = self;
         let mut state = *state;
         for _ in 0..steps {
-            state = rk4::step(&state, h, |_, s, rate| *rate = system.rate::<false>(s, frames, history, &mut ()));
+            state =
+                rk4::step(&state, h, |_, s, rate| *rate = system.rate(Situation::within(s, frames), history, &mut ()));
         }
         state
     }

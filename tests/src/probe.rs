@@ -8,6 +8,7 @@ use occupant_core::forces::contact::Touch;
 use occupant_core::forces::contact::material::Material;
 use occupant_core::forces::contact::surface::Surface;
 use occupant_core::forces::{History, Observer};
+use occupant_core::kernel::Situation;
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
 use occupant_core::motion::frame::Frames;
@@ -81,13 +82,13 @@ impl Probe {
     /// Takes the sphere to `centre_m` with a velocity and an angular velocity, as an accepted step.
     pub fn moving(&mut self, centre_m: Vector3<f64>, velocity_m_s: Vector3<f64>, omega_rad_s: Vector3<f64>) -> Load {
         self.place(centre_m, velocity_m_s, omega_rad_s);
-        self.evaluate::<true>()
+        self.evaluate(true)
     }
 
     /// Asks what would act at `centre_m` within a step, without accepting it.
     pub fn tried_at(&mut self, centre_m: Vector3<f64>) -> Load {
         self.place(centre_m, Vector3::zeros(), Vector3::zeros());
-        self.evaluate::<false>()
+        self.evaluate(false)
     }
 
     /// State of pair `i`: open, touching or passed.
@@ -111,10 +112,10 @@ impl Probe {
         self.state.set_omega(0, V3::of(&omega));
     }
 
-    fn evaluate<const COMMIT: bool>(&mut self) -> Load {
+    fn evaluate(&mut self, accepted: bool) -> Load {
         let mut touches = Touches(Vec::new());
-        let evaluation =
-            self.model.system().evaluate::<COMMIT>(&self.state, &self.frames, &mut self.history, &mut touches);
+        let situation = Situation { state: &self.state, frames: &self.frames, accepted };
+        let evaluation = self.model.system().evaluate(situation, &mut self.history, &mut touches);
         let wrench = &evaluation.wrench[tti12::MIDDLE_TORSO.index()];
         Load { force_n: wrench.force.to_vector(), moment_n_m: wrench.moment.to_vector(), touches: touches.0 }
     }

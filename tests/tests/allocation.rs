@@ -2,7 +2,7 @@
 
 use allocation_counter::{AllocationInfo, measure};
 use occupant_core::forces::History;
-use occupant_core::kernel::Scratch;
+use occupant_core::kernel::{Scratch, Situation};
 use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
 use occupant_core::motion::frame::{Frames, Moving};
@@ -45,7 +45,7 @@ fn a_step_of_any_tree_allocates_nothing() {
     let step = |history: &mut History<f64>| {
         let scratch = &mut Scratch::blank(&kernel.skeleton);
         let rate = |_, s: &State<f64>, rate: &mut State<f64>| {
-            kernel.rate_alone::<true>(scratch, s, &frames, history, &mut (), rate);
+            kernel.rate_alone(scratch, Situation::accepted(s, &frames), history, &mut (), rate);
         };
         rk4::step(&state, 1e-4, rate)
     };

@@ -2,6 +2,7 @@
 //! segment alone, and against what free flight keeps.
 
 use nalgebra::Vector3;
+use occupant_core::kernel::Situation;
 use occupant_core::motion::dynamics::{Accelerations, Wrench, solve};
 use occupant_core::motion::frame::{Frames, Moving, VEHICLE};
 use occupant_core::motion::integrate::rk4;
@@ -151,12 +152,8 @@ fn a_pendulum_on_a_mount_swings_as_its_closed_form_says() {
         let (kernel, mut history) = bare(skeleton);
         let push = random.vector(100.0);
         let vehicle = Moving { acceleration: V3::of(&push), ..Moving::space() };
-        let found = kernel.rate::<false>(
-            &state,
-            &Frames { time: 0.0, moving: [Moving::space(), vehicle] },
-            &mut history,
-            &mut (),
-        );
+        let frames = Frames { time: 0.0, moving: [Moving::space(), vehicle] };
+        let found = kernel.rate(Situation::within(&state, &frames), &mut history, &mut ());
         // (I_y + M l²) α̈ = M l (a_x cos α + (g + a_z) (−sin α)), the rod hanging along −Z
         let (part, l) = (&tree.parts[1], 0.3);
         let about = part.inertia_kg_m2[(1, 1)] + part.mass_kg * l * l;
@@ -203,7 +200,7 @@ fn a_tree_on_a_mount_that_turns_moves_as_its_segments_do_one_by_one() {
         state.set_t1(v3(7.0, 8.0, 9.0));
         state.set_omega(0, v3(1.0, 2.0, 3.0));
         let frames = Frames { time: 0.0, moving: [Moving::space(), vehicle] };
-        let found = kernel.evaluate::<false>(&state, &frames, &mut history, &mut ());
+        let found = kernel.evaluate(Situation::within(&state, &frames), &mut history, &mut ());
         worst = worst.max(difference(&found.accelerations, &expected));
     }
     assert!(worst < 1e-9, "{worst:e}");

@@ -7,6 +7,7 @@ use occupant_core::body::ContactSphere;
 use occupant_core::body::tti12;
 use occupant_core::forces::belt::law::{BeltAction, BeltLaw};
 use occupant_core::forces::belt::{Belt, RestLength};
+use occupant_core::kernel::Situation;
 use occupant_core::model::Model;
 use occupant_core::motion::vector::V3;
 use occupant_tests::cases::{afloat, belt, male50, spring};
@@ -277,7 +278,7 @@ fn the_belt_force_acts_at_the_spheres_centre() {
     let model = Model::new(setup).unwrap();
     let frames = model.frames(0.0, 0.0, &mut Default::default());
     let mut history = model.start().history.clone();
-    let e = model.system().evaluate::<false>(&model.start().state, &frames, &mut history, &mut ());
+    let e = model.system().evaluate(Situation::within(&model.start().state, &frames), &mut history, &mut ());
     let wrench = &e.wrench[tti12::UPPER_TORSO.index()];
     let (force, moment) = (wrench.force.to_vector(), wrench.moment.to_vector());
     assert!(force.norm() > 100.0);

@@ -5,7 +5,7 @@ use nalgebra::{Rotation3, Vector3};
 use occupant_core::forces::contact::surface::Frame;
 use occupant_core::forces::contact::{FRICTION, PRESS, Touch};
 use occupant_core::forces::{History, Observer};
-use occupant_core::kernel::Evaluation;
+use occupant_core::kernel::{Evaluation, Situation};
 use occupant_tests::{
     compartment::{Compartment, ContactForce},
     random::Random,
@@ -24,7 +24,7 @@ fn scene(seed: u64) -> (Random, System, Compartment) {
 
 fn evaluate(system: &System, room: &Compartment, state: &SpaceState) -> Evaluation<f64> {
     let (kernel, frames, mut history) = room.kernel(system);
-    kernel.evaluate::<false>(&state.to_core(), &frames, &mut history, &mut ())
+    kernel.evaluate(Situation::within(&state.to_core(), &frames), &mut history, &mut ())
 }
 
 fn accelerations(evaluation: &Evaluation<f64>) -> SpaceMotion {
@@ -74,11 +74,11 @@ fn faces_that_are_far_at_a_commit_are_not_missed_before_the_next() {
         let (state, moved) = (state.to_core(), moved.to_core());
 
         let mut before = Seen::default();
-        kernel.rate::<true>(&state, &frames, &mut culled, &mut before);
+        kernel.rate(Situation::accepted(&state, &frames), &mut culled, &mut before);
         let mut all = History::new(&kernel.forces, culled.memory.clone());
         let (mut some, mut every) = (Seen::default(), Seen::default());
-        let found = kernel.rate::<false>(&moved, &frames, &mut culled, &mut some);
-        let expected = kernel.rate::<false>(&moved, &frames, &mut all, &mut every);
+        let found = kernel.rate(Situation::within(&moved, &frames), &mut culled, &mut some);
+        let expected = kernel.rate(Situation::within(&moved, &frames), &mut all, &mut every);
         assert_eq!(found, expected);
         assert_eq!(some.0, every.0);
         new_touches += every.0.iter().filter(|pair| !before.0.contains(pair)).count();

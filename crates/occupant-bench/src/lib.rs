@@ -5,7 +5,7 @@
 
 use occupant_core::forces::contact::{ContactSystem, Touch};
 use occupant_core::forces::{History, Memory, Observer};
-use occupant_core::kernel::{Scratch, System};
+use occupant_core::kernel::{Scratch, Situation, System};
 use occupant_core::model::Model;
 use occupant_core::motion::dynamics::{self, Accelerations, Wrench};
 use occupant_core::motion::frame::Frames;
@@ -156,14 +156,14 @@ impl Instant {
     /// The rate of change, the history committed.
     pub fn commit(&mut self) -> &State<f64> {
         let Instant { system, state, frames, history, scratch, rate, .. } = self;
-        system.rate_alone::<true>(scratch, state, frames, history, &mut (), rate);
+        system.rate_alone(scratch, Situation::accepted(state, frames), history, &mut (), rate);
         rate
     }
 
     /// The rate of change within a step.
     pub fn rate(&mut self) -> &State<f64> {
         let Instant { system, state, frames, history, scratch, rate, .. } = self;
-        system.rate_alone::<false>(scratch, state, frames, history, &mut (), rate);
+        system.rate_alone(scratch, Situation::within(state, frames), history, &mut (), rate);
         rate
     }
 
@@ -178,8 +178,10 @@ impl Instant {
     pub fn step(&mut self) -> &State<f64> {
         let Instant { system, state, frames, history, scratch, stages, .. } = self;
         stages.step(state, STEP_S, |stage, state, rate| match stage {
-            Stage::Start => system.rate_alone::<true>(scratch, state, frames, history, &mut (), rate),
-            Stage::Middle | Stage::End => system.rate_alone::<false>(scratch, state, frames, history, &mut (), rate),
+            Stage::Start => system.rate_alone(scratch, Situation::accepted(state, frames), history, &mut (), rate),
+            Stage::Middle | Stage::End => {
+                system.rate_alone(scratch, Situation::within(state, frames), history, &mut (), rate)
+            }
         })
     }
 
@@ -196,7 +198,7 @@ impl Instant {
     /// Number of pairs that exert a force.
     pub fn touches(&mut self) -> usize {
         let mut count = Count(0);
-        self.system.rate::<false>(&self.state, &self.frames, &mut self.history, &mut count);
+        self.system.rate(Situation::within(&self.state, &self.frames), &mut self.history, &mut count);
         count.0
     }
 }

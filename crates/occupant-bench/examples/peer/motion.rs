@@ -7,6 +7,7 @@ use occupant_core::body::tti12::TTI12;
 use occupant_core::forces::joint::JointSystem;
 use occupant_core::forces::joint::{HingeJoint, JointLaw, Joints};
 use occupant_core::forces::{Forces, History, Memory};
+use occupant_core::kernel::Situation;
 use occupant_core::model::Model;
 use occupant_core::motion::frame::VEHICLE;
 use occupant_core::motion::integrate::rk4;
@@ -63,7 +64,7 @@ fn places(model: &Model, now: &Instant) -> Vec<Vec<[f64; 3]>> {
     for i in 1..=steps {
         let (system, frames, history) = (&now.system, &now.frames, &mut now.history);
         now.state = rk4::step(&now.state, STEP_S, |_, state, rate| {
-            *rate = system.rate::<false>(state, frames, history, &mut ())
+            *rate = system.rate(Situation::within(state, frames), history, &mut ())
         });
         if i.is_multiple_of(STEPS_PER_PLACE) {
             found.push(ends(model, &now));

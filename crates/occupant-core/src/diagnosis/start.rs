@@ -80,7 +80,7 @@ pub(super) fn look(model: &Model, mobility: &Mobility<'_>) -> Look {
     let mut look = Look::default();
     let mut first = Watch(|sample: &Sample<'_>| {
         let (k, spheres) = (&sample.evaluation.kinematics, &model.system().spheres);
-        let at = Instant { k, state: sample.state, frames: sample.frames, spheres };
+        let at = Instant { k, state: sample.state, frames: sample.frames, spheres, accepted: true };
         let data = model.setup().forces(model.faces());
         look = Look {
             contacts: sample.contacts().map(|c| contact(sample, &c)).collect(),

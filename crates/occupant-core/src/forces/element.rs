@@ -106,9 +106,9 @@ pub trait Element: Copy + Debug {
     /// Brings what one remembers back into range after its numbers were changed a little.
     fn confine(_past: &mut Self::Past<f64>) {}
 
-    /// Adds forces and powers to `load` and shows every action. With `COMMIT` each element first takes over the present
-    /// position, which must be that of an accepted step; without it what they remember is only read.
-    fn apply<S: Scalar, const COMMIT: bool>(
+    /// Adds forces and powers to `load` and shows every action. At an accepted step each element first takes over
+    /// the present position; within a step what they remember is only read.
+    fn apply<S: Scalar>(
         law: &Self::Law<S>,
         at: &Instant<'_, S>,
         past: &mut [Self::Past<S>],
@@ -194,6 +194,8 @@ pub struct Instant<'a, S> {
     pub frames: &'a Frames<S>,
     /// Spheres of the body.
     pub spheres: &'a [Site<S>],
+    /// Whether this is an accepted step, which what elements remember takes over.
+    pub accepted: bool,
 }
 
 impl<S: Scalar> Instant<'_, S> {

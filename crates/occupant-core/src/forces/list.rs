@@ -84,6 +84,18 @@ macro_rules! kinds {
             )+
         }
 
+        /// Sees what another sees, or nothing: one kernel for what is observed now and then.
+        impl<S, O: Observer<S>> Observer<S> for Option<&mut O> {
+            $(
+                #[inline(always)]
+                fn $kind(&mut self, action: &<$Kind as Element>::Action<S>) {
+                    if let Some(observer) = self {
+                        observer.$kind(action);
+                    }
+                }
+            )+
+        }
+
         $(
             impl Listed for $Kind {
                 fn data<'a>(all: &Data<'a>) -> Self::Data<'a> {
@@ -204,17 +216,17 @@ macro_rules! kinds {
         }
 
         impl<S: Scalar> Forces<S> {
-            /// All loads and powers at one instant. With `COMMIT` the history first takes over the present position, which
-            /// must be that of an accepted step; without it the history is only read.
+            /// All loads and powers at one instant. At an accepted step the history first takes over the present position;
+            /// within a step it is only read.
             #[inline(always)]
-            pub(crate) fn apply<const COMMIT: bool>(
+            pub(crate) fn apply(
                 &self,
                 at: &Instant<'_, S>,
                 history: &mut History<S>,
                 observer: &mut (impl Observer<S> + ?Sized),
                 load: &mut Load<S>,
             ) {
-                $($Kind::apply::<S, COMMIT>(
+                $($Kind::apply(
                     &self.$kind,
                     at,
                     &mut history.memory.$kind,

@@ -1,82 +1,76 @@
 //! A run alone: its rate in the instructions of AVX where the processor has them, and all that an evaluation derives.
 
 use crate::forces::{History, Load, Observer};
-use crate::kernel::{Evaluation, Scratch, System};
-use crate::motion::frame::Frames;
+use crate::kernel::{Evaluation, Scratch, Situation, System};
 use crate::motion::state::State;
 
 impl System<f64> {
     /// `System::rate_with` of a run alone, in the instructions of AVX where the processor has them: the same bits,
     /// 10 to 15 % faster.
     #[inline]
-    pub fn rate_alone<const COMMIT: bool>(
+    pub fn rate_alone(
         &self,
         scratch: &mut Scratch<f64>,
-        state: &State<f64>,
-        frames: &Frames<f64>,
+        situation: Situation<'_, f64>,
         history: &mut History<f64>,
         observer: &mut impl Observer<f64>,
         rate: &mut State<f64>,
     ) {
         #[cfg(target_arch = "x86_64")]
-        x86_64::rate_alone::<COMMIT>(self, scratch, state, frames, history, observer, rate);
+        x86_64::rate_alone(self, scratch, situation, history, observer, rate);
         #[cfg(not(target_arch = "x86_64"))]
-        self.rate_once::<COMMIT>(scratch, state, frames, history, observer, rate);
+        self.rate_once(scratch, situation, history, observer, rate);
     }
 
-    /// Rate of change of `state`; see [`System::rate_with`].
-    pub fn rate<const COMMIT: bool>(
+    /// Rate of change of the state; see [`System::rate_with`].
+    pub fn rate(
         &self,
-        state: &State<f64>,
-        frames: &Frames<f64>,
+        situation: Situation<'_, f64>,
         history: &mut History<f64>,
         observer: &mut dyn Observer<f64>,
     ) -> State<f64> {
-        let mut rate = State::zero(state.shape());
-        self.rate_once::<COMMIT>(&mut Scratch::blank(&self.skeleton), state, frames, history, observer, &mut rate);
+        let mut rate = State::zero(situation.state.shape());
+        self.rate_once(&mut Scratch::blank(&self.skeleton), situation, history, observer, &mut rate);
         rate
     }
 
     /// Everything that [`System::rate`] derives.
-    pub fn evaluate<const COMMIT: bool>(
+    pub fn evaluate(
         &self,
-        state: &State<f64>,
-        frames: &Frames<f64>,
+        situation: Situation<'_, f64>,
         history: &mut History<f64>,
         observer: &mut dyn Observer<f64>,
     ) -> Evaluation<f64> {
         let mut scratch = Scratch::blank(&self.skeleton);
-        self.derive_once::<COMMIT>(&mut scratch, state, frames, history, observer);
+        self.derive_once(&mut scratch, situation, history, observer);
         let Scratch { kinematics, load: Load { wrench, power }, sweep } = scratch;
         Evaluation { kinematics, wrench, accelerations: sweep.accelerations, power }
     }
 
     /// [`System::rate_with`] by [`System::derive_once`].
-    fn rate_once<const COMMIT: bool>(
+    fn rate_once(
         &self,
         scratch: &mut Scratch<f64>,
-        state: &State<f64>,
-        frames: &Frames<f64>,
+        situation: Situation<'_, f64>,
         history: &mut History<f64>,
         observer: &mut dyn Observer<f64>,
         rate: &mut State<f64>,
     ) {
-        self.derive_once::<COMMIT>(scratch, state, frames, history, observer);
-        scratch.sweep.accelerations.write_rate(&self.skeleton.layout, state, scratch.load.power, rate);
+        self.derive_once(scratch, situation, history, observer);
+        scratch.sweep.accelerations.write_rate(&self.skeleton.layout, situation.state, scratch.load.power, rate);
     }
 
     /// [`System::derive`] in instructions that every processor has. It is inlined whole wherever it is called: outside the
     /// steps of a run that is here alone.
     #[inline(never)]
-    fn derive_once<const COMMIT: bool>(
+    fn derive_once(
         &self,
         scratch: &mut Scratch<f64>,
-        state: &State<f64>,
-        frames: &Frames<f64>,
+        situation: Situation<'_, f64>,
         history: &mut History<f64>,
         observer: &mut dyn Observer<f64>,
     ) {
-        self.derive::<COMMIT>(scratch, state, frames, history, observer);
+        self.derive(scratch, situation, history, observer);
     }
 }
 
@@ -88,34 +82,32 @@ mod x86_64 {
 
     /// [`System::rate_alone`].
     #[inline(always)]
-    pub(super) fn rate_alone<const COMMIT: bool>(
+    pub(super) fn rate_alone(
         system: &System<f64>,
         scratch: &mut Scratch<f64>,
-        state: &State<f64>,
-        frames: &Frames<f64>,
+        situation: Situation<'_, f64>,
         history: &mut History<f64>,
         observer: &mut impl Observer<f64>,
         rate: &mut State<f64>,
     ) {
         if has_avx2() {
             // SAFETY: just asked
-            unsafe { rate_alone_avx2::<COMMIT>(system, scratch, state, frames, history, observer, rate) }
+            unsafe { rate_alone_avx2(system, scratch, situation, history, observer, rate) }
         } else {
-            system.rate_once::<COMMIT>(scratch, state, frames, history, observer, rate)
+            system.rate_once(scratch, situation, history, observer, rate)
         }
     }
 
     #[inline(never)]
     #[target_feature(enable = "avx2")]
-    fn rate_alone_avx2<const COMMIT: bool>(
+    fn rate_alone_avx2(
         system: &System<f64>,
         scratch: &mut Scratch<f64>,
-        state: &State<f64>,
-        frames: &Frames<f64>,
+        situation: Situation<'_, f64>,
         history: &mut History<f64>,
         observer: &mut impl Observer<f64>,
         rate: &mut State<f64>,
     ) {
-        system.rate_with::<COMMIT>(scratch, state, frames, history, observer, rate)
+        system.rate_with(scratch, situation, history, observer, rate)
     }
 }

@@ -11,7 +11,7 @@ mod dispatch;
 use crate::forces::sphere::Site;
 use crate::forces::{Forces, History, Instant, Load, Observer, Unlike};
 use crate::motion::dynamics::{Accelerations, Sweep, Wrench};
-use crate::motion::frame::{Frames, Moving};
+use crate::motion::frame::Frames;
 use crate::motion::kinematics::Kinematics;
 use crate::motion::layout::MOST_SEGMENTS;
 use crate::motion::scalar::Scalar;
@@ -58,6 +58,29 @@ impl<S: Copy> System<S> {
     }
 }
 
+/// Where a rate is asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Situation<'a, S> {
+    /// State of the body.
+    pub state: &'a State<S>,
+    /// Frames at its time.
+    pub frames: &'a Frames<S>,
+    /// Whether this is an accepted step: the history then first takes over the present position; else it is only read.
+    pub accepted: bool,
+}
+
+impl<'a, S> Situation<'a, S> {
+    /// Within a step.
+    pub fn within(state: &'a State<S>, frames: &'a Frames<S>) -> Self {
+        Situation { state, frames, accepted: false }
+    }
+
+    /// At an accepted step.
+    pub fn accepted(state: &'a State<S>, frames: &'a Frames<S>) -> Self {
+        Situation { state, frames, accepted: true }
+    }
+}
+
 /// One evaluation with all that it derived.
 #[derive(Clone, Copy, Debug)]
 pub struct Evaluation<S> {
@@ -88,49 +111,39 @@ impl<S: Scalar> Scratch<S> {
 }
 
 impl<S: Scalar> System<S> {
-    /// Rate of change of `state`, written to `rate`, with a place for what is on the way that is used again: clearing and
-    /// copying cost lanes a fifth of an evaluation. With `COMMIT` the history first takes over the present position, which
-    /// must be that of an accepted step; without it the history is only read.
+    /// Rate of change of the state, written to `rate`, with a place for what is on the way that is used again: clearing and
+    /// copying cost lanes a fifth of an evaluation.
     #[inline(always)]
-    pub fn rate_with<const COMMIT: bool>(
+    pub fn rate_with(
         &self,
         scratch: &mut Scratch<S>,
-        state: &State<S>,
-        frames: &Frames<S>,
+        situation: Situation<'_, S>,
         history: &mut History<S>,
         observer: &mut impl Observer<S>,
         rate: &mut State<S>,
     ) {
-        self.derive::<COMMIT>(scratch, state, frames, history, observer);
-        scratch.sweep.accelerations.write_rate(&self.skeleton.layout, state, scratch.load.power, rate);
+        self.derive(scratch, situation, history, observer);
+        scratch.sweep.accelerations.write_rate(&self.skeleton.layout, situation.state, scratch.load.power, rate);
     }
 
     /// Motion, loads and accelerations.
     #[inline(always)]
-    fn derive<const COMMIT: bool>(
+    fn derive(
         &self,
         scratch: &mut Scratch<S>,
-        state: &State<S>,
-        frames: &Frames<S>,
+        situation: Situation<'_, S>,
         history: &mut History<S>,
         observer: &mut (impl Observer<S> + ?Sized),
     ) {
         let Scratch { kinematics: k, load, sweep } = scratch;
+        let Situation { state, frames, accepted } = situation;
         let root = self.skeleton.mount.as_ref().map(|mount| mount.of(frames));
-        if S::HAS_SLOPES {
-            follow_apart(k, &self.skeleton, state, root.as_ref());
-        } else {
-            k.follow(&self.skeleton, state, root.as_ref());
-        }
-        let at = Instant { k, state, frames, spheres: &self.spheres };
+        k.follow(&self.skeleton, state, root.as_ref());
+        let at = Instant { k, state, frames, spheres: &self.spheres, accepted };
         load.clear(self.skeleton.layout.len());
-        self.forces.apply::<COMMIT>(&at, history, observer, load); // Q_f + R (48), and F_s
+        self.forces.apply(&at, history, observer, load); // Q_f + R (48), and F_s
         // q̈ from q̇ and q (114)
-        let by_mount = if S::HAS_SLOPES {
-            solve_apart(sweep, &self.skeleton, k, state, &load.wrench, root.as_ref())
-        } else {
-            sweep.solve(&self.skeleton, k, state.hinge_rate(), &load.wrench, root.as_ref())
-        };
+        let by_mount = sweep.solve(&self.skeleton, k, state.hinge_rate(), &load.wrench, root.as_ref());
         if root.is_some() {
             // of a mount in space, which stands still, it is 0
             load.power.vehicle += by_mount;
@@ -141,26 +154,4 @@ impl<S: Scalar> System<S> {
     pub fn sphere(&self, k: &Kinematics<S>, sphere: usize) -> (V3<S>, V3<S>, V3<S>) {
         self.spheres[sphere].place(k)
     }
-}
-
-// In numbers of a register or two the kernel is fastest inlined whole. In duals it is 700 kB: what stages and starts of steps
-// have in common is one function for both.
-
-/// [`Kinematics::follow`].
-#[inline(never)]
-fn follow_apart<S: Scalar>(k: &mut Kinematics<S>, body: &Skeleton<S>, state: &State<S>, root: Option<&Moving<S>>) {
-    k.follow(body, state, root);
-}
-
-/// [`Sweep::solve`].
-#[inline(never)]
-fn solve_apart<S: Scalar>(
-    sweep: &mut Sweep<S>,
-    body: &Skeleton<S>,
-    k: &Kinematics<S>,
-    state: &State<S>,
-    wrench: &[Wrench<S>; MOST_SEGMENTS],
-    root: Option<&Moving<S>>,
-) -> S {
-    sweep.solve(body, k, state.hinge_rate(), wrench, root)
 }

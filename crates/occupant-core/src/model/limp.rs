@@ -96,7 +96,7 @@ impl Rest {
         let skeleton = Skeleton::new(&setup.body, 0.0);
         let k = Kinematics::new(&skeleton, seated);
         let law = JointSystem::new(data.joints, &skeleton, |_| 0.0);
-        let at = Instant { k: &k, state: seated, frames: still, spheres: &system.spheres };
+        let at = Instant { k: &k, state: seated, frames: still, spheres: &system.spheres, accepted: false };
         let mut belts = system.forces.belts.clone();
         Belts::lay(&mut belts, data.belts, &setup.body, &at);
         Rest {
@@ -122,7 +122,7 @@ impl Limp {
     /// ∂V/∂x at a place, in the order of [`moved`]: N, and N·m over the lever.
     fn gradient(&self, state: &State<f64>) -> DVector<f64> {
         let k = Kinematics::new(&self.system.skeleton, state);
-        let at = Instant { k: &k, state, frames: &self.still, spheres: &self.system.spheres };
+        let at = Instant { k: &k, state, frames: &self.still, spheres: &self.system.spheres, accepted: false };
         let mut history = self.system.forces.start(&at);
         self.rest.hold(&mut history);
         let e = at_rest(&self.system, state, &self.still, &mut history);

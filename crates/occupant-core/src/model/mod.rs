@@ -183,7 +183,8 @@ fn begin(setup: &Setup, faces: &[FlatFace], problems: &mut Problems) -> Option<(
         set_velocity(&mut state, &setup.velocity, &vehicle);
     }
     let k = Kinematics::new(&system.skeleton, &state);
-    let at = Instant { k: &k, state: &state, frames: &frames(start_s, &vehicle), spheres: &system.spheres };
+    let at =
+        Instant { k: &k, state: &state, frames: &frames(start_s, &vehicle), spheres: &system.spheres, accepted: false };
     let forces = &mut system.forces;
     forces.lay(&data, &setup.body, &at);
     forces.begin(&data, &setup.body, &at, problems);

@@ -10,7 +10,7 @@ use serde::{Serialize, Serializer};
 
 use crate::body::Body;
 use crate::forces::{Data, History, Instant};
-use crate::kernel::{Evaluation, System};
+use crate::kernel::{Evaluation, Situation, System};
 use crate::model::frames;
 use crate::model::setup::Setup;
 use crate::motion::dynamics::Wrench;
@@ -179,7 +179,7 @@ fn load(
     still[VEHICLE].velocity = V3::zero();
     still[VEHICLE].omega = V3::zero();
     let k = Kinematics::new(&system.skeleton, state);
-    let at = Instant { k: &k, state, frames: &still, spheres: &system.spheres };
+    let at = Instant { k: &k, state, frames: &still, spheres: &system.spheres, accepted: false };
     system.forces.lay(data, &setup.body, &at);
     let mut history = system.forces.start(&at);
     let e = at_rest(system, state, &still, &mut history);
@@ -202,7 +202,7 @@ pub(super) fn at_rest(
     still: &Frames<f64>,
     history: &mut History<f64>,
 ) -> Evaluation<f64> {
-    system.evaluate::<false>(state, still, history, &mut ())
+    system.evaluate(Situation::within(state, still), history, &mut ())
 }
 
 /// Gives muscles at the start of a body that has settled what their joints carry there, at rest in frames that stand still.

@@ -1,7 +1,7 @@
 //! Whole steps from output to output.
 
 use super::Run;
-use crate::kernel::Scratch;
+use crate::kernel::{Scratch, Situation};
 use crate::model::Model;
 use crate::motion::frame::Frames;
 use crate::motion::integrate::rk4::{Stage, Stages};
@@ -87,14 +87,14 @@ impl Run {
         let system = model.system();
         let (scratch, stages) = (&mut Scratch::blank(&system.skeleton), &mut Stages::new(self.state.shape()));
         for step in stretch {
-            let [at_start, at_middle, at_end] = step.frames(model, &mut self.cursor);
-            let history = &mut self.history;
+            let frames = step.frames(model, &mut self.cursor);
             self.met.clear();
-            let mut met = Met(&mut self.met);
-            let next = *stages.step(&self.state, step.length_s(), |stage, state, rate| match stage {
-                Stage::Start => system.rate_alone::<true>(scratch, state, &at_start, history, &mut met, rate),
-                Stage::Middle => system.rate_alone::<false>(scratch, state, &at_middle, history, &mut (), rate),
-                Stage::End => system.rate_alone::<false>(scratch, state, &at_end, history, &mut (), rate),
+            let (history, mut met) = (&mut self.history, Met(&mut self.met));
+            // one call: each would be a whole kernel
+            let next = *stages.step(&self.state, step.length_s(), |stage, state, rate| {
+                let accepted = stage == Stage::Start;
+                let situation = Situation { state, frames: &frames[stage as usize], accepted };
+                system.rate_alone(scratch, situation, history, &mut accepted.then_some(&mut met), rate);
             });
             for touching in &self.met {
                 self.seen.note(model, step.start_s, touching.meeting);

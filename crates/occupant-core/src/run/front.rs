@@ -8,7 +8,7 @@ use std::mem::swap;
 use super::Step;
 use super::corner::{Crossing, Touching};
 use crate::forces::History;
-use crate::kernel::Scratch;
+use crate::kernel::{Scratch, Situation};
 use crate::model::Model;
 use crate::motion::integrate::bogacki_shampine::{Stage, Tolerance, Trial, attempt, within};
 use crate::motion::state::State;
@@ -89,9 +89,9 @@ impl Front {
         let frames = model.frames(step.start_s, middle_s, cursor);
         let system = model.system();
         self.met.clear();
+        let situation = Situation::accepted(&self.to, &frames);
         let mut met = Met(&mut self.met);
-        let rate = &mut self.rates[1];
-        system.rate_alone::<true>(&mut self.scratch, &self.to, &frames, &mut self.after, &mut met, rate);
+        system.rate_alone(&mut self.scratch, situation, &mut self.after, &mut Some(&mut met), &mut self.rates[1]);
     }
 
     /// Tries `step`, which begins where the front stands.
@@ -106,17 +106,15 @@ impl Front {
         let middle_s = 0.5 * (step.start_s + step.end_s);
         self.trial.take_over(&self.after);
         self.met_in_trial.clear();
-        let (history, met) = (&mut self.trial, &mut self.met_in_trial);
+        let (history, mut met) = (&mut self.trial, Met(&mut self.met_in_trial));
         let scratch = &mut self.scratch;
-        attempt(&self.to, &self.rates[1], h, tolerance, |stage, state, rate| match stage {
-            Stage::Within(s) => {
-                let frames = model.frames(step.start_s + s * h, middle_s, cursor);
-                system.rate_alone::<false>(scratch, state, &frames, history, &mut (), rate);
-            }
-            Stage::End => {
-                let frames = model.frames(step.end_s, middle_s, cursor);
-                system.rate_alone::<true>(scratch, state, &frames, history, &mut Met(met), rate);
-            }
+        attempt(&self.to, &self.rates[1], h, tolerance, |stage, state, rate| {
+            let (time_s, accepted) = match stage {
+                Stage::Within(s) => (step.start_s + s * h, false),
+                Stage::End => (step.end_s, true),
+            };
+            let situation = Situation { state, frames: &model.frames(time_s, middle_s, cursor), accepted };
+            system.rate_alone(scratch, situation, history, &mut accepted.then_some(&mut met), rate);
         })
     }
 

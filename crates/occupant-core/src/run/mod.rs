@@ -16,6 +16,7 @@ use adaptive::{Control, Memory as Wanted};
 use front::Front;
 
 use crate::forces::{Actions, History, Memory};
+use crate::kernel::Situation;
 use crate::model::setup::Integrator;
 use crate::model::{Model, frames};
 use crate::motion::frame::VEHICLE;
@@ -132,7 +133,8 @@ impl Run {
         let frames = frames(t, &vehicle);
         let system = model.system();
         self.actions.clear();
-        let evaluation = system.evaluate::<true>(&self.state, &frames, &mut self.history, &mut self.actions);
+        let evaluation =
+            system.evaluate(Situation::accepted(&self.state, &frames), &mut self.history, &mut self.actions);
         for touch in &self.actions.contacts {
             self.seen.note(model, t, touch.into());
         }

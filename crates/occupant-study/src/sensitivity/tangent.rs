@@ -4,7 +4,7 @@ use super::built::{Built, dual_frames, dual_history, dual_state, dual_system};
 use super::events::Scene;
 use super::trouble::Trouble;
 use occupant_core::forces::{Actions, History};
-use occupant_core::kernel::{Scratch, System};
+use occupant_core::kernel::{Scratch, Situation, System};
 use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
 use occupant_core::motion::dual::Dual;
@@ -87,7 +87,8 @@ impl<'a, const N: usize> Tangent<'a, N> {
         let frames = self.frames(time_s, time_s);
         scene.begin(time_s, &self.state);
         let Tangent { system, scratch, state, history, .. } = self;
-        rate_at_start(system, scratch, state, &frames, history, &mut scene.actions, &mut State::zero(state.shape()));
+        let (situation, mut k) = (Situation::accepted(state, &frames), State::zero(state.shape()));
+        rate(system, scratch, situation, history, Some(&mut scene.actions), &mut k);
     }
 
     /// A step that the plain run has taken; `stop_s` is the next break of the path, `scene` sees where it began.
@@ -104,12 +105,12 @@ impl<'a, const N: usize> Tangent<'a, N> {
         let Tangent { system, scratch, history, .. } = self;
         let h = Dual::new(step.length_s(), [0.0; N]);
         scene.begin(step.start_s, &self.state);
-        self.state = rk4::step(&self.state, h, |stage, state, rate| match stage {
+        self.state = rk4::step(&self.state, h, |stage, state, k| match stage {
             rk4::Stage::Start => {
-                rate_at_start(system, scratch, state, &start, history, &mut scene.actions, rate);
+                rate(system, scratch, Situation::accepted(state, &start), history, Some(&mut scene.actions), k);
             }
-            rk4::Stage::Middle => rate_within(system, scratch, state, &middle, history, rate),
-            rk4::Stage::End => rate_within(system, scratch, state, &end, history, rate),
+            rk4::Stage::Middle => rate(system, scratch, Situation::within(state, &middle), history, None, k),
+            rk4::Stage::End => rate(system, scratch, Situation::within(state, &end), history, None, k),
         });
     }
 
@@ -122,17 +123,17 @@ impl<'a, const N: usize> Tangent<'a, N> {
         let Tangent { system, scratch, front, .. } = self;
         if !front.rate_is_known {
             scene.begin(t, &front.to);
-            let Front { to, after, rates: [_, rate], .. } = front;
-            rate_at_start(system, scratch, to, &start, after, &mut scene.actions, rate);
+            let Front { to, after, rates: [_, k], .. } = front;
+            rate(system, scratch, Situation::accepted(to, &start), after, Some(&mut scene.actions), k);
         }
         front.spare.take_over(&front.after);
         let (k1, history) = (front.rates[1], &mut front.spare);
-        let (to, [.., k4]) = stages(&front.to, &k1, h, |stage, state, rate| match stage {
-            Stage::Within(0.5) => rate_within(system, scratch, state, &half, history, rate),
-            Stage::Within(_) => rate_within(system, scratch, state, &late, history, rate),
+        let (to, [.., k4]) = stages(&front.to, &k1, h, |stage, state, k| match stage {
+            Stage::Within(0.5) => rate(system, scratch, Situation::within(state, &half), history, None, k),
+            Stage::Within(_) => rate(system, scratch, Situation::within(state, &late), history, None, k),
             Stage::End => {
                 scene.begin(step.end_s, state);
-                rate_at_start(system, scratch, state, &end, history, &mut scene.actions, rate);
+                rate(system, scratch, Situation::accepted(state, &end), history, Some(&mut scene.actions), k);
             }
         });
         front.step = step;
@@ -167,31 +168,15 @@ impl<const N: usize> Front<N> {
     }
 }
 
-// The kernel in duals is large: these two are the only copies of it.
-
-/// The rate at an accepted step, which the history takes over and `actions` shows.
+/// The rate, which `actions` shows: the kernel in duals is large, and this is the only copy of it.
 #[inline(never)]
-fn rate_at_start<const N: usize>(
+fn rate<const N: usize>(
     system: &System<Dual<N>>,
     scratch: &mut Scratch<Dual<N>>,
-    state: &State<Dual<N>>,
-    frames: &Frames<Dual<N>>,
+    situation: Situation<'_, Dual<N>>,
     history: &mut History<Dual<N>>,
-    actions: &mut Actions<Dual<N>>,
-    rate: &mut State<Dual<N>>,
+    mut actions: Option<&mut Actions<Dual<N>>>,
+    to: &mut State<Dual<N>>,
 ) {
-    system.rate_with::<true>(scratch, state, frames, history, actions, rate);
-}
-
-/// The rate within a step.
-#[inline(never)]
-fn rate_within<const N: usize>(
-    system: &System<Dual<N>>,
-    scratch: &mut Scratch<Dual<N>>,
-    state: &State<Dual<N>>,
-    frames: &Frames<Dual<N>>,
-    history: &mut History<Dual<N>>,
-    rate: &mut State<Dual<N>>,
-) {
-    system.rate_with::<false>(scratch, state, frames, history, &mut (), rate);
+    system.rate_with(scratch, situation, history, &mut actions, to);
 }

@@ -150,7 +150,7 @@ impl Element for Belts {
 
     /// The forces act at the spheres' centres.
     #[inline(always)]
-    fn apply<S: Scalar, const COMMIT: bool>(
+    fn apply<S: Scalar>(
         law: &Vec<BeltLaw<S>>,
         at: &Instant<'_, S>,
         past: &mut [BeltHistory<S>],
@@ -164,7 +164,7 @@ impl Element for Belts {
             let (arm, centre, velocity) = site.place(at.k);
             let centre_v = frame.axes.into_frame(centre - frame.origin);
             let action = belt.act(centre_v, past);
-            if COMMIT {
+            if at.accepted {
                 belt.commit(&action, past);
             }
             let force = frame.axes.out(action.force);

@@ -132,7 +132,7 @@ impl Element for Chains {
     }
 
     #[inline(always)]
-    fn apply<S: Scalar, const COMMIT: bool>(
+    fn apply<S: Scalar>(
         law: &Vec<ChainLaw<S>>,
         at: &Instant<'_, S>,
         past: &mut [ChainPast<S>],
@@ -141,7 +141,7 @@ impl Element for Chains {
         show: &mut impl FnMut(&StrapAction<S>),
     ) {
         for (chain, past) in law.iter().zip(past) {
-            act::<S, COMMIT>(chain, at, past, load, show);
+            act(chain, at, past, load, show);
         }
     }
 
@@ -177,7 +177,7 @@ impl Element for Chains {
 
 /// What one chain does. A commit of the same time as the last changes nothing, so that a resumed run has the same bits.
 #[inline(always)]
-fn act<S: Scalar, const COMMIT: bool>(
+fn act<S: Scalar>(
     chain: &ChainLaw<S>,
     at: &Instant<'_, S>,
     past: &mut ChainPast<S>,
@@ -188,7 +188,7 @@ fn act<S: Scalar, const COMMIT: bool>(
     // a loop, so that there is one copy of what is looked at twice
     let now = loop {
         let now = chain.now(at, past);
-        if !COMMIT || left.is_some() || !S::any(at.frames.time.gt(past.device.time)) {
+        if !at.accepted || left.is_some() || !S::any(at.frames.time.gt(past.device.time)) {
             break now;
         }
         left = Some(chain.commit(at, &now, past));

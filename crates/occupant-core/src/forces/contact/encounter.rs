@@ -32,6 +32,8 @@ pub(crate) struct Sphere<'a, S: Scalar> {
     centre: V3<S>,
     /// Centre in the frame.
     pub centre_f: V3<S>,
+    /// Whether at an accepted step.
+    accepted: bool,
     /// Worked out at the first live pair: most spheres touch nothing.
     load: Option<Load<S>>,
 }
@@ -53,13 +55,13 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         let arm = k.axes[site.segment].out(site.offset);
         let centre = k.joint[site.segment] + arm;
         let centre_f = frame.axes.into_frame(centre - frame.origin); // (83)
-        Sphere { contacts, group, site, frame, k, arm, centre, centre_f, load: None }
+        Sphere { contacts, group, site, frame, k, arm, centre, centre_f, accepted: at.accepted, load: None }
     }
 
-    /// Adds the forces of pair `i`, of faces or of solids, in the lanes of `near`; returns the deformation. With `COMMIT` the
-    /// pair's history first takes over the present position, that of an accepted step.
+    /// Adds the forces of pair `i`, of faces or of solids, in the lanes of `near`; returns the deformation. At an
+    /// accepted step the pair's history first takes over the present position.
     #[inline(always)]
-    pub(super) fn look_at<const SOLID: bool, const COMMIT: bool>(
+    pub(super) fn look_at<const SOLID: bool>(
         &mut self,
         i: usize,
         near: S::Mask,
@@ -68,37 +70,20 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         show: &mut impl FnMut(&Touch<S>),
     ) -> S {
         if SOLID {
-            return self.meet_solid::<COMMIT>(i, near, past, power, show);
-        }
-        if COMMIT {
-            return self.commit(i, &mut past[i], power, show);
+            return self.meet_solid(i, near, past, power, show);
         }
         let depth = self.contacts.planes[i].depth(self.centre_f);
-        self.meet::<false>(i, depth, depth.gt(S::zero()) & near, &mut past[i], power, show);
-        depth
-    }
-
-    /// Takes the present position, that of an accepted step, over into the history of pair `i` and adds its forces; returns
-    /// the deformation.
-    #[inline(always)]
-    fn commit(
-        &mut self,
-        i: usize,
-        pair: &mut PairHistory<S>,
-        power: &mut Work<S>,
-        show: &mut impl FnMut(&Touch<S>),
-    ) -> S {
-        let depth = self.contacts.planes[i].depth(self.centre_f);
-        self.contacts.open(i, depth, pair);
-        let contact = depth.gt(S::zero());
-        self.meet::<true>(i, depth, contact, pair, power, show);
+        if self.accepted {
+            self.contacts.open(i, depth, &mut past[i]);
+        }
+        self.meet(i, depth, depth.gt(S::zero()) & near, &mut past[i], power, show);
         depth
     }
 
     /// Adds the forces of pair `i` at deformation `depth`, in the lanes of `contact`. In all others nothing changes, not
     /// even the sign of a zero.
     #[inline(always)]
-    fn meet<const COMMIT: bool>(
+    fn meet(
         &mut self,
         i: usize,
         depth: S,
@@ -115,16 +100,16 @@ impl<'a, S: Scalar> Sphere<'a, S> {
             return;
         }
         let approach = self.approach();
-        let touch = self.contacts.touch::<COMMIT>(self.group, i, depth, live, &approach, history);
+        let touch = self.contacts.touch(self.accepted, self.group, i, depth, live, &approach, history);
         if let Some(touch) = touch {
             self.take(touch, &approach, self.site.radius, power, show);
         }
     }
 
-    /// Adds the forces of pair `i` with solids, in the lanes of `near`; returns the deformation. With `COMMIT` its history
-    /// first takes over the present position, that of an accepted step.
+    /// Adds the forces of pair `i` with solids, in the lanes of `near`; returns the deformation. At an accepted step its
+    /// history first takes over the present position.
     #[inline(always)]
-    fn meet_solid<const COMMIT: bool>(
+    fn meet_solid(
         &mut self,
         i: usize,
         near: S::Mask,
@@ -135,8 +120,8 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         let (contacts, radius) = (self.contacts, self.site.radius);
         let j = i - contacts.pairs.len();
         let union = &contacts.solids.pairs[j];
-        let nearest = contacts.solids.nearest::<COMMIT>(j, self.centre_f, radius, past);
-        if COMMIT {
+        let nearest = contacts.solids.nearest(j, self.centre_f, radius, past, self.accepted);
+        if self.accepted {
             union.commit(nearest.depth, &mut past[i]);
         }
         let live = nearest.depth.gt(S::zero()) & near;

@@ -30,7 +30,7 @@ use crate::forces::list::STORES;
 use crate::motion::scalar::Scalar;
 use crate::quantity::energy;
 use encounter::Sphere;
-use hints::{Looking, Near, Nearing};
+use hints::{Looking, Nearing};
 use placed_text::Problems;
 use self_contact::SelfContact;
 use solid::{Member, lever};
@@ -152,7 +152,7 @@ impl Element for Contacts {
     }
 
     #[inline(always)]
-    fn apply<S: Scalar, const COMMIT: bool>(
+    fn apply<S: Scalar>(
         law: &ContactSystem<S>,
         at: &Instant<'_, S>,
         past: &mut [PairHistory<S>],
@@ -161,12 +161,12 @@ impl Element for Contacts {
         show: &mut impl FnMut(&Touch<S>),
     ) {
         for (g, group) in law.groups.iter().enumerate() {
-            meet_all::<S, COMMIT, false>(law, g, group, at, past, hints, load, show);
+            meet_all::<S, false>(law, g, group, at, past, hints, load, show);
         }
         for (g, group) in (law.groups.len()..).zip(&law.solids.groups) {
-            meet_all::<S, COMMIT, true>(law, g, group, at, past, hints, load, show);
+            meet_all::<S, true>(law, g, group, at, past, hints, load, show);
         }
-        law.own.apply::<COMMIT>(at, past, &mut hints.own, law.reach_of_a_step, load, show);
+        law.own.apply(at, past, &mut hints.own, law.reach_of_a_step, load, show);
     }
 
     fn stored_j(actions: &[Touch<f64>], stored_j: &mut [f64; STORES]) {
@@ -177,7 +177,7 @@ impl Element for Contacts {
 /// A sphere and all pairs of a group, number `g`: of faces, or of solids.
 #[inline(always)]
 #[expect(clippy::too_many_arguments, reason = "two calls, both inlined")]
-fn meet_all<S: Scalar, const COMMIT: bool, const SOLID: bool>(
+fn meet_all<S: Scalar, const SOLID: bool>(
     law: &ContactSystem<S>,
     g: usize,
     group: &Group,
@@ -188,33 +188,41 @@ fn meet_all<S: Scalar, const COMMIT: bool, const SOLID: bool>(
     show: &mut impl FnMut(&Touch<S>),
 ) {
     let near = hints.near_of(g, group);
-    if !COMMIT && near.is_empty() {
+    if !at.accepted && near.is_empty() {
         return;
     }
     let mut sphere = Sphere::new(law, group, at);
     let power = &mut load.power;
-    if !COMMIT {
-        for place in near {
-            let Near { pair, lanes } = hints.near[place];
-            sphere.look_at::<SOLID, false>(pair as usize, lanes, past, power, show);
-        }
+    let looks = at.accepted && hints.must_look(g, sphere.centre_f);
+    let places = if looks {
+        group.pairs.clone()
+    } else if at.accepted {
+        hints.watched_of(g, group)
     } else {
-        let (mut near, all) = (Nearing::new(group), S::truth(true));
-        if hints.must_look(g, sphere.centre_f) {
-            let mut look = Looking::new(group);
-            for i in group.pairs.clone() {
-                let depth = sphere.look_at::<SOLID, true>(i, all, past, power, show);
-                look.at(i, depth, law, &past[i], hints);
-                near.at(i, depth, law, &past[i], hints);
-            }
-            look.end(g, &sphere, law, hints);
+        near
+    };
+    let (mut near, mut look, all) = (Nearing::new(group), Looking::new(group), S::truth(true));
+    // one loop, so that there is one copy of what a pair does
+    for place in places {
+        let (i, lanes) = if looks {
+            (place, all)
+        } else if at.accepted {
+            (hints.watched[place] as usize, all)
         } else {
-            for place in hints.watched_of(g, group) {
-                let i = hints.watched[place] as usize;
-                let depth = sphere.look_at::<SOLID, true>(i, all, past, power, show);
-                near.at(i, depth, law, &past[i], hints);
-            }
+            (hints.near[place].pair as usize, hints.near[place].lanes)
+        };
+        let depth = sphere.look_at::<SOLID>(i, lanes, past, power, show);
+        if looks {
+            look.at(i, depth, law, &past[i], hints);
         }
+        if at.accepted {
+            near.at(i, depth, law, &past[i], hints);
+        }
+    }
+    if looks {
+        look.end(g, &sphere, law, hints);
+    }
+    if at.accepted {
         near.end(g, hints);
     }
     sphere.load(load);
@@ -300,7 +308,7 @@ impl ContactSystem<f64> {
             let (centre, radius) = (at.centre_in(group.sphere, group.frame), at.spheres[group.sphere].radius);
             for i in group.pairs.clone() {
                 let j = i - self.pairs.len();
-                let nearest = self.solids.nearest::<true>(j, centre, radius, &mut list);
+                let nearest = self.solids.nearest(j, centre, radius, &mut list, true);
                 self.solids.pairs[j].commit(nearest.depth, &mut list[i]);
             }
         }

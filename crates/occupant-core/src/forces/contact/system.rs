@@ -186,11 +186,12 @@ impl<S: Scalar> ContactSystem<S> {
     }
 
     /// Forces of pair `i` on its sphere in the lanes where it is `live`: in contact and not passed; `None` if there are none
-    /// in any lane. With `COMMIT` the pair's history first takes over the present position, which must be that of an accepted
-    /// step.
+    /// in any lane. At an accepted step the pair's history first takes over the present position.
     #[inline(always)]
-    pub(crate) fn touch<const COMMIT: bool>(
+    #[expect(clippy::too_many_arguments, reason = "one call, inlined")]
+    pub(crate) fn touch(
         &self,
+        accepted: bool,
         group: &Group,
         i: usize,
         depth: S,
@@ -203,7 +204,7 @@ impl<S: Scalar> ContactSystem<S> {
         let radius = approach.radius;
         let (offset, nearest) = pair.nearest(approach.centre);
         let w = S::select(live, weight(offset.distance, radius), o);
-        if COMMIT {
+        if accepted {
             let on = w.gt(o);
             let phase = S::select(on, touching, S::of(PASSED));
             history.phase = S::select(live, phase, history.phase);

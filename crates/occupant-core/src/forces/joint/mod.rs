@@ -96,7 +96,7 @@ impl Element for JointMoments {
     fn map<A: Copy, S>(_past: &(), _f: &mut impl FnMut(A) -> S) {}
 
     #[inline(always)]
-    fn apply<S: Scalar, const COMMIT: bool>(
+    fn apply<S: Scalar>(
         law: &JointSystem<S>,
         at: &Instant<'_, S>,
         _past: &mut [()],

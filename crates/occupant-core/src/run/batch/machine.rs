@@ -5,8 +5,8 @@
 //! [`has_avx512`](crate::motion::lanes::has_avx512) say so.
 
 use super::place::Witness;
-use crate::forces::{History, Observer};
-use crate::kernel::{Scratch, System};
+use crate::forces::History;
+use crate::kernel::{Scratch, Situation, System};
 use crate::motion::frame::Frames;
 use crate::motion::integrate::rk4::{Stage, Stages};
 use crate::motion::lanes::Lanes;
@@ -38,17 +38,13 @@ pub(crate) trait Machine: Lanes {
 }
 
 impl<L: Lanes> Around<L> {
-    /// The rate at a stage of a step, in the instructions of the caller; with `START` the history takes over the state.
+    /// The rate at a stage of a step, in the instructions of the caller; `witness` sees that of the start.
     #[inline(always)]
-    fn rate<const START: bool>(
-        &mut self,
-        stage: Stage,
-        state: &State<L>,
-        observer: &mut impl Observer<L>,
-        rate: &mut State<L>,
-    ) {
-        let frames = &self.frames[stage as usize];
-        self.system.rate_with::<START>(&mut self.scratch, state, frames, &mut self.history, observer, rate);
+    fn rate(&mut self, stage: Stage, state: &State<L>, witness: &mut Witness<'_>, rate: &mut State<L>) {
+        let accepted = stage == Stage::Start;
+        let situation = Situation { state, frames: &self.frames[stage as usize], accepted };
+        let observer = &mut accepted.then_some(witness);
+        self.system.rate_with(&mut self.scratch, situation, &mut self.history, observer, rate);
     }
 }
 
@@ -80,22 +76,19 @@ macro_rules! machine {
 
             #[target_feature(enable = $features)]
             fn step(bench: &mut Bench<$lanes>, h: $lanes, witness: &mut Witness<'_>) -> $lanes {
-                bench.step(h, |around, stage, state, k| match stage {
-                    Stage::Start => rate::<true>(around, stage, state, witness, k),
-                    _ => rate::<false>(around, stage, state, &mut (), k),
-                })
+                bench.step(h, |around, stage, state, k| rate(around, stage, state, witness, k))
             }
 
             #[inline(never)]
             #[target_feature(enable = $features)]
-            fn rate<const START: bool>(
+            fn rate(
                 around: &mut Around<$lanes>,
                 stage: Stage,
                 state: &State<$lanes>,
-                observer: &mut impl Observer<$lanes>,
+                witness: &mut Witness<'_>,
                 k: &mut State<$lanes>,
             ) {
-                around.rate::<START>(stage, state, observer, k);
+                around.rate(stage, state, witness, k);
             }
         }
     };
@@ -112,10 +105,7 @@ mod tests {
 
     impl<const N: usize> Machine for crate::motion::lanes::Plain<N> {
         fn step(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> Self {
-            bench.step(h, |around, stage, state, k| match stage {
-                Stage::Start => around.rate::<true>(stage, state, witness, k),
-                _ => around.rate::<false>(stage, state, &mut (), k),
-            })
+            bench.step(h, |around, stage, state, k| around.rate(stage, state, witness, k))
         }
     }
 }

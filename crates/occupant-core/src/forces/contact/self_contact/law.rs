@@ -78,9 +78,9 @@ impl<S: Scalar> SelfPairs<S> {
         self.pairs.get(number.checked_sub(self.first)?)
     }
 
-    /// Adds the forces of all pairs. With `COMMIT` what they remember first takes over the present position.
+    /// Adds the forces of all pairs. At an accepted step what they remember first takes over the present position.
     #[inline(always)]
-    pub(in crate::forces::contact) fn apply<const COMMIT: bool>(
+    pub(in crate::forces::contact) fn apply(
         &self,
         at: &Instant<'_, S>,
         past: &mut [PairHistory<S>],
@@ -89,7 +89,7 @@ impl<S: Scalar> SelfPairs<S> {
         load: &mut Load<S>,
         show: &mut impl FnMut(&Touch<S>),
     ) {
-        if !COMMIT {
+        if !at.accepted {
             for place in 0..hints.count {
                 let near = hints.near[place];
                 let i = near.pair as usize;

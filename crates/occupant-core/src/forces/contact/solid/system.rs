@@ -118,20 +118,21 @@ impl<S> Solids<S> {
 }
 
 impl<S: Scalar> Solids<S> {
-    /// The nearest solid of pair `j` to a sphere. With `COMMIT` the remembered faces first take over its place, which must
-    /// be that of an accepted step.
+    /// The nearest solid of pair `j` to a sphere. At an accepted step the remembered faces first take over its
+    /// place.
     #[inline(always)]
-    pub(crate) fn nearest<const COMMIT: bool>(
+    pub(crate) fn nearest(
         &self,
         j: usize,
         centre: V3<S>,
         radius: S,
         past: &mut [PairHistory<S>],
+        accepted: bool,
     ) -> Nearest<S> {
         let mut nearest = Nearest { part: S::zero(), depth: S::of(f64::NEG_INFINITY), normal: V3::zero() };
         for (i, member) in self.pairs[j].members.iter().enumerate() {
             let (shape, phase) = (&self.shapes[member.solid], &mut past[member.past].phase);
-            let distance = if COMMIT { shape.commit(centre, radius, phase) } else { shape.distance(centre, *phase) };
+            let distance = if accepted { shape.commit(centre, radius, phase) } else { shape.distance(centre, *phase) };
             let depth = radius - distance.phi;
             let is_nearer = nearest.depth.lt(depth);
             nearest = Nearest {

@@ -242,13 +242,11 @@ impl<S: Scalar> LimitAction<S> {
 }
 
 impl<S: Scalar> LimitLaw<S> {
-    /// What it does, and in which lanes it does anything. With `COMMIT` the history first takes over the present angles.
+    /// What it does, and in which lanes it does anything. At an accepted step the history first takes over
+    /// the present angles.
     #[inline(always)]
-    pub(super) fn act<const COMMIT: bool>(
-        &self,
-        at: &Instant<'_, S>,
-        past: &mut LimitHistory<S>,
-    ) -> (LimitAction<S>, S::Mask) {
+    pub(super) fn act(&self, at: &Instant<'_, S>, past: &mut LimitHistory<S>) -> (LimitAction<S>, S::Mask) {
+        let accepted = at.accepted;
         let (k, (inner, outer)) = (at.k, self.segments);
         let mut action = LimitAction::none(self.joint);
         let acts = if let Site::Hinge(limb) = self.site {
@@ -256,15 +254,15 @@ impl<S: Scalar> LimitLaw<S> {
             action.angles[0] = angle;
             // no closure for the library to call: it would be compiled without the registers of lanes
             match &self.turn {
-                Some(turn) => turn.act::<COMMIT>(S::truth(true), angle, || axis, &mut past.stops[1], &mut action),
+                Some(turn) => turn.act(accepted, S::truth(true), angle, || axis, &mut past.stops[1], &mut action),
                 None => S::truth(false),
             }
         } else {
-            self.act_ball::<COMMIT>(&self.triads.pose(&k.axes[inner], &k.axes[outer]), past, &mut action)
+            self.act_ball(accepted, &self.triads.pose(&k.axes[inner], &k.axes[outer]), past, &mut action)
         };
         let omega = k.omega[outer] - k.omega[inner];
         let locks = match &self.lock {
-            Some(lock) => lock.act::<COMMIT>(&self.pair(at, omega), &mut past.lock, &mut action),
+            Some(lock) => lock.act(&self.pair(at, omega), &mut past.lock, &mut action),
             None => S::truth(false),
         };
         action.moment = action.stop + action.lock;
@@ -280,7 +278,7 @@ impl<S: Scalar> LimitLaw<S> {
     #[inline(always)]
     fn pair<'a>(&self, at: &Instant<'a, S>, omega: V3<S>) -> Pair<'a, S> {
         let (inner, outer) = self.segments;
-        Pair { axes: (&at.k.axes[inner], &at.k.axes[outer]), omega, time: at.frames.time }
+        Pair { axes: (&at.k.axes[inner], &at.k.axes[outer]), omega, time: at.frames.time, accepted: at.accepted }
     }
 
     /// What it remembers of a body that stands where it is: stops without loss, the lock closed.
@@ -294,24 +292,25 @@ impl<S: Scalar> LimitLaw<S> {
 
     /// Stops of bend and twist.
     #[inline(always)]
-    fn act_ball<const COMMIT: bool>(
+    fn act_ball(
         &self,
+        accepted: bool,
         pose: &Pose<S>,
         past: &mut LimitHistory<S>,
         action: &mut LimitAction<S>,
     ) -> S::Mask {
         let [bend_past, turn_past] = &mut past.stops;
         let mut acts = S::truth(false);
-        if COMMIT {
+        if accepted {
             action.angles = [pose.bend(), pose.azimuth(), pose.twist()];
         }
         if let Some(bend) = &self.bend {
-            acts = bend.act::<COMMIT>(pose, bend_past, action);
+            acts = bend.act(accepted, pose, bend_past, action);
         }
         if let Some(turn) = &self.turn {
             let near = pose.is_twisted_beyond(turn.gate);
-            if COMMIT || S::any(near) {
-                acts = acts | turn.act::<COMMIT>(near, pose.twist(), || pose.twisting(), turn_past, action);
+            if accepted || S::any(near) {
+                acts = acts | turn.act(accepted, near, pose.twist(), || pose.twisting(), turn_past, action);
             }
         }
         acts
@@ -330,12 +329,12 @@ impl<S: Scalar> LimitLaw<S> {
 impl<S: Scalar> Bend<S> {
     /// V = ∫f(χ), χ = θ − θ₀(φ): the moment is −f (e_θ − θ₀′ e_φ).
     #[inline(always)]
-    fn act<const COMMIT: bool>(&self, pose: &Pose<S>, past: &mut Past<S>, action: &mut LimitAction<S>) -> S::Mask {
+    fn act(&self, accepted: bool, pose: &Pose<S>, past: &mut Past<S>, action: &mut LimitAction<S>) -> S::Mask {
         let near = pose.is_bent_beyond(self.gate);
-        if COMMIT || S::any(near) {
+        if accepted || S::any(near) {
             let (limit, rise) = self.angle.around(pose.azimuth());
             let excess = pose.bend() - limit;
-            if COMMIT {
+            if accepted {
                 past.commit(&self.stop, excess);
             }
             let moment = pose.swinging() * rise - pose.bending();
@@ -355,8 +354,9 @@ impl<S: Scalar> Turn<S> {
 
     /// The moment is −f times the axis about which the angle grows.
     #[inline(always)]
-    fn act<const COMMIT: bool>(
+    fn act(
         &self,
+        accepted: bool,
         near: S::Mask,
         angle: S,
         axis: impl Fn() -> V3<S>,
@@ -365,8 +365,8 @@ impl<S: Scalar> Turn<S> {
     ) -> S::Mask {
         let (excess, sign) = self.excess(angle);
         let near = near & excess.gt(S::zero());
-        if COMMIT || S::any(near) {
-            if COMMIT {
+        if accepted || S::any(near) {
+            if accepted {
                 past.commit(&self.stop, excess);
             }
             action.push(near, axis() * -sign, excess, &past.respond(&self.stop, excess));

@@ -45,6 +45,7 @@ pub(super) struct Pair<'a, S> {
     /// Of the outer one relative to the inner one, space axes, rad/s.
     pub(super) omega: V3<S>,
     pub(super) time: S,
+    pub(super) accepted: bool,
 }
 
 impl<S: Copy> Lock<S> {
@@ -104,15 +105,11 @@ impl<S: Scalar> LockPast<S> {
 }
 
 impl<S: Scalar> Lock<S> {
-    /// What it does, and in which lanes it is closed. With `COMMIT` it first takes over the present posture.
+    /// What it does, and in which lanes it is closed. At an accepted step it first takes over the present
+    /// posture.
     #[inline(always)]
-    pub(super) fn act<const COMMIT: bool>(
-        &self,
-        pair: &Pair<'_, S>,
-        past: &mut LockPast<S>,
-        action: &mut LimitAction<S>,
-    ) -> S::Mask {
-        if COMMIT {
+    pub(super) fn act(&self, pair: &Pair<'_, S>, past: &mut LockPast<S>, action: &mut LimitAction<S>) -> S::Mask {
+        if pair.accepted {
             self.commit(pair, past);
         }
         let closed = past.is_closed();

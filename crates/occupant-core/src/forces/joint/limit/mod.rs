@@ -168,7 +168,7 @@ impl Element for JointLimits {
     }
 
     #[inline(always)]
-    fn apply<S: Scalar, const COMMIT: bool>(
+    fn apply<S: Scalar>(
         law: &Vec<LimitLaw<S>>,
         at: &Instant<'_, S>,
         past: &mut [LimitHistory<S>],
@@ -177,7 +177,7 @@ impl Element for JointLimits {
         show: &mut impl FnMut(&LimitAction<S>),
     ) {
         for (law, past) in law.iter().zip(past) {
-            let (action, acts) = law.act::<COMMIT>(at, past);
+            let (action, acts) = law.act(at, past);
             if S::any(acts) {
                 let (inner, outer) = law.segments;
                 let [k, l] = [load.wrench[inner].moment, load.wrench[outer].moment];

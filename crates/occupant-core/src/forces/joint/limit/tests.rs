@@ -75,7 +75,7 @@ fn both(joint: Joint) -> LimitLaw<f64> {
 fn loaded<S: Scalar>(law: &LimitLaw<S>, k: &M3<S>, l: &M3<S>) -> LimitAction<S> {
     let mut past = LimitHistory { stops: [Past::none(); 2], lock: LockPast::none() };
     let mut action = LimitAction::none(law.joint);
-    law.act_ball::<false>(&law.triads.pose(k, l), &mut past, &mut action);
+    law.act_ball(false, &law.triads.pose(k, l), &mut past, &mut action);
     action
 }
 
@@ -114,14 +114,15 @@ fn a_lock_is_a_spring_in_all_directions() {
         let l = Rotation3::new(turn).matrix() * start;
         let omega = V3::<f64>::zero();
         let axes = (M3::of(&k), M3::of(&l));
-        let pair = Pair { axes: (&axes.0, &axes.1), omega, time: 0.0 };
+        let pair = Pair { axes: (&axes.0, &axes.1), omega, time: 0.0, accepted: false };
         let begun = M3::of(&start);
-        let past = LockPast::start(&Pair { axes: (&axes.0, &begun), omega, time: 0.0 });
+        let past = LockPast::start(&Pair { axes: (&axes.0, &begun), omega, time: 0.0, accepted: false });
         let (moment, stored) = lock.respond(&pair, &past);
         assert!((moment.to_vector() + turn * 80.0).norm() < 1e-10, "{moment:?}");
         assert!((stored - 40.0 * turn.norm_squared()).abs() < 1e-10);
         let seeded = (turning(&k, &Vector3::zeros()), turning(&l, &axis));
-        let pair = Pair { axes: (&seeded.0, &seeded.1), omega: V3::zero(), time: Dual::new(0.0, [0.0]) };
+        let pair =
+            Pair { axes: (&seeded.0, &seeded.1), omega: V3::zero(), time: Dual::new(0.0, [0.0]), accepted: false };
         let (_, by_angle) = dual.respond(&pair, &past.map(&mut |x| Dual::new(x, [0.0])));
         worst = worst.max((by_angle.slopes[0] + moment.to_vector().dot(&axis)).abs());
     }
@@ -198,7 +199,7 @@ fn straight_and_folded_joints_have_finite_torques_and_slopes() {
         let seeded = |m: M3<f64>| m.zip(&m, &|x, _| Dual::new(x, [0.3]));
         let pose = law.zip(&law, &dual).pose(&seeded(one), &seeded(l));
         let mut action = LimitAction::none(NECK);
-        bend.act::<true>(&pose, &mut Past::none(), &mut action);
+        bend.act(true, &pose, &mut Past::none(), &mut action);
         for x in [action.stop.x, action.stop.y, action.stop.z, action.stored, action.excess] {
             assert!(x.value.is_finite() && x.slopes[0].is_finite(), "{action:?}");
         }

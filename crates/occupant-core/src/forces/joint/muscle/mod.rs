@@ -90,7 +90,7 @@ impl Element for Muscles {
     fn map<A: Copy, S>(_past: &(), _f: &mut impl FnMut(A) -> S) {}
 
     #[inline(always)]
-    fn apply<S: Scalar, const COMMIT: bool>(
+    fn apply<S: Scalar>(
         law: &Vec<MuscleLaw<S>>,
         at: &Instant<'_, S>,
         _past: &mut [()],
