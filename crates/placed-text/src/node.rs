@@ -6,7 +6,7 @@ use std::fmt;
 use indexmap::IndexMap;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::{Error, MapDeserializer, SeqDeserializer};
-use serde::de::{Deserializer, IntoDeserializer, SeqAccess, Unexpected, Visitor};
+use serde::de::{Deserializer, Expected, IntoDeserializer, SeqAccess, Unexpected, Visitor};
 use serde::{Deserialize, Serialize, forward_to_deserialize_any};
 
 use crate::source::{SourceId, Span};
@@ -96,6 +96,10 @@ impl Value {
         }
     }
 
+    fn unwanted(&self, expected: &dyn Expected) -> Error {
+        serde::de::Error::invalid_type(Unexpected::Other(self.kind()), expected)
+    }
+
     fn visit<'de, V: Visitor<'de>>(&'de self, visitor: V) -> Result<V::Value, Error> {
         match self {
             Value::Null => visitor.visit_unit(),
@@ -104,11 +108,13 @@ impl Value {
             Value::Float(x) => visitor.visit_f64(*x),
             Value::String(text) => visitor.visit_borrowed_str(text),
             Value::Array(items) => visitor.visit_seq(SeqDeserializer::new(items.iter())),
-            Value::Table(table) => {
-                visitor.visit_map(MapDeserializer::new(table.iter().map(|(key, entry)| (key.as_str(), &entry.node))))
-            }
+            Value::Table(table) => visitor.visit_map(entries(table)),
         }
     }
+}
+
+fn entries(table: &Table) -> MapDeserializer<'_, impl Iterator<Item = (&str, &Node)>, Error> {
+    MapDeserializer::new(table.iter().map(|(key, entry)| (key.as_str(), &entry.node)))
 }
 
 /// A value as a section takes it over, with its value in SI units if the check has read it as a quantity.
@@ -282,9 +288,38 @@ impl<'de> Deserializer<'de> for &'de Node {
         self.as_str().unwrap_or_default().into_deserializer().deserialize_enum(name, variants, visitor)
     }
 
+    // what sections are made of knows what it wants: any other visit is not compiled for each of their hundred types
+
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _name: &'static str,
+        _fields: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        self.deserialize_map(visitor)
+    }
+
+    fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        match &self.value {
+            Value::Table(table) => visitor.visit_map(entries(table)),
+            other => Err(other.unwanted(&visitor)),
+        }
+    }
+
+    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        match &self.value {
+            Value::Array(items) => visitor.visit_seq(SeqDeserializer::new(items.iter())),
+            other => Err(other.unwanted(&visitor)),
+        }
+    }
+
+    fn deserialize_tuple<V: Visitor<'de>>(self, _len: usize, visitor: V) -> Result<V::Value, Error> {
+        self.deserialize_seq(visitor)
+    }
+
     forward_to_deserialize_any! {
         bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf unit unit_struct
-        newtype_struct seq tuple tuple_struct map struct identifier ignored_any
+        newtype_struct tuple_struct identifier ignored_any
     }
 }
 

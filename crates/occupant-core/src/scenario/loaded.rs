@@ -35,7 +35,8 @@ impl Scenario {
     /// # Errors
     /// A name or text that TOML cannot hold.
     pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
-        toml::to_string(self)
+        // by way of a tree, so that the sections are written by one serializer and not by two
+        toml::to_string(&toml::Table::try_from(self)?)
     }
 }
 
