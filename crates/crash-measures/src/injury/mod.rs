@@ -78,6 +78,13 @@ pub struct Measure {
     pub risks: Vec<Risk>,
 }
 
+impl Measure {
+    /// Whether it is beyond any of its limits.
+    pub fn is_exceeded(&self) -> bool {
+        self.limits.iter().any(|limit| !limit.passed)
+    }
+}
+
 /// A measure against one limit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Judgement {

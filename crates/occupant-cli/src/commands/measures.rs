@@ -1,6 +1,6 @@
 //! `occupant measures`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crash_measures::injury::{Filtering, Measure, Options};
 use crash_measures::measure::Dummy;
@@ -10,24 +10,25 @@ use placed_text::shown;
 use serde::Serialize;
 
 use super::flags::history::interval;
-use super::tables::measures::{remarks, risks, table};
+use super::tables::measures::{remarks, risks, side_by_side, table};
 use super::tables::summary::Marks;
-use crate::base::{Done, Failure, note, one_of, print, talk};
+use crate::base::{Done, Failure, json, note, one_of, print};
 use crate::files::history::family_name;
 use crate::files::results::Results;
 
 /// Readings of filtered channels are taken so often, s: the 10 kHz of SAE J211.
 const FILTERED_S: f64 = 1e-4;
 
-/// Injury measures of a run against limits and risk curves
+/// Injury measures of a run against limits and risk curves, or of several side by side
 ///
 /// HIC, 3 ms levels, severity indices, BrIC, DAMAGE, neck and femur loads, Nij. A simulated signal has no noise, so nothing
-/// is filtered unless --filter asks for it. Exit code 1 if a limit is exceeded and --strict is given.
+/// is filtered unless --filter asks for it. Several runs come as one table with a column each. Exit code 1 if a limit is
+/// exceeded and --strict is given.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The results of `occupant run`
-    #[arg(value_name = "RUN.mcap")]
-    run: PathBuf,
+    #[arg(value_name = "RUN.mcap", required = true)]
+    runs: Vec<PathBuf>,
 
     /// Filter each channel by its class (head 1000, neck 1000/600, chest 180, femur 600, head rotation 60)
     #[arg(long, value_name = "FAMILY", default_value = "none", value_parser = one_of(&FILTERS))]
@@ -46,7 +47,7 @@ pub(crate) struct Args {
     #[arg(long)]
     strict: bool,
 
-    /// Print JSON instead of tables; SI units
+    /// Print JSON instead of tables, of several runs a list; SI units
     #[arg(long)]
     json: bool,
 }
@@ -67,69 +68,121 @@ const DUMMIES: [(&str, &str, Dummy); 3] = [
 
 #[derive(Serialize)]
 struct Answer<'a> {
-    file: String,
+    file: &'a str,
     title: &'a str,
     complete: bool,
     dummy: &'static str,
     measures: &'a [Measure],
     caveats: &'a [Caveat],
+    notes: &'a [String],
+}
+
+/// A run with its measures.
+struct Judged {
+    file: String,
+    results: Results,
+    summary: Summary,
+    interval_ms: f64,
     notes: Vec<String>,
 }
 
-/// Prints the measures of a run.
-pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
-    let results = Results::open(&args.run)?;
-    let options = Options { dummy: args.dummy, filtering: args.filter };
-    let own_s = results.model.setup().time.output_s;
-    let needed_s = (options.filtering != Filtering::None && own_s > 1.01 * FILTERED_S).then_some(FILTERED_S);
-    let again_s = args.interval.or(needed_s);
-    let [own_ms, interval_ms] = [own_s, again_s.unwrap_or(own_s)].map(|s| (1e9 * s).round() / 1e6);
-    let mut notes = results.notes();
-    let summary = match again_s {
-        None => results.summary_judged(options)?,
-        Some(interval_s) => {
-            notes.push(format!(
-                "the case is run again with readings every {interval_ms} ms; the file has outputs every {own_ms} ms"
-            ));
-            results.summary_again(options, interval_s)?
-        }
-    };
-    if args.json {
-        print(&talk::json(&Answer {
-            file: args.run.display().to_string(),
-            title: &results.model.setup().title,
-            complete: results.is_complete(),
-            dummy: options.dummy.name(),
-            measures: &summary.measures,
-            caveats: &summary.caveats,
-            notes,
-        })?)?;
-    } else {
-        notes.iter().for_each(note);
-        print(&text(&results, interval_ms, &options, &summary))?;
+impl Judged {
+    fn of(file: &Path, again_s: Option<f64>, options: Options) -> Result<Self, Failure> {
+        let results = Results::open(file)?;
+        let own_s = results.model.setup().time.output_s;
+        let needed_s = (options.filtering != Filtering::None && own_s > 1.01 * FILTERED_S).then_some(FILTERED_S);
+        let again_s = again_s.or(needed_s);
+        let [own_ms, interval_ms] = [own_s, again_s.unwrap_or(own_s)].map(|s| (1e9 * s).round() / 1e6);
+        let mut notes = results.notes();
+        let summary = match again_s {
+            None => results.summary_judged(options)?,
+            Some(interval_s) => {
+                notes.push(format!(
+                    "the case is run again with readings every {interval_ms} ms; the file has outputs every {own_ms} ms"
+                ));
+                results.summary_again(options, interval_s)?
+            }
+        };
+        Ok(Judged { file: file.display().to_string(), results, summary, interval_ms, notes })
     }
-    let exceeded = summary.measures.iter().any(|m| m.limits.iter().any(|l| !l.passed));
+
+    fn answer(&self, options: &Options) -> Answer<'_> {
+        Answer {
+            file: &self.file,
+            title: &self.results.model.setup().title,
+            complete: self.results.is_complete(),
+            dummy: options.dummy.name(),
+            measures: &self.summary.measures,
+            caveats: &self.summary.caveats,
+            notes: &self.notes,
+        }
+    }
+}
+
+/// Prints the measures of runs.
+pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
+    let options = Options { dummy: args.dummy, filtering: args.filter };
+    let all = args.runs.iter().map(|file| Judged::of(file, args.interval, options));
+    let all = all.collect::<Result<Vec<_>, _>>()?;
+    if args.json {
+        let answers: Vec<_> = all.iter().map(|one| one.answer(&options)).collect();
+        print(&if let [one] = &answers[..] { json(one)? } else { json(&answers)? })?;
+    } else if let [one] = &all[..] {
+        one.notes.iter().for_each(note);
+        print(&text(&one.results, one.interval_ms, &options, &one.summary))?;
+    } else {
+        all.iter().for_each(|one| one.notes.iter().for_each(|text| note(&format!("{}: {text}", one.file))));
+        print(&texts(&all, &options))?;
+    }
+    let exceeded = all.iter().flat_map(|one| &one.summary.measures).any(Measure::is_exceeded);
     Ok(if exceeded && args.strict { Done::Unwell } else { Done::Well })
 }
 
-fn text(results: &Results, interval_ms: f64, options: &Options, Summary { measures, caveats, .. }: &Summary) -> String {
-    let marks = Marks::of(caveats);
-    let filter = match options.filtering {
+/// Several runs, numbered, in one table.
+fn texts(all: &[Judged], options: &Options) -> String {
+    let marks: Vec<_> = all.iter().map(|one| Marks::of(&one.summary.caveats)).collect();
+    let runs = (1..).zip(all).map(|(number, one)| {
+        let title = shown(&one.results.model.setup().title);
+        format!("{number}  {}: {title}, readings every {} ms\n", shown(&one.file), one.interval_ms)
+    });
+    let columns: Vec<_> = all.iter().zip(&marks).map(|(one, marks)| (&one.summary.measures[..], marks)).collect();
+    let remarks = (1..).zip(&marks).filter_map(|(number, marks)| {
+        let lines = marks.explained()?;
+        Some(lines.lines().map(|line| format!("{number}  {line}\n")).collect::<String>())
+    });
+    let (filter, dummy) = (filter(options), options.dummy.name());
+    [
+        runs.collect::<String>() + &format!("{filter}; limits of a {dummy}\n"),
+        side_by_side(&columns) + "> beyond a limit\n",
+        remarks.collect(),
+        JUDGEMENT.to_owned(),
+    ]
+    .join("\n")
+}
+
+fn filter(options: &Options) -> String {
+    match options.filtering {
         Filtering::None => "unfiltered".to_owned(),
         Filtering::Classes(family) => format!("filtered by {} classes", family_name(family)),
-    };
+    }
+}
+
+/// How far limits and curves are to be trusted.
+const JUDGEMENT: &str =
+    "Limits and curves were read where others quote them, not in the rules: check the rule before a legal statement.\n";
+
+fn text(results: &Results, interval_ms: f64, options: &Options, Summary { measures, caveats, .. }: &Summary) -> String {
+    let marks = Marks::of(caveats);
+    let filter = filter(options);
     let title = shown(&results.model.setup().title);
     let dummy = options.dummy.name();
     [
-        format!(
-            "{title}\nreadings every {interval_ms} ms, {filter}; limits and risks of a {dummy}\n"
-        ),
+        format!("{title}\nreadings every {interval_ms} ms, {filter}; limits and risks of a {dummy}\n"),
         table(measures, &marks),
         marks.explained().unwrap_or_default(),
         risks(measures, &marks),
         remarks(measures),
-        "Limits and curves were read where others quote them, not in the rules: check the rule before a legal statement.\n"
-            .to_owned(),
+        JUDGEMENT.to_owned(),
     ]
     .join("\n")
 }

@@ -113,6 +113,14 @@ fn figures_that_cannot_be_trusted_say_so_wherever_they_stand() {
     let same = out(&said(&["measures", "a.mcap", "--interval", "1 ms"]));
     assert_eq!(value(&same), value(&measured));
     let other = out(&said(&["measures", "a.mcap", "--dummy", "hybrid-iii-5f"]));
+    // side by side: the same run twice has the same figures twice, each as its own table has it
+    let both = out(&said(&["measures", "a.mcap", "a.mcap"]));
+    let row = |text: &str| text.lines().find(|line| line.starts_with("HIC15 ")).unwrap().to_owned();
+    let value = row(&measured).split_whitespace().nth(1).unwrap().to_owned();
+    assert_eq!(row(&both).split_whitespace().filter(|word| word.trim_end_matches('>') == value).count(), 2, "{both}");
+    assert!(both.contains("\n2  a.mcap: "), "{both}");
+    let list = json(&said(&["measures", "a.mcap", "a.mcap", "--json"]));
+    assert_eq!((list.as_array().map(Vec::len), &list[1]), (Some(2), &measures));
     assert!(other.contains("! limits and risks are those of a Hybrid III 5F of 49 kg"), "{other}");
     let check = out(&said(&["check", scenario]));
     assert!(check.contains("posture.settle = true mends it"), "{check}");

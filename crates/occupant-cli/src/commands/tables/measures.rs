@@ -52,6 +52,31 @@ pub(crate) fn table<'m>(measures: impl IntoIterator<Item = &'m Measure>, marks: 
     table.text()
 }
 
+/// Measures of several runs, a column for each; a value beyond a limit carries a `>`, the least limit is named.
+pub(crate) fn side_by_side(runs: &[(&[Measure], &Marks)]) -> String {
+    let numbers: Vec<String> = (1..=runs.len()).map(|number| number.to_string()).collect();
+    let heads: Vec<&str> = numbers.iter().map(String::as_str).collect();
+    let mut table = Table::new(&[(Left, &["injury measure", "unit"]), (Right, &["limit"]), (Right, &heads)]);
+    let mut known: Vec<&Measure> = Vec::new();
+    for m in runs.iter().flat_map(|(measures, _)| *measures) {
+        if !known.iter().any(|other| other.name == m.name) {
+            known.push(m);
+        }
+    }
+    for m in known {
+        let least = m.limits.iter().map(|limit| limit.most).min_by(f64::total_cmp);
+        let left = [m.label.to_owned(), unit(m).to_owned(), least.map(|most| shown(m, most)).unwrap_or_default()];
+        let values = runs.iter().map(|(measures, marks)| {
+            let Some(own) = measures.iter().find(|own| own.name == m.name) else { return NONE.to_owned() };
+            let value = own.value.map_or(NONE.to_owned(), |v| shown(own, v));
+            let beyond = if own.is_exceeded() { '>' } else { ' ' };
+            marks.put(own.figure.unwrap_or(own.name), value) + &beyond.to_string()
+        });
+        table.row(left.into_iter().chain(values));
+    }
+    table.text()
+}
+
 fn verdict(m: &Measure, limit: &Judgement) -> [String; 4] {
     [
         shown(m, limit.most),
