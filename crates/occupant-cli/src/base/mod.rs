@@ -20,8 +20,8 @@ pub(crate) use failure::{Done, Failure};
 pub(crate) use interrupt::Interrupt;
 pub(crate) use names::{by_ending, ending, file_name, file_stem, is_page, program};
 pub(crate) use output_file::{
-    Existing, FileProblem, PartialFile, begun, deliver, is_at, partial_path, publish, refuse_input, remove_if_there,
-    with_word, write_whole,
+    Existing, FileProblem, PartialFile, begun, deliver, deliver_and, is_at, partial_path, publish, refuse_input,
+    remove_if_there, said_and_opened, with_word, write_whole,
 };
 pub(crate) use sha256::sha256;
 pub(crate) use talk::{json, note, print, print_file, say, written};

@@ -317,9 +317,25 @@ pub(crate) fn publish(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Fail
 /// # Errors
 /// As [`publish`].
 pub(crate) fn deliver(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Failure> {
+    deliver_and(false, path, force, bytes)
+}
+
+/// The same, and opens it with the program that the system has for such files if `open` says so.
+///
+/// # Errors
+/// As [`publish`]. That it cannot be opened is said, and no failure.
+pub(crate) fn deliver_and(open: bool, path: &Path, force: bool, bytes: &[u8]) -> Result<(), Failure> {
     publish(path, force, bytes)?;
-    say(&format!("wrote {}", path.display()));
+    said_and_opened(open, path);
     Ok(())
+}
+
+/// Says that a file was written, and opens it if `open` says so.
+pub(crate) fn said_and_opened(open: bool, path: &Path) {
+    say(&format!("wrote {}", path.display()));
+    if open && let Err(error) = opener::open(path) {
+        say(&format!("note: {} could not be opened: {error}", path.display()));
+    }
 }
 
 /// As [`publish`], with the reason alone.

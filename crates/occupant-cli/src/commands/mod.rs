@@ -15,6 +15,7 @@ mod explain;
 mod export;
 mod fit;
 mod flags;
+mod man;
 mod measures;
 mod new;
 mod plot;
@@ -84,6 +85,7 @@ commands! {
     Risk: risk::risk,
     Sensitivity: sensitivity::sensitivity,
     Completions: completions::print,
+    Man: man::write,
 }
 
 /// Reads the command line and does what it says.

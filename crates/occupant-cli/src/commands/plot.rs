@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::flags::history::{TestArgs, WindowArgs};
-use crate::base::{Failure, file_name, note, program, publish, refuse_input, say, with_word};
+use crate::base::{Failure, file_name, note, program, publish, refuse_input, said_and_opened, say, with_word};
 use crate::files::history::{Treatment, UnitChoice};
 use crate::files::results::Results;
 use crate::jobs::plot::{Request, plots};
@@ -79,6 +79,10 @@ pub(crate) struct Args {
     /// Replace files that exist
     #[arg(short, long)]
     force: bool,
+
+    /// Open what was written with the program that the system has for it
+    #[arg(long)]
+    open: bool,
 }
 
 pub(crate) fn plot(args: &Args) -> Result<(), Failure> {
@@ -108,7 +112,7 @@ pub(crate) fn plot(args: &Args) -> Result<(), Failure> {
     match (&output, &args.each) {
         (Some(output), _) => {
             write(args, output, kind, &sheet(&words, &figures))?;
-            say(&format!("wrote {}", output.display()));
+            said_and_opened(args.open, output);
             Ok(())
         }
         (None, Some(folder)) => write_each(args, folder, kind, &words, &figures),

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::base::{Failure, deliver, is_page, note, refuse_input};
+use crate::base::{Failure, deliver_and, is_page, note, refuse_input};
 use crate::files::results::Results;
 use crate::jobs::report::page;
 
@@ -23,6 +23,10 @@ pub(crate) struct Args {
     #[arg(short, long)]
     force: bool,
 
+    /// Open what was written with the program that the system has for it
+    #[arg(long)]
+    open: bool,
+
     /// Another run, drawn as a ghost or beside, with its curves and numbers beside those of the first
     #[arg(long, value_name = "OTHER.mcap")]
     against: Option<PathBuf>,
@@ -39,5 +43,5 @@ pub(crate) fn report(args: &Args) -> Result<(), Failure> {
     let run = Results::open(&args.run)?;
     let against = args.against.as_deref().map(Results::open).transpose()?;
     std::iter::once(&run).chain(&against).flat_map(Results::notes).for_each(|text| note(&text));
-    deliver(&output, args.force, page(&run, against.as_ref())?.as_bytes())
+    deliver_and(args.open, &output, args.force, page(&run, against.as_ref())?.as_bytes())
 }

@@ -8,7 +8,7 @@ use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::simulate;
 
 use super::flags::history::seconds;
-use crate::base::{Failure, by_ending, deliver, file_name, note, refuse_input, with_word};
+use crate::base::{Failure, by_ending, deliver_and, file_name, note, refuse_input, with_word};
 use crate::files::results::Results;
 use crate::files::scenario::{self, ScenarioArgs};
 use crate::pictures::Format;
@@ -46,6 +46,10 @@ pub(crate) struct Args {
     /// Replace a file that exists
     #[arg(short, long)]
     force: bool,
+
+    /// Open what was written with the program that the system has for it
+    #[arg(long)]
+    open: bool,
 
     /// Times, such as "0,40,80 ms" or "0.5 s"; a time without a unit takes that of the next one, else it is in seconds.
     /// The nearest output is drawn, and its time written above. Every 40 ms if absent, less often in a long run
@@ -91,7 +95,7 @@ pub(crate) fn view(args: &Args) -> Result<(), Failure> {
             film.encode(strip.moments.len(), &frames(&strip)).map_err(|e| Failure::with_help(e, help))?
         }
     };
-    deliver(&output, args.force, &bytes)
+    deliver_and(args.open, &output, args.force, &bytes)
 }
 
 /// What is made.
@@ -151,7 +155,7 @@ fn seated(args: &Args, output: &Path, kind: Kind) -> Result<(), Failure> {
     }
     let origin = format!("{}, before a run", file_name(&args.input));
     let strip = Strip { model: &opened.model, moments, views: views(args, kind), origin };
-    deliver(output, args.force, &picture(&strip, format)?)
+    deliver_and(args.open, output, args.force, &picture(&strip, format)?)
 }
 
 /// Keeps the first output of a run and ends it there.

@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 use super::{answer, code, err, folder_with_case, out};
 
 /// What each command can do in the folder, in an order in which one has what another has made, and what it cannot.
-const COMMANDS: [[&str; 2]; 20] = [
+const COMMANDS: [[&str; 2]; 21] = [
     ["run case.toml -f -o run.mcap --set time.end=0.02", "run none.toml"],
     [
         "export run.mcap -f -o test.csv --channels lower_torso.acceleration.x",
@@ -35,6 +35,7 @@ const COMMANDS: [[&str; 2]; 20] = [
         "sensitivity case.toml --to none --of none",
     ],
     ["completions bash", "completions none"],
+    ["man pages -f", "man case.toml"],
 ];
 
 const STUDY: &str = "base = \"case.toml\"\nseed = 1\n[set]\n\"time.end\" = \"10 ms\"\n\

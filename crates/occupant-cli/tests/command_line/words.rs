@@ -24,6 +24,37 @@ fn shells_get_their_completions() {
 }
 
 #[test]
+fn manual_pages_are_written_for_every_command() {
+    let folder = folder_with_case();
+    assert_eq!(code(&answer(folder.path(), &["man", "pages/man1"])), 0);
+    let page = |name: &str| std::fs::read_to_string(folder.path().join("pages/man1").join(name)).unwrap();
+    assert!(page("occupant.1").contains("sensitivity"));
+    let run = page("occupant-run.1");
+    assert!(run.starts_with(".ie") && run.contains("occupant\\-run") && run.contains("estimate"), "{run}");
+    assert_eq!(code(&answer(folder.path(), &["man", "pages/man1"])), 2);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn what_was_written_is_opened() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = folder_with_case();
+    let program = folder.path().join("xdg-open");
+    std::fs::write(&program, "#!/bin/sh\necho \"$1\" > opened\n").unwrap();
+    std::fs::set_permissions(&program, PermissionsExt::from_mode(0o755)).unwrap();
+    let path = format!("{}:{}", folder.path().display(), std::env::var("PATH").unwrap());
+    let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin!("occupant"));
+    let output = command.args(["view", "case.toml", "--open"]).env("PATH", path).current_dir(folder.path()).output();
+    assert_eq!(code(&output.unwrap()), 0);
+    let opened = || std::fs::read_to_string(folder.path().join("opened")).ok();
+    let found = (0..200).find_map(|_| {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+        opened().filter(|text| !text.is_empty())
+    });
+    assert!(found.is_some_and(|text| text.trim_end().ends_with("case-view.svg")));
+}
+
+#[test]
 fn version_and_help_are_results() {
     let folder = folder_with_case();
     let version = out(&answer(folder.path(), &["--version"]));
