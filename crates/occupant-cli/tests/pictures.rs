@@ -126,6 +126,11 @@ fn a_film_has_a_frame_for_each_time() {
         }
         assert_eq!(found, frames);
     }
+    let output = answer(folder.path(), &["view", "run.mcap", "--each", "frames", "--times", "0,1,2 ms"]);
+    assert_eq!((code(&output), err(&output)), (0, "wrote 3 frames into frames\n".to_owned()));
+    let picture = |n: u32| fs::read(folder.path().join(format!("frames/000{n}.png"))).unwrap();
+    assert!((1..=3).all(|n| picture(n).starts_with(b"\x89PNG")) && picture(1) != picture(3));
+    assert_eq!(code(&answer(folder.path(), &["view", "run.mcap", "--each", "frames", "--times", "0,1,2 ms"])), 2);
 }
 
 #[test]

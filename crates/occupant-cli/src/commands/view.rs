@@ -1,19 +1,21 @@
 //! `occupant view`.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::simulate;
+use rayon::prelude::*;
 
 use super::flags::history::seconds;
-use crate::base::{Failure, by_ending, deliver_and, file_name, note, refuse_input, with_word};
+use crate::base::{Failure, by_ending, deliver_and, file_name, note, publish, refuse_input, say, with_word};
 use crate::files::results::Results;
 use crate::files::scenario::{self, ScenarioArgs};
 use crate::pictures::Format;
 use crate::pictures::body::Snapshot;
-use crate::pictures::film::{FRAMES_A_SECOND, Film};
+use crate::pictures::film::{Draw, FRAMES_A_SECOND, Film};
 use crate::pictures::view::{Strip, View, draw, frames};
 
 /// Pixels of a PNG for each unit of the drawing.
@@ -43,6 +45,10 @@ pub(crate) struct Args {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
+    /// A PNG file for each frame of the film into this folder, which is made if it is not there
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["output", "open"])]
+    each: Option<PathBuf>,
+
     /// Replace a file that exists
     #[arg(short, long)]
     force: bool,
@@ -71,7 +77,7 @@ pub(crate) struct Args {
 
 pub(crate) fn view(args: &Args) -> Result<(), Failure> {
     let output = args.output.clone().unwrap_or_else(|| with_word(&args.input.with_extension("svg"), "-view"));
-    let kind = Kind::of(&output)?;
+    let kind = if args.each.is_some() { Kind::Frames } else { Kind::of(&output)? };
     refuse_input(&output, &args.input)?;
     if by_ending(&args.input, &[("toml", ()), ("json", ())]).is_some() {
         return seated(args, &output, kind);
@@ -84,7 +90,7 @@ pub(crate) fn view(args: &Args) -> Result<(), Failure> {
     let wanted = match (&args.times, kind) {
         (Some(times), _) => times.0.clone(),
         (None, Kind::Picture(_)) => regular(span_s(&results)),
-        (None, Kind::Film(_)) => frames_s(span_s(&results), args.slow_motion)?,
+        (None, Kind::Film(_) | Kind::Frames) => frames_s(span_s(&results), args.slow_motion)?,
     };
     let moments = moments(&results, &outputs(&results, &wanted)?)?;
     let strip = Strip { model: &results.model, moments, views: views(args, kind), origin: origin(&results) };
@@ -94,6 +100,7 @@ pub(crate) fn view(args: &Args) -> Result<(), Failure> {
             let help = "write a .gif; --times and --slow-motion make it shorter";
             film.encode(strip.moments.len(), &frames(&strip)).map_err(|e| Failure::with_help(e, help))?
         }
+        Kind::Frames => return write_each(args, strip.moments.len(), &frames(&strip)),
     };
     deliver_and(args.open, &output, args.force, &bytes)
 }
@@ -103,6 +110,19 @@ pub(crate) fn view(args: &Args) -> Result<(), Failure> {
 enum Kind {
     Picture(Format),
     Film(Film),
+    Frames,
+}
+
+/// Writes a picture of each frame.
+fn write_each(args: &Args, count: usize, draw: Draw<'_>) -> Result<(), Failure> {
+    let Some(folder) = &args.each else { return Ok(()) };
+    fs::create_dir_all(folder).map_err(|e| Failure::plain(format!("{} cannot be made: {e}", folder.display())))?;
+    (0..count).into_par_iter().try_for_each(|frame| {
+        let picture = Format::Png.encode(&draw(frame), PIXELS).map_err(Failure::plain)?;
+        publish(&folder.join(format!("{:04}.png", frame + 1)), args.force, &picture)
+    })?;
+    say(&format!("wrote {count} frames into {}", folder.display()));
+    Ok(())
 }
 
 impl Kind {
@@ -119,7 +139,7 @@ fn picture(strip: &Strip<'_>, format: Format) -> Result<Vec<u8>, Failure> {
 /// Each view once, in the order asked for.
 fn views(args: &Args, kind: Kind) -> Vec<View> {
     let all: &[View] = match kind {
-        Kind::Film(_) => &[View::Side],
+        Kind::Film(_) | Kind::Frames => &[View::Side],
         Kind::Picture(_) => View::value_variants(),
     };
     let asked = if args.views.is_empty() { all } else { &args.views };
