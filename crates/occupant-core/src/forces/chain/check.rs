@@ -52,20 +52,12 @@ fn nodes(chain: &Chain, body: &Body, path: &str, problems: &mut Problems) {
         if is_end && (is_sphere || matches!(node.site, Site::Track(..) | Site::Segment(_, _, Some(_)))) {
             problems.error(&at, "an end that webbing can leave", "an anchor: a point of the vehicle or of a segment");
         }
-        if is_sphere && node.friction > 0.0 {
-            problems.error(
-                format!("{at}.friction"),
-                "friction on a sphere",
-                "a guide or a track where webbing rubs on the body",
-            );
+        let is_sphere_at = |k: usize| chain.nodes.get(k).is_some_and(|node| matches!(node.site, Site::Sphere(_)));
+        if is_sphere && node.friction > 0.0 && (is_sphere_at(i.wrapping_sub(1)) || is_sphere_at(i + 1)) {
+            let expected = "a point, such as a ring or a guide, on either side of a sphere on which webbing rubs";
+            problems.error(format!("{at}.friction"), "friction on a sphere beside a sphere", expected);
         }
-        spheres = if is_sphere {
-            spheres + 1
-        } else if node.friction > 0.0 {
-            0
-        } else {
-            spheres
-        };
+        spheres = usize::from(is_sphere) + if node.friction > 0.0 { 0 } else { spheres };
         if spheres > MOST_ARCS {
             problems.error(
                 &at,

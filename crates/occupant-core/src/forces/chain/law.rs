@@ -59,17 +59,18 @@ impl ChainLaw<f64> {
             (past.on, past.way) = (1.0, node.start());
         }
         let bends = loop {
-            let bends = self.lies(at, &past).bends;
+            let lies = self.lies(at, &past);
+            let bends = &lies.bends;
             let worst = (0..self.nodes.len())
                 .filter(|&k| self.nodes[k].is_sphere() && past.nodes[k].on > 0.0 && bends[k].arc <= 0.0)
                 .min_by(|&a, &b| bends[a].arc.total_cmp(&bends[b].arc));
-            let Some(k) = worst else { break bends };
+            let own = worst.map_or(0..self.nodes.len(), |k| k..k + 1);
+            for k in own {
+                self.nodes[k].remember(at, &lies.places[k], &bends[k], 0.5 * bends[k].arc, &mut past.nodes[k]);
+            }
+            let Some(k) = worst else { break lies.bends };
             past.nodes[k].on = 0.0;
-            past.nodes[k].set_normal(bends[k].normal);
         };
-        for (past, bend) in past.nodes.iter_mut().zip(&bends) {
-            past.set_normal(bend.normal);
-        }
         (bends.iter().fold(0.0, |sum, bend| sum + bend.span + bend.arc), past)
     }
 
@@ -89,17 +90,18 @@ impl ChainLaw<f64> {
         let mut strap = 0;
         for (k, node) in self.nodes.iter().enumerate() {
             let bend = &lies.bends[k];
-            let mut give = |strap: usize, pull: V3<f64>| {
+            let mut give = |strap: usize, pull: V3<f64>, arm: V3<f64>| {
                 let Some(segment) = node.segment(at) else { return };
+                let point = lies.places[k].centre + arm * lies.places[k].radius;
                 let pull = pull.to_vector();
-                list[strap][0] += pull.dot(&(mobility.of_point(segment, lies.places[k].centre) * pull));
+                list[strap][0] += pull.dot(&(mobility.of_point(segment, point) * pull));
             };
             if node.rubs {
-                give(strap, bend.back);
+                give(strap, bend.back, bend.touch);
                 strap += 1;
-                give(strap, bend.ahead);
+                give(strap, bend.ahead, bend.normal.cross(bend.ahead));
             } else {
-                give(strap, bend.back + bend.ahead);
+                give(strap, bend.back + bend.ahead, V3::zero());
             }
         }
         list
@@ -126,20 +128,31 @@ impl<S: Scalar> ChainLaw<S> {
     #[inline(always)]
     pub(super) fn lies(&self, at: &Instant<'_, S>, past: &ChainPast<S>) -> Lies<S> {
         let (o, count) = (S::zero(), self.nodes.len());
-        let nowhere = Place { centre: V3::zero(), radius: o, is_sphere: false, may_leave: false };
+        let nowhere = Place::nowhere();
         let (mut ways, mut places) = ([o; MOST_NODES], [nowhere; MOST_NODES]);
         for (k, node) in self.nodes.iter().enumerate() {
             ways[k] = node.way(at.frames.time, &past.nodes[k], &past.device);
-            places[k] = node.place(at, ways[k]);
+            places[k] = node.place(at, ways[k], &past.nodes[k]);
         }
         let bends = bends(&places[..count], &past.nodes);
-        let (mut course, mut strap) = (Course { lengths: [o; MOST_NODES], turns: [o; MOST_NODES] }, 0);
-        for (node, (bend, past)) in self.nodes.iter().zip(bends.iter().zip(&past.nodes)).skip(1) {
+        let (mut course, mut strap) = (Course::<S>::none(), 0);
+        for (k, node) in self.nodes.iter().enumerate().skip(1) {
+            let (bend, past) = (&bends[k], &past.nodes[k]);
             course.lengths[strap] += bend.span + bend.arc;
             if node.rubs {
                 strap += 1;
+                let mut turns = turn(bend.back, bend.ahead);
+                if node.is_sphere() {
+                    let mark = node.mark(at, &places[k], bend, past);
+                    (ways[k], turns) = (mark.way, bend.wrap.max(o));
+                    let behind = bend.arc - S::select(past.is_on(), mark.way, bend.beside);
+                    course.lengths[strap - 1] -= behind;
+                    course.lengths[strap] += behind;
+                    let part = mark.beyond / course.lengths[strap - 1].max(S::of(1e-12));
+                    course.carried[strap] = S::select(past.is_on(), part, o);
+                }
                 // webbing that has left the node turns by nothing
-                course.turns[strap] = S::select(past.is_on(), turn(bend.back, bend.ahead), o);
+                course.turns[strap] = S::select(past.is_on(), turns, o);
             }
         }
         Lies { ways, places, bends, course }
@@ -174,6 +187,13 @@ impl<S: Scalar> ChainLaw<S> {
             list[k] = bend.back * before + bend.ahead * straps[strap].tension;
         }
         list
+    }
+
+    /// Moment of the webbing on a sphere on which it rubs and behind which this strap begins, space axes, N·m.
+    #[inline(always)]
+    pub(super) fn couple(&self, now: &Now<'_, S>, k: usize, strap: usize) -> V3<S> {
+        let (straps, lies) = (&now.taut.solved.straps, &now.lies);
+        lies.bends[k].normal * (lies.places[k].radius * (straps[strap - 1].tension - straps[strap].tension))
     }
 
     /// Remembers an accepted step. Where the webbing then left a node, or was freed: the energy that it had, which the next
@@ -220,8 +240,8 @@ impl<S: Scalar> ChainLaw<S> {
         for (k, force) in self.forces(now).into_iter().enumerate().take(self.nodes.len()) {
             if self.nodes[k].is_sphere() {
                 let changes = most.gt(o) & !beyond(k, next).lt(most);
-                let own = &mut next.nodes[k];
-                own.set_normal(now.lies.bends[k].normal);
+                let (lies, own) = (&now.lies, &mut next.nodes[k]);
+                self.nodes[k].remember(at, &lies.places[k], &lies.bends[k], lies.ways[k], own);
                 own.on = S::select(changes, S::one() - own.on, own.on);
                 most = S::select(changes, o, most);
             } else {

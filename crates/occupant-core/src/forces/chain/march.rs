@@ -2,7 +2,8 @@
 //!
 //! From x at the first node follow T₀ and Δs₀ = Δp ([`super::device`]); along the straps N_i = ℓ_i/(1 + ε_i(T_i)),
 //! Δs_{i+1} = Δs_i + N_iᶜ − N_i, and T_{i+1} = T_i exp(μθ z) with z = clamp(zᶜ + Δs/x_s, −1, 1): Coulomb friction with a play
-//! of x_s each way (our decision). At the last node nothing may pass: R(x) = Δs_{n+1} = 0. R rises strictly with x.
+//! of x_s each way (our decision); what the surface of a sphere has carried over passes without slip. At the last node nothing
+//! may pass: R(x) = Δs_{n+1} = 0. R rises strictly with x.
 
 use super::MOST_NODES;
 use super::feed::Feed;
@@ -30,6 +31,8 @@ pub(super) struct Run<S> {
     pub(super) hold: S,
     /// zᶜ.
     pub(super) play: S,
+    /// What passes without slip, as a part of the strap before.
+    pub(super) carried: S,
     /// Viscous branch: stiffness κb, strain at which it is free.
     pub(super) beside: [S; 2],
 }
@@ -45,6 +48,8 @@ pub(super) struct Tense<S> {
     pub(super) loading: S,
     /// Δs of the node where it begins.
     pub(super) fed: S,
+    /// What of it has slipped.
+    pub(super) slip: S,
     /// z there.
     pub(super) play: S,
 }
@@ -52,7 +57,7 @@ pub(super) struct Tense<S> {
 impl<S: Scalar> Tense<S> {
     pub(super) fn none() -> Self {
         let o = S::zero();
-        Tense { tension: o, unstretched: o, strain: o, loading: o, fed: o, play: o }
+        Tense { tension: o, unstretched: o, strain: o, loading: o, fed: o, slip: o, play: o }
     }
 }
 
@@ -78,10 +83,13 @@ pub(super) fn march<S: Scalar>(
     let start = feed.at(x);
     let (mut tension, mut slope) = (start.tension, start.tension_rate);
     let (mut fed, mut fed_slope) = (start.passed, start.passed_rate);
+    // N of the strap before, and how fast it shrinks with x
+    let (mut before, mut shrinks) = (S::zero(), S::zero());
     for (i, (run, strap)) in runs.iter().zip(straps).enumerate() {
+        strap.slip = fed - run.carried * before;
         if i > 0 {
-            let (ratio, part) = run.ratio(fed, strap);
-            slope = ratio * (slope + tension * (part * fed_slope));
+            let (ratio, part) = run.ratio(strap);
+            slope = ratio * (slope + tension * (part * (fed_slope + run.carried * shrinks)));
             tension = ratio * tension;
         }
         let (strain, give, loading) = webbing.reach(tension, run);
@@ -89,8 +97,9 @@ pub(super) fn march<S: Scalar>(
         let unstretched = run.length * inverse;
         (strap.tension, strap.unstretched, strap.strain) = (tension, unstretched, strain);
         (strap.loading, strap.fed) = (loading, fed);
+        (before, shrinks) = (unstretched, unstretched * inverse * give * slope);
         fed += run.before - unstretched;
-        fed_slope += unstretched * inverse * give * slope;
+        fed_slope += shrinks;
     }
     (fed, fed_slope)
 }
@@ -98,9 +107,9 @@ pub(super) fn march<S: Scalar>(
 impl<S: Scalar> Run<S> {
     /// T_{i+1}/T_i and the derivative of its logarithm with respect to Δs.
     #[inline(always)]
-    fn ratio(&self, fed: S, strap: &mut Tense<S>) -> (S, S) {
+    fn ratio(&self, strap: &mut Tense<S>) -> (S, S) {
         let (o, one) = (S::zero(), S::one());
-        let free = self.play + fed * S::of(1.0 / PLAY_M);
+        let free = self.play + strap.slip * S::of(1.0 / PLAY_M);
         let z = free.max(-one).min(one);
         strap.play = z;
         let is_inside = free.lt(one) & (-one).lt(free);
@@ -215,7 +224,7 @@ fn slacken<S: Scalar>(
     for (i, (run, strap)) in runs.iter().zip(straps).enumerate() {
         let fed = if i == 0 { passed } else { o };
         let (unstretched, strain, play) = (run.before + fed, webbing.foot(run), run.play);
-        let slack = Tense { tension: o, unstretched, strain, loading: o, fed, play };
+        let slack = Tense { tension: o, unstretched, strain, loading: o, fed, slip: o, play };
         *strap = strap.zip(&slack, &|tense, slack| S::select(is_slack, slack, tense));
     }
 }
@@ -229,6 +238,7 @@ impl<S: Copy> Tense<S> {
             strain: f(self.strain, other.strain),
             loading: f(self.loading, other.loading),
             fed: f(self.fed, other.fed),
+            slip: f(self.slip, other.slip),
             play: f(self.play, other.play),
         }
     }

@@ -11,6 +11,7 @@ mod device;
 mod feed;
 mod law;
 mod march;
+mod mark;
 mod past;
 mod path;
 mod reel;
@@ -200,9 +201,11 @@ fn act<S: Scalar>(
     if S::any(unsolved.gt(S::zero())) {
         past.device.unsolved = unsolved;
     }
-    let frame = &at.frames[VEHICLE];
+    let (frame, mut strap) = (&at.frames[VEHICLE], 0);
     for (k, force) in chain.forces(&now).into_iter().enumerate().take(chain.nodes.len()) {
-        let Some(segment) = chain.nodes[k].segment(at) else { continue };
+        let node = &chain.nodes[k];
+        strap += usize::from(node.rubs);
+        let Some(segment) = node.segment(at) else { continue };
         let centre = now.lies.places[k].centre;
         let arm = centre - at.k.joint[segment];
         let velocity = at.k.joint_velocity[segment] + at.k.omega[segment].cross(arm);
@@ -212,6 +215,12 @@ fn act<S: Scalar>(
         wrench.moment += arm.cross(force);
         load.power.sums[STRETCH] -= force.dot(velocity - carried);
         load.power.vehicle += force.dot(carried);
+        if node.is_rough() {
+            let couple = chain.couple(&now, k, strap);
+            wrench.moment += couple;
+            load.power.sums[STRETCH] -= couple.dot(at.k.omega[segment] - frame.omega);
+            load.power.vehicle += couple.dot(frame.omega);
+        }
     }
     for strap in 0..chain.straps.starts.len() {
         show(&StrapAction::new(chain, at, (&now, past), strap));

@@ -38,10 +38,13 @@ numbers! {
     NodePast {
         /// 1 while the webbing passes it.
         on,
-        /// Remembered normal of a sphere's plane, space axes.
+        /// Remembered normal of a sphere's plane, and direction from its centre to where the webbing comes onto it, segment axes.
         normal_x,
         normal_y,
         normal_z,
+        touch_x,
+        touch_y,
+        touch_z,
         /// N of the strap, m.
         unstretched,
         /// Greatest loading strain x* of the strap.
@@ -55,7 +58,7 @@ numbers! {
         fed,
         /// z, −1 to 1.
         play,
-        /// Way of a node along its track or its stroke, m, and its speed, m/s.
+        /// Way of a node along its track or its stroke, or of the mark on a sphere, m, and its speed, m/s.
         way,
         speed,
         /// Force of the webbing along a track, N.
@@ -143,6 +146,16 @@ impl<S: Scalar> NodePast<S> {
     #[inline(always)]
     pub(super) fn normal(&self) -> V3<S> {
         v3(self.normal_x, self.normal_y, self.normal_z)
+    }
+
+    #[inline(always)]
+    pub(super) fn touch(&self) -> V3<S> {
+        v3(self.touch_x, self.touch_y, self.touch_z)
+    }
+
+    #[inline(always)]
+    pub(super) fn set_touch(&mut self, touch: V3<S>) {
+        (self.touch_x, self.touch_y, self.touch_z) = (touch.x, touch.y, touch.z);
     }
 
     #[inline(always)]

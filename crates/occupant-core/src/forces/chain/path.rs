@@ -5,6 +5,9 @@
 //! W = 2π − θ − acos((r − r₋)/|p|) − acos((r − r₊)/|q|), θ the angle from p to q about the normal m = ±p × q/|p × q| with the
 //! sense that it had before; the length is Σ S + Σ r W. Forces are −T times its gradient, so that no energy comes of the
 //! approximation in it: each sphere wraps in the plane of the three centres. Nodes that the webbing has left are passed over.
+//!
+//! Where webbing rubs on a sphere, its gradient is parted: the webbing before pulls along its free span, and so does that
+//! behind.
 
 use std::f64::consts::TAU;
 
@@ -19,7 +22,18 @@ pub(super) struct Place<S> {
     pub(super) centre: V3<S>,
     pub(super) radius: S,
     pub(super) is_sphere: bool,
+    /// Whether a strap ends here.
+    pub(super) rubs: bool,
     pub(super) may_leave: bool,
+    /// Remembered normal of a sphere's plane.
+    pub(super) sense: V3<S>,
+}
+
+impl<S: Scalar> Place<S> {
+    pub(super) fn nowhere() -> Self {
+        let (o, none) = (S::zero(), V3::zero());
+        Place { centre: none, radius: o, is_sphere: false, rubs: false, may_leave: false, sense: none }
+    }
 }
 
 /// The webbing at a node.
@@ -35,8 +49,10 @@ pub(super) struct Bend<S> {
     pub(super) wrap: S,
     /// m.
     pub(super) normal: V3<S>,
-    /// Direction from the centre to where the webbing comes onto a sphere.
+    /// From the centre to where the webbing comes onto a sphere, as a part of the radius. Beside a sphere on which it rubs and
+    /// that it has left: to the nearest place of the free span, and how far along the span that is, m.
     pub(super) touch: V3<S>,
+    pub(super) beside: S,
 }
 
 /// Angle that webbing with these gradients turns by, rad.
@@ -55,7 +71,7 @@ fn is_on<S: Scalar>(place: &Place<S>, past: &NodePast<S>) -> S::Mask {
 #[inline(always)]
 pub(super) fn bends<S: Scalar>(places: &[Place<S>], past: &[NodePast<S>; MOST_NODES]) -> [Bend<S>; MOST_NODES] {
     let (o, none) = (S::zero(), V3::zero());
-    let empty = Bend { span: o, arc: o, back: none, ahead: none, wrap: o, normal: none, touch: none };
+    let empty = Bend { span: o, arc: o, back: none, ahead: none, wrap: o, normal: none, touch: none, beside: o };
     let mut bends = [empty; MOST_NODES];
     let count = places.len();
     // the node behind each that the webbing passes
@@ -79,10 +95,17 @@ pub(super) fn bends<S: Scalar>(places: &[Place<S>], past: &[NodePast<S>; MOST_NO
         (bend.span, bend.back, lead[k]) = (span, given - pull, pull);
         let mut gives = none;
         if place.is_sphere {
-            let arc = wrapped(place, before, behind[k], past[k].normal());
+            let arc = wrapped(place, before, behind[k]);
             (bend.wrap, bend.arc) = (arc.wrap, place.radius * arc.wrap);
             (bend.normal, bend.touch) = (arc.normal, arc.touch);
-            bend.back -= arc.to_before + arc.to_next;
+            if place.rubs {
+                (bend.back, bend.ahead) = (bend.back - arc.to_before, -arc.to_next);
+                let (nearest, beside) = nearest(place, before.0, behind[k].0);
+                bend.touch = V3::select(on, arc.touch, nearest * (S::one() / place.radius));
+                bend.beside = beside;
+            } else {
+                bend.back -= arc.to_before + arc.to_next;
+            }
             lead[k] += arc.to_before;
             gives = arc.to_next;
         }
@@ -97,7 +120,8 @@ pub(super) fn bends<S: Scalar>(places: &[Place<S>], past: &[NodePast<S>; MOST_NO
     let mut next = none;
     for k in (0..count).rev() {
         let on = is_on(&places[k], &past[k]);
-        bends[k].ahead = V3::select(on, next, none);
+        let ahead = if places[k].rubs { bends[k].ahead + next } else { next };
+        bends[k].ahead = V3::select(on, ahead, none);
         next = V3::select(on, lead[k], next);
     }
     bends
@@ -113,7 +137,8 @@ struct Arc<S> {
 }
 
 #[inline(always)]
-fn wrapped<S: Scalar>(place: &Place<S>, before: (V3<S>, S), next: (V3<S>, S), sense: V3<S>) -> Arc<S> {
+fn wrapped<S: Scalar>(place: &Place<S>, before: (V3<S>, S), next: (V3<S>, S)) -> Arc<S> {
+    let sense = place.sense;
     let (p, q) = (before.0 - place.centre, next.0 - place.centre);
     let (pp, qq) = (p.norm_squared().max(S::of(1e-24)), q.norm_squared().max(S::of(1e-24)));
     let cross = p.cross(q);
@@ -138,4 +163,13 @@ fn wrapped<S: Scalar>(place: &Place<S>, before: (V3<S>, S), next: (V3<S>, S), se
         to_before: p.cross(normal) * (r / pp),
         to_next: normal.cross(q) * (r / qq),
     }
+}
+
+/// From the centre to the nearest place of a free span from `before` to `next`, and how far along the span that is, m.
+#[inline(always)]
+fn nearest<S: Scalar>(place: &Place<S>, before: V3<S>, next: V3<S>) -> (V3<S>, S) {
+    let (p, span) = (before - place.centre, next - before);
+    let square = span.norm_squared().max(S::of(1e-24));
+    let part = (-p.dot(span) / square).clamp01();
+    (p + span * part, part * square.sqrt())
 }

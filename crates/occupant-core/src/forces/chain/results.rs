@@ -83,6 +83,7 @@ impl<S: Scalar> StrapAction<S> {
         let end = straps.starts.get(strap + 1).copied().unwrap_or(chain.nodes.len() - 1);
         let frame = &at.frames[VEHICLE];
         let (own, device) = (&past.nodes[node], &past.device);
+        let forces = chain.forces(now);
         let of_first = |number: S| if strap == 0 { number } else { o };
         StrapAction {
             force: tense.tension,
@@ -98,9 +99,12 @@ impl<S: Scalar> StrapAction<S> {
             lost: own.lost,
             driven: of_first(device.driven),
             residual: of_first(now.taut.solved.residual),
-            ends: [node, end].map(|k| frame.axes.into_frame(lies.places[k].centre - frame.origin)),
-            node_force: frame.axes.into_frame(chain.forces(now)[node]),
-            arcs: arcs(chain, at, (now, past), strap, node..end),
+            ends: [node, end].map(|k| {
+                let on_surface = lies.bends[k].touch * lies.places[k].radius;
+                frame.axes.into_frame(lies.places[k].centre + on_surface - frame.origin)
+            }),
+            node_force: frame.axes.into_frame(forces[node]),
+            arcs: arcs(chain, at, (now, past), &forces, node..end),
         }
     }
 }
@@ -111,7 +115,7 @@ fn arcs<S: Scalar>(
     chain: &ChainLaw<S>,
     at: &Instant<'_, S>,
     (now, past): (&Now<'_, S>, &ChainPast<S>),
-    strap: usize,
+    forces: &[V3<S>; MOST_NODES],
     nodes: std::ops::Range<usize>,
 ) -> [Arc<S>; MOST_ARCS] {
     let frame = &at.frames[VEHICLE];
@@ -123,14 +127,13 @@ fn arcs<S: Scalar>(
         };
         let (bend, place) = (&now.lies.bends[k], &now.lies.places[k]);
         let sphere = if let SiteLaw::Sphere(sphere) = &chain.nodes[k].site { *sphere } else { 0 };
-        let force = (bend.back + bend.ahead) * now.taut.solved.straps[strap].tension;
         Arc {
             sphere,
             wrap: S::select(past.nodes[k].is_on(), bend.wrap, S::zero()),
             centre: frame.axes.into_frame(place.centre - frame.origin),
             touch: frame.axes.into_frame(bend.touch) * place.radius,
             axis: -frame.axes.into_frame(bend.normal),
-            force: frame.axes.into_frame(force),
+            force: frame.axes.into_frame(forces[k]),
         }
     })
 }

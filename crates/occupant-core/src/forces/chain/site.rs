@@ -219,19 +219,24 @@ impl<S: Scalar> NodeLaw<S> {
 
     /// Where it is, space axes.
     #[inline(always)]
-    pub(super) fn place(&self, at: &Instant<'_, S>, way: S) -> Place<S> {
+    pub(super) fn place(&self, at: &Instant<'_, S>, way: S, past: &NodePast<S>) -> Place<S> {
         let frame = &at.frames[VEHICLE];
         let on_segment = |n: usize, offset: V3<S>| at.k.joint[n] + at.k.axes[n].out(offset);
+        let (mut sense, none) = (V3::zero(), S::zero());
         let (centre, radius) = match &self.site {
             SiteLaw::Vehicle(point, stroke) => {
                 let pulled = stroke.as_ref().map_or(V3::zero(), |stroke| stroke.direction * way);
-                (frame.origin + frame.axes.out(*point + pulled), S::zero())
+                (frame.origin + frame.axes.out(*point + pulled), none)
             }
-            SiteLaw::Segment(segment, offset, _) => (on_segment(*segment, *offset), S::zero()),
-            SiteLaw::Track(segment, track) => (on_segment(*segment, track.at(way).0), S::zero()),
-            SiteLaw::Sphere(sphere) => (at.spheres[*sphere].place(at.k).1, at.spheres[*sphere].radius),
+            SiteLaw::Segment(segment, offset, _) => (on_segment(*segment, *offset), none),
+            SiteLaw::Track(segment, track) => (on_segment(*segment, track.at(way).0), none),
+            SiteLaw::Sphere(sphere) => {
+                let sphere = &at.spheres[*sphere];
+                sense = at.k.axes[sphere.segment].out(past.normal());
+                (sphere.place(at.k).1, sphere.radius)
+            }
         };
-        Place { centre, radius, is_sphere: self.is_sphere(), may_leave: self.may_leave }
+        Place { centre, radius, is_sphere: self.is_sphere(), rubs: self.rubs, may_leave: self.may_leave, sense }
     }
 
     /// How it goes on from an accepted step with this force (space axes) of the webbing on it: its way and speed, whether the

@@ -40,11 +40,31 @@ pub(super) struct Taut<'a, S: Scalar> {
     pub(super) solved: Solved<S>,
 }
 
-/// How the webbing lies: lengths of the straps, and θ where each begins.
+/// How the webbing lies: lengths of the straps, θ where each begins, and what a sphere's surface has
+/// carried there beyond the arc, as a part of the strap before.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Course<S> {
     pub(super) lengths: [S; MOST_NODES],
     pub(super) turns: [S; MOST_NODES],
+    pub(super) carried: [S; MOST_NODES],
+}
+
+impl<S: Scalar> Course<S> {
+    pub(super) fn none() -> Self {
+        let none = [S::zero(); MOST_NODES];
+        Course { lengths: none, turns: none, carried: none }
+    }
+}
+
+impl<S: Scalar> Taut<'_, S> {
+    /// What is lost as webbing that a surface has carried from the strap before into this one stretches to it, J: P of this
+    /// less P of that for what it is unstretched, less the difference of tensions for its length.
+    #[inline(always)]
+    fn stretched(&self, strap: usize, more: S) -> S {
+        let [from, to] = [strap - 1, strap].map(|strap| &self.solved.straps[strap]);
+        let length = self.runs[strap - 1].length;
+        self.runs[strap].carried * (more * from.unstretched - (to.tension - from.tension) * length)
+    }
 }
 
 impl<S: Copy> WebbingLaw<S> {
@@ -147,7 +167,17 @@ impl<S: Scalar> Straps<S> {
     #[inline(always)]
     pub(super) fn taut(&self, time: S, course: &Course<S>, past: &ChainPast<S>) -> Taut<'_, S> {
         let o = S::zero();
-        let none = Run { length: o, before: o, greatest: o, set: o, grip: o, hold: S::one(), play: o, beside: [o; 2] };
+        let none = Run {
+            length: o,
+            before: o,
+            greatest: o,
+            set: o,
+            grip: o,
+            hold: S::one(),
+            play: o,
+            carried: o,
+            beside: [o; 2],
+        };
         let mut runs = [none; MOST_NODES];
         for (strap, &node) in self.starts.iter().enumerate() {
             let (own, run) = (&past.nodes[node], &mut runs[strap]);
@@ -158,6 +188,7 @@ impl<S: Scalar> Straps<S> {
             if strap > 0 {
                 run.grip = self.friction[strap] * course.turns[strap];
                 run.hold = decay(run.grip);
+                run.carried = course.carried[strap];
             }
         }
         let feed = self.device.feed(time, &past.device, past.nodes[0].fed);
@@ -228,14 +259,16 @@ impl<S: Scalar> Straps<S> {
     #[inline(always)]
     pub(super) fn commit(&self, time: S, taut: &Taut<'_, S>, past: &ChainPast<S>, next: &mut ChainPast<S>) {
         let (straps, half) = (&taut.solved.straps, S::of(0.5));
-        let (mut before, mut greatest) = (S::zero(), S::zero());
+        let (mut before, mut pulled, mut greatest) = (S::zero(), S::zero(), S::zero());
         for (strap, &node) in self.starts.iter().enumerate() {
             let (tense, own) = (&straps[strap], &mut next.nodes[node]);
             let carried = self.carried(taut, strap);
             let both = carried + own.carried;
-            // (P_j − P_{j−1}) Δs_j with the mean of old and new
-            own.lost += if strap > 0 { half * (both - before) * tense.fed } else { S::zero() };
-            before = both;
+            if strap > 0 {
+                // (P_j − P_{j−1}) Δs_j with the mean of old and new
+                own.lost += half * (both - before) * tense.slip + taut.stretched(strap, carried - pulled);
+            }
+            (before, pulled) = (both, carried);
             own.carried = carried;
             (own.viscous, own.strain) = (self.viscous(taut, strap), tense.strain);
             let greatest_strain = own.greatest.max(tense.loading);

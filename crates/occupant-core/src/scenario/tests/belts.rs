@@ -38,7 +38,10 @@ fn what_is_wrong_with_belts_is_said_at_its_place() {
         (&[WEBBING, BELT, "belts.b.webbing=\"v\""], "no webbing is named \"v\""),
         (&[WEBBING, BELT, "belts.lap.nodes=[]"], "together"),
         (&[WEBBING, BELT, "belts.b.nodes[1].sphere=\"chset\""], "did you mean \"chest\"?"),
-        (&[WEBBING, BELT, "belts.b.nodes[1].friction=0.2"], "friction on a sphere"),
+        (
+            &[WEBBING, BELT, "belts.b.nodes[2]={ sphere = \"left_shoulder\" }", "belts.b.nodes[1].friction=0.2"],
+            "friction on a sphere beside a sphere",
+        ),
         (&[WEBBING, BELT, "belts.b.nodes[2].friction=0.9"], "0.1 to 0.6"),
         (&[WEBBING, BELT, "belts.b.nodes[2].retractor=\"r\"", go, reel], "list the nodes the other way round"),
         (

@@ -174,3 +174,29 @@ fn triggers_by_change_of_speed_and_groups_fire_at_their_closed_times() {
     assert!((due("dv") - expected).abs() < 2e-5, "{} {expected}", due("dv"));
     assert_eq!((due("one"), due("both")), (0.02, due("dv")));
 }
+
+/// Webbing that rubs on chest and pelvis: nowhere a greater ratio of tensions than that of a capstan, that ratio where most is
+/// lost, and the forces on the body are those of its lengths.
+#[test]
+fn webbing_rubs_on_spheres_as_over_a_capstan() {
+    let rough = ["belts.b.nodes[1].friction=0.3", "belts.b.nodes[3].friction=0.2", "webbings.w.returned=1"];
+    // beside the belt, one from the hip up, and one that the shoulder's turning winds over the chest
+    for more in ["", "belts.b.nodes[2].at=[-0.1, 0.2, -0.3]", "belts.b.nodes[0].at=[-0.1, -0.5, -0.5]"] {
+        let set: Vec<&str> = rough.into_iter().chain([more]).filter(|set| !set.is_empty()).collect();
+        let model = belted(&set);
+        assert_eq!(model.setup().chains[0].straps, ["b.a_chest", "b.chest_c", "b.c_pelvis", "b.pelvis_e"]);
+        let (mut slides, mut lost) = (0, 0.0);
+        run(&model, |_, straps| {
+            for (i, mu) in [(1, 0.3), (2, 0.2), (3, 0.2)] {
+                let (before, own) = (&straps[i - 1], &straps[i]);
+                if own.force > 100.0 {
+                    let share = (own.force / before.force).ln().abs() / (mu * own.turn);
+                    assert!(share < 1.0 + 1e-9, "{i}: {} {}", own.force, before.force);
+                    slides += usize::from(i == 1 && share > 1.0 - 1e-9);
+                }
+            }
+            lost = straps[1].lost;
+        });
+        assert!(slides > 20 && lost > 5.0, "{more}: {slides} {lost}");
+    }
+}

@@ -1,6 +1,7 @@
 //! The way of webbing, straps of given lengths, and devices: closed forms, identities, and figures of another program.
 
 mod devices;
+mod drum;
 mod path;
 mod straps;
 
@@ -75,7 +76,7 @@ struct Rig {
 impl Rig {
     fn new(chain: &Chain, lengths: &[f64], turns: &[f64]) -> Rig {
         let straps = Straps::new(chain, (0..lengths.len()).collect());
-        let mut course = Course { lengths: [0.0; MOST_NODES], turns: [0.0; MOST_NODES] };
+        let mut course = Course::none();
         course.lengths[..lengths.len()].copy_from_slice(lengths);
         course.turns[1..=turns.len()].copy_from_slice(turns);
         let mut past = ChainPast::none();

@@ -11,16 +11,21 @@ use crate::motion::vector::{V3, v3};
 
 fn place<S: Scalar>(centre: [f64; 3], radius: f64) -> Place<S> {
     let centre = V3::of(&Vector3::from(centre));
-    Place { centre, radius: S::of(radius), is_sphere: radius > 0.0, may_leave: radius > 0.0 }
+    let is_sphere = radius > 0.0;
+    Place { centre, radius: S::of(radius), is_sphere, may_leave: is_sphere, ..Place::nowhere() }
 }
 
-/// All nodes on, with normals as at a start.
-fn on<S: Scalar>(places: &[Place<S>]) -> [NodePast<S>; MOST_NODES] {
+/// All nodes on.
+fn on<S: Scalar>() -> [NodePast<S>; MOST_NODES] {
     let mut past = [NodePast::none(); MOST_NODES];
     past.iter_mut().for_each(|node| node.on = S::one());
-    let found = bends(places, &past);
-    past.iter_mut().zip(&found).for_each(|(node, bend)| node.set_normal(bend.normal));
     past
+}
+
+/// Places with normals as at a start.
+fn sensed<S: Scalar>(places: &[Place<S>]) -> Vec<Place<S>> {
+    let found = bends(places, &on());
+    places.iter().zip(&found).map(|(place, bend)| Place { sense: bend.normal, ..*place }).collect()
 }
 
 fn length<S: Scalar>(found: &[Bend<S>]) -> S {
@@ -38,8 +43,7 @@ fn two_spheres<S: Scalar>() -> [Place<S>; 4] {
 
 #[test]
 fn two_spheres_have_the_length_that_another_program_found() {
-    let places = two_spheres::<f64>();
-    let found = bends(&places, &on(&places));
+    let found = bends(&two_spheres::<f64>(), &on());
     assert!((length(&found) - 1.435_064_383_540_57).abs() < 1e-13, "{}", length(&found));
     assert!((found[1].wrap - 0.641_251_157_192_7).abs() < 1e-12 && (found[2].wrap - 1.191_446_769_752_6).abs() < 1e-12);
 }
@@ -53,7 +57,7 @@ fn forces_are_the_gradient_of_the_length_and_balance() {
             let mut some = || 0.06 * (random(&mut seed) - 0.5);
             place.centre += v3(some(), some(), some());
         }
-        let past = on(&at);
+        let (at, past) = (sensed(&at), on());
         let found = bends(&at, &past);
         let pull = |bend: &Bend<f64>| (bend.back + bend.ahead).to_vector();
         let sum: Vector3<f64> = found.iter().map(pull).sum();
@@ -63,7 +67,7 @@ fn forces_are_the_gradient_of_the_length_and_balance() {
         for k in 0..4 {
             for axis in 0..3 {
                 let moved = |h: f64| {
-                    let mut at = at;
+                    let mut at = at.clone();
                     let mut by = Vector3::zeros();
                     by[axis] = h;
                     at[k].centre += V3::of(&by);
@@ -81,10 +85,11 @@ fn forces_are_the_gradient_of_the_length_and_balance() {
 fn a_frictionless_ring_off_the_way_is_passed_over() {
     let mut places = two_spheres::<f64>();
     places[1].may_leave = true;
-    let mut past = on(&places);
+    let places = sensed(&places);
+    let mut past = on();
     past[1].on = 0.0;
     let without = [places[0], places[2], places[3]];
-    let (found, other) = (bends(&places, &past), bends(&without, &on(&without)));
+    let (found, other) = (bends(&places, &past), bends(&without, &on()));
     assert_eq!(length(&found), length(&other));
     assert_eq!((found[1].back, found[1].ahead, found[1].span), (V3::zero(), V3::zero(), 0.0));
     assert_eq!((found[0].ahead, found[2].back, found[3].back), (other[0].ahead, other[1].back, other[2].back));
@@ -105,12 +110,12 @@ fn a_sphere_that_comes_on_changes_the_length_by_the_square_of_its_wrap() {
         // between two points 0.3 m to either side of it, along x
         let height = 0.06 * (0.5 * wrap).cos() - 0.3 * (0.5 * wrap).sin();
         let places = [place([-0.3, 0.0, 0.0], 0.0), place([0.0, 0.0, height], 0.06), place([0.3, 0.0, 0.0], 0.0)];
-        let mut past = on(&places);
+        let (mut places, mut past) = (sensed(&places), on());
         // webbing runs below the sphere's centre
-        past[1].set_normal(v3(0.0, 1.0, 0.0));
+        places[1].sense = v3(0.0, 1.0, 0.0);
         let found = bends(&places, &past);
         if (found[1].wrap - wrap).abs() > 0.1 {
-            past[1].set_normal(v3(0.0, -1.0, 0.0));
+            places[1].sense = v3(0.0, -1.0, 0.0);
         }
         let (with, span) = (bends(&places, &past), 0.3);
         assert!((with[1].wrap - wrap).abs() < 2e-6, "{} {wrap}", with[1].wrap);

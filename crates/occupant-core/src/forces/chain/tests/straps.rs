@@ -188,7 +188,8 @@ fn derivatives_are_those_of_differences() {
     let lift = |straps: &Straps<f64>| straps.zip(straps, &|x, _| plain(x));
     let mut straps = lift(&Straps::new(&data, vec![0, 1, 2]));
     straps.friction[1] = Dual::new(0.2, [0.0, 1.0]);
-    let mut course = Course { lengths: rig.course.lengths.map(plain), turns: rig.course.turns.map(plain) };
+    let mut course =
+        Course { lengths: rig.course.lengths.map(plain), turns: rig.course.turns.map(plain), ..Course::none() };
     course.lengths[1] = Dual::new(at, [1.0, 0.0]);
     let past = rig.past.map(&mut |x| plain(x));
     let found = straps.taut(plain(rig.past.device.time), &course, &past).solved.straps;
