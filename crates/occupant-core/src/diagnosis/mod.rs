@@ -136,7 +136,7 @@ pub fn diagnose(model: &Model) -> Diagnosis {
     let masses = FrictionMasses::new(model, &mobility);
     let sphere_rates = rates::of_spheres(model, &mobility, &masses, step_s);
     let start = start::look(model, &mobility);
-    let other_rates = start.rates;
+    let other_rates: Vec<Rate> = start.rates.into_iter().chain(rates::of_dampers(model, &mobility)).collect();
     let all = sphere_rates.iter().map(|s| &s.rate).chain(&other_rates);
     let fastest = all.min_by(|a, b| a.time_scale_s.total_cmp(&b.time_scale_s)).cloned();
     let step_by_time_scale = step_s.zip(fastest.as_ref()).map(|(h, r)| h / r.time_scale_s);

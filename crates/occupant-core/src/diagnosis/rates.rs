@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::forces::contact::OPEN;
-use crate::forces::contact::material::Material;
+use crate::forces::contact::material::{Force, Material};
 use crate::forces::contact::surface::Frame;
 use crate::forces::rate::Rate;
 use crate::model::Model;
@@ -152,6 +152,24 @@ pub(super) fn of_spheres(
             friction_limit_n: friction.map(|f| f.0),
             friction_surface: friction.map(|f| name(f.1)),
         })
+    };
+    (0..setup.body.spheres.len()).filter_map(one).collect()
+}
+
+/// The strongest damping of each sphere that factors of speed and dampers of what it can touch make up.
+pub(super) fn of_dampers(model: &Model, mobility: &Mobility<'_>) -> Vec<Rate> {
+    let (setup, system) = (model.setup(), model.system());
+    let damping = |(sphere, surface): (usize, usize)| {
+        let Force::Deflection(law) = &material_of(setup, surface).force else { return 0.0 };
+        setup.body.spheres[sphere].share * law.damping()
+    };
+    let one = |sphere: usize| {
+        let own = pairs(model).filter(|(s, _)| *s == sphere);
+        let (_, surface) = own.max_by(|a, b| damping(*a).total_cmp(&damping(*b)))?;
+        let (_, centre, _) = system.sphere(&mobility.kinematics, sphere);
+        let mass_kg = 1.0 / greatest(mobility.of_point(system.spheres[sphere].segment, centre));
+        let name = format!("{}, {}", setup.body.spheres[sphere].name, material_of(setup, surface).name);
+        Rate::of_damper(&name, mass_kg, damping((sphere, surface)))
     };
     (0..setup.body.spheres.len()).filter_map(one).collect()
 }

@@ -99,7 +99,7 @@ pub trait Element: Copy + Debug {
 
     /// What of them could not be worked out within the last step, in words; none where all was. What they remember may then
     /// be no numbers.
-    fn failure(_data: Self::Data<'_>, _past: &[Self::Past<f64>]) -> Option<String> {
+    fn failure(_data: Self::Data<'_>, _law: &Self::Law<f64>, _past: &[Self::Past<f64>]) -> Option<String> {
         None
     }
 

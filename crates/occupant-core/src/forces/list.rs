@@ -125,6 +125,17 @@ macro_rules! kinds {
             pub fn clear(&mut self) {
                 $(self.$kind.clear();)+
             }
+
+            /// Becomes what `other` is; allocates nothing where there is room.
+            pub(crate) fn take_over(&mut self, other: &Self)
+            where
+                S: Copy,
+            {
+                $(
+                    self.$kind.clear();
+                    self.$kind.extend_from_slice(&other.$kind);
+                )+
+            }
         }
 
         impl Actions<f64> {
@@ -303,8 +314,8 @@ macro_rules! kinds {
             }
 
             /// What of elements with these data could not be worked out; see [`Element::failure`].
-            pub(crate) fn failure(&self, data: &Data<'_>) -> Option<String> {
-                None$(.or_else(|| $Kind::failure(data.$kind, &self.$kind)))+
+            pub(crate) fn failure(&self, data: &Data<'_>, law: &Forces<f64>) -> Option<String> {
+                None$(.or_else(|| $Kind::failure(data.$kind, &law.$kind, &self.$kind)))+
             }
 
             /// Brings all back into range after numbers were changed a little.

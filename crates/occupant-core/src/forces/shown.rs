@@ -23,6 +23,9 @@ pub trait Reported: Element + 'static {
     /// The numbers of one of them whose peaks a run's summary tells.
     const PEAKS: &'static [Tracked<Self::Action<f64>>] = &[];
 
+    /// Whether a run's summary tells what happens to them: [`Reported::event`].
+    const TELLS: bool = false;
+
     /// Exchanges what they remember with a result file; at the start of a step `like` is what they remember at the output.
     fn keep(_past: &mut Vec<Self::Past<f64>>, _like: Option<&[Self::Past<f64>]>, _file: &mut dyn Archive) {}
 

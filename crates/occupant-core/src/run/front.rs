@@ -139,7 +139,7 @@ impl Front {
 
     /// What could not be worked out within the last trial, in words.
     pub(super) fn failure(&self, model: &Model) -> Option<String> {
-        self.trial.memory.failure(&model.setup().forces(&[]))
+        self.trial.memory.failure(&model.setup().forces(&[]), &model.system().forces)
     }
 
     /// Notes what touches at the end of the step, as all outputs before it are recorded.

@@ -262,7 +262,7 @@ fn first_step(integrator: &Integrator) -> f64 {
 /// Why a step did not lead to numbers.
 pub(crate) fn broken(model: &Model, memory: &Memory<f64>, step: Step, next: &State<f64>) -> StepError {
     let (time_s, step_s) = (step.start_s, step.length_s());
-    match memory.failure(&model.setup().forces(&[])) {
+    match memory.failure(&model.setup().forces(&[]), &model.system().forces) {
         Some(why) => StepError::Unsolved { time_s, step_s, why },
         None => StepError::NotFinite { time_s, step_s, component: broken_component(model, next) },
     }

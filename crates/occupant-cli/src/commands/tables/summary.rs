@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use occupant_core::results::energy::EnergyCheck;
 use occupant_core::results::summary::{
-    Acceleration, Caveat, ContactBegin, FirstContact, Level, Peak, RunStatus, Summary, word,
+    Acceleration, Caveat, ContactBegin, Event, FirstContact, Level, Peak, RunStatus, Summary, word,
 };
 use placed_text::shown;
 
@@ -60,6 +60,7 @@ impl<'a> Marks<'a> {
 pub(crate) fn summary_table(summary: &Summary, written: &Written, marks: &Marks) -> String {
     let mut parts = vec![title(summary), accelerations(summary, marks)];
     parts.extend(elements::texts(&summary.elements, marks));
+    parts.extend(events(&summary.events));
     if !summary.first_contacts.is_empty() {
         parts.push(first_contacts(summary, marks));
     }
@@ -104,6 +105,12 @@ fn acceleration(name: &str, part: &Acceleration, marks: &Marks) -> [String; 6] {
         mark("three_ms_contiguous", held.map_or(NONE.to_owned(), |l| format!("{}–{}", ms(l.from_s), ms(l.to_s)))),
         mark("three_ms_cumulative", level(total)),
     ]
+}
+
+/// What happened to belts, in order; none where nothing did.
+fn events(events: &[Event]) -> Option<String> {
+    let rows = events.iter().map(|event| [ms(event.time_s), format!("{} {}", shown(&event.name), event.what)]);
+    (!events.is_empty()).then(|| table(&[(Right, &["at, ms"]), (Left, &["event"])], rows))
 }
 
 /// Parts whose row is there even if they touched nothing.

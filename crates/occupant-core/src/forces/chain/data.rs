@@ -166,6 +166,14 @@ pub enum Watched {
     PayoutAcceleration,
 }
 
+impl Device {
+    /// Deformation of the last point of its limiter, m, of two that of the longer; none without one.
+    pub(crate) fn end_m(&self) -> Option<f64> {
+        let laws = self.limiter.iter().chain(self.second.iter().map(|second| &second.0));
+        laws.map(Function::end).reduce(f64::max)
+    }
+}
+
 impl Cue {
     /// What never happens.
     pub const NEVER: Cue = Cue { due_s: NEVER, watch: None };

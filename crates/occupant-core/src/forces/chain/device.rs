@@ -43,6 +43,12 @@ impl DeviceLaw<f64> {
             release: CueLaw::new(release),
         }
     }
+
+    /// What has gone beyond the end of its curve, in words.
+    pub(super) fn overrun(&self, of: &str, greatest: f64) -> Option<String> {
+        let laws = self.limiter.iter().chain(self.second.iter().map(|second| &second.0));
+        laws.filter_map(|law| law.overrun(of, greatest, |way| format!("{:.1} mm", 1e3 * way))).next()
+    }
 }
 
 impl<S: Copy> DeviceLaw<S> {
@@ -128,13 +134,18 @@ impl<S: Scalar> DeviceLaw<S> {
         }
         let is_limited = if self.limiter.is_some() { is_locked } else { S::truth(false) };
         let share = self.second.as_ref().map_or(o, |second| ((time - past.switch_due) / second.2).clamp01());
+        let mut unknown = self.limiter.as_ref().map_or(o, |law| law.unknown(past.greatest));
+        if let Some((second, ..)) = &self.second {
+            unknown = S::select(share.lt(S::one()), unknown, o);
+            unknown += S::select(share.gt(o), second.unknown(past.greatest), o);
+        }
         Feed {
             law: self,
             is_open,
             is_limited,
             tension,
             passed,
-            base: past.base - payout,
+            base: past.base - payout + unknown,
             greatest: past.greatest,
             share,
         }

@@ -3,7 +3,7 @@
 use super::MOST_NODES;
 use super::data::Chain;
 use super::past::ChainPast;
-use super::path::{Bend, Place, bends, turn};
+use super::path::{self, Bend, Place, turn};
 use super::site::NodeLaw;
 use super::tension::{Course, Straps, Taut};
 use crate::body::Body;
@@ -31,15 +31,30 @@ pub(super) struct Lies<S> {
 
 /// A chain at one instant.
 pub(super) struct Now<'a, S: Scalar> {
-    pub(super) lies: Lies<S>,
+    pub(super) lies: &'a Lies<S>,
     pub(super) taut: Taut<'a, S>,
 }
 
-/// Where webbing left a node or was freed at an accepted step.
-pub(super) struct Left<S: Scalar> {
-    pub(super) lanes: S::Mask,
-    /// What was recoverable before, J.
+/// What an accepted step has changed.
+pub(super) struct Committed<S: Scalar> {
+    /// Where the webbing lies otherwise than before.
+    pub(super) moved: S::Mask,
+    /// Where a sphere came on or went off beside another: the length jumps, for its plane turns.
+    pub(super) refits: S::Mask,
+    /// Where energy was lost with that, or where webbing left a node or was freed.
+    pub(super) lost: S::Mask,
+    /// Lengths before, m, and what was recoverable, J.
+    lengths: [S; MOST_NODES],
     stored: S,
+}
+
+impl<S: Scalar> Lies<S> {
+    /// Nowhere yet.
+    #[inline(always)]
+    pub(super) fn nowhere() -> Self {
+        let (places, bends) = ([Place::nowhere(); MOST_NODES], [Bend::none(); MOST_NODES]);
+        Lies { ways: [S::zero(); MOST_NODES], places, bends, course: Course::none() }
+    }
 }
 
 impl ChainLaw<f64> {
@@ -58,8 +73,9 @@ impl ChainLaw<f64> {
         for (node, past) in self.nodes.iter().zip(&mut past.nodes) {
             (past.on, past.way) = (1.0, node.start());
         }
+        let mut lies = Lies::nowhere();
         let bends = loop {
-            let lies = self.lies(at, &past);
+            self.lay(at, &past, &mut lies);
             let bends = &lies.bends;
             let worst = (0..self.nodes.len())
                 .filter(|&k| self.nodes[k].is_sphere() && past.nodes[k].on > 0.0 && bends[k].arc <= 0.0)
@@ -76,7 +92,8 @@ impl ChainLaw<f64> {
 
     /// What is remembered of a belt that lies so, `whole` long in all its parts, m.
     pub(super) fn start(&self, at: &Instant<'_, f64>, whole: f64, past: &ChainPast<f64>) -> ChainPast<f64> {
-        let (lies, mut past) = (self.lies(at, past), *past);
+        let (mut lies, mut past) = (Lies::nowhere(), *past);
+        self.lay(at, &past, &mut lies);
         self.straps.start(at.frames.time, self.straps.start_strain(whole), &lies.course.lengths, &mut past);
         past
     }
@@ -85,7 +102,8 @@ impl ChainLaw<f64> {
 impl ChainLaw<f64> {
     /// Of each strap, how fast a tension of 1 N would speed its length up, 1/kg, and its unstretched length, m.
     pub(super) fn gives(&self, at: &Instant<'_, f64>, past: &ChainPast<f64>, mobility: &Mobility<'_>) -> Vec<[f64; 2]> {
-        let lies = self.lies(at, past);
+        let mut lies = Lies::nowhere();
+        self.lay(at, past, &mut lies);
         let mut list: Vec<_> = self.straps.starts.iter().map(|k| [0.0, past.nodes[*k].unstretched]).collect();
         let mut strap = 0;
         for (k, node) in self.nodes.iter().enumerate() {
@@ -108,6 +126,14 @@ impl ChainLaw<f64> {
     }
 }
 
+impl ChainLaw<f64> {
+    /// What has gone beyond the end of its curve, in words.
+    pub(super) fn overrun(&self, belt: &str, past: &ChainPast<f64>) -> Option<String> {
+        let strain = past.nodes.iter().fold(0.0, |most: f64, node| most.max(node.greatest));
+        self.straps.overrun(belt, strain, past.device.greatest)
+    }
+}
+
 impl<S: Copy> ChainLaw<S> {
     pub(super) fn is_like<A: Copy>(&self, other: &ChainLaw<A>) -> bool {
         let nodes = self.nodes.iter().map(NodeLaw::shape).eq(other.nodes.iter().map(NodeLaw::shape));
@@ -126,16 +152,16 @@ impl<S: Copy> ChainLaw<S> {
 impl<S: Scalar> ChainLaw<S> {
     /// Places of the nodes, and the webbing along them.
     #[inline(always)]
-    pub(super) fn lies(&self, at: &Instant<'_, S>, past: &ChainPast<S>) -> Lies<S> {
+    pub(super) fn lay(&self, at: &Instant<'_, S>, past: &ChainPast<S>, lies: &mut Lies<S>) {
         let (o, count) = (S::zero(), self.nodes.len());
-        let nowhere = Place::nowhere();
-        let (mut ways, mut places) = ([o; MOST_NODES], [nowhere; MOST_NODES]);
+        let Lies { ways, places, bends, course } = lies;
         for (k, node) in self.nodes.iter().enumerate() {
             ways[k] = node.way(at.frames.time, &past.nodes[k], &past.device);
             places[k] = node.place(at, ways[k], &past.nodes[k]);
         }
-        let bends = bends(&places[..count], &past.nodes);
-        let (mut course, mut strap) = (Course::<S>::none(), 0);
+        path::bends(&places[..count], &past.nodes, bends);
+        *course = Course::none();
+        let mut strap = 0;
         for (k, node) in self.nodes.iter().enumerate().skip(1) {
             let (bend, past) = (&bends[k], &past.nodes[k]);
             course.lengths[strap] += bend.span + bend.arc;
@@ -155,25 +181,33 @@ impl<S: Scalar> ChainLaw<S> {
                 course.turns[strap] = S::select(past.is_on(), turns, o);
             }
         }
-        Lies { ways, places, bends, course }
     }
 
-    /// The chain at one instant, from what it remembers.
+    /// The chain at one instant, from what it remembers; `lies` is where it lies, and becomes that unless it `is_known`.
     #[inline(always)]
-    pub(super) fn now(&self, at: &Instant<'_, S>, past: &ChainPast<S>) -> Now<'_, S> {
-        if S::IS_WIDE { self.within(at, past) } else { self.apart(at, past) }
+    pub(super) fn now<'a>(
+        &'a self,
+        at: &Instant<'_, S>,
+        past: &ChainPast<S>,
+        lies: &'a mut Lies<S>,
+        is_known: bool,
+    ) -> Now<'a, S> {
+        let taut =
+            if S::IS_WIDE { self.within(at, past, lies, is_known) } else { self.apart(at, past, lies, is_known) };
+        Now { lies, taut }
     }
 
     #[inline(never)]
-    fn apart(&self, at: &Instant<'_, S>, past: &ChainPast<S>) -> Now<'_, S> {
-        self.within(at, past)
+    fn apart(&self, at: &Instant<'_, S>, past: &ChainPast<S>, lies: &mut Lies<S>, is_known: bool) -> Taut<'_, S> {
+        self.within(at, past, lies, is_known)
     }
 
     #[inline(always)]
-    fn within(&self, at: &Instant<'_, S>, past: &ChainPast<S>) -> Now<'_, S> {
-        let lies = self.lies(at, past);
-        let taut = self.straps.taut(at.frames.time, &lies.course, past);
-        Now { lies, taut }
+    fn within(&self, at: &Instant<'_, S>, past: &ChainPast<S>, lies: &mut Lies<S>, is_known: bool) -> Taut<'_, S> {
+        if !is_known {
+            self.lay(at, past, lies);
+        }
+        self.straps.taut(at.frames.time, &lies.course, past)
     }
 
     /// Forces of the webbing on the nodes, space axes, N.
@@ -192,38 +226,75 @@ impl<S: Scalar> ChainLaw<S> {
     /// Moment of the webbing on a sphere on which it rubs and behind which this strap begins, space axes, N·m.
     #[inline(always)]
     pub(super) fn couple(&self, now: &Now<'_, S>, k: usize, strap: usize) -> V3<S> {
-        let (straps, lies) = (&now.taut.solved.straps, &now.lies);
+        let (straps, lies) = (&now.taut.solved.straps, now.lies);
         lies.bends[k].normal * (lies.places[k].radius * (straps[strap - 1].tension - straps[strap].tension))
     }
 
-    /// Remembers an accepted step. Where the webbing then left a node, or was freed: the energy that it had, which the next
-    /// look at the chain is compared with ([`ChainLaw::settle`]).
+    /// Remembers an accepted step.
     #[inline(always)]
-    pub(super) fn commit(&self, at: &Instant<'_, S>, now: &Now<'_, S>, past: &mut ChainPast<S>) -> Left<S> {
+    pub(super) fn commit(&self, at: &Instant<'_, S>, now: &Now<'_, S>, past: &mut ChainPast<S>) -> Committed<S> {
         let mut next = *past;
         self.straps.commit(at.frames.time, &now.taut, past, &mut next);
         self.commit_nodes(at, now, &mut next);
         next.device.time = at.frames.time;
         let fresh = at.frames.time.gt(past.device.time);
-        let mut lanes = next.device.free.gt(past.device.free);
-        for (k, node) in self.nodes.iter().enumerate().filter(|(_, node)| !node.is_sphere()) {
-            if node.may_leave {
-                lanes = lanes | next.nodes[k].on.lt(past.nodes[k].on);
-            }
-        }
+        let found = self.changed(now, past, &next, fresh);
         past.each(&mut next, &mut |a, b| *a = S::select(fresh, *b, *a));
-        let lanes = lanes & fresh;
-        let stored = if S::any(lanes) { self.straps.stored_in_all(&now.taut) } else { S::zero() };
-        Left { lanes, stored }
+        found
     }
 
-    /// What is gone where webbing has left a node or was freed is lost at the first node, but for what is booked as passing
-    /// through nodes with the next step.
+    /// What has changed in `fresh` lanes.
     #[inline(always)]
-    pub(super) fn settle(&self, left: &Left<S>, now: &Now<'_, S>, past: &mut ChainPast<S>) {
-        let gone = left.stored - self.straps.stored_in_all(&now.taut) - self.straps.passing(&now.taut, past);
+    fn changed(&self, now: &Now<'_, S>, past: &ChainPast<S>, next: &ChainPast<S>, fresh: S::Mask) -> Committed<S> {
+        let (course, mut strap) = (&now.lies.course, 0);
+        let (mut moved, mut refits) = (S::truth(false), S::truth(false));
+        let mut lost = next.device.free.gt(past.device.free);
+        for (k, node) in self.nodes.iter().enumerate() {
+            strap += usize::from(node.rubs);
+            if !node.may_leave {
+                continue;
+            }
+            let (was, is) = (past.nodes[k].on, next.nodes[k].on);
+            let changes = is.lt(was) | was.lt(is);
+            if !node.is_sphere() {
+                lost = lost | changes;
+            } else if node.rubs {
+                moved = moved | course.carried[strap].abs().gt(S::zero());
+            } else if self.spheres(strap) > 1 {
+                refits = refits | changes;
+            }
+            moved = moved | changes;
+        }
+        let (moved, refits, lost) = (moved & fresh, refits & fresh, (lost | refits) & fresh);
+        let stored = if S::any(lost) { self.straps.stored_in_all(&now.taut) } else { S::zero() };
+        Committed { moved, refits, lost, lengths: course.lengths, stored }
+    }
+
+    /// How many spheres a strap passes without friction.
+    fn spheres(&self, strap: usize) -> usize {
+        let starts = &self.straps.starts;
+        let end = starts.get(strap + 1).copied().unwrap_or(self.nodes.len());
+        self.nodes[starts[strap]..end].iter().filter(|node| node.is_sphere() && !node.rubs).count()
+    }
+
+    /// Where the length has jumped N takes that up, so that no tension does.
+    #[inline(always)]
+    pub(super) fn refit(&self, found: &mut Committed<S>, lies: &Lies<S>, past: &mut ChainPast<S>) {
+        for (strap, &node) in self.straps.starts.iter().enumerate().filter(|(strap, _)| self.spheres(*strap) > 1) {
+            let own = &mut past.nodes[node].unstretched;
+            let grown = *own * (lies.course.lengths[strap] / found.lengths[strap]);
+            *own = S::select(found.refits, grown, *own);
+        }
+        found.refits = S::truth(false);
+    }
+
+    /// What is gone where webbing has left a node, jumped in length or was freed is lost at the first node, but for what is
+    /// booked as passing through nodes with the next step.
+    #[inline(always)]
+    pub(super) fn settle(&self, found: &Committed<S>, now: &Now<'_, S>, past: &mut ChainPast<S>) {
+        let gone = found.stored - self.straps.stored_in_all(&now.taut) - self.straps.passing(&now.taut, past);
         let lost = &mut past.nodes[0].lost;
-        *lost = S::select(left.lanes, *lost + gone, *lost);
+        *lost = S::select(found.lost, *lost + gone, *lost);
     }
 
     /// Nodes at an accepted step. At most one sphere comes on or goes off: that which is furthest beyond.
@@ -240,7 +311,7 @@ impl<S: Scalar> ChainLaw<S> {
         for (k, force) in self.forces(now).into_iter().enumerate().take(self.nodes.len()) {
             if self.nodes[k].is_sphere() {
                 let changes = most.gt(o) & !beyond(k, next).lt(most);
-                let (lies, own) = (&now.lies, &mut next.nodes[k]);
+                let (lies, own) = (now.lies, &mut next.nodes[k]);
                 self.nodes[k].remember(at, &lies.places[k], &lies.bends[k], lies.ways[k], own);
                 own.on = S::select(changes, S::one() - own.on, own.on);
                 most = S::select(changes, o, most);

@@ -31,6 +31,7 @@ use crate::quantity::Quantity;
 use crash_measures::unit::Unit;
 pub use data::*;
 pub use law::ChainLaw;
+use law::{Committed, Lies, Now};
 pub use past::ChainPast;
 use placed_text::Problems;
 pub use results::StrapAction;
@@ -126,7 +127,11 @@ impl Element for Chains {
         past.map(f)
     }
 
-    fn failure(data: &[Chain], past: &[ChainPast<f64>]) -> Option<String> {
+    fn failure(data: &[Chain], law: &Vec<ChainLaw<f64>>, past: &[ChainPast<f64>]) -> Option<String> {
+        let spent = |((chain, law), past): ((&Chain, &ChainLaw<f64>), &ChainPast<f64>)| law.overrun(&chain.belt, past);
+        if let Some(why) = data.iter().zip(law).zip(past).find_map(spent) {
+            return Some(why);
+        }
         let (chain, past) = data.iter().zip(past).find(|(_, past)| past.device.unsolved > 0.0)?;
         let left_m = past.device.unsolved;
         Some(format!("no tensions were found of the belt {}: {left_m:.1e} m of webbing are left over", chain.belt))
@@ -185,24 +190,41 @@ fn act<S: Scalar>(
     load: &mut Load<S>,
     show: &mut impl FnMut(&StrapAction<S>),
 ) {
-    let mut left = None;
+    let (mut step, mut lies, mut is_known): (Option<Committed<S>>, _, _) = (None, Lies::nowhere(), false);
     // a loop, so that there is one copy of what is looked at twice
     let now = loop {
-        let now = chain.now(at, past);
-        if !at.accepted || left.is_some() || !S::any(at.frames.time.gt(past.device.time)) {
-            break now;
+        let now = chain.now(at, past, &mut lies, is_known);
+        match &mut step {
+            None if at.accepted && S::any(at.frames.time.gt(past.device.time)) => {
+                let found = chain.commit(at, &now, past);
+                is_known = !S::any(found.moved);
+                step = Some(found);
+            }
+            Some(found) if S::any(found.refits) => {
+                chain.refit(found, now.lies, past);
+                is_known = true;
+            }
+            _ => break now,
         }
-        left = Some(chain.commit(at, &now, past));
     };
-    if let Some(left) = left.filter(|left| S::any(left.lanes)) {
-        chain.settle(&left, &now, past);
+    if let Some(found) = step.filter(|found| S::any(found.lost)) {
+        chain.settle(&found, &now, past);
     }
     let unsolved = now.taut.solved.unsolved;
     if S::any(unsolved.gt(S::zero())) {
         past.device.unsolved = unsolved;
     }
+    bear(chain, at, &now, load);
+    for strap in 0..chain.straps.starts.len() {
+        show(&StrapAction::new(chain, at, (&now, past), strap));
+    }
+}
+
+/// Loads of the webbing on the body, and their powers.
+#[inline(always)]
+fn bear<S: Scalar>(chain: &ChainLaw<S>, at: &Instant<'_, S>, now: &Now<'_, S>, load: &mut Load<S>) {
     let (frame, mut strap) = (&at.frames[VEHICLE], 0);
-    for (k, force) in chain.forces(&now).into_iter().enumerate().take(chain.nodes.len()) {
+    for (k, force) in chain.forces(now).into_iter().enumerate().take(chain.nodes.len()) {
         let node = &chain.nodes[k];
         strap += usize::from(node.rubs);
         let Some(segment) = node.segment(at) else { continue };
@@ -216,14 +238,11 @@ fn act<S: Scalar>(
         load.power.sums[STRETCH] -= force.dot(velocity - carried);
         load.power.vehicle += force.dot(carried);
         if node.is_rough() {
-            let couple = chain.couple(&now, k, strap);
+            let couple = chain.couple(now, k, strap);
             wrench.moment += couple;
             load.power.sums[STRETCH] -= couple.dot(at.k.omega[segment] - frame.omega);
             load.power.vehicle += couple.dot(frame.omega);
         }
-    }
-    for strap in 0..chain.straps.starts.len() {
-        show(&StrapAction::new(chain, at, (&now, past), strap));
     }
 }
 

@@ -125,6 +125,13 @@ impl<S> ChainPast<S> {
     }
 }
 
+impl ChainPast<f64> {
+    /// Greatest loading deformation of the limiter, m.
+    pub(crate) fn limiter_m(&self) -> f64 {
+        self.device.greatest
+    }
+}
+
 impl<A: Copy> ChainPast<A> {
     pub(super) fn map<S>(&self, f: &mut impl FnMut(A) -> S) -> ChainPast<S> {
         ChainPast { device: self.device.map(f), nodes: self.nodes.each_ref().map(|node| node.map(f)) }

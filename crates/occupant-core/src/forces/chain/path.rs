@@ -55,6 +55,14 @@ pub(super) struct Bend<S> {
     pub(super) beside: S,
 }
 
+impl<S: Scalar> Bend<S> {
+    /// That of no node.
+    pub(super) fn none() -> Self {
+        let (o, none) = (S::zero(), V3::zero());
+        Bend { span: o, arc: o, back: none, ahead: none, wrap: o, normal: none, touch: none, beside: o }
+    }
+}
+
 /// Angle that webbing with these gradients turns by, rad.
 #[inline(always)]
 pub(super) fn turn<S: Scalar>(back: V3<S>, ahead: V3<S>) -> S {
@@ -67,20 +75,30 @@ fn is_on<S: Scalar>(place: &Place<S>, past: &NodePast<S>) -> S::Mask {
     if place.may_leave { past.is_on() } else { S::truth(true) }
 }
 
-/// The webbing along `places`; `past` says which of them it passes, and senses of normals.
+/// Centre and radius of the node behind each that the webbing passes.
 #[inline(always)]
-pub(super) fn bends<S: Scalar>(places: &[Place<S>], past: &[NodePast<S>; MOST_NODES]) -> [Bend<S>; MOST_NODES] {
-    let (o, none) = (S::zero(), V3::zero());
-    let empty = Bend { span: o, arc: o, back: none, ahead: none, wrap: o, normal: none, touch: none, beside: o };
-    let mut bends = [empty; MOST_NODES];
+fn behind<S: Scalar>(places: &[Place<S>], past: &[NodePast<S>; MOST_NODES]) -> [(V3<S>, S); MOST_NODES] {
     let count = places.len();
-    // the node behind each that the webbing passes
     let mut behind = [(places[count - 1].centre, places[count - 1].radius); MOST_NODES];
     for k in (1..count - 1).rev() {
         let (next, on) = (&places[k + 1], is_on(&places[k + 1], &past[k + 1]));
         let (centre, radius) = behind[k + 1];
         behind[k] = (V3::select(on, next.centre, centre), S::select(on, next.radius, radius));
     }
+    behind
+}
+
+/// The webbing along `places`; `past` says which of them it passes, and senses of normals.
+#[inline(always)]
+pub(super) fn bends<S: Scalar>(
+    places: &[Place<S>],
+    past: &[NodePast<S>; MOST_NODES],
+    bends: &mut [Bend<S>; MOST_NODES],
+) {
+    let (o, none) = (S::zero(), V3::zero());
+    *bends = [Bend::none(); MOST_NODES];
+    let count = places.len();
+    let behind = behind(places, past);
     // from the node before: where it is, and what its arc gives to the gradient at the next node
     let (mut before, mut given) = ((places[0].centre, places[0].radius), none);
     // what the span and arc of each node give to the gradient at the node before
@@ -124,7 +142,6 @@ pub(super) fn bends<S: Scalar>(places: &[Place<S>], past: &[NodePast<S>; MOST_NO
         bends[k].ahead = V3::select(on, ahead, none);
         next = V3::select(on, lead[k], next);
     }
-    bends
 }
 
 /// An arc on a sphere, with what it gives to −gradient at the nodes on either side.

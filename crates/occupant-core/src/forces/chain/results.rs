@@ -157,6 +157,7 @@ type Of = Quantity<OneOf<Chains>>;
 
 impl Reported for Chains {
     const MESSAGE: &'static str = "Strap";
+    const TELLS: bool = true;
 
     const QUANTITIES: &'static [Of] = &[
         Of::number(Newton, |s| s.force).channel("force", "tension of the {}").field(2, "force", "tension"),

@@ -119,6 +119,13 @@ impl Straps<f64> {
         }
     }
 
+    /// What has gone beyond the end of its curve, in words: the webbing, or its limiter.
+    pub(super) fn overrun(&self, belt: &str, strain: f64, limiter_m: f64) -> Option<String> {
+        let webbing = format!("the webbing of the belt {belt}");
+        let stretched = self.webbing.curve.overrun(&webbing, strain, |strain| format!("{:.2} %", 1e2 * strain));
+        stretched.or_else(|| self.device.overrun(&format!("the limiter of the belt {belt}"), limiter_m))
+    }
+
     /// Strain of all straps at the start, for a belt that is `whole` long in all its parts, m.
     pub(super) fn start_strain(&self, whole: f64) -> f64 {
         let of_tension = |tension| self.webbing.curve.reach(tension, 0.0, 0.0).0;
@@ -181,7 +188,8 @@ impl<S: Scalar> Straps<S> {
         let mut runs = [none; MOST_NODES];
         for (strap, &node) in self.starts.iter().enumerate() {
             let (own, run) = (&past.nodes[node], &mut runs[strap]);
-            (run.length, run.before) = (course.lengths[strap], own.unstretched);
+            run.length = course.lengths[strap] + self.webbing.curve.unknown(own.greatest);
+            run.before = own.unstretched;
             (run.greatest, run.play) = (own.greatest, own.play);
             run.set = self.webbing.curve.set(own.greatest);
             run.beside = self.webbing.beside(time - past.device.time, own);

@@ -139,6 +139,20 @@ impl Element for Contacts {
         PairHistory { phase: f(past.phase), greatest: f(past.greatest) }
     }
 
+    fn failure(data: ContactData<'_>, law: &ContactSystem<f64>, past: &[PairHistory<f64>]) -> Option<String> {
+        let names = data.surfaces.iter().map(|s| &s.name).chain(data.solids.iter().map(|s| &s.name));
+        let names: Vec<&String> = names.collect();
+        let faces = law.pairs.iter().map(|pair| pair.parts.iter().map(|part| (&part.law, part.surface)).collect());
+        let solids = law.solids.pairs.iter().map(|union| vec![(&union.law, union.members[0].surface)]);
+        let overrun = |(past, laws): (&PairHistory<f64>, Vec<(&MaterialLaw<f64>, usize)>)| {
+            laws.into_iter().find_map(|(law, surface)| {
+                let ForceLaw::Deflection(law) = &law.force else { return None };
+                law.overrun(&format!("a sphere in {}", names[surface]), past.greatest)
+            })
+        };
+        past.iter().zip(faces.chain(solids)).find_map(overrun)
+    }
+
     fn is_possible(law: &ContactSystem<f64>, number: usize, past: &PairHistory<f64>) -> bool {
         let is_face = past.phase.fract() == 0.0 && (FACE..FACE + MOST_FACES).contains(&past.phase);
         let may_be_face = (law.pairs.len() + law.solids.pairs.len()..law.own.first).contains(&number);
@@ -270,14 +284,27 @@ impl ContactSystem<f64> {
         self.member(touch).map_or(f64::INFINITY, of)
     }
 
-    /// Deformation at which the slope of a pair's spring changes, m; of a force function, which may bend often, none is.
-    pub fn knee_m(&self, pair: usize, part: usize) -> f64 {
+    /// Normal force law of a part of a pair.
+    fn law(&self, pair: usize, part: usize) -> &ForceLaw<f64> {
         let law = match (self.own.get(pair), self.pairs.get(pair)) {
             (Some(own), _) => &own.law,
             (None, Some(faces)) => &faces.parts[part].law,
             (None, None) => &self.solids.pairs[pair - self.pairs.len()].law,
         };
-        match &law.force {
+        &law.force
+    }
+
+    /// Depth of the last point of the force function that a touch follows, m; infinite of a spring, and of two skins as one.
+    pub(crate) fn last_point_m(&self, touch: &Touch<f64>) -> f64 {
+        match self.law(touch.pair, touch.part as usize) {
+            ForceLaw::Deflection(law) if self.own.get(touch.pair).is_none() => law.last_point(),
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// Deformation at which the slope of a pair's spring changes, m; of a force function, which may bend often, none is.
+    pub fn knee_m(&self, pair: usize, part: usize) -> f64 {
+        match self.law(pair, part) {
             ForceLaw::Bilinear(spring) => spring.knee(),
             ForceLaw::Deflection(_) => f64::INFINITY,
         }

@@ -6,7 +6,7 @@
 //! ∫(1 − μ) f up to x_m, never falls.
 
 use super::cubic::Cubic;
-use super::data::Function;
+use super::data::{Beyond, Function};
 use crate::forces::spring::LEAST_FRACTION;
 use crate::motion::scalar::Scalar;
 
@@ -14,7 +14,13 @@ use crate::motion::scalar::Scalar;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct FunctionLaw<S> {
     pieces: Vec<Piece<S>>,
+    /// Its last point, and where it ends for good; 1e300 of what has none.
+    end: S,
+    stop: S,
 }
+
+/// No last point.
+const NOWHERE: f64 = 1e300;
 
 /// One interval; what is said of its beginning has the index 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +40,8 @@ struct Piece<S> {
 
 impl FunctionLaw<f64> {
     pub(crate) fn new(data: &Function) -> Self {
-        Self::of(data.pieces())
+        let stop = if data.beyond == Beyond::Limits { data.end() } else { NOWHERE };
+        FunctionLaw { end: data.end(), stop, ..Self::of(data.pieces()) }
     }
 
     /// c₁x + c₂x² + c₃x³, of which everywhere the share μ comes back.
@@ -43,7 +50,7 @@ impl FunctionLaw<f64> {
     }
 
     fn of(cubics: impl IntoIterator<Item = (Cubic<f64>, f64)>) -> Self {
-        let mut law = FunctionLaw { pieces: Vec::new() };
+        let mut law = FunctionLaw { pieces: Vec::new(), end: NOWHERE, stop: NOWHERE };
         for (f, mu) in cubics {
             let give = if f.c[1] > 0.0 { 1.0 / f.c[1] } else { 0.0 };
             let [way, energy, lost] = law.pieces.last().map_or([0.0; 3], |before| before.returned_to(f.from));
@@ -60,6 +67,14 @@ impl FunctionLaw<f64> {
         slopes.fold((0.0, false), |(most, falls), ([least, steepest], mu)| {
             ((steepest / mu).max(most), falls || least.is_nan() || least < 0.0)
         })
+    }
+}
+
+impl FunctionLaw<f64> {
+    /// What ended a run, if `greatest`, of what it is the law of, is beyond the end of what is known: both, as `shown`.
+    pub(crate) fn overrun(&self, of: &str, greatest: f64, shown: impl Fn(f64) -> String) -> Option<String> {
+        let ends = "beyond the last point of a force function that says `beyond = \"limits\"`";
+        (greatest > self.stop).then(|| format!("{of} went to {}, {ends}: {}", shown(greatest), shown(self.stop)))
     }
 }
 
@@ -93,13 +108,19 @@ impl<S: Scalar> Piece<S> {
 }
 
 impl<S: Copy> FunctionLaw<S> {
+    /// x of its last point; 1e300 where it has none.
+    pub(crate) fn end(&self) -> S {
+        self.end
+    }
+
     /// How many intervals it has; functions of equally many can be computed side by side.
     pub(crate) fn len(&self) -> usize {
         self.pieces.len()
     }
 
     pub(crate) fn zip<A: Copy, T>(&self, other: &FunctionLaw<A>, f: &impl Fn(S, A) -> T) -> FunctionLaw<T> {
-        FunctionLaw { pieces: self.pieces.iter().zip(&other.pieces).map(|(a, b)| a.zip(b, f)).collect() }
+        let pieces = self.pieces.iter().zip(&other.pieces).map(|(a, b)| a.zip(b, f)).collect();
+        FunctionLaw { pieces, end: f(self.end, other.end), stop: f(self.stop, other.stop) }
     }
 }
 
@@ -128,6 +149,12 @@ impl<S: Scalar> FunctionLaw<S> {
             found = if S::any(!mask) { found.zip(next, &|a, b| S::select(mask, b, a)) } else { *next };
         }
         found
+    }
+
+    /// Nothing to add; no number where the greatest deformation is beyond the end of what is known.
+    #[inline(always)]
+    pub(crate) fn unknown(&self, greatest: S) -> S {
+        S::select(greatest.gt(self.stop), S::of(f64::NAN), S::zero())
     }
 
     /// f.

@@ -21,7 +21,7 @@ pub struct Function {
 }
 
 /// A curve between points.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 #[schemars(rename = "ShapeChoice")]
 pub enum Shape {
@@ -30,6 +30,9 @@ pub enum Shape {
     Lines,
     /// Smooth, rising and falling with the points alone.
     Monotone,
+    /// c₁x + c₂x² + c₃x³ from the first point to the last.
+    #[serde(skip)]
+    Polynomial([f64; 3]),
 }
 
 /// A curve beyond its last point.
@@ -42,6 +45,8 @@ pub enum Beyond {
     Extends,
     /// Keeps its last force.
     Holds,
+    /// Is not known: the run ends where it has gone beyond.
+    Limits,
 }
 
 /// Force over depth of contact, with all that it may depend on besides.
@@ -73,10 +78,10 @@ pub enum Unloading {
     },
     /// By the quadratic of the ATB program.
     Quadratic {
-        /// R, the share that is to come back.
-        returned: f64,
-        /// G, the deformation that stays, as a share of the greatest.
-        set: f64,
+        /// R, the share that is to come back, over the greatest deformation; one row: everywhere.
+        returned: Vec<[f64; 2]>,
+        /// G, the deformation that stays, as a share of the greatest, over that.
+        set: Vec<[f64; 2]>,
     },
 }
 
@@ -103,17 +108,34 @@ impl Function {
         let mut cubics = match self.shape {
             Shape::Lines => Cubic::lines(&self.points),
             Shape::Monotone => Cubic::monotone(&self.points),
+            Shape::Polynomial([c1, c2, c3]) => vec![Cubic { from: 0.0, c: [0.0, c1, c2, c3] }],
         };
         if let (Some(end), Some(last)) = (self.points.last(), cubics.last()) {
             match (self.beyond, self.shape) {
                 (Beyond::Holds, _) => cubics.push(Cubic::line(*end, 0.0)),
-                (Beyond::Extends, Shape::Monotone) => cubics.push(Cubic::line(*end, last.slope(end[0]))),
-                (Beyond::Extends, Shape::Lines) => {}
+                (_, Shape::Lines) => {}
+                _ => cubics.push(Cubic::line(*end, last.slope(end[0]))),
             }
         }
         let last = self.returned.last().copied().unwrap_or(1.0);
         let shares = self.returned.clone().into_iter().chain(std::iter::repeat(last));
         cubics.into_iter().zip(shares)
+    }
+
+    /// c₁x + c₂x² + c₃x³ up to a deformation, of which everywhere the same share comes back.
+    pub fn polynomial(c: [f64; 3], end: f64, returned: f64) -> Self {
+        let force = ((c[2] * end + c[1]) * end + c[0]) * end;
+        Function { shape: Shape::Polynomial(c), ..Function::lines(vec![[0.0; 2], [end, force]], returned) }
+    }
+
+    /// The same with all forces multiplied by `share`.
+    pub(crate) fn times(&self, share: f64) -> Self {
+        let shape = match self.shape {
+            Shape::Polynomial(c) => Shape::Polynomial(c.map(|c| share * c)),
+            shape => shape,
+        };
+        let points = self.points.iter().map(|[x, force]| [*x, share * force]).collect();
+        Function { points, shape, ..self.clone() }
     }
 
     /// x of the last point.
@@ -145,6 +167,12 @@ impl Function {
     /// Reports what is wrong with it; `falls`: how to mend a force that falls.
     pub(crate) fn check(&self, path: &str, goes: Goes, falls: &str, problems: &mut Problems) {
         check_points(&self.points, path, goes, falls, problems);
+        if let (Shape::Polynomial(_), Some((cubic, _))) = (self.shape, self.pieces().next()) {
+            let lowest = (0..=PLACES).map(|i| cubic.value(self.end() * f64::from(i) / f64::from(PLACES)));
+            if goes != Goes::Anywhere && cubic.slopes(self.end())[0] < 0.0 || lowest.fold(0.0, f64::min) < 0.0 {
+                problems.error(path, "a polynomial that falls before its end, or below 0", falls);
+            }
+        }
         let path = format!("{path}.returned");
         if self.returned.len() + 1 != self.points.len() || self.returned.iter().any(|mu| !(0.0..=1.0).contains(mu)) {
             problems.error(path, "other numbers", "one number, or one for each interval, from 0 to 1");
@@ -154,6 +182,9 @@ impl Function {
         }
     }
 }
+
+/// Places in which a curve is looked at.
+pub(super) const PLACES: u32 = 200;
 
 /// Reports what is wrong with points of a curve.
 pub(super) fn check_points(points: &[[f64; 2]], path: &str, goes: Goes, falls: &str, problems: &mut Problems) {

@@ -4,7 +4,7 @@
 //!
 //! - *stretch*: [`super::curve`];
 //! - *slope*: F = max(g(δ), F_m − K(δ_m − δ), 0), with K above all slopes of f and g;
-//! - *quadratic*, that of the ATB program: 0 below Gδ_m, then a₁y + a₂y² with y = δ − Gδ_m, L = δ_m − Gδ_m,
+//! - *quadratic*, that of the ATB program, R and G over δ_m: 0 below Gδ_m, then a₁y + a₂y² with y = δ − Gδ_m, L = δ_m − Gδ_m,
 //!   a₁ = max(0, 2(3RA/L − F_m)/L), a₂ = (F_m/L − a₁)/L, and where a₂ < 0 instead a₁ = F_m/L, a₂ = 0. These cuts let the share
 //!   that comes back be R only between F_mL/3A and F_mL/2A.
 //!
@@ -35,7 +35,7 @@ pub(crate) struct DeflectionLaw<S> {
 enum Back<S> {
     Stretch,
     Slope(S, FunctionLaw<S>),
-    Quadratic([S; 2]),
+    Quadratic([Steps<S>; 2]),
 }
 
 impl DeflectionLaw<f64> {
@@ -45,14 +45,14 @@ impl DeflectionLaw<f64> {
         let elastic = |points: &[[f64; 2]]| FunctionLaw::new(&Function::lines(times(points), 1.0));
         let nothing = [[0.0, 0.0], [1.0, 0.0]];
         DeflectionLaw {
-            loading: FunctionLaw::new(&Function { points: times(&data.loading.points), ..data.loading.clone() }),
+            loading: FunctionLaw::new(&data.loading.times(share)),
             unloading: match &data.unloading {
                 Unloading::Stretch => Back::Stretch,
                 Unloading::Slope { n_per_m, least } if least.is_empty() => {
                     Back::Slope(share * n_per_m, elastic(&nothing))
                 }
                 Unloading::Slope { n_per_m, least } => Back::Slope(share * n_per_m, elastic(least)),
-                Unloading::Quadratic { returned, set } => Back::Quadratic([*returned, *set]),
+                Unloading::Quadratic { returned, set } => Back::Quadratic([Steps::new(returned), Steps::new(set)]),
             },
             spike: data.spike.last().map(|[end, _]| {
                 let after = [*end + 1.0, 0.0];
@@ -79,6 +79,16 @@ impl DeflectionLaw<f64> {
         Some(high)
     }
 
+    /// Depth of the last point of loading, m.
+    pub(crate) fn last_point(&self) -> f64 {
+        self.loading.end()
+    }
+
+    /// What ended a run, if the greatest depth is beyond the end of what is known.
+    pub(crate) fn overrun(&self, of: &str, greatest: f64) -> Option<String> {
+        self.loading.overrun(of, greatest, |depth| format!("{:.1} mm", 1e3 * depth))
+    }
+
     /// f and s together, and their work, up to a deformation.
     pub(super) fn loading(&self, x: f64) -> [f64; 2] {
         let of = |law: &FunctionLaw<f64>| [law.value(x), law.returned_to(x)[1..].iter().sum()];
@@ -93,7 +103,9 @@ impl<S: Copy> DeflectionLaw<S> {
         let unloading = match (&self.unloading, &other.unloading) {
             (Back::Stretch, Back::Stretch) => Back::Stretch,
             (Back::Slope(k, g), Back::Slope(other, h)) if g.len() == h.len() => Back::Slope(f(*k, *other), g.zip(h, f)),
-            (Back::Quadratic([a, b]), Back::Quadratic([c, d])) => Back::Quadratic([f(*a, *c), f(*b, *d)]),
+            (Back::Quadratic([a, b]), Back::Quadratic([c, d])) if [a.len(), b.len()] == [c.len(), d.len()] => {
+                Back::Quadratic([a.zip(c, f), b.zip(d, f)])
+            }
             _ => return None,
         };
         let spike = self.spike.as_ref().zip(other.spike.as_ref());
@@ -132,7 +144,7 @@ impl<S: Scalar> DeflectionLaw<S> {
                 (found.force, self.loading.returned_to(found.loading)[1])
             }
             Back::Slope(slope, least) => self.by_slope(*slope, least, depth, top),
-            Back::Quadratic(both) => self.by_quadratic(*both, depth, top),
+            Back::Quadratic([returned, set]) => self.by_quadratic([returned.at(top), set.at(top)], depth, top),
         };
         if let Some(spike) = &self.spike {
             let way = top.min(S::of(FADES_M)).max(S::of(1e-12));
@@ -140,7 +152,7 @@ impl<S: Scalar> DeflectionLaw<S> {
             force += full * left;
             energy += full * way * left * left * S::of(0.5);
         }
-        force = self.rate.scale(force, closing);
+        force = self.rate.scale(force + self.loading.unknown(greatest), closing);
         if let Some([damping, fully]) = self.viscous {
             force = (force + damping * closing * (depth / fully).clamp01()).max(o);
         }

@@ -5,12 +5,9 @@
 //! For all, and so for the quadratic and for spikes, D is looked at in many places.
 
 use super::cubic::Cubic;
-use super::data::{ForceDeflection, Function, Goes, Unloading, check_points};
+use super::data::{ForceDeflection, Function, Goes, PLACES, Unloading, check_points};
 use super::deflection::DeflectionLaw;
 use placed_text::Problems;
-
-/// Places in which D is looked at.
-const PLACES: u32 = 200;
 
 impl ForceDeflection {
     /// One of straight lines of which the same share of the work comes back.
@@ -37,9 +34,11 @@ impl ForceDeflection {
             Unloading::Stretch => {}
             Unloading::Slope { n_per_m, least } => self.check_slope(*n_per_m, least, path, problems),
             Unloading::Quadratic { returned, set } => {
-                if !((0.0..=1.0).contains(returned) && (0.0..1.0).contains(set)) {
-                    let found = format!("r = {returned}, g = {set}");
-                    problems.error(format!("{path}.atb"), found, "r from 0 to 1, g from 0 to less than 1");
+                let rises = |rows: &[[f64; 2]]| !rows.is_empty() && rows.windows(2).all(|rows| rows[1][0] > rows[0][0]);
+                let fractions = returned.iter().all(|row| (0.0..=1.0).contains(&row[1]));
+                if !(fractions && set.iter().all(|row| (0.0..1.0).contains(&row[1])) && rises(returned) && rises(set)) {
+                    let expected = "r from 0 to 1, g from 0 to less than 1, over depths that rise";
+                    problems.error(format!("{path}.atb"), "other numbers", expected);
                 }
             }
         }
@@ -106,7 +105,8 @@ impl ForceDeflection {
             }
             lost = work - energy;
         }
-        if let Unloading::Quadratic { returned, .. } = self.unloading
+        if let Unloading::Quadratic { returned, .. } = &self.unloading
+            && let Some([_, returned]) = returned.last()
             && (share - returned).abs() > 0.01
         {
             let found = format!("r = {returned}, of which ATB's quadratic makes {share:.3} at the last point");
@@ -116,6 +116,13 @@ impl ForceDeflection {
                 "an r that it can meet, or `returned`, which is met exactly",
             );
         }
+    }
+
+    /// The greatest damping that factors of speed and the damper make up to the last point, N·s/m.
+    pub(crate) fn damping(&self) -> f64 {
+        let slope = |rows: &[[f64; 2]]| (rows[1][1] - rows[0][1]) / (rows[1][0] - rows[0][0]);
+        let steepest = self.rate.windows(2).map(slope).fold(0.0, f64::max);
+        self.loading.greatest_n() * steepest + self.viscous.map_or(0.0, |[damping, _]| damping)
     }
 
     /// The greatest slope of loading and unloading up to its last point, N/m, by differences.

@@ -86,7 +86,13 @@ fn laws() -> Vec<(&'static str, ForceDeflection)> {
         ("slope", ForceDeflection { unloading: slope(150e3, Vec::new()), ..lines(1.0) }),
         ("least", ForceDeflection { unloading: slope(120e3, least), ..lines(1.0) }),
         ("peak", ForceDeflection { unloading: slope(250e3, Vec::new()), ..ForceDeflection::lines(peak, 1.0) }),
-        ("quadratic", ForceDeflection { unloading: Unloading::Quadratic { returned: 0.5, set: 0.2 }, ..lines(1.0) }),
+        (
+            "quadratic",
+            ForceDeflection {
+                unloading: Unloading::Quadratic { returned: vec![[0.0, 0.5]], set: vec![[0.0, 0.2]] },
+                ..lines(1.0)
+            },
+        ),
         ("spike", ForceDeflection { spike, ..lines(0.3) }),
     ]
 }
@@ -202,7 +208,7 @@ fn a_damper_is_there_from_its_depth_on_and_never_pulls() {
 
 /// The share that the ATB program's quadratic returns of a curve, at its last point.
 fn returned(points: Vec<[f64; 2]>, r: f64, g: f64) -> (f64, Vec<String>) {
-    let unloading = Unloading::Quadratic { returned: r, set: g };
+    let unloading = Unloading::Quadratic { returned: vec![[0.0, r]], set: vec![[0.0, g]] };
     let data = ForceDeflection { unloading, ..ForceDeflection::lines(points, 1.0) };
     let (law, end) = (DeflectionLaw::new(&data, 1.0), data.loading.end());
     (law.respond(end, end, 0.0).1 / law.loading(end)[1], said(&data))
@@ -271,4 +277,62 @@ fn a_table_is_constant_beyond_its_rows() {
         assert!((table.at(x) - y).abs() < 1e-15, "{x}");
     }
     assert_eq!(Steps::<f64>::new(&[]).scale(7.0, 3.0), 7.0);
+}
+
+#[test]
+fn a_polynomial_is_one_cubic_up_to_its_end() {
+    let law = FunctionLaw::new(&Function::polynomial([2e3, -3e4, 9e5], 0.05, 0.4));
+    let exact = |x: f64| 2e3 * x - 3e4 * x * x + 9e5 * x * x * x;
+    for x in [0.0, 0.01, 0.033, 0.05] {
+        assert!((law.value(x) - exact(x)).abs() < 1e-12, "{x}");
+        let work = 1e3 * x * x - 1e4 * x * x * x + 2.25e5 * x.powi(4);
+        let [_, back, lost] = law.returned_to(x);
+        assert!((back - 0.4 * work).abs() < 1e-12 && (lost - 0.6 * work).abs() < 1e-12, "{x}");
+    }
+    // beyond the end its last slope goes on
+    let slope = 2e3 - 6e4 * 0.05 + 27e5 * 0.0025;
+    assert!((law.value(0.06) - exact(0.05) - 0.01 * slope).abs() < 1e-9);
+    let scaled = FunctionLaw::new(&Function::polynomial([2e3, -3e4, 9e5], 0.05, 0.4).times(0.5));
+    assert!((scaled.value(0.02) - 0.5 * exact(0.02)).abs() < 1e-12);
+    let check = |c| {
+        let loading = Function::polynomial(c, 0.05, 1.0);
+        said(&ForceDeflection { loading, ..ForceDeflection::lines(Vec::new(), 1.0) })
+    };
+    assert!(check([2e3, -3e4, 9e5]).is_empty());
+    assert!(check([2e3, -9e4, 9e5]).iter().any(|line| line.contains("falls before its end")));
+}
+
+#[test]
+fn the_quadratic_takes_its_numbers_from_tables_over_the_greatest_depth() {
+    let rows = |from, to| vec![[0.01, from], [0.03, to]];
+    let line = || ForceDeflection::lines(vec![[0.0, 0.0], [0.04, 4e3]], 1.0);
+    let table =
+        ForceDeflection { unloading: Unloading::Quadratic { returned: rows(0.7, 0.5), set: rows(0.1, 0.3) }, ..line() };
+    let law = DeflectionLaw::<f64>::new(&table, 1.0);
+    for (top, r, g) in [(0.005, 0.7, 0.1), (0.02, 0.6, 0.2), (0.04, 0.5, 0.3)] {
+        let plain = Unloading::Quadratic { returned: vec![[0.0, r]], set: vec![[0.0, g]] };
+        let plain = DeflectionLaw::new(&ForceDeflection { unloading: plain, ..line() }, 1.0);
+        for part in [0.2, 0.5, 0.9, 1.0] {
+            let [(a, b), (c, d)] = [&law, &plain].map(|law| law.respond(part * top, top, 0.0));
+            assert!((a - c).abs() < 1e-9 && (b - d).abs() < 1e-12, "{top} {part}: {a} {c}");
+        }
+        // straight loading returns exactly R where (1 - G)·2/3 <= R <= 1 - G
+        assert!((law.respond(top, top, 0.0).1 / law.loading(top)[1] - r).abs() < 1e-12, "{top}");
+    }
+    assert!(said(&table).iter().all(|line| !line.contains("makes energy")), "{:?}", said(&table));
+    // a share that grows with depth faster than the work gives back what was lost before
+    let growing = Unloading::Quadratic { returned: vec![[0.02, 0.7], [0.021, 1.0]], set: vec![[0.0, 0.0]] };
+    assert!(said(&ForceDeflection { unloading: growing, ..line() }).iter().any(|line| line.contains("makes energy")));
+}
+
+#[test]
+fn a_law_that_ends_gives_no_number_beyond_its_end() {
+    let points = vec![[0.0, 0.0], [0.04, 4e3]];
+    let ends = Function { beyond: Beyond::Limits, ..Function::lines(points, 0.5) };
+    let law = DeflectionLaw::new(&ForceDeflection { loading: ends, ..ForceDeflection::lines(Vec::new(), 1.0) }, 1.0);
+    // within a step it goes on; what an accepted step has brought beyond the end is not known
+    assert!((law.respond(0.041, 0.04, 0.0).0 - 4.1e3).abs() < 1e-9);
+    assert!(law.respond(0.03, 0.0401, 0.0).0.is_nan());
+    let why = law.overrun("it", 0.0401).unwrap();
+    assert!(why.contains("it went to 40.1 mm") && why.ends_with(": 40.0 mm"), "{why}");
 }

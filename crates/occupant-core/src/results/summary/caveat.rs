@@ -100,6 +100,30 @@ impl Caveat {
         Caveat::of_sphere(body, sphere, "bottomed", seen)
     }
 
+    /// A sphere that went deeper than the force function of what it met is known.
+    pub(super) fn beyond_curve(body: &Body, sphere: usize, surface: &str, beyond: Peak, last_m: f64) -> Self {
+        let (deep, last) = (mm(last_m + beyond.value), mm(last_m));
+        let seen =
+            format!("{deep} deep in {surface} {}, the last point of its force function is at {last}", at(beyond));
+        Caveat::of_sphere(body, sphere, "beyond_curve", seen)
+    }
+
+    /// Webbing that was stretched beyond the last point of its curve.
+    pub(super) fn stretched(strap: &str, beyond: Peak, last: f64) -> Self {
+        let [strain, last] = [last + beyond.value, last].map(|strain| 1e2 * strain);
+        let seen = format!("webbing {strap} stretched by {strain:.1} % {}, its curve ends at {last:.1} %", at(beyond));
+        let text = format!("{seen}; {}", not_to_be_quoted("its"));
+        Caveat::new(format!("{strap}_stretched"), text, vec![format!("straps.{strap}.*")])
+    }
+
+    /// A limiter that gave more webbing than its curve says.
+    pub(super) fn run_out(belt: &str, beyond: Peak, last_m: f64) -> Self {
+        let (way, last) = (mm(last_m + beyond.value), mm(last_m));
+        let seen = format!("limiter of {belt} bottomed at {way} {}, its curve ends at {last}", at(beyond));
+        let text = format!("{seen}; {}", not_to_be_quoted("the belt's"));
+        Caveat::new(format!("{belt}_limiter_bottomed"), text, vec![format!("straps.{belt}.*")])
+    }
+
     /// A sphere whose centre went through the axis of a bar or a rim, and was pushed on.
     pub(super) fn through(body: &Body, sphere: usize, solid: &str, depth: Peak) -> Self {
         let seen = format!("went through {solid} {} and was pushed out beyond", at(depth));

@@ -5,6 +5,7 @@
 
 mod caveat;
 mod elements;
+mod events;
 mod excursion;
 mod figures;
 mod peak;
@@ -19,6 +20,7 @@ use crate::forces::table::Tables;
 use crate::results::energy::EnergyCheck;
 
 pub use caveat::Caveat;
+pub use events::Event;
 pub(crate) use excursion::Excursion;
 pub use figures::{Figure, word};
 pub use peak::Peak;
@@ -44,6 +46,8 @@ pub struct Summary {
     /// Peaks of force elements.
     #[serde(flatten)]
     pub elements: Tables,
+    /// What happened to belts over several nodes.
+    pub events: Vec<Event>,
     /// First contacts of the parts of the body after the start.
     pub first_contacts: Vec<FirstContact>,
     /// Every first touch of a part of the body with a surface, in the order in which they happened.

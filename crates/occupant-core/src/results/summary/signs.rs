@@ -3,6 +3,7 @@
 use super::caveat::{Caveat, Turned};
 use super::peak::Peak;
 use crate::body::{Body, Segment};
+use crate::forces::chain::Chain;
 use crate::forces::contact::{ContactSystem, Group, PASSED, Part, Plane, Touch};
 use crate::forces::joint::JointLaw;
 use crate::model::Model;
@@ -37,6 +38,11 @@ pub(super) struct Signs {
     bottomed: Vec<(Sunk, f64)>,
     /// By sphere: depth in a bar or rim whose axis its centre went through.
     through: Vec<Sunk>,
+    /// By sphere: depth beyond the last point of a force function, and that point, m.
+    beyond: Vec<(Sunk, f64)>,
+    /// By strap: strain beyond the last point of its webbing; by belt over several nodes: way of its limiter beyond its own, m.
+    stretched: Vec<Peak>,
+    run_out: Vec<Peak>,
     /// By what pairs remember, of bars and rims.
     normals: Vec<Option<Bar>>,
     /// By segment: how far from its spheres it went through a surface.
@@ -92,6 +98,9 @@ impl Signs {
             passed: spheres.clone(),
             bottomed: spheres.iter().map(|none| (*none, 0.0)).collect(),
             through: spheres.clone(),
+            beyond: spheres.iter().map(|none| (*none, 0.0)).collect(),
+            stretched: vec![Peak::NONE; model.setup().chains.iter().map(|chain| chain.straps.len()).sum()],
+            run_out: vec![Peak::NONE; model.setup().chains.len()],
             normals: vec![None; model.start().history.memory.contacts.len()],
             deep: spheres,
             cuts: vec![Sunk::NONE; body.tree.segments().len()],
@@ -110,8 +119,9 @@ impl Signs {
         for (turned, joint) in self.joints.iter_mut().zip(model.body().tree.joints()) {
             turned.see(&model.setup().joints[joint], sample.joint_angle_rad(joint), time_s);
         }
-        for limited in &sample.actions.limits {
-            self.joints[limited.joint.index()].see_limit(limited.excess, time_s);
+        for (limited, law) in sample.actions.limits.iter().zip(&model.system().forces.limits) {
+            let most_rad = MOST_EXCESS_RAD.min(law.last_point_rad());
+            self.joints[limited.joint.index()].see_limit(limited.excess, most_rad, time_s);
         }
         for contact in sample.contacts() {
             if contact.surface < model.faces().len() {
@@ -122,7 +132,9 @@ impl Signs {
         }
         for touch in &sample.actions.contacts {
             self.see_bar(sample, touch);
+            self.see_last_point(sample, touch);
         }
+        self.see_chains(sample);
         if !self.is_begun || time_s - self.seen_s >= LOOK_S {
             for group in &model.system().forces.contacts.groups {
                 self.see_group(sample, group);
@@ -139,6 +151,30 @@ impl Signs {
         let (bottomed, of_m) = &mut self.bottomed[contact.sphere];
         if contact.depth_m > most_m && bottomed.most.see(contact.depth_m, sample.time_s) {
             (bottomed.surface, *of_m) = (contact.surface, thickness_m);
+        }
+    }
+
+    /// A sphere deeper than the last point of the force function that it follows.
+    fn see_last_point(&mut self, sample: &Sample<'_>, touch: &Touch<f64>) {
+        let contacts = &sample.model.system().forces.contacts;
+        let last_m = contacts.last_point_m(touch);
+        let (beyond, of_m) = &mut self.beyond[touch.sphere];
+        if touch.depth > last_m && beyond.most.see(touch.depth - last_m, sample.time_s) {
+            (beyond.surface, *of_m) = (contacts.surface(touch.pair, touch.part as usize), last_m);
+        }
+    }
+
+    /// Webbing and limiters beyond the last points of their curves.
+    fn see_chains(&mut self, sample: &Sample<'_>) {
+        let chains = &sample.model.setup().chains;
+        let ends = chains.iter().flat_map(|chain| chain.straps.iter().map(|_| chain.webbing.end()));
+        for ((peak, strap), end) in self.stretched.iter_mut().zip(&sample.actions.chains).zip(ends) {
+            peak.see(strap.strain - end, sample.time_s);
+        }
+        for ((peak, chain), past) in self.run_out.iter_mut().zip(chains).zip(&sample.history.memory.chains) {
+            if let Some(end_m) = chain.device.end_m() {
+                peak.see(past.limiter_m() - end_m, sample.time_s);
+            }
         }
     }
 
@@ -189,7 +225,7 @@ impl Signs {
     }
 
     /// What to know of the figures.
-    pub(super) fn caveats(&self, body: &Body, surfaces: &[String]) -> Vec<Caveat> {
+    pub(super) fn caveats(&self, body: &Body, surfaces: &[String], chains: &[Chain]) -> Vec<Caveat> {
         let name = |sunk: &Sunk| surfaces[sunk.surface].as_str();
         let joints = body.tree.joints().zip(&self.joints).filter(|(_, turned)| turned.beyond.value > AT_STOP_RAD);
         let joints = joints.map(|(joint, turned)| Caveat::beyond_stop(body, joint, turned));
@@ -211,7 +247,22 @@ impl Signs {
         let through = self.through.iter().enumerate().filter(|(_, sunk)| sunk.most.value > 0.0);
         let through = worst_of_parts(body, through).into_iter();
         let through = through.map(|(sphere, sunk)| Caveat::through(body, sphere, name(sunk), sunk.most));
-        joints.chain(passed).chain(deep).chain(bottomed).chain(through).chain(cuts).collect()
+        let beyond = self.beyond.iter().map(|(sunk, _)| sunk).enumerate().filter(|(_, sunk)| sunk.most.value > 0.0);
+        let beyond = worst_of_parts(body, beyond).into_iter();
+        let beyond = beyond.map(|(s, sunk)| Caveat::beyond_curve(body, s, name(sunk), sunk.most, self.beyond[s].1));
+        let of_sphere = passed.chain(deep).chain(bottomed).chain(beyond).chain(through).chain(cuts);
+        joints.chain(of_sphere).chain(self.of_chains(chains)).collect()
+    }
+
+    /// What to know of belts over several nodes.
+    fn of_chains(&self, chains: &[Chain]) -> impl Iterator<Item = Caveat> {
+        let straps = chains.iter().flat_map(|chain| chain.straps.iter().map(move |strap| (chain, strap)));
+        let stretched = straps.zip(&self.stretched).filter(|(_, peak)| peak.value > 0.0);
+        let stretched = stretched.map(|((chain, strap), peak)| Caveat::stretched(strap, *peak, chain.webbing.end()));
+        let run_out = chains.iter().zip(&self.run_out).filter(|(_, peak)| peak.value > 0.0);
+        let run_out =
+            run_out.filter_map(|(chain, peak)| Some(Caveat::run_out(&chain.belt, *peak, chain.device.end_m()?)));
+        stretched.chain(run_out)
     }
 }
 
@@ -243,10 +294,10 @@ impl Turned {
         }
     }
 
-    /// An angle beyond an elastic limit.
-    fn see_limit(&mut self, excess_rad: f64, time_s: f64) {
-        if self.beyond.see(excess_rad - (MOST_EXCESS_RAD - AT_STOP_RAD), time_s) {
-            (self.angle_rad, self.stop_rad, self.is_elastic) = (excess_rad, MOST_EXCESS_RAD, true);
+    /// An angle beyond an elastic limit, of which `most_rad` is the most that it gives way or the last that is known.
+    fn see_limit(&mut self, excess_rad: f64, most_rad: f64, time_s: f64) {
+        if self.beyond.see(excess_rad - (most_rad - AT_STOP_RAD), time_s) {
+            (self.angle_rad, self.stop_rad, self.is_elastic) = (excess_rad, most_rad, true);
         }
     }
 }

@@ -3,12 +3,14 @@
 use nalgebra::{Point3, Vector3};
 
 use super::elements::ElementPeaks;
+use super::events::Events;
 use super::signs::Signs;
 use super::{
     Acceleration, Accelerations, Caveat, ContactBegin, Excursion, FirstContact, Level, Peak, RunStatus, Solver,
     SpherePeak, Summary,
 };
 use crate::body::{Body, ContactSphere};
+use crate::forces::chain::Chain;
 use crate::model::Model;
 use crate::model::setup::{STANDARD_GRAVITY_M_S2, Setup, TimeSpan};
 use crate::results::outcome::{Outcome, Status};
@@ -30,6 +32,7 @@ pub struct Summarizer {
     /// Of head, chest and pelvis.
     accelerations: [Option<Peak>; 3],
     elements: ElementPeaks,
+    events: Events,
     /// By sphere: which part it belongs to, in the order of [`Body::parts`].
     part_of: Vec<usize>,
     parts: Vec<PartTrack>,
@@ -49,6 +52,7 @@ struct Case {
     /// What can be touched: surfaces, solids, and where the body meets itself the parts of its spheres.
     surfaces: Vec<String>,
     meets_itself: bool,
+    chains: Vec<Chain>,
     /// Whether parts of the body may be left out, as on a rig.
     is_mounted: bool,
     /// [`Joints::is_half_a_neck`](crate::forces::joint::Joints::is_half_a_neck).
@@ -100,6 +104,7 @@ impl Summarizer {
             end_s: time.end_s,
             accelerations: Accelerations { head, chest, pelvis },
             elements: self.elements.tables(),
+            events: self.events.list(),
             first_contacts: first_contacts(&contacts, &case.body),
             contacts,
             sphere_forces: self.sphere_forces(case),
@@ -139,7 +144,7 @@ impl Summarizer {
 
     /// What the outputs show of the body, then what is to know of its neck and of measures alone.
     fn caveats(&self, case: &Case, measures: &[Measure]) -> Vec<Caveat> {
-        let mut caveats = self.signs.caveats(&case.body, &case.surfaces);
+        let mut caveats = self.signs.caveats(&case.body, &case.surfaces, &case.chains);
         let off = injury::coarseness(&self.signals, &self.options, measures);
         let off: Vec<_> = measures.iter().zip(off).filter(|(_, off)| *off > COARSE).collect();
         let others = [
@@ -220,6 +225,7 @@ impl Recorder for Summarizer {
             body: setup.body.clone(),
             surfaces: touchable(setup),
             meets_itself: setup.self_contact.is_some(),
+            chains: setup.chains.clone(),
             is_mounted: setup.mounting().is_some(),
             is_half_a_neck: setup.joints.is_half_a_neck(),
             integrator: setup.integrator.name(),
@@ -234,6 +240,7 @@ impl Recorder for Summarizer {
             options: self.options,
             head: setup.body.sphere("head"),
             elements: ElementPeaks::new(model),
+            events: Events::new(model),
             part_of: setup.body.spheres.iter().map(part_of).collect(),
             parts: vec![part; parts.len()],
             signs: Signs::new(model),
@@ -248,6 +255,7 @@ impl Recorder for Summarizer {
         self.see_accelerations(sample);
         self.see_contacts(sample);
         self.elements.see(sample);
+        self.events.see(sample);
         self.see_head(sample);
         self.signs.see(sample);
         self.signals.record(sample)?;

@@ -6,12 +6,12 @@ use serde::{Deserialize, Serialize};
 use super::builder::Builder;
 use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, si_or};
 use super::{Force, Length, Quantity, Ratio, Time};
-use crate::forces::function::Function;
+use crate::forces::function::{Beyond, Function};
 
 /// μ of a limiter: a torsion bar does not wind back.
 const LIMITER_RETURNS: f64 = 0.01;
 
-/// Webbing: its tension over its strain, straight between points; beyond the last the last line goes on.
+/// Webbing: its tension over its strain, straight between points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-at-most-one" = [["returned", "returned_each"]]))]
@@ -20,6 +20,8 @@ pub(crate) struct WebbingSection {
     pub(crate) strain: Option<Vec<Ratio<NOT_NEGATIVE>>>,
     /// Tension at each.
     pub(crate) force: Option<Vec<Force<NOT_NEGATIVE>>>,
+    /// What it is beyond the last; "extends" if absent.
+    pub(crate) beyond: Option<Beyond>,
     /// Name of a webbing of the library, which gives all that is not said beside it.
     #[schemars(extend("enum" = ["webbing_atb", "webbing_ng"]))]
     pub(crate) library: Option<String>,
@@ -50,6 +52,8 @@ pub(crate) struct LimiterSection {
     pub(crate) payout: Option<Vec<Length<NOT_NEGATIVE>>>,
     /// Force at each; must not fall.
     pub(crate) force: Option<Vec<Force<NOT_NEGATIVE>>>,
+    /// What it is beyond the last; "extends" if absent.
+    pub(crate) beyond: Option<Beyond>,
     /// Name of a limiter of the library, which gives all that is not said beside it.
     #[schemars(extend("enum" = ["torsion_bar"]))]
     pub(crate) library: Option<String>,
@@ -64,7 +68,7 @@ impl WebbingSection {
     pub(super) fn function(&self, b: &mut Builder, path: &str) -> (Function, Option<[f64; 2]>) {
         let points = points(b, path, ["strain", "force"], listed(&self.strain), listed(&self.force));
         let viscous = self.viscous.as_ref().map(|viscous| [viscous.stiffness.si(), viscous.time.si()]);
-        (function(points, &self.returned, &self.returned_each, 1.0), viscous)
+        (function(points, &self.beyond, &self.returned, &self.returned_each, 1.0), viscous)
     }
 }
 
@@ -72,18 +76,19 @@ impl LimiterSection {
     /// Its curve.
     pub(super) fn function(&self, b: &mut Builder, path: &str) -> Function {
         let points = points(b, path, ["payout", "force"], listed(&self.payout), listed(&self.force));
-        function(points, &self.returned, &self.returned_each, LIMITER_RETURNS)
+        function(points, &self.beyond, &self.returned, &self.returned_each, LIMITER_RETURNS)
     }
 }
 
 /// Straight lines through points, of which unloading returns one share, or one of each interval.
 pub(super) fn function(
     points: Vec<[f64; 2]>,
+    beyond: &Option<Beyond>,
     one: &Option<Ratio<FRACTION>>,
     each: &Option<Vec<Ratio<FRACTION>>>,
     usual: f64,
 ) -> Function {
-    let plain = Function::lines(points, si_or(one, usual));
+    let plain = Function { beyond: beyond.unwrap_or_default(), ..Function::lines(points, si_or(one, usual)) };
     match each {
         Some(each) => Function { returned: each.iter().map(Ratio::si).collect(), ..plain },
         None => plain,

@@ -9,7 +9,7 @@ use super::joints::JointSection;
 use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, all_si, si_or};
 use super::{Angle, AngularVelocity, Moment, MomentPerAngle2, MomentPerAngle3, Ratio, RotationalStiffness};
 use crate::body::{Joint, JointRow};
-use crate::forces::function::Function;
+use crate::forces::function::{Beyond, Function};
 use crate::forces::joint::limit::{Bend, Centre, Curve, Friction, Limits, Lock, Stop, Turn};
 use crate::forces::spring::LEAST_FRACTION;
 use placed_text::{Problem, with_key};
@@ -70,10 +70,12 @@ pub(crate) struct StopTorqueSection {
     pub(crate) c2: Option<MomentPerAngle2<NOT_NEGATIVE>>,
     /// c3.
     pub(crate) c3: Option<MomentPerAngle3<NOT_NEGATIVE>>,
-    /// Angles beyond the limit, rising from 0; the last line goes on.
+    /// Angles beyond the limit, rising from 0.
     pub(crate) angles: Option<Vec<Angle<NOT_NEGATIVE>>>,
     /// The torque at each, from 0.
     pub(crate) moments: Option<Vec<Moment<NOT_NEGATIVE>>>,
+    /// What it is beyond the last of `moments`; "extends" if absent.
+    pub(crate) beyond: Option<Beyond>,
     /// μ, fraction of its work that unloading returns; 1 if absent.
     pub(crate) returned: Option<Ratio<FRACTION>>,
 }
@@ -203,7 +205,7 @@ fn stop(b: &mut Builder, path: &str, section: &Option<StopTorqueSection>) -> Sto
     if coefficients != [0.0; 3] {
         b.error(path, "coefficients and points of one torque", "c1, c2, c3, or angles and moments");
     }
-    Stop::new(&Function::lines(points, returned))
+    Stop::new(&Function { beyond: section.beyond.unwrap_or_default(), ..Function::lines(points, returned) })
 }
 
 /// Pairs of two lists.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::builder::Builder;
 use super::functions::{function, listed, points};
-use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, si_or};
+use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, all_si, si_or};
 use super::{Force, Length, Ratio, Scenario, Speed, Stiffness};
 use crate::forces::contact::material::{Material, Memory};
 use crate::forces::function::{Beyond, ForceDeflection, Function, Shape, Unloading};
@@ -16,7 +16,7 @@ use placed_text::with_key;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend(
-    "x-at-most-one" = [["k1", "depth"], ["k1", "library"], ["returned", "returned_each", "unload_slope", "atb"]],
+    "x-at-most-one" = [["k1", "depth", "polynomial"], ["k1", "library"], ["polynomial", "shape"], ["polynomial", "returned_each"], ["returned", "returned_each", "unload_slope", "atb"]],
     "x-together" = [["k2", "delta_b"], ["unload_depth", "unload_force"]],
 ))]
 pub(crate) struct MaterialSection {
@@ -39,6 +39,8 @@ pub(crate) struct MaterialSection {
     pub(crate) depth: Option<Vec<Length<NOT_NEGATIVE>>>,
     /// Force at each.
     pub(crate) force: Option<Vec<Force<NOT_NEGATIVE>>>,
+    /// A polynomial instead of points.
+    pub(crate) polynomial: Option<PolynomialSection>,
     /// What the force is between points; "lines" if absent.
     pub(crate) shape: Option<Shape>,
     /// What it is beyond the last; "extends" if absent.
@@ -76,11 +78,28 @@ pub(crate) struct MaterialSection {
 /// The quadratic way back of the ATB program, which meets `r` only where the curve lets it: what it returns is said.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("x-exactly-one" = [["r", "r_each"], ["g", "g_each"]]))]
 pub(crate) struct AtbSection {
     /// R, share of the work that is to come back.
-    pub(crate) r: Ratio<FRACTION>,
+    pub(crate) r: Option<Ratio<FRACTION>>,
     /// G, share of the greatest depth that stays; less than 1.
-    pub(crate) g: Ratio<FRACTION>,
+    pub(crate) g: Option<Ratio<FRACTION>>,
+    /// Greatest depths, rising, for `r_each` and `g_each`: straight between them, constant beyond.
+    pub(crate) depth: Option<Vec<Length<NOT_NEGATIVE>>>,
+    /// R at each.
+    pub(crate) r_each: Option<Vec<Ratio<FRACTION>>>,
+    /// G at each.
+    pub(crate) g_each: Option<Vec<Ratio<FRACTION>>>,
+}
+
+/// A force F₁s + F₂s² + F₃s³ with s = depth/`depth`, up to `depth`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PolynomialSection {
+    /// The last depth for which it holds.
+    pub(crate) depth: Length<POSITIVE>,
+    /// F₁, F₂ and F₃: what each term comes to there.
+    pub(crate) force: [Force; 3],
 }
 
 /// A force of the first loading.
@@ -145,8 +164,8 @@ pub(super) fn materials(b: &mut Builder, scenario: &Scenario) -> Vec<Material> {
 
 fn material(b: &mut Builder, name: &str, s: &MaterialSection) -> Material {
     let path = with_key("materials", name);
-    if s.k1.is_none() && s.depth.is_none() {
-        b.error(&path, format!("`{path}` has none of `k1`, `depth`, `library`"), "one of them");
+    if s.k1.is_none() && s.depth.is_none() && s.polynomial.is_none() {
+        b.error(&path, format!("`{path}` has none of `k1`, `depth`, `polynomial`, `library`"), "one of them");
     }
     let friction = b.needed(&path, "friction", &s.friction);
     let plain = match &s.k1 {
@@ -180,11 +199,19 @@ fn material(b: &mut Builder, name: &str, s: &MaterialSection) -> Material {
 }
 
 fn deflection(b: &mut Builder, path: &str, s: &MaterialSection) -> ForceDeflection {
-    let curve = points(b, path, ["depth", "force"], listed(&s.depth), listed(&s.force));
-    let loading = Function {
-        shape: s.shape.unwrap_or_default(),
-        beyond: s.beyond.unwrap_or_default(),
-        ..function(curve, &s.returned, &s.returned_each, 1.0)
+    let loading = match &s.polynomial {
+        Some(polynomial) => {
+            let end = polynomial.depth.si();
+            let [c1, c2, c3] = all_si(&polynomial.force);
+            let c = [c1 / end, c2 / (end * end), c3 / (end * end * end)];
+            let beyond = s.beyond.unwrap_or_default();
+            Function { beyond, ..Function::polynomial(c, end, si_or(&s.returned, 1.0)) }
+        }
+        None => {
+            let curve = points(b, path, ["depth", "force"], listed(&s.depth), listed(&s.force));
+            let shape = s.shape.unwrap_or_default();
+            Function { shape, ..function(curve, &s.beyond, &s.returned, &s.returned_each, 1.0) }
+        }
     };
     let least = points(b, path, ["unload_depth", "unload_force"], listed(&s.unload_depth), listed(&s.unload_force));
     if !least.is_empty() && s.unload_slope.is_none() {
@@ -196,13 +223,23 @@ fn deflection(b: &mut Builder, path: &str, s: &MaterialSection) -> ForceDeflecti
         loading,
         unloading: match (&s.unload_slope, &s.atb) {
             (Some(slope), _) => Unloading::Slope { n_per_m: slope.si(), least },
-            (None, Some(atb)) => Unloading::Quadratic { returned: atb.r.si(), set: atb.g.si() },
+            (None, Some(atb)) => by_quadratic(b, path, atb),
             (None, None) => Unloading::Stretch,
         },
         spike: spike.unwrap_or_default(),
         rate: rate.unwrap_or_default(),
         viscous: s.viscous.as_ref().map(|t| [t.force.si() / t.speed.si(), si_or(&t.depth, DAMPED_M)]),
     }
+}
+
+/// ATB's way back, with R and G constant or over the greatest depth.
+fn by_quadratic(b: &mut Builder, path: &str, s: &AtbSection) -> Unloading {
+    let path = with_key(path, "atb");
+    let mut rows = |one: &Option<Ratio<FRACTION>>, each: &Option<Vec<Ratio<FRACTION>>>, key: &str| match one {
+        Some(one) => vec![[0.0, one.si()]],
+        None => points(b, &path, ["depth", key], listed(&s.depth), listed(each)),
+    };
+    Unloading::Quadratic { returned: rows(&s.r, &s.r_each, "r_each"), set: rows(&s.g, &s.g_each, "g_each") }
 }
 
 /// A bilinear spring; linear where no break is given.

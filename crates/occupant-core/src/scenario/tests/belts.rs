@@ -6,6 +6,7 @@ use crate::model::Model;
 use crate::results::outcome::{Outcome, Status};
 use crate::results::recorder::Watch;
 use crate::results::sample::Sample;
+use crate::results::summary::Summarizer;
 use crate::run::simulate::{resume, simulate};
 use crate::scenario::Draft;
 use nalgebra::Vector3;
@@ -42,6 +43,7 @@ fn what_is_wrong_with_belts_is_said_at_its_place() {
             &[WEBBING, BELT, "belts.b.nodes[2]={ sphere = \"left_shoulder\" }", "belts.b.nodes[1].friction=0.2"],
             "friction on a sphere beside a sphere",
         ),
+        (&[WEBBING, BELT, "belts.b.nodes[2]={ sphere = \"left_shoulder\" }"], "between the planes of webbing"),
         (&[WEBBING, BELT, "belts.b.nodes[2].friction=0.9"], "0.1 to 0.6"),
         (&[WEBBING, BELT, "belts.b.nodes[2].retractor=\"r\"", go, reel], "list the nodes the other way round"),
         (
@@ -253,4 +255,19 @@ fn straps_are_drawn_as_long_as_they_are() {
     };
     simulate(&model, Watch(look)).unwrap();
     assert!(arcs > 50, "{arcs} points of arcs");
+}
+
+/// A run tells when its spool locks and its pretensioner pulls, at the first output behind.
+#[test]
+fn a_summary_tells_what_happens_to_a_belt() {
+    let mut summarizer = Summarizer::new();
+    simulate(&driver(&["time.end=0.05"]), &mut summarizer).unwrap();
+    let events = summarizer.summary(None).unwrap().events;
+    let time = |what: &str| {
+        let own = events.iter().find(|event| event.name == "driver.reel_d_ring" && event.what == what);
+        own.unwrap_or_else(|| panic!("{what}: {events:?}")).time_s
+    };
+    let [pulled, locked] = [time("is pulled in by its pretensioner"), time("locks")];
+    assert!(0.0 < pulled && pulled < locked && locked < 0.03, "{events:?}");
+    assert!(events.is_sorted_by_key(|event| event.time_s));
 }

@@ -5,11 +5,14 @@ use super::*;
 use crate::forces::belt::STRETCH;
 use crate::forces::chain::StrapAction;
 use crate::model::Model;
-use crate::results::outcome::Status;
+use crate::results::outcome::{Status, StepError};
 use crate::results::recorder::Watch;
 use crate::results::sample::Sample;
+use crate::results::summary::Summarizer;
+use crate::run::batch::{Job, Kernel, simulate_many};
 use crate::run::simulate::simulate;
 use nalgebra::Vector3;
+use std::ops::ControlFlow;
 
 const WEBBING: &str = "webbings.w={ strain = [0, 0.05, 0.1], force = [0, 4000, 12000], returned = 0.6 }";
 
@@ -198,5 +201,109 @@ fn webbing_rubs_on_spheres_as_over_a_capstan() {
             lost = straps[1].lost;
         });
         assert!(slides > 20 && lost > 5.0, "{more}: {slides} {lost}");
+    }
+}
+
+/// A belt whose nodes are listed the other way round is the same belt.
+#[test]
+fn the_order_of_nodes_does_not_matter() {
+    let straps = |nodes: [&str; 5]| {
+        let belt = format!("belts.b={{ webbing = \"w\", nodes = [{}] }}", nodes.join(", "));
+        let mut list = Vec::new();
+        run(&belted(&[&belt, "time.end=0.1"]), |_, straps| {
+            list.push(straps.iter().map(|s| [s.force, s.length, s.unstretched]).collect::<Vec<_>>());
+        });
+        list
+    };
+    let mut nodes = [
+        "{ name = \"a\", at = [-0.4, -0.3, -0.6] }",
+        "{ sphere = \"chest\", friction = 0.3 }",
+        "{ name = \"c\", at = [-0.1, 0.2, 0.1], friction = 0.2 }",
+        "{ sphere = \"pelvis\", friction = 0.2 }",
+        "{ name = \"e\", at = [-0.15, -0.25, 0.23] }",
+    ];
+    let one = straps(nodes);
+    nodes.reverse();
+    let other = straps(nodes);
+    for (one, other) in one.iter().zip(&other) {
+        for (a, b) in one.iter().flatten().zip(other.iter().rev().flatten()) {
+            assert!((a - b).abs() < 1e-6 * (1.0 + a.abs()), "{one:?} {other:?}");
+        }
+    }
+}
+
+/// Curves that a run leaves: of webbing, of its limiter, of what the pelvis sits on.
+const SHORT_CURVES: [(&str, &str, &str); 3] = [
+    (
+        "webbings.w={ strain = [0, 0.03], force = [0, 3000]BEYOND }",
+        "the webbing of the belt b went to 3.",
+        "b.a_c_stretched",
+    ),
+    (
+        "limiters.l={ payout = [0, 0.01, 0.03], force = [0, 2000, 2000]BEYOND }",
+        "the limiter of the belt b went to 30.",
+        "b_limiter_bottomed",
+    ),
+    (
+        "materials.foam={ depth = [0, 0.03], force = [0, 900], friction = 0.8BEYOND }",
+        "a sphere in ",
+        "pelvis_beyond_curve",
+    ),
+];
+
+/// The sled whose webbing, limiter or foam is known so far only.
+fn short_curved(curve: &str, beyond: &str, integrator: &str) -> Model {
+    let integrator = format!("integrator={integrator}");
+    let mut set = vec![curve.replace("BEYOND", beyond), integrator];
+    if curve.starts_with("limiters") {
+        set.push("belts.b.limiter=\"l\"".to_owned());
+    }
+    belted(&set.iter().map(String::as_str).collect::<Vec<_>>())
+}
+
+const INTEGRATORS: [&str; 2] = ["{ kind = \"rk4\", step = \"0.1 ms\" }", "{ kind = \"adaptive\" }"];
+
+#[test]
+fn a_run_ends_where_a_curve_is_not_known_further() {
+    for (curve, why, caveat) in SHORT_CURVES {
+        for integrator in INTEGRATORS {
+            let mut summarizer = Summarizer::new();
+            let outcome = simulate(&short_curved(curve, ", beyond = \"limits\"", integrator), &mut summarizer).unwrap();
+            let Status::Failed(StepError::Unsolved { why: said, time_s, .. }) = outcome.status else {
+                panic!("{curve} {integrator}: {:?}", outcome.status)
+            };
+            assert!(said.contains(why) && time_s > 0.0, "{curve} {integrator}: {said}");
+            assert!(summarizer.summary(None).unwrap().caveats.iter().any(|caveat| caveat.name == "run_failed"));
+            // where the last line goes on the run does too, with a caveat
+            let outcome = simulate(&short_curved(curve, "", integrator), &mut summarizer).unwrap();
+            assert_eq!(outcome.status, Status::Completed, "{curve}");
+            let caveats = summarizer.summary(None).unwrap().caveats;
+            assert!(caveats.iter().any(|found| found.name == caveat), "{caveat}: {caveats:?}");
+        }
+    }
+}
+
+/// Of runs side by side one ends where its webbing is not known further; the others go on, each with the bits that it has alone.
+#[test]
+fn a_run_that_ends_early_ends_alone_among_its_lanes() {
+    let jobs = || {
+        let model = |end: f64| {
+            let most = 1e5 * end;
+            let webbing = format!("webbings.w={{ strain = [0, {end}], force = [0, {most}], beyond = \"limits\" }}");
+            belted(&[&webbing, "belts.b.nodes[1].friction=0.3", "belts.b.nodes[3].friction=0.2"])
+        };
+        [0.2, 0.02, 0.3, 0.25].map(model)
+    };
+    let alone = jobs().map(|model| simulate(&model, ()).unwrap());
+    assert_eq!(alone.each_ref().map(|o| o.status == Status::Completed), [true, false, true, true], "{alone:?}");
+    for kernel in [Kernel::Scalar, Kernel::Lanes4].into_iter().filter(|kernel| kernel.is_available()) {
+        let jobs = (0..).zip(jobs()).map(|(tag, model)| Job { tag, model, recorder: () });
+        let mut seen = 0;
+        simulate_many(kernel, jobs, |ended| {
+            assert_eq!(ended.outcome.as_ref().unwrap(), &alone[ended.tag], "{kernel:?}");
+            seen += 1;
+            ControlFlow::Continue(())
+        });
+        assert_eq!(seen, 4);
     }
 }

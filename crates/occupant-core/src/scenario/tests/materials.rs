@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::forces::contact::material::Force;
+use crate::forces::function::{Shape, Unloading};
 use crate::model::Model;
 use crate::results::outcome::Status;
 use crate::results::recorder::Watch;
@@ -32,11 +33,18 @@ fn what_is_wrong_with_materials_is_said_at_its_place() {
         ("materials.foam={ k1 = 1e4, mu1 = 0.5, friction = 0.4, returned = 0.5 }".to_owned(), "`returned` beside `k1`"),
         ("materials.foam={ k1 = 1e4, friction = 0.4 }".to_owned(), "no key `mu1`"),
         ("materials.foam={ k1 = 1e4, mu1 = 0.5 }".to_owned(), "no key `friction`"),
-        ("materials.foam={ friction = 0.4 }".to_owned(), "none of `k1`, `depth`, `library`"),
+        ("materials.foam={ friction = 0.4 }".to_owned(), "none of `k1`, `depth`, `polynomial`, `library`"),
         ("materials.foam={ library = \"dash_10\" }".to_owned(), "did you mean \"dash_s10\"?"),
         (foam("returned_each = [0.5]"), "one for each interval"),
         (foam("unload_slope = 1e4"), "at least the greatest slope of loading"),
         (foam("atb = { r = 0.3, g = 0.6 }"), "ATB's quadratic makes"),
+        (foam("atb = { depth = [0, 0.1], r_each = [0.6], g = 0.1 }"), "as many in one as in the other"),
+        (foam("atb = { depth = [0, 0.1], r_each = [0.6, 1.2], g = 0.1 }"), "1.2"),
+        (foam("polynomial = { depth = 0.1, force = [1, 2, 3] }"), "together"),
+        (
+            "materials.foam={ polynomial = { depth = 0.1, force = [2000, -4000, 1000] }, friction = 0.8 }".to_owned(),
+            "below 0",
+        ),
         (foam("unload_depth = [0, 1], unload_force = [0, 1]"), "`unload_force` without `unload_slope`"),
         (foam("rate = { speed = [-1, 0], factor = [1] }"), "as many in one as in the other"),
         (foam("friction_over_slip = { speed = [0, 0.1], factor = [1, 0.3] }"), "sticks and slips"),
@@ -99,7 +107,7 @@ fn what_is_said_beside_the_library_holds() {
     assert_eq!(law.loading.points[3], [3.0 * 0.0254, 1100.0 * 4.448_221_615_260_5]);
     let (model, ..) = changed(&["materials.foam={ library = \"dash_s10\", unload_slope = \"2000 lbf/in\" }"]).unwrap();
     let Force::Deflection(law) = &model.setup().materials[0].force else { panic!("a spring") };
-    assert!(matches!(law.unloading, crate::forces::function::Unloading::Slope { .. }));
+    assert!(matches!(law.unloading, Unloading::Slope { .. }));
 }
 
 /// A run keeps its energy with every law, and a law that says the same as a spring moves a body as the spring does.
@@ -139,4 +147,27 @@ fn runs_keep_their_energy_with_every_law() {
     let apart = spring.iter().zip(&lines).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
     // measured: 1e-12 m, rounding
     assert!(apart < 1e-9, "{apart}");
+}
+
+/// A polynomial in forces at a depth, and ATB's numbers over depths, come to the functions that they say.
+#[test]
+fn polynomials_and_tables_of_the_quadratic_come_to_their_functions() {
+    let of = |text: &str| {
+        let (model, ..) = changed(&[text]).unwrap_or_else(|said| panic!("{said}"));
+        let Force::Deflection(law) = model.setup().materials[0].force.clone() else { panic!("no force function") };
+        law
+    };
+    let law = of(
+        "materials.foam={ polynomial = { depth = \"50 mm\", force = [100, 0, \"2.5 kN\"] }, returned = 0.4, friction = 0.8 }",
+    );
+    let Shape::Polynomial([c1, c2, c3]) = law.loading.shape else { panic!("{:?}", law.loading) };
+    assert!(
+        [c1, c2] == [2e3, 0.0]
+            && (c3 / 2e7 - 1.0).abs() < 1e-15
+            && law.loading.end() == 0.05
+            && law.loading.returned == [0.4]
+    );
+    let law = of(&foam("atb = { depth = [0.02, 0.1], r_each = [0.6, 0.5], g = 0.2 }"));
+    let rows = vec![[0.02, 0.6], [0.1, 0.5]];
+    assert_eq!(law.unloading, Unloading::Quadratic { returned: rows, set: vec![[0.0, 0.2]] });
 }

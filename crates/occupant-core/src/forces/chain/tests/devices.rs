@@ -4,6 +4,7 @@ use super::super::data::*;
 use super::super::device::Phase;
 use super::super::{Chains, MOST_NODES};
 use super::{Rig, at, chain, fixed, limiter, reel, webbing};
+use crate::body::Body;
 use crate::forces::element::Element;
 use crate::forces::function::Function;
 use crate::results::outcome::StepError;
@@ -153,7 +154,8 @@ fn tensions_that_are_not_found_are_told() {
     let taut = rig.straps.taut(1e-4, &rig.course, &rig.past);
     assert!(taut.solved.unsolved > 0.0 && taut.solved.straps[0].tension.is_nan());
     rig.past.device.unsolved = 3e-4;
-    let why = Chains::failure(&[data], &[rig.past]).unwrap();
+    let law = Chains::new(std::slice::from_ref(&data), &Body::male50());
+    let why = Chains::failure(&[data], &law, &[rig.past]).unwrap();
     assert_eq!(why, "no tensions were found of the belt belt: 3.0e-4 m of webbing are left over");
 }
 

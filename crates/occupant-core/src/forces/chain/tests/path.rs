@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::super::MOST_NODES;
 use super::super::past::NodePast;
-use super::super::path::{Bend, Place, bends, turn};
+use super::super::path::{self, Bend, Place, turn};
 use super::random;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{V3, v3};
@@ -13,6 +13,12 @@ fn place<S: Scalar>(centre: [f64; 3], radius: f64) -> Place<S> {
     let centre = V3::of(&Vector3::from(centre));
     let is_sphere = radius > 0.0;
     Place { centre, radius: S::of(radius), is_sphere, may_leave: is_sphere, ..Place::nowhere() }
+}
+
+fn bends<S: Scalar>(places: &[Place<S>], past: &[NodePast<S>; MOST_NODES]) -> [Bend<S>; MOST_NODES] {
+    let mut list = [Bend::none(); MOST_NODES];
+    path::bends(places, past, &mut list);
+    list
 }
 
 /// All nodes on.

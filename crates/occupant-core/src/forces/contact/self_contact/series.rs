@@ -11,7 +11,7 @@
 //! (μ₁ΔΔ₁ + μ₂ΔΔ₂)/ΔΔ, is constant.
 
 use crate::forces::contact::material::Force;
-use crate::forces::function::{ForceDeflection, Function, Shape, Unloading};
+use crate::forces::function::{Beyond, ForceDeflection, Function, Shape, Unloading};
 use crate::forces::spring::{BilinearSpring, LEAST_FRACTION};
 
 /// Two skins, the forces of each multiplied by its share.
@@ -46,6 +46,7 @@ pub(crate) fn is_skin(force: &Force) -> bool {
             let plain = ForceDeflection { loading: law.loading.clone(), ..ForceDeflection::lines(Vec::new(), 1.0) };
             **law == plain
                 && law.loading.shape == Shape::Lines
+                && law.loading.beyond != Beyond::Limits
                 && law.unloading == Unloading::Stretch
                 && law.loading.points.windows(2).all(|p| p[1][1] > p[0][1])
         }

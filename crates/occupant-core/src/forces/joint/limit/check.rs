@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Centre, Curve, Joints, LimitLaw, Limits, Stop};
+use super::{Centre, Curve, Joints, LimitHistory, LimitLaw, Limits, Stop};
 use crate::forces::element::Instant;
 use crate::forces::joint::JointLaw;
 use placed_text::Problems;
@@ -78,5 +78,24 @@ pub(super) fn start(joints: &Joints, law: &LimitLaw<f64>, at: &Instant<'_, f64>,
         problems.error(path, found, expected);
     } else if excess > 0.0 {
         problems.warning(path, found, expected);
+    }
+}
+
+impl LimitLaw<f64> {
+    fn stops(&self) -> [Option<&Stop<f64>>; 2] {
+        [self.bend.as_ref().map(|bend| &bend.stop), self.turn.as_ref().map(|turn| &turn.stop)]
+    }
+
+    /// What has gone beyond the end of its curve, in words.
+    pub(super) fn overrun(&self, joint: &str, past: &LimitHistory<f64>) -> Option<String> {
+        let words = |x: f64| format!("{:.1}°", x.to_degrees());
+        let of = format!("the joint {joint} beyond its limit");
+        let both = self.stops().into_iter().zip(&past.stops);
+        both.filter_map(|(stop, past)| stop?.overrun(&of, past.greatest, words)).next()
+    }
+
+    /// The least last point of the torques of its stops, rad.
+    pub(crate) fn last_point_rad(&self) -> f64 {
+        self.stops().into_iter().flatten().fold(f64::INFINITY, |least, stop| least.min(stop.end()))
     }
 }

@@ -202,7 +202,8 @@ impl<S: Scalar> Past<S> {
     fn respond(&self, stop: &Stop<S>, excess: S) -> Reply<S> {
         let found = stop.respond(excess, self.greatest);
         let top = excess.max(self.greatest).max(S::zero());
-        Reply { torque: found.force, stored: stop.returned_to(found.loading)[1], lost: self.lost + lost(stop, top) }
+        let torque = found.force + stop.unknown(self.greatest);
+        Reply { torque, stored: stop.returned_to(found.loading)[1], lost: self.lost + lost(stop, top) }
     }
 }
 

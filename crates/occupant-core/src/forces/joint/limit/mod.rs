@@ -189,6 +189,11 @@ impl Element for JointLimits {
         }
     }
 
+    fn failure(data: &Joints, law: &Vec<LimitLaw<f64>>, past: &[LimitHistory<f64>]) -> Option<String> {
+        let all = data.limits.iter().zip(law).zip(past);
+        all.into_iter().find_map(|((limits, law), past)| law.overrun(data.tree()[limits.joint].name, past))
+    }
+
     fn rates(
         data: &Joints,
         _body: &Body,

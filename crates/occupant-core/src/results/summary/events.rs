@@ -1,0 +1,92 @@
+//! What happens to force elements in a run: spools lock, webbing leaves a node.
+
+use serde::Serialize;
+
+use crate::forces::shown::Reported;
+use crate::forces::{Actions, Listed, Visitor, visit_kinds};
+use crate::model::Model;
+use crate::results::sample::Sample;
+
+/// More are not told.
+const MOST: usize = 100;
+
+/// What happened to a force element.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Event {
+    /// Time of the first output behind it.
+    pub time_s: f64,
+    /// Name of the element.
+    pub name: String,
+    /// What it did, in words that follow its name.
+    pub what: &'static str,
+}
+
+/// The events seen so far, of the kinds that tell theirs. Allocates at the start of a run only.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Events {
+    /// Of the output before.
+    before: Option<Actions<f64>>,
+    names: Vec<String>,
+    /// Time, place among the names, words.
+    seen: Vec<(f64, usize, &'static str)>,
+}
+
+impl Events {
+    /// None seen yet.
+    pub(super) fn new(model: &Model) -> Self {
+        let mut names = Names(model, Vec::new());
+        visit_kinds(&mut names);
+        let before = (!names.1.is_empty()).then(|| Actions::with_room(&model.system().forces));
+        Events { before, names: names.1, seen: Vec::with_capacity(MOST) }
+    }
+
+    pub(super) fn see(&mut self, sample: &Sample<'_>) {
+        let Some(before) = &mut self.before else { return };
+        visit_kinds(&mut See { sample, before, first: 0, seen: &mut self.seen });
+        before.take_over(sample.actions);
+    }
+
+    /// All, in the order in which they happened.
+    pub(super) fn list(&self) -> Vec<Event> {
+        let event = |(time_s, i, what): &(f64, usize, &'static str)| Event {
+            time_s: *time_s,
+            name: self.names[*i].clone(),
+            what,
+        };
+        self.seen.iter().map(event).collect()
+    }
+}
+
+struct Names<'a>(&'a Model, Vec<String>);
+
+impl Visitor for Names<'_> {
+    fn visit<E: Listed>(&mut self) {
+        let named = self.0.named(E::NAMES[0]);
+        self.1.extend(named.into_iter().filter(|_| E::TELLS).map(|one| one.name.to_owned()));
+    }
+}
+
+struct See<'s, 'a> {
+    sample: &'s Sample<'a>,
+    before: &'s Actions<f64>,
+    /// Place of the kind's first name.
+    first: usize,
+    seen: &'s mut Vec<(f64, usize, &'static str)>,
+}
+
+impl Visitor for See<'_, '_> {
+    fn visit<E: Listed>(&mut self) {
+        if !<E as Reported>::TELLS {
+            return;
+        }
+        let now = E::actions(self.sample.actions);
+        for (i, (before, now)) in E::actions(self.before).iter().zip(now).enumerate() {
+            if let Some((what, _)) = E::event(before, now)
+                && self.seen.len() < MOST
+            {
+                self.seen.push((self.sample.time_s, self.first + i, what));
+            }
+        }
+        self.first += now.len();
+    }
+}
