@@ -58,7 +58,7 @@ fn works(model: &Model) -> Vec<Work<'static>> {
     let (bare, mut committed, mut within) = (full.clone(), full.clone(), full.clone());
     let bare_step = full.clone();
     let (mut held_step, mut held_within, mut step) = (held.clone(), held, full);
-    vec![
+    let mut list: Vec<Work<'static>> = vec![
         (
             "bare",
             Box::new(move || {
@@ -101,6 +101,31 @@ fn works(model: &Model) -> Vec<Work<'static>> {
                 black_box(black_box(&mut step).step());
             }),
         ),
+    ];
+    list.extend(three_point());
+    list
+}
+
+/// With a belt over several nodes and without it: within a step, and where one begins.
+fn three_point() -> Vec<Work<'static>> {
+    let belted = Instant::full(&scene::belted(), scene::LIMITED_S);
+    let within = |mut now: Instant| -> Box<dyn FnMut()> {
+        Box::new(move || {
+            black_box(black_box(&mut now).rate());
+        })
+    };
+    // a commit of the same time as the last would change nothing
+    let start = |mut now: Instant| -> Box<dyn FnMut()> {
+        Box::new(move || {
+            now.frames.time += 1e-9;
+            black_box(black_box(&mut now).commit());
+        })
+    };
+    vec![
+        ("three_point", within(belted.clone())),
+        ("three_point_left_out", within(belted.unbelted())),
+        ("three_point_step_start", start(belted.clone())),
+        ("three_point_left_out_step_start", start(belted.unbelted())),
     ]
 }
 

@@ -19,6 +19,7 @@ mod sensors;
 mod side_slope;
 mod spheres;
 mod tables;
+mod trials;
 mod units;
 
 use super::{Diagnostics, Format, Loaded, Scenario};
