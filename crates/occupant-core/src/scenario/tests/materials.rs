@@ -167,7 +167,8 @@ fn polynomials_and_tables_of_the_quadratic_come_to_their_functions() {
             && law.loading.end() == 0.05
             && law.loading.returned == [0.4]
     );
-    let law = of(&foam("atb = { depth = [0.02, 0.1], r_each = [0.6, 0.5], g = 0.2 }"));
+    let table = "atb = { depth = [0.02, 0.1], r_each = [0.6, 0.5], g = 0.2 }";
+    let law = of(&format!("materials.foam={{ depth = [0, 0.1], force = [0, 2000], friction = 0.8, {table} }}"));
     let rows = vec![[0.02, 0.6], [0.1, 0.5]];
     assert_eq!(law.unloading, Unloading::Quadratic { returned: rows, set: vec![[0.0, 0.2]] });
 }
