@@ -8,6 +8,7 @@ pub mod flat_face;
 mod hints;
 mod law;
 pub mod material;
+mod near;
 mod results;
 pub mod self_contact;
 pub mod solid;
@@ -103,6 +104,7 @@ impl Element for Contacts {
         at: &Instant<'_, f64>,
         problems: &mut Problems,
     ) {
+        check::crowds(data.faces, problems);
         check::centres(law, &data, body, at, problems);
         check::overlaps(law, body, at, problems);
     }

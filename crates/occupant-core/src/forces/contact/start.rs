@@ -5,7 +5,7 @@
 //! left alone.
 
 use super::hints::{ContactHints, LEAST_WAY_M, Looking};
-use super::{Contacts, ContactSystem, OPEN, PASSED, PairHistory, TOUCHING, weight};
+use super::{ContactSystem, Contacts, OPEN, PASSED, PairHistory, TOUCHING, weight};
 use crate::forces::element::{Element, Instant};
 use crate::motion::vector::V3;
 
