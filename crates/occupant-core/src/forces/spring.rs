@@ -61,6 +61,15 @@ impl BilinearSpring {
         problems.check_at_least_zero(&format!("{path}.k1"), self.k1_n_per_m, "N/m");
         problems.check_at_least_zero(&format!("{path}.k2"), self.k2_n_per_m, "N/m");
         problems.check_at_least_zero(&format!("{path}.break_at"), self.break_m, "m");
+        let (k1, k2) = (self.k1_n_per_m, self.k2_n_per_m);
+        if k2 > 0.0 && k2 < k1 {
+            let found = format!("{k2} N/m, softer than k1 = {k1} N/m");
+            problems.warning(
+                format!("{path}.k2"),
+                found,
+                "the larger of the two, unless it yields: have they changed places?",
+            );
+        }
         for (key, value) in [("mu1", self.returned_1), ("mu2", self.returned_2)] {
             if !(0.0..=1.0).contains(&value) {
                 let expected = "a fraction of returned energy, from 0 to 1";
