@@ -112,7 +112,7 @@ pub(crate) fn settle(
     let weight_n = setup.body.mass_kg() * setup.gravity_m_s2;
     let mut body = Resting::new(setup, *data, system, vehicle);
     let mut x = Vector6::zeros();
-    let mut r = body.load(&state);
+    let mut r = body.load(&moved(&state, &x));
     let mut damping = 1e-3;
     for _ in 0..ITERATIONS {
         if r.norm() < 1e-9 * weight_n.max(1.0) || body.looks > MOST_LOOKS {
