@@ -67,7 +67,7 @@ pub(super) fn sink(
     let (mut state, mut g) = (seated, limp.gradient(&seated));
     let mut shift = 1e-3;
     for _ in 0..MOST_STEPS {
-        if g.amax() < REST * weight_n.max(1.0) || limp.looks > MOST_LOOKS {
+        if g.amax() < REST * weight_n.max(1.0) || limp.looks > 2 * MOST_LOOKS {
             break;
         }
         let hessian = limp.hessian(&state, &g);

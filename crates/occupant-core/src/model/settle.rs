@@ -30,7 +30,7 @@ pub(super) const LEVER_M: f64 = 0.3;
 /// Iterations at most.
 const ITERATIONS: usize = 200;
 /// Elements that are looked at in search of rest, at most: about a second's work. What is left over then is told as ever.
-pub(super) const MOST_LOOKS: usize = 5_000_000;
+pub(super) const MOST_LOOKS: usize = 2_000_000;
 
 /// Outcome of settling.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
