@@ -312,6 +312,26 @@ def giant(kind, dice, size):
     return name, forms[name][: size + 200]
 
 
+# very many of one thing in a scenario that is whole
+CROWDS = {
+    "surfaces": '[surfaces.q{i}]\nmaterial="foam"\nfacing="order"\npoints=[[{x},{y},0],[{x}.1,{y},0],[{x}.1,{y}.1,0]]\n',
+    "fan": '[surfaces.q{i}]\nmaterial="foam"\nfacing="order"\npoints=[[0,0,5],[1,0,5],[0.{i:05},1,5]]\n',
+    "touching": '[solids.q{i}]\nkind="box"\nmaterial="foam"\ncentre=[0,-0.3,0.2]\nlengths=[0.4,0.4,0.4]\n',
+    "solids": '[solids.q{i}]\nkind="box"\nmaterial="foam"\ncentre=[{x},{y},0]\nlengths=[0.1,0.1,0.1]\n',
+    "groups": '[solids.q{i}]\nkind="box"\nmaterial="foam"\ngroup="g"\ncentre=[{x},{y},0]\nlengths=[0.1,0.1,0.1]\n',
+    "belts": '[belts.b{i}]\nsphere="pelvis"\nanchors=[[-0.15,-0.6,0.23],[-0.15,-0.1,0.23]]\nk1=1e3\n',
+    "triggers": '[triggers.t{i}]\nkind="any"\nof=["t{next}"]\n',
+    "markers": '[markers.k{i}]\nsegment="head"\nplace=[0,0,{i}e-5]\n',
+}
+
+
+def crowd(n, item):
+    """A scenario of about `n` bytes with as many of these as fit, 10,000 at most."""
+    whole = (ROOT / "scenarios/three-point.toml").read_text() + "\n"
+    count = min(10_000, (n - len(whole)) // (len(item) + 12))
+    return (whole + "".join(item.format(i=i, next=i + 1, x=5 + i % 100, y=i // 100) for i in range(count))).encode()
+
+
 @functools.cache
 def giants(kind, n):
     toml = {
@@ -352,6 +372,7 @@ def giants(kind, n):
         "paths": b"base=\"s.toml\"\n[[parameters]]\nname=\"a\"\npaths=[" + b"\"path.x\"," * (n // 9) + b"]\nrange={from=0,to=1}\n",
         "tests": b"base=\"s.toml\"\n[fit]\n" + b"[[fit.tests]]\nfile=\"test.csv\"\n" * (n // 32),
         "comments": b"# x\n" * (n // 4),
+        **{f"crowd-{name}": crowd(n, item) for name, item in CROWDS.items()},
         "quotes": b"\"\"\"" * (n // 3),
     }
     json = {

@@ -124,14 +124,16 @@ const FEWEST: usize = 4;
 
 /// By which part of its value each of `measures`, made of `signals`, changes at most when the even or the odd samples are left out:
 /// a spike that one sample shows counts. All of it where there are fewer than four samples; 0 where the change is not known, or less
-/// than 1 % of all limits.
+/// than 1 % of all limits, or of 1 where a pure number has none: what rests has no measure that an interval could spoil.
 pub fn coarseness(signals: &Signals, options: &Options, measures: &[Measure]) -> Vec<f64> {
     let halves = [0, 1].map(|first| assess(&signals.every_other(first), options));
     let change = |whole: &Measure, half: &Measure| {
         let value = whole.value?;
         let half = if signals.len() < FEWEST { 0.0 } else { half.value? };
         let change = (half - value).abs();
-        let matters = whole.limits.iter().all(|limit| change > 0.01 * limit.most);
+        let is_bare = whole.limits.is_empty() && whole.unit == Unit::One;
+        let scales = whole.limits.iter().map(|limit| limit.most).chain(is_bare.then_some(1.0));
+        let matters = scales.into_iter().all(|scale| change > 0.01 * scale);
         matters.then_some(change / value.abs()).filter(|part| part.is_finite())
     };
     let most = |(i, whole)| halves.iter().filter_map(|half| change(whole, &half[i])).fold(0.0, f64::max);

@@ -149,6 +149,19 @@ fn a_spike_of_one_sample_is_too_coarse_whichever_half_it_stands_in() {
 }
 
 #[test]
+fn what_rests_is_not_too_coarse_for_any_measure() {
+    let mut signals = dummy();
+    // a sample in seven, of next to nothing
+    for values in signals.all_mut() {
+        values.iter_mut().enumerate().for_each(|(i, value)| *value = if i % 7 == 0 { 1e-6 } else { 0.0 });
+    }
+    let measures = assess(&signals, &Options::default());
+    let of = |name: &str| measures.iter().position(|m| m.name == name).unwrap();
+    assert!(measures[of("damage")].value.is_some_and(|damage| damage > 0.0));
+    assert_eq!(coarseness(&signals, &Options::default(), &measures)[of("damage")], 0.0);
+}
+
+#[test]
 fn too_few_samples_to_leave_any_out_are_too_coarse() {
     let mut signals = dummy();
     signals.all_mut().for_each(|values| *values = values.iter().copied().step_by(200).take(3).collect());

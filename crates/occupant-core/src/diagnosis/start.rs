@@ -165,8 +165,7 @@ pub(super) fn corners(model: &Model) -> Vec<[String; 2]> {
         matches!(&face.outline, Outline::Polygon(corners) if corners.iter().any(|p| (p.coords - from).norm() < reach_m))
     };
     let near: Vec<usize> = (0..faces.len()).filter(|i| is_near(&faces[*i])).collect();
-    let pairs = near.iter().flat_map(|i| near.iter().map(move |j| [*i, *j]));
-    let corners = pairs.filter(|[i, j]| i < j && faces[*i].has_corner_with(&faces[*j]));
+    let corners = FlatFace::corners_among(faces, &near).into_iter();
     corners.map(|pair| pair.map(|i| setup.surfaces[i].name.clone())).collect()
 }
 

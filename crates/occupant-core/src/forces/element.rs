@@ -65,6 +65,18 @@ pub trait Element: Copy + Debug {
     /// What each remembers of a body that stands where it is.
     fn start(law: &Self::Law<f64>, at: &Instant<'_, f64>) -> Vec<Self::Past<f64>>;
 
+    /// The same of a body that has moved a little since the last restart, as far as it tells on an evaluation without a commit;
+    /// `hints` are then those of these places. Returns how many elements an evaluation looks at.
+    fn restart(
+        law: &Self::Law<f64>,
+        at: &Instant<'_, f64>,
+        past: &mut Vec<Self::Past<f64>>,
+        _hints: &mut Self::Hints<f64>,
+    ) -> usize {
+        *past = Self::start(law, at);
+        past.len()
+    }
+
     /// Hints that leave nothing out.
     fn hints<S: Scalar>(law: &Self::Law<S>) -> Self::Hints<S>;
 

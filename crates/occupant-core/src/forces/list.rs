@@ -203,6 +203,12 @@ macro_rules! kinds {
             pub(crate) fn start(&self, at: &Instant<'_, f64>) -> History<f64> {
                 History::new(self, Memory { $($kind: $Kind::start(&self.$kind, at)),+ })
             }
+
+            /// The same of a body that moves from place to place, for evaluations without a commit; see [`Element::restart`].
+            pub(crate) fn restart(&self, at: &Instant<'_, f64>, history: &mut History<f64>) -> usize {
+                let History { memory, hints } = history;
+                0 $(+ $Kind::restart(&self.$kind, at, &mut memory.$kind, &mut hints.$kind))+
+            }
         }
 
         impl<S: Copy> Forces<S> {

@@ -13,6 +13,8 @@ use placed_text::Problems;
 
 /// A fraction below this counts as this, so that μ = 0 is a very steep drop.
 pub(crate) const LEAST_FRACTION: f64 = 0.01;
+/// What yields gives back less of its energy than this.
+const YIELDING: f64 = 0.5;
 
 /// Force over deformation while loading: slope K₁ up to Δ_b, then K₂.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,6 +63,13 @@ impl BilinearSpring {
         problems.check_at_least_zero(&format!("{path}.k1"), self.k1_n_per_m, "N/m");
         problems.check_at_least_zero(&format!("{path}.k2"), self.k2_n_per_m, "N/m");
         problems.check_at_least_zero(&format!("{path}.break_at"), self.break_m, "m");
+        let (k1, k2) = (self.k1_n_per_m, self.k2_n_per_m);
+        if k2 > 0.0 && k2 < k1 && self.returned_2 > YIELDING {
+            let found = format!("{k2} N/m, softer than k1 = {k1} N/m, of a spring that gives back {}", self.returned_2);
+            let expected =
+                "the larger of the two, or of what yields mu2 of 0.5 at most: have k1 and k2 changed places?";
+            problems.warning(format!("{path}.k2"), found, expected);
+        }
         for (key, value) in [("mu1", self.returned_1), ("mu2", self.returned_2)] {
             if !(0.0..=1.0).contains(&value) {
                 let expected = "a fraction of returned energy, from 0 to 1";

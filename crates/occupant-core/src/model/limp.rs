@@ -12,11 +12,11 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
-use super::settle::{LEVER_M, Settled, at_rest, loads_beyond, turned_by};
+use super::settle::{LEVER_M, MOST_LOOKS, Settled, at_rest, loads_beyond, turned_by};
 use crate::forces::belt::Belts;
 use crate::forces::joint::JointSystem;
 use crate::forces::joint::limit::{JointLimits, LimitHistory};
-use crate::forces::{Data, Element, Forces, History, Instant};
+use crate::forces::{Data, Element, Forces, History, Instant, Memory};
 use crate::kernel::System;
 use crate::model::frames;
 use crate::model::setup::Setup;
@@ -44,6 +44,9 @@ struct Limp {
     system: System<f64>,
     still: Frames<f64>,
     rest: Rest,
+    history: History<f64>,
+    /// Elements looked at so far.
+    looks: usize,
 }
 
 /// Lets a limp body sink from the posture `seated` to where it rests.
@@ -56,14 +59,15 @@ pub(super) fn sink(
 ) -> (State<f64>, Settled, Rest) {
     let still = frames(setup.time.start_s, &vehicle.held());
     let rest = Rest::of(setup, data, system, &still, &seated);
-    let mut limp = Limp { system: system.clone(), still, rest };
+    let history = History::new(&system.forces, Memory::none());
+    let mut limp = Limp { system: system.clone(), still, rest, history, looks: 0 };
     limp.system.forces.muscles.clear();
     limp.rest.keep(&mut limp.system.forces);
     let weight_n = setup.body.mass_kg() * setup.gravity_m_s2;
     let (mut state, mut g) = (seated, limp.gradient(&seated));
     let mut shift = 1e-3;
     for _ in 0..MOST_STEPS {
-        if g.amax() < REST * weight_n.max(1.0) {
+        if g.amax() < REST * weight_n.max(1.0) || limp.looks > 2 * MOST_LOOKS {
             break;
         }
         let hessian = limp.hessian(&state, &g);
@@ -120,12 +124,12 @@ impl Rest {
 
 impl Limp {
     /// ∂V/∂x at a place, in the order of [`moved`]: N, and N·m over the lever.
-    fn gradient(&self, state: &State<f64>) -> DVector<f64> {
+    fn gradient(&mut self, state: &State<f64>) -> DVector<f64> {
         let k = Kinematics::new(&self.system.skeleton, state);
         let at = Instant { k: &k, state, frames: &self.still, spheres: &self.system.spheres, accepted: false };
-        let mut history = self.system.forces.start(&at);
-        self.rest.hold(&mut history);
-        let e = at_rest(&self.system, state, &self.still, &mut history);
+        self.looks += self.system.forces.restart(&at, &mut self.history);
+        self.rest.hold(&mut self.history);
+        let e = at_rest(&self.system, state, &self.still, &mut self.history);
         let loads = loads_beyond(&self.system.skeleton, &e);
         let mut g = Vec::with_capacity(6 + 3 * MOST_SEGMENTS);
         g.extend([loads[0].force.x, loads[0].force.y, loads[0].force.z]);
@@ -140,7 +144,7 @@ impl Limp {
     }
 
     /// ∂²V/∂x².
-    fn hessian(&self, state: &State<f64>, g: &DVector<f64>) -> DMatrix<f64> {
+    fn hessian(&mut self, state: &State<f64>, g: &DVector<f64>) -> DMatrix<f64> {
         let column = |i: usize| {
             let step = DVector::from_fn(g.len(), |j, _| if i == j { DIFFERENCE_M } else { 0.0 });
             let next = moved(&self.system.skeleton, state, &step);

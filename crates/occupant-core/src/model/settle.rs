@@ -9,7 +9,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use serde::{Serialize, Serializer};
 
 use crate::body::Body;
-use crate::forces::{Data, History, Instant};
+use crate::forces::{Data, History, Instant, Memory};
 use crate::kernel::{Evaluation, Situation, System};
 use crate::model::frames;
 use crate::model::setup::Setup;
@@ -29,6 +29,8 @@ use placed_text::Problems;
 pub(super) const LEVER_M: f64 = 0.3;
 /// Iterations at most.
 const ITERATIONS: usize = 200;
+/// Elements that are looked at in search of rest, at most: about a second's work. What is left over then is told as ever.
+pub(super) const MOST_LOOKS: usize = 2_000_000;
 
 /// Outcome of settling.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -85,7 +87,7 @@ pub(crate) fn kept(
     vehicle: &FrameMotion,
     state: &State<f64>,
 ) -> Settled {
-    settled(setup, &Vector6::zeros(), &load(setup, data, &mut system.clone(), vehicle, state))
+    settled(setup, &Vector6::zeros(), &Resting::new(setup, *data, system, vehicle).load(state))
 }
 
 fn settled(setup: &Setup, x: &Vector6<f64>, r: &Vector6<f64>) -> Settled {
@@ -108,15 +110,15 @@ pub(crate) fn settle(
     state: State<f64>,
 ) -> (State<f64>, Settled) {
     let weight_n = setup.body.mass_kg() * setup.gravity_m_s2;
-    let mut system = system.clone();
-    let mut residual = |x: &Vector6<f64>| load(setup, data, &mut system, vehicle, &moved(&state, x));
+    let mut body = Resting::new(setup, *data, system, vehicle);
     let mut x = Vector6::zeros();
-    let mut r = residual(&x);
+    let mut r = body.load(&moved(&state, &x));
     let mut damping = 1e-3;
     for _ in 0..ITERATIONS {
-        if r.norm() < 1e-9 * weight_n.max(1.0) {
+        if r.norm() < 1e-9 * weight_n.max(1.0) || body.looks > MOST_LOOKS {
             break;
         }
+        let mut residual = |x: &Vector6<f64>| body.load(&moved(&state, x));
         let j = jacobian(&x, &mut residual);
         let normal = j.tr_mul(&j);
         let gradient = j.tr_mul(&r);
@@ -165,33 +167,45 @@ pub(super) fn turned_by(vector: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::identity() + cross * sine + cross * cross * (1.0 - cosine)
 }
 
-/// Resultant force (N) and moment about T1 over the lever (N) of contacts, belts and weight on the resting body, by which belts
-/// are laid.
-fn load(
-    setup: &Setup,
-    data: &Data<'_>,
-    system: &mut System<f64>,
-    vehicle: &FrameMotion,
-    state: &State<f64>,
-) -> Vector6<f64> {
-    // at rest: no friction, no damping
-    let mut still = frames(setup.time.start_s, vehicle);
-    still[VEHICLE].velocity = V3::zero();
-    still[VEHICLE].omega = V3::zero();
-    let k = Kinematics::new(&system.skeleton, state);
-    let at = Instant { k: &k, state, frames: &still, spheres: &system.spheres, accepted: false };
-    system.forces.lay(data, &setup.body, &at);
-    let mut history = system.forces.start(&at);
-    let e = at_rest(system, state, &still, &mut history);
-    let (mut force, mut moment) = (V3::zero(), V3::zero());
-    for (n, (wrench, link)) in e.wrench.iter().zip(&system.skeleton.links).enumerate() {
-        let weight = V3 { x: 0.0, y: 0.0, z: -link.mass * system.skeleton.gravity };
-        force += wrench.force + weight;
-        moment += wrench.moment + (k.joint[n] - state.t1()).cross(wrench.force);
-        moment += (k.cg(&system.skeleton, n) - state.t1()).cross(weight);
+/// A body that is tried in one place after the other, at rest relative to the vehicle.
+struct Resting<'s, 'd> {
+    setup: &'s Setup,
+    data: Data<'d>,
+    system: System<f64>,
+    still: Frames<f64>,
+    history: History<f64>,
+    /// Elements looked at so far.
+    looks: usize,
+}
+
+impl<'s, 'd> Resting<'s, 'd> {
+    fn new(setup: &'s Setup, data: Data<'d>, system: &System<f64>, vehicle: &FrameMotion) -> Self {
+        // at rest: no friction, no damping
+        let mut still = frames(setup.time.start_s, vehicle);
+        still[VEHICLE].velocity = V3::zero();
+        still[VEHICLE].omega = V3::zero();
+        let history = History::new(&system.forces, Memory::none());
+        Resting { setup, data, system: system.clone(), still, history, looks: 0 }
     }
-    let lever = 1.0 / LEVER_M;
-    Vector6::new(force.x, force.y, force.z, moment.x * lever, moment.y * lever, moment.z * lever)
+
+    /// Resultant force (N) and moment about T1 over the lever (N) of contacts, belts and weight, by which belts are laid.
+    fn load(&mut self, state: &State<f64>) -> Vector6<f64> {
+        let Resting { setup, data, system, still, history, looks } = self;
+        let k = Kinematics::new(&system.skeleton, state);
+        let at = Instant { k: &k, state, frames: still, spheres: &system.spheres, accepted: false };
+        system.forces.lay(data, &setup.body, &at);
+        *looks += system.forces.restart(&at, history);
+        let e = at_rest(system, state, still, history);
+        let (mut force, mut moment) = (V3::zero(), V3::zero());
+        for (n, (wrench, link)) in e.wrench.iter().zip(&system.skeleton.links).enumerate() {
+            let weight = V3 { x: 0.0, y: 0.0, z: -link.mass * system.skeleton.gravity };
+            force += wrench.force + weight;
+            moment += wrench.moment + (k.joint[n] - state.t1()).cross(wrench.force);
+            moment += (k.cg(&system.skeleton, n) - state.t1()).cross(weight);
+        }
+        let lever = 1.0 / LEVER_M;
+        Vector6::new(force.x, force.y, force.z, moment.x * lever, moment.y * lever, moment.z * lever)
+    }
 }
 
 /// One evaluation, in one place: the kernel is inlined whole wherever it is called.

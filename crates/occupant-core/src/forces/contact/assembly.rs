@@ -5,7 +5,7 @@ use nalgebra::Point3;
 use super::{ContactData, EdgeForce};
 use crate::body::Body;
 use crate::forces::contact::face::{Outline, V2};
-use crate::forces::contact::flat_face::{FlatFace, SAME_M};
+use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::material::{Material, Memory};
 use crate::forces::contact::self_contact::SelfPairs;
 use crate::forces::contact::solid::Solids;
@@ -51,19 +51,10 @@ impl ContactSystem<f64> {
     }
 }
 
-/// For each face those before it that it joins. Faces of one plane are next to each other in the order of their offsets.
+/// For each face those before it that it joins.
 fn seams(faces: &[FlatFace]) -> Vec<Vec<usize>> {
-    let mut order: Vec<usize> = (0..faces.len()).collect();
-    order.sort_by(|&i, &j| faces[i].offset_m.total_cmp(&faces[j].offset_m));
     let mut seams = vec![Vec::new(); faces.len()];
-    for (at, &i) in order.iter().enumerate() {
-        for &j in order[at + 1..].iter().take_while(|&&j| faces[j].offset_m - faces[i].offset_m < SAME_M) {
-            let (first, second) = (i.min(j), i.max(j));
-            if faces[first].joins(&faces[second]) {
-                seams[second].push(first);
-            }
-        }
-    }
+    FlatFace::seams(faces).for_each(|[first, second]| seams[second].push(first));
     seams
 }
 

@@ -1,13 +1,20 @@
 //! What is wrong with materials and surfaces by themselves.
 
+use std::collections::HashMap;
+
 use crate::body::Body;
+use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::material::{Force, Material};
+use crate::forces::contact::near::{Bounds, near_pairs};
 use crate::forces::contact::self_contact::is_skin;
-use crate::forces::contact::solid::{Solid, build, concave_rad};
+use crate::forces::contact::solid::{CONCAVE_WITHIN_M, Solid, build, concave_rad};
 use crate::forces::contact::{ContactData, ContactSystem, OPEN, PASSED};
 use crate::forces::element::Instant;
 use crate::forces::function::steps::Steps;
 use placed_text::{Problem, Problems, with_key};
+
+/// What is wrong where the number of neighbours grows with the square of the things.
+const CROWD: &str = "too many neighbours to compare";
 
 /// More pairs of sphere and surface than this are a slip, or a mesh that should be made coarser.
 const MOST_PAIRS: usize = 200_000;
@@ -80,7 +87,8 @@ fn check_skins(data: &ContactData<'_>, body: &Body, problems: &mut Problems) {
 fn check_solids(data: &ContactData<'_>, body: &Body, problems: &mut Problems) {
     let &ContactData { materials, surfaces, solids, .. } = data;
     problems.check_unique("solids", "solid", solids.iter().map(|s| s.name.as_str()));
-    for (i, solid) in solids.iter().enumerate() {
+    let mut groups = HashMap::new();
+    for solid in solids {
         let path = format!("solids.{}", solid.name);
         if let Err((found, expected)) = build(&solid.shape) {
             problems.error(&path, found, expected);
@@ -94,14 +102,15 @@ fn check_solids(data: &ContactData<'_>, body: &Body, problems: &mut Problems) {
         if solid.spheres.iter().flatten().any(|&s| s >= body.spheres.len()) {
             problems.error(format!("{path}.spheres"), "no such sphere", "spheres of the body");
         }
-        check_group(solid, &solids[..i], problems);
+        if let Some(group) = &solid.group {
+            check_group(solid, group, groups.entry(group).or_insert(solid), problems);
+        }
     }
+    warn_of_concave(solids, problems);
 }
 
-/// A solid with those before it of its group, of which the first tells frame and material.
-fn check_group(solid: &Solid, before: &[Solid], problems: &mut Problems) {
-    let Some(group) = &solid.group else { return };
-    let Some(first) = before.iter().find(|other| other.group.as_ref() == Some(group)) else { return };
+/// A solid with the first of its group, which tells frame and material.
+fn check_group(solid: &Solid, group: &str, first: &Solid, problems: &mut Problems) {
     for (key, differs) in [("frame", first.frame != solid.frame), ("material", first.material != solid.material)] {
         if differs {
             let found = format!("another {key} than that of {}, which is of the group {group} too", first.name);
@@ -110,8 +119,20 @@ fn check_group(solid: &Solid, before: &[Solid], problems: &mut Problems) {
             problems.error_with_hint(path, found, format!("one {key} for a group, which is met as one body"), hint);
         }
     }
-    let same = before.iter().filter(|other| other.group.as_ref() == Some(group));
-    for (other, angle_rad) in same.filter_map(|other| Some((other, concave_rad(other, solid)?))) {
+}
+
+/// Solids of one group that are near each other.
+fn warn_of_concave(solids: &[Solid], problems: &mut Problems) {
+    let boxes: Vec<Bounds> = solids.iter().map(|solid| solid.shape.bounds()).collect();
+    let is_same = |i: usize, j: usize| solids[i].group.is_some() && solids[i].group == solids[j].group;
+    let mut near = near_pairs(&boxes, CONCAVE_WITHIN_M, is_same);
+    if !near.is_complete {
+        let expected = "some tens beside each: solids of a group fill a room, they do not lie on each other";
+        problems.error("solids", format!("{CROWD} among {} solids in groups", solids.len()), expected);
+    }
+    near.pairs.sort_by_key(|[first, second]| [*second, *first]);
+    let pairs = near.pairs.iter().map(|pair| pair.map(|i| &solids[i]));
+    for ([other, solid], angle_rad) in pairs.filter_map(|pair| Some((pair, concave_rad(pair[0], pair[1])?))) {
         let turn = angle_rad.to_degrees();
         let found = format!(
             "a concave corner or a gap to {} of the same group, of which the sides differ by {turn:.0}°",
@@ -120,6 +141,14 @@ fn check_group(solid: &Solid, before: &[Solid], problems: &mut Problems) {
         let expected =
             "solids of a group that bend inwards by 30° at most: the nearest alone pushes; without `group` all do";
         problems.warning(format!("solids.{}.group", solid.name), found, expected);
+    }
+}
+
+/// Refuses surfaces of one plane that lie on each other by thousands, whose seams are not looked for.
+pub(super) fn crowds(faces: &[FlatFace], problems: &mut Problems) {
+    if !FlatFace::neighbours(faces).is_complete {
+        let expected = "some tens beside each: surfaces of one plane lie beside each other";
+        problems.error("surfaces", format!("{CROWD} among {} surfaces", faces.len()), expected);
     }
 }
 

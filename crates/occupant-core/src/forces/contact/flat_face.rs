@@ -4,11 +4,14 @@
 
 use nalgebra::{Point3, Vector3};
 
+use crate::forces::contact::near::{Bounds, NearPairs, near_pairs};
 use crate::forces::contact::surface::{Facing, Frame, Outline, Surface};
 use placed_text::Problems;
 
 /// Points closer than this are the same point, m.
 pub(super) const SAME_M: f64 = 1e-6;
+/// A polygon of more corners is a disc, or a slip.
+const MOST_CORNERS: usize = 100;
 /// cos 30°.
 const COS_30: f64 = 0.866_025_403_784_438_6;
 
@@ -79,34 +82,53 @@ impl FlatFace {
         plane_axes(&self.normal)
     }
 
-    /// True if the two faces lie in one plane of one frame, look the same way and share part of an edge.
-    pub(crate) fn joins(&self, other: &FlatFace) -> bool {
-        let coplanar = self.frame == other.frame
+    /// The corners of a polygon; of another outline none.
+    fn corners(&self) -> &[Point3<f64>] {
+        if let Outline::Polygon(corners) = &self.outline { corners } else { &[] }
+    }
+
+    /// True if the two faces lie in one plane of one frame and look the same way.
+    fn is_coplanar_with(&self, other: &FlatFace) -> bool {
+        (self.offset_m - other.offset_m).abs() < SAME_M
+            && self.frame == other.frame
             && self.normal.dot(&other.normal) > 0.0
             && self.normal.cross(&other.normal).norm() < SAME_M
-            && (self.offset_m - other.offset_m).abs() < SAME_M;
-        let (Outline::Polygon(a), Outline::Polygon(b)) = (&self.outline, &other.outline) else {
-            return false;
-        };
-        let apart = |axis: usize| {
-            let [a, b] = [a, b].map(|corners| corners.iter().map(|p| p[axis]).fold((f64::MAX, f64::MIN), range));
-            a.0 > b.1 + SAME_M || b.0 > a.1 + SAME_M
-        };
-        coplanar && !(0..3).any(apart) && sides(a).any(|s| sides(b).any(|t| overlap(s, t)))
+    }
+
+    /// True if the two faces share part of an edge.
+    fn shares_an_edge_with(&self, other: &FlatFace) -> bool {
+        sides(self.corners()).any(|s| sides(other.corners()).any(|t| overlap(s, t)))
+    }
+
+    /// Polygons of one plane whose boxes touch.
+    pub(super) fn neighbours(faces: &[FlatFace]) -> NearPairs {
+        let boxes: Vec<Bounds> = faces.iter().map(|face| Bounds::of(face.corners())).collect();
+        near_pairs(&boxes, SAME_M, |i, j| faces[i].is_coplanar_with(&faces[j]))
+    }
+
+    /// Faces (indices) of one plane that share part of an edge.
+    pub(super) fn seams(faces: &[FlatFace]) -> impl Iterator<Item = [usize; 2]> {
+        let near = FlatFace::neighbours(faces).pairs;
+        near.into_iter().filter(|[i, j]| faces[*i].shares_an_edge_with(&faces[*j]))
+    }
+
+    /// Polygons (indices) of `list` that share a corner as [`FlatFace::has_corner_with`] says.
+    pub(crate) fn corners_among(faces: &[FlatFace], list: &[usize]) -> Vec<[usize; 2]> {
+        let boxes: Vec<Bounds> = list.iter().map(|i| Bounds::of(faces[*i].corners())).collect();
+        let turns = |i: usize, j: usize| faces[list[i]].normal.dot(&faces[list[j]].normal) < COS_30;
+        let near = near_pairs(&boxes, SAME_M, turns).pairs.into_iter().map(|pair| pair.map(|i| list[i]));
+        near.filter(|[i, j]| faces[*i].has_corner_with(&faces[*j])).collect()
     }
 
     /// True if the two faces of one frame share part of an edge from which both fall away by more than 30° together: a corner
     /// that a sphere may come round without touching either.
-    pub(crate) fn has_corner_with(&self, other: &FlatFace) -> bool {
-        let (Outline::Polygon(a), Outline::Polygon(b)) = (&self.outline, &other.outline) else {
-            return false;
-        };
+    fn has_corner_with(&self, other: &FlatFace) -> bool {
         let is_behind = |face: &FlatFace, p: &Point3<f64>| face.normal.dot(&p.coords) - face.offset_m < SAME_M;
         self.frame == other.frame
             && self.normal.dot(&other.normal) < COS_30
-            && b.iter().all(|p| is_behind(self, p))
-            && a.iter().all(|p| is_behind(other, p))
-            && sides(a).any(|s| sides(b).any(|t| overlap(s, t)))
+            && other.corners().iter().all(|p| is_behind(self, p))
+            && self.corners().iter().all(|p| is_behind(other, p))
+            && self.shares_an_edge_with(other)
     }
 }
 
@@ -114,11 +136,6 @@ impl FlatFace {
 pub(super) fn plane_axes(normal: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
     let u = Vector3::ith(normal.iamin(), 1.0).cross(normal).normalize();
     (u, normal.cross(&u))
-}
-
-/// A range with one more number.
-fn range((least, most): (f64, f64), x: f64) -> (f64, f64) {
-    (least.min(x), most.max(x))
 }
 
 type Side = (Point3<f64>, Point3<f64>);
@@ -146,6 +163,10 @@ fn polygon_plane(corners: &[Point3<f64>], path: &str, problems: &mut Problems) -
     let n = corners.len();
     if n < 3 {
         problems.error(path, format!("{n} corners"), "at least three");
+        return None;
+    }
+    if n > MOST_CORNERS {
+        problems.error(path, format!("{n} corners"), format!("at most {MOST_CORNERS}, or a disc"));
         return None;
     }
     if corners.iter().any(|p| p.iter().any(|c| !c.is_finite())) {

@@ -8,7 +8,6 @@
 
 use std::ops::Range;
 
-use crate::forces::contact::encounter::Sphere;
 use crate::forces::contact::{ContactSystem, Group, OPEN, PASSED, PairHistory};
 use crate::forces::element::Hints;
 use crate::motion::scalar::Scalar;
@@ -18,7 +17,7 @@ use crate::motion::vector::V3;
 const MARGIN_M: f64 = 1e-9;
 /// How far a sphere goes at least before all its pairs are looked at again, m: a longer way costs more watched pairs, a
 /// shorter one more looks.
-const LEAST_WAY_M: f64 = 0.02;
+pub(super) const LEAST_WAY_M: f64 = 0.02;
 
 /// Which pairs are worth looking at.
 #[derive(Clone, Debug)]
@@ -112,6 +111,15 @@ impl<S: Scalar> ContactHints<S> {
         start..start + self.looks[g].near
     }
 
+    /// Makes the watched pairs of `group`, number `g`, those that an evaluation looks at; returns how many there are.
+    pub(super) fn look_at_watched(&mut self, g: usize, group: &Group) -> usize {
+        for place in self.watched_of(g, group) {
+            self.near[place] = Near { pair: self.watched[place], lanes: S::truth(true) };
+        }
+        self.looks[g].near = self.looks[g].watched;
+        self.looks[g].near
+    }
+
     /// True if the sphere may have come near pairs of group `g` that are not watched.
     #[inline(always)]
     pub(super) fn must_look(&self, g: usize, centre: V3<S>) -> bool {
@@ -202,7 +210,13 @@ impl<S: Scalar> Looking<S> {
         let phase = pair.phase;
         let touches = phase.gt(S::of(OPEN)) & phase.lt(S::of(PASSED));
         let (off, enough) = (depth.abs(), contacts.reach_of_a_step + S::of(LEAST_WAY_M));
-        if S::any(touches | off.lt(enough)) {
+        self.watch(i, touches | off.lt(enough), off, hints);
+    }
+
+    /// Watches pair `i` if `is_near` in any lane; else nothing happens to it on the way `off`.
+    #[inline(always)]
+    pub(super) fn watch(&mut self, i: usize, is_near: S::Mask, off: S, hints: &mut ContactHints<S>) {
+        if S::any(is_near) {
             hints.watched[self.first + self.count] = i as u32;
             self.count += 1;
         } else {
@@ -210,19 +224,13 @@ impl<S: Scalar> Looking<S> {
         }
     }
 
-    /// Remembers the look of `sphere` at group `g`.
+    /// Remembers the look at group `g` from `centre`, of spheres that go no farther than `reach` before it counts.
     #[inline(always)]
-    pub(super) fn end(
-        self,
-        g: usize,
-        sphere: &Sphere<'_, S>,
-        contacts: &ContactSystem<S>,
-        hints: &mut ContactHints<S>,
-    ) {
-        let way = (self.least - contacts.reach_of_a_step - S::of(MARGIN_M)).max(S::zero());
+    pub(super) fn end(self, g: usize, centre: V3<S>, reach: S, hints: &mut ContactHints<S>) {
+        let way = (self.least - reach - S::of(MARGIN_M)).max(S::zero());
         let look = &mut hints.looks[g];
         look.watched = self.count;
-        look.centre = sphere.centre_f;
+        look.centre = centre;
         look.reach_squared = way * way;
     }
 }

@@ -8,9 +8,11 @@ pub mod flat_face;
 mod hints;
 mod law;
 pub mod material;
+mod near;
 mod results;
 pub mod self_contact;
 pub mod solid;
+mod start;
 pub mod surface;
 mod system;
 mod zip;
@@ -102,12 +104,24 @@ impl Element for Contacts {
         at: &Instant<'_, f64>,
         problems: &mut Problems,
     ) {
+        check::crowds(data.faces, problems);
         check::centres(law, &data, body, at, problems);
         check::overlaps(law, body, at, problems);
     }
 
     fn start(law: &ContactSystem<f64>, at: &Instant<'_, f64>) -> Vec<PairHistory<f64>> {
-        law.pasts(at, |group, i, centre| law.initial_history(i, at.spheres[group.sphere].radius, centre))
+        let mut past = Vec::new();
+        law.restart(at, &mut past, &mut ContactHints::new(law));
+        past
+    }
+
+    fn restart(
+        law: &ContactSystem<f64>,
+        at: &Instant<'_, f64>,
+        past: &mut Vec<PairHistory<f64>>,
+        hints: &mut ContactHints<f64>,
+    ) -> usize {
+        law.restart(at, past, hints)
     }
 
     fn hints<S: Scalar>(law: &ContactSystem<S>) -> ContactHints<S> {
@@ -234,7 +248,7 @@ fn meet_all<S: Scalar, const SOLID: bool>(
         }
     }
     if looks {
-        look.end(g, &sphere, law, hints);
+        look.end(g, sphere.centre_f, law.reach_of_a_step, hints);
     }
     if at.accepted {
         near.end(g, hints);
@@ -308,39 +322,5 @@ impl ContactSystem<f64> {
             ForceLaw::Bilinear(spring) => spring.knee(),
             ForceLaw::Deflection(_) => f64::INFINITY,
         }
-    }
-
-    /// Pair states where an earlier run ended: the listed pairs of sphere and surface have passed, all others that overlap
-    /// touch.
-    pub(crate) fn continued(&self, at: &Instant<'_, f64>, passed: &[(usize, usize)]) -> Vec<PairHistory<f64>> {
-        self.pasts(at, |group, i, centre| {
-            let is_passed = self.pairs[i].parts.iter().any(|part| passed.contains(&(group.sphere, part.surface)));
-            self.continued_history(i, centre, is_passed)
-        })
-    }
-
-    /// What each pair remembers, from its group, its number and the centre in its frame.
-    fn pasts(
-        &self,
-        at: &Instant<'_, f64>,
-        of: impl Fn(&Group, usize, crate::motion::vector::V3<f64>) -> PairHistory<f64>,
-    ) -> Vec<PairHistory<f64>> {
-        let mut list = Vec::with_capacity(self.pairs.len());
-        for group in &self.groups {
-            let centre = at.centre_in(group.sphere, group.frame);
-            list.extend(group.pairs.clone().map(|i| of(group, i, centre)));
-        }
-        list.resize(Contacts::count(self), PairHistory { phase: OPEN, greatest: 0.0 });
-        for group in &self.solids.groups {
-            let (centre, radius) = (at.centre_in(group.sphere, group.frame), at.spheres[group.sphere].radius);
-            for i in group.pairs.clone() {
-                let j = i - self.pairs.len();
-                let nearest = self.solids.nearest(j, centre, radius, &mut list, true);
-                self.solids.pairs[j].commit(nearest.depth, &mut list[i]);
-            }
-        }
-        list.truncate(self.own.first);
-        list.extend(self.own.start(at));
-        list
     }
 }

@@ -156,29 +156,6 @@ pub struct ContactSystem<S> {
 }
 
 impl<S: Scalar> ContactSystem<S> {
-    /// The state of a pair at the initial time: passed where the centre is beyond the plane or beside the face.
-    pub(crate) fn initial_history(&self, i: usize, radius: S, centre: V3<S>) -> PairHistory<S> {
-        let depth = self.planes[i].depth(centre);
-        let (offset, _) = self.pairs[i].nearest(centre);
-        let beside = !weight(offset.distance, radius).gt(S::zero());
-        let passed = depth.gt(radius) | beside;
-        let touching = S::select(passed, S::of(PASSED), S::of(TOUCHING));
-        let contact = depth.gt(S::zero());
-        PairHistory {
-            phase: S::select(contact, touching, S::of(OPEN)),
-            greatest: S::select(contact & !passed, depth, S::zero()),
-        }
-    }
-
-    /// The state of a pair where an earlier run ended, which tells whether it has passed but not how deep it was.
-    pub(crate) fn continued_history(&self, i: usize, centre: V3<S>, passed: bool) -> PairHistory<S> {
-        let o = S::zero();
-        let depth = self.planes[i].depth(centre);
-        let contact = depth.gt(o);
-        let (phase, greatest) = if passed { (PASSED, o) } else { (TOUCHING, depth) };
-        PairHistory { phase: S::select(contact, S::of(phase), S::of(OPEN)), greatest: S::select(contact, greatest, o) }
-    }
-
     /// True if the pair can exert a force before the next commit: not passed, and within reach of a step.
     #[inline(always)]
     pub(crate) fn is_near(&self, depth: S, history: &PairHistory<S>) -> S::Mask {
@@ -238,7 +215,7 @@ impl<S: Scalar> Pair<S> {
 
     /// Offset from the union of the parts, and the index of the nearest part in each lane (as a number).
     #[inline(always)]
-    fn nearest(&self, centre: V3<S>) -> (Offset<S>, S) {
+    pub(super) fn nearest(&self, centre: V3<S>) -> (Offset<S>, S) {
         // P (88), in coordinates of the plane
         let point = V2 { u: self.u.dot(centre), v: self.v.dot(centre) };
         let mut best = self.parts[0].outline.offset(point);
@@ -330,6 +307,6 @@ impl Touch<f64> {
 
 /// w = clamp01(1 − d/r).
 #[inline(always)]
-fn weight<S: Scalar>(distance: S, radius: S) -> S {
+pub(super) fn weight<S: Scalar>(distance: S, radius: S) -> S {
     (S::one() - distance / radius).clamp01()
 }

@@ -19,8 +19,9 @@ use crate::results::sample::Sample;
 use crash_measures::injury::{self, Measure, Options, Readings, Signals};
 use crash_measures::measure::ThreeMs;
 
-/// Measures that change by more of their value without every other output are not quoted to a per cent.
-const COARSE: f64 = 0.02;
+/// Measures that change by more of their value without every other output are not quoted to a per cent. The change is about the
+/// error: see `measures.md`.
+const COARSE: f64 = 0.01;
 
 /// Collects a [`Summary`]. Allocates at the start of a run and at its end, never between.
 #[derive(Clone, Debug, Default)]

@@ -63,8 +63,15 @@ pub(crate) struct BeltSection {
     pub(crate) pretensioner: Option<StrokeSection>,
 }
 
+/// More belts than this are a slip; a body that settles tries them in hundreds of postures.
+pub(super) const MOST: usize = 100;
+
 /// All loops, in the order written.
 pub(super) fn belts(b: &mut Builder, scenario: &Scenario, body: &Body) -> Vec<Belt> {
+    if scenario.belts.len() > MOST {
+        b.error("belts", format!("{} belts", scenario.belts.len()), format!("at most {MOST}"));
+        return Vec::new();
+    }
     scenario.belts.iter().filter_map(|(name, section)| belt(b, body, name, section)).collect()
 }
 

@@ -16,6 +16,9 @@ use crate::body::{Body, ContactSphere, Segment, SegmentProperties, Tree, shape};
 use crate::model::setup::STANDARD_GRAVITY_M_S2;
 use placed_text::{Problem, with_key};
 
+/// More spheres than this are a slip: each meets every surface, and others of the body.
+const MOST_SPHERES: usize = 500;
+
 /// A preset, changes to it, or a whole body of one's own.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -219,6 +222,11 @@ impl BodySection {
 /// The body; `section` is explicit, `preset` is the one it came from. One that `is_part` needs no head, chest or pelvis. None
 /// where its joints make no tree.
 pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection, is_part: bool) -> Option<Body> {
+    if section.spheres.len() > MOST_SPHERES {
+        let found = format!("{} spheres", section.spheres.len());
+        b.error("body.spheres", found, format!("at most {MOST_SPHERES}"));
+        return None;
+    }
     check_person(b, preset, section);
     check_division(b, preset, section);
     let weighed_at_m_s2 = si_or(&section.weighed_at, STANDARD_GRAVITY_M_S2);

@@ -1,6 +1,6 @@
 //! Belts with nodes: the [`Chain`]s they come to.
 
-use super::belts::BeltSection;
+use super::belts::{self, BeltSection};
 use super::builder::Builder;
 use super::nodes::NodeSection;
 use super::quantity::si_or;
@@ -22,7 +22,7 @@ pub(super) struct Parts<'a> {
 pub(super) fn chains(b: &mut Builder, scenario: &Scenario, body: &Body, triggers: &Triggers<'_>) -> Vec<Chain> {
     let parts = Parts { scenario, body, triggers };
     let mut list = Vec::new();
-    for (name, section) in &scenario.belts {
+    for (name, section) in scenario.belts.iter().filter(|_| scenario.belts.len() <= belts::MOST) {
         let path = with_key("belts", name);
         let nodes = match (&section.nodes, &section.preset) {
             (Some(nodes), _) => {

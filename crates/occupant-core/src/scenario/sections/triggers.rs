@@ -1,5 +1,7 @@
 //! `[triggers]`: what sets something off, and when it does.
 
+use std::collections::HashMap;
+
 use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -120,6 +122,11 @@ impl Triggers<'_> {
     }
 }
 
+/// More triggers than this are a slip; so groups of groups are less deep.
+const MOST: usize = 100;
+/// Vehicle's motion that is looked at for all triggers together, at most, s.
+const MOST_MOTION_S: f64 = 500.0;
+
 /// When each trigger fires; one that never does is left out and warned about.
 pub(super) fn triggers<'s>(
     b: &mut Builder,
@@ -128,9 +135,13 @@ pub(super) fn triggers<'s>(
     time: &TimeSpan,
 ) -> Triggers<'s> {
     let mut fires = IndexMap::new();
-    for (name, trigger) in &scenario.triggers {
+    if is_too_much(b, scenario, time) {
+        return Triggers(fires);
+    }
+    let mut search = Search { scenario, path, time, known: HashMap::new() };
+    for name in scenario.triggers.keys() {
         let at = with_key("triggers", name);
-        match found(scenario, trigger, path, time, scenario.triggers.len()) {
+        match search.found(name, MOST) {
             Ok(Some(Fires::At(at_s))) if at_s <= time.end_s => drop(fires.insert(name.as_str(), Fires::At(at_s))),
             Ok(Some(watch @ Fires::Watch(..))) => drop(fires.insert(name.as_str(), watch)),
             Ok(_) => b.report(Problem::warning(at, "a trigger that never fires in this run", "one that does")),
@@ -140,70 +151,98 @@ pub(super) fn triggers<'s>(
     Triggers(fires)
 }
 
-/// When a trigger fires; others are followed at most `depth` deep.
-fn found(
-    scenario: &Scenario,
-    trigger: &TriggerSection,
-    path: &VehiclePath,
-    time: &TimeSpan,
-    depth: usize,
-) -> Result<Option<Fires>, [&'static str; 2]> {
-    let span_s = [time.start_s, time.end_s];
-    let watch = |of, threshold, lasting: &Option<Time<NOT_NEGATIVE>>| {
-        Ok(Some(Fires::Watch(of, threshold, si_or(lasting, 0.0))))
-    };
-    let by_motion = || {
-        let expected = "another kind of trigger, or a path with interpolate = \"spline\"";
-        path.has_accelerations().then_some(()).ok_or(["a trigger by acceleration with a path that has none", expected])
-    };
-    match trigger {
-        TriggerSection::Time { at } => Ok(Some(Fires::At(at.si()))),
-        TriggerSection::VehicleAcceleration { threshold, lasting } => {
-            by_motion()?;
-            Ok(path.jolt_s(span_s, threshold.si(), si_or(lasting, 0.0)).map(Fires::At))
-        }
-        TriggerSection::DeltaV { threshold, wake } => {
-            by_motion()?;
-            Ok(path.change_s(span_s, threshold.si(), wake.si()).map(Fires::At))
-        }
-        TriggerSection::Any { of } => {
-            let times_s = times_s(scenario, of, path, time, depth)?;
-            Ok(times_s.into_iter().flatten().min_by(f64::total_cmp).map(Fires::At))
-        }
-        TriggerSection::All { of } => {
-            let times_s: Option<Vec<f64>> = times_s(scenario, of, path, time, depth)?.into_iter().collect();
-            Ok(times_s.into_iter().flatten().max_by(f64::total_cmp).map(Fires::At))
-        }
-        TriggerSection::BeltTension { threshold, lasting } => watch(Watched::Tension, threshold.si(), lasting),
-        TriggerSection::Payout { threshold, lasting } => watch(Watched::Payout, threshold.si(), lasting),
-        TriggerSection::PayoutSpeed { threshold, lasting } => watch(Watched::PayoutSpeed, threshold.si(), lasting),
-        TriggerSection::PayoutAcceleration { threshold, lasting } => {
-            watch(Watched::PayoutAcceleration, threshold.si(), lasting)
-        }
+/// Refuses more triggers, or more motion to look at for them, than a run needs.
+fn is_too_much(b: &mut Builder, scenario: &Scenario, time: &TimeSpan) -> bool {
+    use TriggerSection::{DeltaV, VehicleAcceleration};
+    let count = scenario.triggers.len();
+    let by_motion = scenario.triggers.values().filter(|t| matches!(t, VehicleAcceleration { .. } | DeltaV { .. }));
+    let motion_s = by_motion.count() as f64 * (time.end_s - time.start_s);
+    if count > MOST {
+        b.error("triggers", format!("{count} triggers"), format!("at most {MOST}"));
+    } else if motion_s > MOST_MOTION_S {
+        let found = format!("{motion_s} s of the vehicle's motion to look at");
+        b.error("triggers", found, format!("at most {MOST_MOTION_S} s for all triggers together: a shorter run"));
     }
+    count > MOST || motion_s > MOST_MOTION_S
 }
 
-/// When others fire, s; none of one that does not.
-fn times_s(
-    scenario: &Scenario,
-    names: &[String],
-    path: &VehiclePath,
-    time: &TimeSpan,
-    depth: usize,
-) -> Result<Vec<Option<f64>>, [&'static str; 2]> {
-    if depth == 0 {
-        return Err(["triggers that wait for one another in a circle", "triggers of which the last waits for none"]);
+/// When one fires, and what is wrong with it.
+type Found = Result<Option<Fires>, [&'static str; 2]>;
+
+/// Works out when triggers fire, each once.
+struct Search<'s> {
+    scenario: &'s Scenario,
+    path: &'s VehiclePath,
+    time: &'s TimeSpan,
+    known: HashMap<&'s str, Found>,
+}
+
+impl<'s> Search<'s> {
+    /// When the trigger of this name fires; others are followed at most `depth` deep.
+    fn found(&mut self, name: &'s str, depth: usize) -> Found {
+        if let Some(known) = self.known.get(name) {
+            return *known;
+        }
+        let found = self.scenario.triggers.get(name).map_or(Ok(None), |trigger| self.look(trigger, depth));
+        self.known.insert(name, found);
+        found
     }
-    let mut list = Vec::new();
-    for name in names {
-        let Some(trigger) = scenario.triggers.get(name) else { continue };
-        match found(scenario, trigger, path, time, depth - 1)? {
-            Some(Fires::Watch(..)) => {
-                return Err(["a group with a trigger that belts watch", "triggers by time or by the vehicle's motion"]);
+
+    fn look(&mut self, trigger: &'s TriggerSection, depth: usize) -> Found {
+        let (path, span_s) = (self.path, [self.time.start_s, self.time.end_s]);
+        let watch = |of, threshold, lasting: &Option<Time<NOT_NEGATIVE>>| {
+            Ok(Some(Fires::Watch(of, threshold, si_or(lasting, 0.0))))
+        };
+        let by_motion = || {
+            let expected = "another kind of trigger, or a path with interpolate = \"spline\"";
+            path.has_accelerations()
+                .then_some(())
+                .ok_or(["a trigger by acceleration with a path that has none", expected])
+        };
+        match trigger {
+            TriggerSection::Time { at } => Ok(Some(Fires::At(at.si()))),
+            TriggerSection::VehicleAcceleration { threshold, lasting } => {
+                by_motion()?;
+                Ok(path.jolt_s(span_s, threshold.si(), si_or(lasting, 0.0)).map(Fires::At))
             }
-            Some(Fires::At(at_s)) => list.push(Some(at_s)),
-            None => list.push(None),
+            TriggerSection::DeltaV { threshold, wake } => {
+                by_motion()?;
+                Ok(path.change_s(span_s, threshold.si(), wake.si()).map(Fires::At))
+            }
+            TriggerSection::Any { of } => {
+                let times_s = self.times_s(of, depth)?;
+                Ok(times_s.into_iter().flatten().min_by(f64::total_cmp).map(Fires::At))
+            }
+            TriggerSection::All { of } => {
+                let times_s: Option<Vec<f64>> = self.times_s(of, depth)?.into_iter().collect();
+                Ok(times_s.into_iter().flatten().max_by(f64::total_cmp).map(Fires::At))
+            }
+            TriggerSection::BeltTension { threshold, lasting } => watch(Watched::Tension, threshold.si(), lasting),
+            TriggerSection::Payout { threshold, lasting } => watch(Watched::Payout, threshold.si(), lasting),
+            TriggerSection::PayoutSpeed { threshold, lasting } => watch(Watched::PayoutSpeed, threshold.si(), lasting),
+            TriggerSection::PayoutAcceleration { threshold, lasting } => {
+                watch(Watched::PayoutAcceleration, threshold.si(), lasting)
+            }
         }
     }
-    Ok(list)
+
+    /// When others fire, s; none of one that does not.
+    fn times_s(&mut self, names: &'s [String], depth: usize) -> Result<Vec<Option<f64>>, [&'static str; 2]> {
+        if depth == 0 {
+            let found = "triggers that wait for one another in a circle";
+            return Err([found, "triggers of which the last waits for none"]);
+        }
+        let mut list = Vec::new();
+        for name in names.iter().filter(|name| self.scenario.triggers.contains_key(*name)) {
+            match self.found(name, depth - 1)? {
+                Some(Fires::Watch(..)) => {
+                    let expected = "triggers by time or by the vehicle's motion";
+                    return Err(["a group with a trigger that belts watch", expected]);
+                }
+                Some(Fires::At(at_s)) => list.push(Some(at_s)),
+                None => list.push(None),
+            }
+        }
+        Ok(list)
+    }
 }

@@ -70,6 +70,7 @@ fn what_is_wrong_with_belts_is_said_at_its_place() {
             ],
             "a trigger that belts watch",
         ),
+        (&["belts.lap.k1=5e4", "belts.lap.k2=4e4", "belts.lap.delta_b=0.01"], "softer than k1"),
     ] {
         let said = match changed(SHORT, changes) {
             Ok((_, warnings)) => warnings,

@@ -3,6 +3,7 @@
 mod belts;
 mod bodies;
 mod carts;
+mod crowds;
 mod devices;
 mod limits;
 mod materials;

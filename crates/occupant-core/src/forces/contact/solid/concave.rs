@@ -12,6 +12,8 @@ use crate::motion::vector::V3;
 
 /// Centres of spheres so far from a solid are tried, m.
 const AWAY_M: f64 = 0.03;
+/// Solids whose boxes are farther apart have no such angle, m.
+pub(crate) const CONCAVE_WITHIN_M: f64 = 2.1 * AWAY_M;
 /// Normals of two solids that push in directions nearer to each other than this are one, rad: 30°.
 const ONE_RAD: f64 = std::f64::consts::FRAC_PI_6;
 

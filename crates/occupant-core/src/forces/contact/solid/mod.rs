@@ -13,13 +13,14 @@ mod system;
 mod tests;
 
 pub(crate) use build::build;
-pub(crate) use concave::concave_rad;
+pub(crate) use concave::{CONCAVE_WITHIN_M, concave_rad};
 pub(crate) use faced::Faced;
 pub(crate) use system::{Member, Solids, lever};
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
 use crate::forces::contact::flat_face::FlatFace;
+use crate::forces::contact::near::Bounds;
 use crate::forces::contact::surface::{Frame, Outline};
 
 /// A body with thickness that spheres can touch.
@@ -98,6 +99,25 @@ impl Shape {
         let [u, v] = [0, 1].map(|i| axes.column(i) * half[i]);
         let corners_m = [u + v, v - u, -u - v, u - v].map(|arm| centre_m + arm).to_vec();
         Shape::Prism { corners_m, half_width_m: half.z, rounding_m }
+    }
+
+    /// A box that holds it.
+    pub(crate) fn bounds(&self) -> Bounds {
+        match self {
+            Shape::Prism { corners_m, half_width_m, .. } => {
+                let middle = corners_m.first().copied().unwrap_or_default();
+                let radius_m = corners_m.iter().map(|p| (p - middle).norm()).fold(0.0, f64::max) + half_width_m;
+                Bounds::ball(&middle, radius_m)
+            }
+            Shape::Disc { centre_m, radius_m, thickness_m, .. } => Bounds::ball(centre_m, radius_m + thickness_m),
+            Shape::Capsule { ends_m: [from, to], radius_m } => {
+                Bounds::ball(&nalgebra::center(from, to), 0.5 * (to - from).norm() + radius_m)
+            }
+            Shape::Rim { centre_m, ring_radius_m, tube_radius_m, .. } => {
+                Bounds::ball(centre_m, ring_radius_m + tube_radius_m)
+            }
+            Shape::HalfSpace { point_m, .. } => Bounds::ball(point_m, f64::INFINITY),
+        }
     }
 
     /// A plate with this polygon in front and `thickness_m` behind its open side; none for an outline of another kind.

@@ -4,6 +4,8 @@
 //! of it, and one Δ_m. With (F, U) of the spring at Δ = r − φ the sphere gets F N̂ and, at A = c − max(r − Δ/2, 0) N̂ (6.3),
 //! the friction; U is a function of the centre alone.
 
+use std::collections::HashMap;
+
 use super::{Faced, Solid, build};
 use crate::body::Body;
 use crate::forces::contact::encounter::Approach;
@@ -68,15 +70,17 @@ impl Solids<f64> {
         pairs: usize,
     ) -> Solids<f64> {
         let mut all = Solids { shapes: solids.iter().flat_map(|s| build(&s.shape)).collect(), ..Solids::default() };
+        let mut unions: HashMap<&str, usize> = HashMap::new();
         for (sphere, data) in body.spheres.iter().enumerate() {
             for (frame, index) in [(Frame::Vehicle, VEHICLE), (Frame::Space, SPACE)] {
                 let first = all.pairs.len();
+                unions.clear();
                 let meets = |s: &Solid| s.frame == frame && s.spheres.as_ref().is_none_or(|s| s.contains(&sphere));
                 for (i, solid) in solids.iter().enumerate().filter(|(_, solid)| meets(solid)) {
                     let member = Member { solid: i, surface: surfaces + i, past: 0 };
-                    let is_same = |union: &&mut Union<f64>| solids[union.members[0].solid].group == solid.group;
-                    let known = all.pairs[first..].iter_mut().find(is_same).filter(|_| solid.group.is_some());
-                    match known {
+                    let own = all.pairs.len();
+                    let place = solid.group.as_deref().map_or(own, |group| *unions.entry(group).or_insert(own));
+                    match all.pairs.get_mut(place) {
                         Some(union) => union.members.push(member),
                         None => all.pairs.push(Union::new(member, &materials[solid.material], data.share)),
                     }

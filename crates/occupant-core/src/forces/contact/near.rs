@@ -1,0 +1,98 @@
+//! Which of many bounded things are near each other: boxes along the axes, swept along the axis on which they are spread most.
+
+use nalgebra::{Point3, Vector3};
+
+/// The least box along the axes that holds something, m.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bounds {
+    least: Vector3<f64>,
+    most: Vector3<f64>,
+}
+
+impl Bounds {
+    /// That of points; of none it is empty and near nothing.
+    pub(crate) fn of<'a>(points: impl IntoIterator<Item = &'a Point3<f64>>) -> Self {
+        let none = Bounds { least: Vector3::repeat(f64::INFINITY), most: Vector3::repeat(f64::NEG_INFINITY) };
+        points
+            .into_iter()
+            .fold(none, |all, p| Bounds { least: all.least.inf(&p.coords), most: all.most.sup(&p.coords) })
+    }
+
+    /// That of a ball.
+    pub(crate) fn ball(centre_m: &Point3<f64>, radius_m: f64) -> Self {
+        let arm = Vector3::repeat(radius_m);
+        Bounds { least: centre_m.coords - arm, most: centre_m.coords + arm }
+    }
+
+    fn is_near(&self, other: &Self, gap_m: f64) -> bool {
+        (0..3).all(|i| self.least[i] <= other.most[i] + gap_m && other.least[i] <= self.most[i] + gap_m)
+    }
+}
+
+/// Pairs that are near each other.
+pub(crate) struct NearPairs {
+    /// Indices, the first before the second; in ascending order.
+    pub pairs: Vec<[usize; 2]>,
+    /// Whether these are all: so many that their number grows with the square of the things are not listed.
+    pub is_complete: bool,
+}
+
+/// Pairs of boxes at most `gap_m` apart on every axis that `matter`.
+pub(crate) fn near_pairs(boxes: &[Bounds], gap_m: f64, matter: impl Fn(usize, usize) -> bool) -> NearPairs {
+    let most = 10_000 + 20 * boxes.len();
+    let spread = |axis: usize| {
+        let (least, greatest) = boxes.iter().fold((f64::MAX, f64::MIN), |(a, b), own| {
+            let middle = 0.5 * (own.least[axis] + own.most[axis]);
+            if middle.is_finite() { (a.min(middle), b.max(middle)) } else { (a, b) }
+        });
+        greatest - least
+    };
+    let axis = (0..3).max_by(|a, b| spread(*a).total_cmp(&spread(*b))).unwrap_or_default();
+    let mut order: Vec<usize> = (0..boxes.len()).collect();
+    order.sort_by(|i, j| boxes[*i].least[axis].total_cmp(&boxes[*j].least[axis]));
+    let mut pairs = Vec::new();
+    for (at, &i) in order.iter().enumerate() {
+        for &j in order[at + 1..].iter().take_while(|j| boxes[**j].least[axis] <= boxes[i].most[axis] + gap_m) {
+            let (first, second) = (i.min(j), i.max(j));
+            if matter(first, second) && boxes[i].is_near(&boxes[j], gap_m) {
+                pairs.push([first, second]);
+            }
+        }
+        if pairs.len() > most {
+            return NearPairs { pairs: Vec::new(), is_complete: false };
+        }
+    }
+    pairs.sort_unstable();
+    NearPairs { pairs, is_complete: true }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Boxes with pseudo-random places and sizes.
+    fn boxes(count: usize, size_m: f64) -> Vec<Bounds> {
+        let mut seed = 1u64;
+        let mut next = move || {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (seed >> 11) as f64 / (1u64 << 53) as f64
+        };
+        (0..count).map(|_| Bounds::ball(&Point3::new(next(), 3.0 * next(), next()), size_m * next())).collect()
+    }
+
+    #[test]
+    fn the_sweep_finds_what_all_pairs_show() {
+        let boxes = boxes(300, 0.1);
+        let found = near_pairs(&boxes, 0.01, |i, j| (i + j) % 3 != 0);
+        let all = (0..boxes.len()).flat_map(|i| (i + 1..boxes.len()).map(move |j| [i, j]));
+        let expected: Vec<_> = all.filter(|[i, j]| (i + j) % 3 != 0 && boxes[*i].is_near(&boxes[*j], 0.01)).collect();
+        assert!(found.is_complete && expected.len() > 100);
+        assert_eq!(found.pairs, expected);
+    }
+
+    #[test]
+    fn a_crowd_is_said_to_be_one() {
+        assert!(!near_pairs(&boxes(1000, 9.0), 0.0, |_, _| true).is_complete);
+        assert!(near_pairs(&boxes(100, 9.0), 0.0, |_, _| true).is_complete);
+    }
+}
