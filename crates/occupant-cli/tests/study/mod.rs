@@ -46,7 +46,7 @@ const STUDY: &str = r#"
 title = "damping <and> speed"
 seed = 3
 design = { kind = "latin_hypercube", samples = 24 }
-set = { "time.end" = "30 ms" }
+set = { "time.end" = "30 ms", "output.interval" = "0.5 ms" }
 
 [[parameters]]
 path = "joints.neck.damping"
