@@ -88,9 +88,8 @@ fn a_finished_study_has_all_its_sections() {
 #[test]
 fn figures_with_caveats_are_marked_where_they_stand() {
     // outputs every 10 ms know no peak
-    let study = STUDY
-        .replace("\"30 ms\" }", "\"120 ms\", \"output.interval\" = \"10 ms\" }")
-        .replace("samples = 24", "samples = 6");
+    let study =
+        STUDY.replace("\"30 ms\"", "\"120 ms\"").replace("0.5 ms", "10 ms").replace("samples = 24", "samples = 6");
     let folder = swept(&study);
     let shown = page(folder.path());
     sane(&shown);
