@@ -152,7 +152,8 @@ impl Caveat {
         let worst = off.iter().max_by(|a, b| a.1.total_cmp(&b.1));
         let of_measures = worst.map(|(worst, most)| {
             let (count, label, percent) = (off.len(), worst.label, 100.0 * most);
-            format!("{count} measures: without every other output {label} changes by {percent:.0} %")
+            let measures = if count == 1 { "measure" } else { "measures" };
+            format!("{count} {measures}: without every other output {label} changes by {percent:.0} %")
         });
         let is_apart = interval_s > APART_S;
         let of_peaks = is_apart.then(|| "peaks of forces, depths and places, which ask for 2 ms at most".to_owned());
