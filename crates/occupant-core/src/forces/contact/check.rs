@@ -129,6 +129,7 @@ fn warn_of_concave(solids: &[Solid], problems: &mut Problems) {
     if !near.is_complete {
         let expected = "some tens beside each: solids of a group fill a room, they do not lie on each other";
         problems.error("solids", format!("{CROWD} among {} solids in groups", solids.len()), expected);
+        return;
     }
     near.pairs.sort_by_key(|[first, second]| [*second, *first]);
     let pairs = near.pairs.iter().map(|pair| pair.map(|i| &solids[i]));

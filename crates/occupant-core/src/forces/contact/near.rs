@@ -33,7 +33,7 @@ impl Bounds {
 pub(crate) struct NearPairs {
     /// Indices, the first before the second; in ascending order.
     pub pairs: Vec<[usize; 2]>,
-    /// Whether these are all: so many that their number grows with the square of the things are not listed.
+    /// Whether these are all: of so many that their number grows with the square of the things only some are listed.
     pub is_complete: bool,
 }
 
@@ -50,7 +50,7 @@ pub(crate) fn near_pairs(boxes: &[Bounds], gap_m: f64, matter: impl Fn(usize, us
     let axis = (0..3).max_by(|a, b| spread(*a).total_cmp(&spread(*b))).unwrap_or_default();
     let mut order: Vec<usize> = (0..boxes.len()).collect();
     order.sort_by(|i, j| boxes[*i].least[axis].total_cmp(&boxes[*j].least[axis]));
-    let mut pairs = Vec::new();
+    let (mut pairs, mut is_complete) = (Vec::new(), true);
     for (at, &i) in order.iter().enumerate() {
         for &j in order[at + 1..].iter().take_while(|j| boxes[**j].least[axis] <= boxes[i].most[axis] + gap_m) {
             let (first, second) = (i.min(j), i.max(j));
@@ -58,12 +58,13 @@ pub(crate) fn near_pairs(boxes: &[Bounds], gap_m: f64, matter: impl Fn(usize, us
                 pairs.push([first, second]);
             }
         }
-        if pairs.len() > most {
-            return NearPairs { pairs: Vec::new(), is_complete: false };
+        is_complete = pairs.len() <= most;
+        if !is_complete {
+            break;
         }
     }
     pairs.sort_unstable();
-    NearPairs { pairs, is_complete: true }
+    NearPairs { pairs, is_complete }
 }
 
 #[cfg(test)]
