@@ -7,7 +7,7 @@ use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_core::run::batch::{Ended, Job, Kernel, simulate_many};
 use occupant_core::run::simulate::simulate;
-use occupant_core::scenario::{Draft, Format};
+use occupant_scenario::{Draft, Format};
 use std::ops::ControlFlow;
 
 const ROOM: &str = include_str!("../data/room.toml");

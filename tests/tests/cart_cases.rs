@@ -9,7 +9,7 @@ use occupant_core::results::outcome::Status;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::simulate;
-use occupant_core::scenario::{Format, Scenario};
+use occupant_scenario::{Format, Scenario};
 use occupant_tests::cart;
 use occupant_tests::measure::assert_below;
 

@@ -14,7 +14,7 @@ use occupant_core::results::outcome::{Outcome, Status};
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::simulate;
-use occupant_core::scenario::{Format, Scenario};
+use occupant_scenario::{Format, Scenario};
 use occupant_tests::cart;
 use occupant_tests::cases::{afloat, belt, male50};
 use occupant_tests::measure::{assert_below, assert_within};

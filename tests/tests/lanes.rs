@@ -12,7 +12,7 @@ use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_core::run::batch::{Ended, Job, Kernel, simulate_many};
 use occupant_core::run::simulate::simulate;
-use occupant_core::scenario::{Format, Scenario};
+use occupant_scenario::{Format, Scenario};
 use occupant_tests::cart::lap;
 use occupant_tests::room::setup;
 

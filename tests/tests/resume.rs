@@ -12,7 +12,7 @@ use occupant_core::results::outcome::{Outcome, ResumeError, Status};
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError, Watch};
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::{replay, resume, simulate};
-use occupant_core::scenario::{Format, Scenario};
+use occupant_scenario::{Format, Scenario};
 use occupant_tests::cart::lap;
 use occupant_tests::room::setup;
 

@@ -9,7 +9,7 @@ use occupant_core::results::channel::{Channel, Series, channels};
 use occupant_core::results::checkpoint::Checkpoint;
 use occupant_core::results::recorder::Watch;
 use occupant_core::run::simulate::simulate;
-use occupant_core::scenario::{Draft, Format};
+use occupant_scenario::{Draft, Format};
 use occupant_study::sensitivity::finite::{CHANGES, HOLDS, Verdict, compare, finite_changes};
 use occupant_study::sensitivity::measures::{Request, derivatives, plain_values};
 use occupant_study::sensitivity::{Built, Parameter, Slope, Trajectory, Trouble, follow, parameter};

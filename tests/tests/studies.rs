@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use occupant_core::scenario::Draft;
 use occupant_core::vehicle::VehiclePath;
+use occupant_scenario::Draft;
 use occupant_study::{Study, StudyText, Value};
 
 fn folder() -> PathBuf {

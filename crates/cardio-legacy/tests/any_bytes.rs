@@ -2,8 +2,8 @@
 
 use crate::support::{DECKS, bytes};
 use cardio_legacy::{ConvertOptions, Deck, ParseOptions, Strictness};
-use occupant_core::scenario::Format;
-use occupant_core::scenario::Scenario;
+use occupant_scenario::Format;
+use occupant_scenario::Scenario;
 
 /// A small generator (xorshift64*), so that a finding can be repeated from its seed.
 struct Random(u64);

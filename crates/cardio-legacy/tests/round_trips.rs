@@ -2,8 +2,8 @@
 
 use crate::support::{DECKS, lines, path, punch};
 use cardio_legacy::{ConvertOptions, Deck, ParseOptions, PathSource, Strictness};
-use occupant_core::scenario::Format;
-use occupant_core::scenario::Scenario;
+use occupant_scenario::Format;
+use occupant_scenario::Scenario;
 
 /// Ten columns at the edges of what F10.0 holds and of what a scenario tells apart.
 const ODD: [&str; 16] = [

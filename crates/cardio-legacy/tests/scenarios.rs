@@ -9,8 +9,8 @@ use occupant_core::model::Model;
 use occupant_core::results::outcome::{FirstTouch, Status};
 use occupant_core::results::recorder::Watch;
 use occupant_core::run::simulate::simulate;
-use occupant_core::scenario::Format;
-use occupant_core::scenario::{Loaded, Scenario};
+use occupant_scenario::Format;
+use occupant_scenario::{Loaded, Scenario};
 
 fn deck(name: &str) -> Deck {
     let (decks, diagnostics) = Deck::parse(bytes(name), &ParseOptions::default());

@@ -10,7 +10,7 @@ use occupant_core::model::Model;
 use occupant_core::results::recorder::Recorder;
 use occupant_core::results::summary::Summarizer;
 use occupant_core::run::batch::{Job, Kernel, simulate_many};
-use occupant_core::scenario::{Draft, Format};
+use occupant_scenario::{Draft, Format};
 use occupant_study::{Study, StudyText};
 
 /// Samples side by side.

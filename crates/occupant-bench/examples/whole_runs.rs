@@ -16,7 +16,7 @@ use occupant_core::results::outcome::Status;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::simulate;
-use occupant_core::scenario::{Draft, Format};
+use occupant_scenario::{Draft, Format};
 
 /// What is varied of the rollover's posture, and by how many degrees to either side.
 const LEANS: [(&str, f64); 6] = [

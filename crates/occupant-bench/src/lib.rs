@@ -13,8 +13,8 @@ use occupant_core::motion::integrate::rk4::{self, Stage, Stages};
 use occupant_core::motion::kinematics::Kinematics;
 use occupant_core::motion::layout::MOST_SEGMENTS;
 use occupant_core::motion::state::{State, Work};
-use occupant_core::scenario::{Draft, Format, Loaded, Scenario};
 use occupant_core::vehicle::PathCursor;
+use occupant_scenario::{Draft, Format, Loaded, Scenario};
 
 /// The scenario's text.
 pub const TEXT: &str = include_str!("../car.toml");

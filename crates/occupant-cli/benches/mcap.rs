@@ -10,7 +10,7 @@ use occupant_core::model::Model;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::simulate;
-use occupant_core::scenario::{Format, Scenario};
+use occupant_scenario::{Format, Scenario};
 
 /// The tests' short run in a car, with belts.
 const SCENARIO: &str = include_str!("../tests/recording/short.toml");

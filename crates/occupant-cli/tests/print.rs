@@ -8,7 +8,7 @@ use occupant_core::forces::contact::PASSED;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::simulate;
-use occupant_core::scenario::{Format, Scenario};
+use occupant_scenario::{Format, Scenario};
 use prost_reflect::{DescriptorPool, DynamicMessage, ReflectMessage, Value};
 
 /// Lap and torso belt, spheres that touch, in SI.

@@ -1,5 +1,5 @@
-//! A case built in code, without a text: the driver of `scenarios/cart-lap-torso.toml` in lap and torso belt, in a cart that
-//! stops from 20 mph. A test holds it to the text: both give the same bits.
+//! A case built in code, without a text: a driver in lap and torso belt, in the cart of `scenarios/cart-lap-torso.toml` that
+//! stops from 20 mph. A test holds it to the text: with the body of the text it gives the same bits.
 //!
 //! Vehicle axes: x forward, y right, z down. The crate takes SI units only; the drawings are in inches and pounds.
 #![allow(clippy::print_stdout, reason = "an example prints its result")]
@@ -44,7 +44,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
 
 /// The whole case.
 pub(crate) fn cart() -> Result<Setup, Box<dyn Error>> {
-    let body = Body::preset("male50-1970").ok_or("no such preset")?;
+    let body = Body::male50();
     let (pelvis, chest) = (body.sphere("pelvis").ok_or("no pelvis")?, body.sphere("chest").ok_or("no chest")?);
     let mut case = SetupBuilder::new("Cart, 20 mph, lap and torso belt", body, Joints::male50());
     case.setup.gravity_m_s2 = 386.04 * INCH_M;
@@ -102,7 +102,7 @@ pub(crate) fn cart() -> Result<Setup, Box<dyn Error>> {
 }
 
 /// A half sine of 80 ms that takes away the whole speed.
-fn stop_from(speed_m_s: f64) -> Result<VehiclePath, Box<dyn Error>> {
+pub(crate) fn stop_from(speed_m_s: f64) -> Result<VehiclePath, Box<dyn Error>> {
     let shape = PulseShape::HalfSine { strength: Strength::DeltaV(speed_m_s), duration_s: 0.08 };
     let path = PulsePath::new(PulseDefinition::new(speed_m_s, shape));
     Ok(VehiclePath::Pulse(path.map_err(|problems| format!("{problems:?}"))?))

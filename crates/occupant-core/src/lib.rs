@@ -23,7 +23,7 @@
 //! use occupant_core::results::recorder::Watch;
 //! use occupant_core::results::sample::Sample;
 //! use occupant_core::run::simulate::simulate;
-//! use occupant_core::scenario::{Format, Scenario};
+//! use occupant_scenario::{Format, Scenario};
 //!
 //! // a standing body, let go two metres above the origin
 //! let text = r#"
@@ -142,7 +142,11 @@ pub mod motion;
 pub mod quantity;
 pub mod results;
 pub mod run;
-pub mod scenario;
 pub mod vehicle;
+
+#[cfg(test)]
+extern crate self as occupant_core;
+#[cfg(test)]
+mod tests;
 
 pub use placed_text::{Problem, Problems, Severity};

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use occupant_core::model::Model;
-use occupant_core::scenario::{Diagnostics, Draft, Format};
+use occupant_scenario::{Diagnostics, Draft, Format};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 

@@ -7,7 +7,7 @@ use numpy::IntoPyArray;
 use occupant_core::model::Model;
 use occupant_core::results::summary::Summarizer;
 use occupant_core::run::batch::Kernel;
-use occupant_core::scenario::Draft;
+use occupant_scenario::Draft;
 use occupant_study::ending::Ending;
 use occupant_study::engine::{Engine, Finished, NotBegun, Source, Unrecorded};
 use occupant_study::{StudyText, Value};
@@ -129,7 +129,7 @@ impl Study {
         }
     }
 
-    fn model(&self, index: u64) -> Result<Model, occupant_core::scenario::Diagnostics> {
+    fn model(&self, index: u64) -> Result<Model, occupant_scenario::Diagnostics> {
         let draft: Draft = self.study.draft(index)?;
         Ok(draft.load(&|file| beside(&self.folder, file))?.model()?.0)
     }

@@ -1,6 +1,6 @@
 //! What goes wrong, as exceptions.
 
-use occupant_core::scenario::Diagnostics;
+use occupant_scenario::Diagnostics;
 use placed_text::Severity;
 use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;

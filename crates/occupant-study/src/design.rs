@@ -9,7 +9,7 @@ use super::morris::Trajectory;
 use super::permutation::permute;
 use super::random::{Purpose, unit};
 use super::saltelli::{self, Block};
-use occupant_core::scenario::{POSITIVE, Ratio};
+use occupant_scenario::{POSITIVE, Ratio};
 
 /// How the samples are chosen.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

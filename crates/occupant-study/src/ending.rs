@@ -3,7 +3,7 @@
 use std::any::Any;
 
 use occupant_core::results::outcome::{Outcome, Status};
-use occupant_core::scenario::{Diagnostic, Diagnostics};
+use occupant_scenario::{Diagnostic, Diagnostics};
 use placed_text::Severity;
 
 pub use occupant_core::results::energy::{Balance, EnergyCheck};

@@ -22,7 +22,7 @@ use occupant_core::results::outcome::RecordingFailed;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_core::run::batch::{self, Job, Kernel, simulate_many};
-use occupant_core::scenario::Diagnostics;
+use occupant_scenario::Diagnostics;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 use crate::ending::Ending;

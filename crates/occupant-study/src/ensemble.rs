@@ -7,7 +7,7 @@
 
 use super::parameter::{Assignment, Parameter, Target, changed, place};
 use super::random::{Purpose, unit};
-use occupant_core::scenario::{Draft, rival_path};
+use occupant_scenario::{Draft, rival_path};
 use placed_text::Problem;
 use serde::Serialize;
 

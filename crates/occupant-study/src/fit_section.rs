@@ -4,7 +4,7 @@ use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use occupant_core::scenario::Time;
+use occupant_scenario::Time;
 use placed_text::Value;
 
 /// What `occupant fit` makes the parameters of the study reproduce: measured channels of one test or several.

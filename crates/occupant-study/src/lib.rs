@@ -8,7 +8,7 @@
 //! time and memory that grow with the number of parameters only.
 //!
 //! ```
-//! use occupant_core::scenario::{Draft, Format};
+//! use occupant_scenario::{Draft, Format};
 //! use occupant_study::{StudyText, Value};
 //!
 //! let base = r#"
@@ -44,7 +44,7 @@
 //! let sample = study.sample(5); // the last parameter changes fastest
 //! assert_eq!(sample[1].value, Value::Number(2.0));
 //! let scenario = study.draft(5)?; // the base with the values of sample 5
-//! # Ok::<(), occupant_core::scenario::Diagnostics>(())
+//! # Ok::<(), occupant_scenario::Diagnostics>(())
 //! ```
 
 pub mod analysis;
@@ -90,7 +90,7 @@ pub use text::StudyText;
 use self::copula::Copula;
 use self::design::Coordinate;
 use self::sobol::Sobol;
-use occupant_core::scenario::{Diagnostics, Draft};
+use occupant_scenario::{Diagnostics, Draft};
 
 #[cfg(test)]
 mod tests;

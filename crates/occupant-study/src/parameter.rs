@@ -2,7 +2,7 @@
 
 use super::law::{Law, Value};
 use crate::section::ApplyChoice;
-use occupant_core::scenario::{Diagnostics, Draft, Place, Wanted};
+use occupant_scenario::{Diagnostics, Draft, Place, Wanted};
 use placed_text::Value as Written;
 
 /// A parameter that has found its places in the base scenario.

@@ -13,9 +13,9 @@ use super::design::Design;
 use super::fit_section::FitSection;
 use super::keep::KeepSection;
 use super::law::Distribution;
-use occupant_core::scenario::kind::UnitSystem;
-use occupant_core::scenario::schema_of;
-use occupant_core::scenario::{Angle, FRACTION, Length, NOT_NEGATIVE, Ratio};
+use occupant_scenario::kind::UnitSystem;
+use occupant_scenario::schema_of;
+use occupant_scenario::{Angle, FRACTION, Length, NOT_NEGATIVE, Ratio};
 use placed_text::Value;
 
 /// The JSON Schema of a study file.

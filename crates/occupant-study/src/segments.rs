@@ -6,7 +6,7 @@
 
 use super::ensemble::targets;
 use super::parameter::Target;
-use occupant_core::scenario::Draft;
+use occupant_scenario::Draft;
 use placed_text::{Step, parse_path};
 
 /// What makes a segment heavier.

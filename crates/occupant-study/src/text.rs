@@ -1,7 +1,7 @@
 //! A study text that has been read and whose words are right; what they mean depends on the base scenario.
 
 use crate::section::{StudySection, schema_json};
-use occupant_core::scenario::check_words;
+use occupant_scenario::check_words;
 use placed_text::{Diagnostics, Document, Format, Problem};
 
 /// A study text that has been read and whose words are right.

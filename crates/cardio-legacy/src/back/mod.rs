@@ -16,7 +16,7 @@ use occupant_core::body::tti12::TTI12;
 use occupant_core::forces::contact::EdgeForce;
 use occupant_core::model::seating::InitialPosture;
 use occupant_core::model::setup::{Integrator, Setup};
-use occupant_core::scenario::{Diagnostics as ScenarioDiagnostics, Loaded, Scenario};
+use occupant_scenario::{Diagnostics as ScenarioDiagnostics, Loaded, Scenario};
 use thiserror::Error;
 
 pub use motion::{RunEnd, passed_pairs, spine_rest};

@@ -13,8 +13,8 @@ mod path;
 mod report;
 mod writer;
 
-use occupant_core::scenario::Format;
-use occupant_core::scenario::{Diagnostics as ScenarioDiagnostics, Loaded, Scenario};
+use occupant_scenario::Format;
+use occupant_scenario::{Diagnostics as ScenarioDiagnostics, Loaded, Scenario};
 use thiserror::Error;
 
 pub use path::PathSource;

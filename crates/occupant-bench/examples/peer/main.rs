@@ -20,7 +20,7 @@ use std::path::Path;
 use coordinates::Placed;
 use mjcf::Parts;
 use occupant_core::model::Model;
-use occupant_core::scenario::{Format, Scenario};
+use occupant_scenario::{Format, Scenario};
 
 const USAGE: &str = "peer mjcf SCENARIO SECONDS free|hinges|held|contact, or peer motion SCENARIO SECONDS";
 

@@ -11,7 +11,7 @@ use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::{Effort, Sample};
 use occupant_core::results::summary::Summarizer;
 use occupant_core::run::simulate::simulate;
-use occupant_core::scenario::{Format, Scenario};
+use occupant_scenario::{Format, Scenario};
 
 /// Stiffness of all materials in the variants.
 const VARIANTS: [f64; 8] = [0.93, 0.95, 0.97, 0.99, 1.01, 1.03, 1.05, 1.07];

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, channels as all_of};
-use occupant_core::scenario::{Draft, Format};
+use occupant_scenario::{Draft, Format};
 use placed_text::did_you_mean;
 
 use super::new::STARTER;

@@ -27,7 +27,7 @@ pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
     let opened = scenario::open(&args.scenario)?;
     scenario::warn(&opened.warnings);
     let mut diagnosis = diagnose(&opened.model);
-    diagnosis.body.compare_with_people(&opened.loaded);
+    opened.loaded.compare_with_people(&mut diagnosis.body);
     if args.json {
         talk::print(&talk::json(&diagnosis)?)?;
     } else if !args.quiet {

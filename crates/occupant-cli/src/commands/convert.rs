@@ -6,7 +6,7 @@ use cardio_legacy::{
     CompartmentLayout, ConvertOptions, Deck, FromScenario, ParseOptions, PathSource, Strictness, write_file,
 };
 use clap::ArgGroup;
-use occupant_core::scenario::{Draft, Format, Loaded};
+use occupant_scenario::{Draft, Format, Loaded};
 
 use crate::base::input_file::{deck, read};
 use crate::base::{Failure, ending, file_name, print_file, publish, refuse_input, say, with_word};

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use occupant_core::scenario::kind::UnitSystem;
+use occupant_scenario::kind::UnitSystem;
 
 use super::flags::history::interval;
 use crate::base::{Failure, deliver, note, one_of, print, refuse_input, say};

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use occupant_core::diagnosis::UnstableFriction;
 use occupant_core::results::summary::{RunStatus, Summary};
-use occupant_core::scenario::Diagnostics;
+use occupant_scenario::Diagnostics;
 use occupant_study::ending::Balance;
 use serde::Serialize;
 

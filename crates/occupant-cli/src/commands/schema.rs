@@ -1,6 +1,6 @@
 //! `occupant schema`.
 
-use occupant_core::scenario::schema;
+use occupant_scenario::schema;
 use occupant_study::schema_json;
 use serde_json::Value as Json;
 

@@ -15,7 +15,7 @@ use occupant_core::results::recorder::{Recorder, Watch};
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{RunStatus, Summarizer, Summary};
 use occupant_core::run::simulate::{replay, simulate};
-use occupant_core::scenario::Loaded;
+use occupant_scenario::Loaded;
 use occupant_study::ending::{Balance, Ending};
 
 use super::mcap::StoredRun;

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use occupant_core::model::Model;
-use occupant_core::scenario::{Diagnostics, Draft, Format, Loaded};
+use occupant_scenario::{Diagnostics, Draft, Format, Loaded};
 use placed_text::Severity;
 
 use super::mcap::StoredRun;

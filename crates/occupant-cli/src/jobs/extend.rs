@@ -10,8 +10,8 @@ use occupant_core::results::outcome::Status;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::{replay, simulate};
-use occupant_core::scenario::{Draft, Format};
 use occupant_core::vehicle::VehiclePath;
+use occupant_scenario::{Draft, Format};
 
 use crate::base::{Failure, say};
 use crate::files::mcap::StoredRun;
@@ -35,7 +35,7 @@ pub(crate) fn extend(
         _ => String::new(),
     };
     let resolver = |_: &str| Ok(beside.clone().into_bytes());
-    let refused = |problems: occupant_core::scenario::Diagnostics| Failure::CouldNotRun(problems.to_string());
+    let refused = |problems: occupant_scenario::Diagnostics| Failure::CouldNotRun(problems.to_string());
     let loaded =
         Draft::read(toml, Format::Toml, "converted scenario").and_then(|d| d.load(&resolver)).map_err(refused)?;
     let (model, _) = loaded.model().map_err(refused)?;

@@ -11,7 +11,7 @@ use occupant_core::model::setup::Setup;
 use occupant_core::results::outcome::Outcome;
 use occupant_core::results::recorder::Recorder;
 use occupant_core::run::simulate::simulate;
-use occupant_core::scenario::{Format, Scenario};
+use occupant_scenario::{Format, Scenario};
 use prost_reflect::{DescriptorPool, DynamicMessage, ReflectMessage, Value};
 
 /// The scenario of these tests.

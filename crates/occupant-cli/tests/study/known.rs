@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use occupant_cli::study::analysis::{Analysis, ByDesign};
 use occupant_cli::study::caution;
 use occupant_cli::study::samples::Samples;
-use occupant_core::scenario::{Draft, Format};
+use occupant_scenario::{Draft, Format};
 use occupant_study::analysis::{Effect, Estimate, SobolIndices};
 use occupant_study::{Study, StudyText, Value};
 

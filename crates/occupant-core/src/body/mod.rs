@@ -4,9 +4,9 @@
 //! occupant's left and Z up when the occupant stands upright with hanging arms; they are principal axes.
 
 mod mounted;
-pub(crate) mod named;
-pub(crate) mod people;
-pub(crate) mod shape;
+pub mod named;
+pub mod people;
+pub mod shape;
 pub(crate) mod tree;
 pub mod tti12;
 
@@ -149,7 +149,7 @@ impl Body {
     }
 
     /// Indices of the spheres of the part with this name, or else of the sphere.
-    pub(crate) fn spheres_called(&self, name: &str) -> Vec<usize> {
+    pub fn spheres_called(&self, name: &str) -> Vec<usize> {
         let part = (0..self.spheres.len()).filter(|i| self.spheres[*i].part == name);
         let part: Vec<usize> = part.collect();
         if part.is_empty() { self.sphere(name).into_iter().collect() } else { part }

@@ -3,18 +3,23 @@
 //! What the report's body says of a segment or a sphere holds for one of the same name: a `left_thigh` below the pelvis is
 //! the upper part of a leg, and the sphere `left_knee` is at its lower end.
 
+pub use super::tree::MissingLandmark;
+use super::tree::kept;
 use super::tree::{
     End, Joint, JointKind, JointRow, Landmarks, Limb, Pair, Place, Segment, SegmentRow, SphereRow, Tree,
 };
-use super::tree::{MissingLandmark, kept};
 use super::tti12::TTI12;
 
 /// A joint by the names of its segments.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct NamedJoint<'a> {
+pub struct NamedJoint<'a> {
+    /// Name.
     pub name: &'a str,
+    /// How it moves.
     pub kind: JointKind,
+    /// Segment nearer to the trunk.
     pub proximal: &'a str,
+    /// The other segment.
     pub distal: &'a str,
     /// Whether the distal segment hangs from its upper end.
     pub hangs: bool,
@@ -22,9 +27,12 @@ pub(crate) struct NamedJoint<'a> {
 
 /// Names of the segments that carry head, chest and pelvis, where they are not the usual ones.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct NamedLandmarks<'a> {
+pub struct NamedLandmarks<'a> {
+    /// `head` if none.
     pub head: Option<&'a str>,
+    /// `upper_torso` or `chest` if none.
     pub chest: Option<&'a str>,
+    /// `lower_torso` or `pelvis` if none.
     pub pelvis: Option<&'a str>,
     /// Whether the body is a part, which may lack any.
     pub is_part: bool,
@@ -38,7 +46,7 @@ const SHIN_ABOVE_ANKLE: f64 = 0.534;
 ///
 /// # Errors
 /// The landmark for which there is no segment.
-pub(crate) fn tree(joints: &[NamedJoint<'_>], marks: &NamedLandmarks<'_>) -> Result<&'static Tree, MissingLandmark> {
+pub fn tree(joints: &[NamedJoint<'_>], marks: &NamedLandmarks<'_>) -> Result<&'static Tree, MissingLandmark> {
     let row = |name: &str, hangs: bool| SegmentRow {
         name: kept(name),
         joint_end: if hangs { End::Upper } else { End::Lower },

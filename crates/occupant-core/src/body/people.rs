@@ -55,7 +55,7 @@ const INERTIA_KG_M2: f64 = 0.112_984_829;
 
 /// How many segments a body is divided into.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Division {
+pub enum Division {
     /// The report's.
     #[default]
     Twelve,
@@ -67,7 +67,7 @@ pub(crate) enum Division {
 
 impl Division {
     /// That of so many segments.
-    pub(crate) fn of(segments: i64) -> Option<Division> {
+    pub fn of(segments: i64) -> Option<Division> {
         match segments {
             12 => Some(Division::Twelve),
             15 => Some(Division::Fifteen),
@@ -198,9 +198,12 @@ const CHILD_10: [[f64; 3]; PARTS] = [
 
 /// A grown-up.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Person {
+pub struct Person {
+    /// Whose regressions hold.
     pub sex: Sex,
+    /// Standing height.
     pub stature_m: f64,
+    /// Mass of the whole body.
     pub mass_kg: f64,
 }
 
@@ -213,19 +216,19 @@ const PEOPLE: [(&str, Person); 4] = [
     ("male95", Person { sex: Sex::Male, stature_m: 1.869, mass_kg: 97.52 }),
 ];
 /// The person that the reference is.
-pub(crate) const REFERENCE_PERSON: Person = Person { sex: Sex::Male, stature_m: 1.7734, mass_kg: 173.55 * POUND_KG };
+pub const REFERENCE_PERSON: Person = Person { sex: Sex::Male, stature_m: 1.7734, mass_kg: 173.55 * POUND_KG };
 
 /// The persons that [`Person::is_within_reach`] accepts.
-pub(crate) const REACH: &str = "a grown-up of 1.4 to 2.05 m with a body mass index of 17 to 45 kg/m²";
+pub const REACH: &str = "a grown-up of 1.4 to 2.05 m with a body mass index of 17 to 45 kg/m²";
 
 impl Person {
     /// The one of that name.
-    pub(crate) fn named(name: &str) -> Option<Person> {
+    pub fn named(name: &str) -> Option<Person> {
         PEOPLE.iter().find(|(other, _)| *other == name).map(|(_, person)| *person)
     }
 
     /// Whether the surveys reach such a person: see [`REACH`].
-    pub(crate) fn is_within_reach(&self) -> bool {
+    pub fn is_within_reach(&self) -> bool {
         (1.4..=2.05).contains(&self.stature_m) && (17.0..=45.0).contains(&(self.mass_kg / self.stature_m.powi(2)))
     }
 
@@ -254,14 +257,29 @@ impl Person {
     }
 
     /// The body, and the factor of its masses: see the module.
-    pub(crate) fn body(&self, division: Division) -> (Body, f64) {
+    pub fn body(&self, division: Division) -> (Body, f64) {
         let (stretch, factor) = self.stretch();
         (stretch.body(division), factor)
     }
 }
 
+impl Body {
+    /// The 50th-percentile male (1.773 m, 78.7 kg) of the GEBOD generator with the report's 17 spheres, its neck's joint
+    /// where a dummy's is: `body.preset = "male50"`.
+    pub fn male50() -> Self {
+        Body { name: "male50".to_owned(), ..REFERENCE_PERSON.body(Division::default()).0 }
+    }
+
+    /// A grown-up by sex, stature and mass, as a scenario's `body.sex`, `body.stature`, `body.mass`; none where the
+    /// measurements behind it reach no such person.
+    pub fn person(sex: Sex, stature_m: f64, mass_kg: f64) -> Option<Self> {
+        let person = Person { sex, stature_m, mass_kg };
+        person.is_within_reach().then(|| person.body(Division::default()).0)
+    }
+}
+
 /// The child of a preset's name.
-pub(crate) fn child(name: &str, division: Division) -> Option<Body> {
+pub fn child(name: &str, division: Division) -> Option<Body> {
     let (rows, [shoulder_m, hip_m]) = match name {
         "child06" => (&CHILD_06, [0.1082, 0.0497]),
         "child10" => (&CHILD_10, [0.1283, 0.0597]),

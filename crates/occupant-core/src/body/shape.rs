@@ -65,7 +65,7 @@ const fn row(part: &'static str, segment: &'static str, end: &'static str, radii
 }
 
 /// Every name that a sphere or a part of a body with this tree may have without being given one by a scenario.
-pub(crate) fn names(tree: &Tree) -> Vec<String> {
+pub fn names(tree: &Tree) -> Vec<String> {
     let standard = tree.sphere_names().into_iter().chain(BESIDE.iter().map(|b| b.name)).chain(TRUNK);
     let rows = SIDES.iter().flat_map(|side| ROWS.iter().map(move |row| format!("{side}_{}", row.part)));
     let in_row = |part: String| [part.clone()].into_iter().chain((1..=MOST_IN_ROW).map(move |i| format!("{part}_{i}")));
@@ -73,7 +73,7 @@ pub(crate) fn names(tree: &Tree) -> Vec<String> {
 }
 
 /// The spheres without gaps of a body that has `report`, the report's spheres.
-pub(crate) fn full(body: &Body, report: Vec<ContactSphere>) -> Vec<ContactSphere> {
+pub fn full(body: &Body, report: Vec<ContactSphere>) -> Vec<ContactSphere> {
     let of = |name: &str| report.iter().find(|sphere| sphere.name == name);
     let beside = BESIDE.iter().filter_map(|b| {
         let of = of(b.of)?;
@@ -145,6 +145,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     use super::*;
+    use crate::body::people::{Division, Person, child};
 
     fn body() -> Body {
         let body = Body::male50();
@@ -172,8 +173,9 @@ mod tests {
     /// From sphere to sphere along each limb no gap is wider than 1.6 mean radii, joints and ends included.
     #[test]
     fn limbs_have_no_holes() {
-        for name in ["male50", "male50-1970", "female05", "male95", "child06"] {
-            let report = Body::preset(name).expect("a preset");
+        for name in ["male50", "female05", "male95", "child06"] {
+            let grown = Person::named(name).map(|person| person.body(Division::Twelve).0);
+            let report = grown.or_else(|| child(name, Division::Twelve)).expect("a preset");
             let body = Body { spheres: full(&report, report.spheres.clone()), ..report };
             let places = body.standing_m();
             for (part, ends) in

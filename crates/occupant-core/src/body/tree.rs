@@ -128,7 +128,7 @@ pub struct JointRow {
 
 impl JointRow {
     /// The side that the joint is on.
-    pub(crate) fn side(&self) -> Option<Side> {
+    pub fn side(&self) -> Option<Side> {
         match self.place {
             Place::Beside(_, side) => Some(side),
             Place::Given if self.name.starts_with("left_") => Some(Side::Left),
@@ -138,7 +138,7 @@ impl JointRow {
     }
 
     /// Whether the body hangs the other way on this joint, from a mount beyond it: its distal segment carries the proximal.
-    pub(crate) fn is_reversed(&self) -> bool {
+    pub fn is_reversed(&self) -> bool {
         self.proximal > self.distal
     }
 
@@ -155,7 +155,7 @@ impl JointRow {
     }
 
     /// True for elbows and knees, and where two axes are free.
-    pub(crate) const fn is_hinge(&self) -> bool {
+    pub const fn is_hinge(&self) -> bool {
         matches!(self.kind, JointKind::Hinge | JointKind::Universal)
     }
 }
@@ -236,7 +236,7 @@ pub struct Tree {
 
 /// A landmark for which a body has no segment, by its key in a scenario.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct MissingLandmark(pub &'static str);
+pub struct MissingLandmark(pub &'static str);
 
 /// A name that is kept to the end of the program, once for all that are spelt so.
 pub(crate) fn kept(name: &str) -> &'static str {
@@ -342,18 +342,18 @@ impl Tree {
     }
 
     /// The segment with this name.
-    pub(crate) fn segment_named(&self, name: &str) -> Option<Segment> {
+    pub fn segment_named(&self, name: &str) -> Option<Segment> {
         self.segments().find(|s| self[*s].name == name)
     }
 
     /// The joint with this name.
-    pub(crate) fn joint_named(&self, name: &str) -> Option<Joint> {
+    pub fn joint_named(&self, name: &str) -> Option<Joint> {
         self.joints().find(|j| self[*j].name == name)
     }
 
     /// The joint by which a segment hangs on one nearer to the first, which hangs on none: [`Tree::carrier`] but where the way
     /// to a mount goes against it.
-    pub(crate) fn bearer(&self, segment: Segment) -> Option<Joint> {
+    pub fn bearer(&self, segment: Segment) -> Option<Joint> {
         self.joints().find(|joint| self[*joint].carrying()[1] == segment)
     }
 

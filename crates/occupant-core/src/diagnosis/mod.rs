@@ -3,7 +3,6 @@
 //! All figures are those of the start of the run. Ours; the report prints the seating only.
 
 mod friction;
-mod people;
 mod rates;
 mod start;
 

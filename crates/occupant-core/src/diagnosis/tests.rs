@@ -2,6 +2,7 @@ use nalgebra::{SymmetricEigen, Vector3};
 
 use super::*;
 use crate::body::tti12::TTI12;
+use crate::model::setup::{Integrator, Setup};
 use crate::motion::dynamics::{Wrench, solve};
 use crate::motion::frame::Moving;
 use crate::motion::kinematics::Kinematics;
@@ -10,52 +11,17 @@ use crate::motion::mobility::greatest;
 use crate::motion::vector::V3;
 use crate::results::energy::kinetic;
 use crate::run::simulate::simulate;
-use crate::scenario::{Format, Scenario};
-
-/// A model from a scenario text.
-pub(crate) fn model_of(text: &str) -> Model {
-    let loaded = Scenario::from_text(text, Format::Toml, "test", &|_| Err("none".into()));
-    let loaded = loaded.unwrap_or_else(|problems| panic!("{problems}"));
-    loaded.model().map(|(model, _)| model).unwrap_or_else(|problems| panic!("{problems}"))
-}
+use crate::tests::{crooked, hard, lowest_m};
 
 /// A body in a crooked posture that nothing touches.
-pub(crate) fn free_body() -> Model {
-    let q: Vec<String> = (0..31).map(|i| format!("{:.2}", 0.3 + 0.07 * f64::from(i))).collect();
-    let rates = ["0.0"; 31].join(", ");
-    model_of(&format!(
-        "title = \"free\"\ntime = {{ end = 0.1 }}\npath = {{ kind = \"fixed\" }}\nbody = {{ preset = \"male50\" }}\n\
-         joints = {{ preset = \"male50\" }}\ninitial_state = {{ q = [{}], rates = [{rates}] }}\n",
-        q.join(", ")
-    ))
-}
-
-/// Height of the lowest point of the spheres of [`free_body`], m.
-pub(crate) fn lowest_m() -> f64 {
-    let model = free_body();
-    let mobility = mobility_of(&model);
-    let spheres = model.body().spheres.iter().enumerate();
-    let bottom = spheres.map(|(i, sphere)| {
-        let (_, centre, _) = model.system().sphere(&mobility.kinematics, i);
-        centre.z - sphere.radius_m
-    });
-    bottom.fold(f64::INFINITY, f64::min)
+fn free_body() -> Model {
+    Model::new(crooked(0.1, None)).unwrap()
 }
 
 /// The same body over a floor in space that its lowest spheres press by a little.
-fn standing_on(friction: f64, step: &str) -> Model {
-    let q: Vec<String> = (0..31).map(|i| format!("{:.2}", 0.3 + 0.07 * f64::from(i))).collect();
-    let rates = ["0.0"; 31].join(", ");
-    model_of(&format!(
-        "title = \"floor\"\ntime = {{ end = 0.02 }}\npath = {{ kind = \"fixed\" }}\nbody = {{ preset = \"male50\" }}\n\
-         joints = {{ preset = \"male50\" }}\ninitial_state = {{ q = [{}], rates = [{rates}] }}\n\
-         integrator = {{ kind = \"rk4\", step = \"{step}\" }}\n\
-         [materials]\nfloor = {{ k1 = \"50 kN/m\", mu1 = 0.5, friction = {friction} }}\n\
-         [surfaces.floor]\nmaterial = \"floor\"\nframe = \"space\"\nfacing = \"order\"\n\
-         plane = {{ point = [0, 0, {}], normal = [0, 0, 1] }}\n",
-        q.join(", "),
-        lowest_m() + 0.005
-    ))
+fn standing_on(friction: f64, step_ms: f64) -> Model {
+    let setup = crooked(0.02, Some((lowest_m() + 0.005, hard(friction))));
+    Model::new(Setup { integrator: Integrator::Rk4 { step_s: 1e-3 * step_ms }, ..setup }).unwrap()
 }
 
 #[test]
@@ -90,7 +56,7 @@ fn an_impulse_at_a_point_gives_the_kinetic_energy_that_its_mobility_says() {
 
 #[test]
 fn a_spring_rate_is_that_of_stiffness_and_mass() {
-    let d = diagnose(&standing_on(0.5, "0.1 ms"));
+    let d = diagnose(&standing_on(0.5, 0.1));
     assert_eq!(d.sphere_rates.len(), 17);
     for s in &d.sphere_rates {
         // 50 kN/m at μ₁ = 0.5 unloads at 100 kN/m
@@ -108,10 +74,10 @@ fn a_spring_rate_is_that_of_stiffness_and_mass() {
 
 #[test]
 fn a_step_beyond_the_stability_limit_is_found() {
-    let stable = diagnose(&standing_on(0.5, "0.1 ms"));
+    let stable = diagnose(&standing_on(0.5, 0.1));
     let number = stable.step_by_time_scale.unwrap();
     let limit_ms = 0.1 * RK4_STABILITY_LIMIT / number;
-    let just = |factor: f64| diagnose(&standing_on(0.5, &format!("{} ms", limit_ms * factor)));
+    let just = |factor: f64| diagnose(&standing_on(0.5, limit_ms * factor));
     assert!(just(0.99).step_is_stable());
     assert!(!just(1.01).step_is_stable());
 }
@@ -119,13 +85,13 @@ fn a_step_beyond_the_stability_limit_is_found() {
 #[test]
 fn friction_warns_where_its_stability_number_passes_two() {
     // the watch and the limit of `check` are two ways to the same number
-    let model = standing_on(0.8, "0.1 ms");
+    let model = standing_on(0.8, 0.1);
     let mut watch = FrictionWatch::new();
     simulate(&model, &mut watch).unwrap();
     assert!(watch.unstable(&model).is_empty(), "{:?}", watch.unstable(&model));
     assert!(watch.warnings(&model).is_empty());
 
-    let slippery = standing_on(2000.0, "0.1 ms");
+    let slippery = standing_on(2000.0, 0.1);
     let mut watch = FrictionWatch::new();
     simulate(&slippery, &mut watch).unwrap();
     let found = watch.unstable(&slippery);
@@ -144,7 +110,7 @@ fn friction_warns_where_its_stability_number_passes_two() {
 
 #[test]
 fn contacts_at_the_start_are_those_of_the_first_output() {
-    let d = diagnose(&standing_on(0.5, "0.1 ms"));
+    let d = diagnose(&standing_on(0.5, 0.1));
     assert!(!d.contacts.is_empty());
     for c in &d.contacts {
         assert_eq!(c.surface, "floor");

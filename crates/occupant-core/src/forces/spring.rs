@@ -12,7 +12,7 @@ use crate::motion::scalar::Scalar;
 use placed_text::Problems;
 
 /// A fraction below this counts as this, so that μ = 0 is a very steep drop.
-pub(crate) const LEAST_FRACTION: f64 = 0.01;
+pub const LEAST_FRACTION: f64 = 0.01;
 /// What yields gives back less of its energy than this.
 const YIELDING: f64 = 0.5;
 

@@ -26,7 +26,7 @@ use crate::vehicle::VehiclePath;
 pub const STANDARD_GRAVITY_M_S2: f64 = 9.80665;
 
 /// Time between two outputs where nobody says otherwise.
-pub(crate) const DEFAULT_OUTPUT_S: f64 = 1e-3;
+pub const DEFAULT_OUTPUT_S: f64 = 1e-3;
 
 /// Start, end and output times.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,17 +106,20 @@ pub struct OutputOptions {
     /// Also record the report's q₁…q₃₁ and their rates.
     pub report_coordinates: bool,
     /// Points of segments whose motion is recorded.
-    pub(crate) markers: Vec<Marker>,
+    pub markers: Vec<Marker>,
 }
 
 /// A named point of a segment whose motion is recorded.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Marker {
-    pub(crate) name: String,
-    pub(crate) segment: Segment,
+pub struct Marker {
+    /// Name in results.
+    pub name: String,
+    /// The segment that carries it.
+    pub segment: Segment,
     /// Segment axes.
-    pub(crate) place_from_lower_end_m: Point3<f64>,
-    pub(crate) frame: MarkerFrame,
+    pub place_from_lower_end_m: Point3<f64>,
+    /// Who sees its motion.
+    pub frame: MarkerFrame,
 }
 
 impl Marker {
@@ -130,7 +133,7 @@ impl Marker {
 /// Who sees the motion of a marker.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub(crate) enum MarkerFrame {
+pub enum MarkerFrame {
     /// The vehicle.
     #[default]
     Vehicle,

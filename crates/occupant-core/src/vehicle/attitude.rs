@@ -27,7 +27,7 @@ const LOCKED_COSINE: f64 = 1e-9;
 
 impl Attitude {
     /// The matrix A (3×3) that turns vehicle components into vehicle-space components (78).
-    pub(crate) fn matrix(&self) -> Matrix3<f64> {
+    pub fn matrix(&self) -> Matrix3<f64> {
         Trigonometry::of(self.to_vector()).matrix()
     }
 

@@ -39,7 +39,7 @@ pub use cursor::PathCursor;
 pub use fixed::FixedPath;
 pub use frame::FrameMotion;
 pub use own::{OwnPath, VehicleMotion, VehicleState};
-pub(crate) use problem::PathProblem;
+pub use problem::PathProblem;
 pub use pulse::{DecelerationPoint, PulseDefinition, PulsePath, PulseShape, Stop, Strength, TravelDirection};
 pub use sensors::{AccelerationRecord, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord};
 pub use station::{Station, unwrap_angles};

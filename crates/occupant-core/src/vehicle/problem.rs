@@ -7,11 +7,11 @@ use std::fmt::Display;
 #[error("{found}, expected {expected}")]
 pub struct PathProblem {
     /// The station, sample or point of a tabulated pulse that it is about, from 0; the words count them from 1.
-    pub(crate) station: Option<usize>,
+    pub station: Option<usize>,
     /// What was found.
-    pub(crate) found: String,
+    pub found: String,
     /// What was expected, and how to mend it.
-    pub(crate) expected: String,
+    pub expected: String,
 }
 
 impl PathProblem {

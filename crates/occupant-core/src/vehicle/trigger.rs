@@ -7,13 +7,13 @@ const LOOK_S: f64 = 5e-5;
 
 impl VehiclePath {
     /// Whether its accelerations are known: a table that is read along straight lines has none.
-    pub(crate) fn has_accelerations(&self) -> bool {
+    pub fn has_accelerations(&self) -> bool {
         !matches!(self, VehiclePath::Table(table) if table.interpolation() == Interpolation::Linear)
     }
 
     /// The first time of a span, s, at which the acceleration of the vehicle's centre of gravity along its floor has been at
     /// least `threshold_m_s2` for `for_s` without a break; none if it never is.
-    pub(crate) fn jolt_s(&self, [start_s, end_s]: [f64; 2], threshold_m_s2: f64, for_s: f64) -> Option<f64> {
+    pub fn jolt_s(&self, [start_s, end_s]: [f64; 2], threshold_m_s2: f64, for_s: f64) -> Option<f64> {
         let mut cursor = PathCursor::default();
         let mut excess = |t_s: f64| {
             let motion = self.motion(t_s, t_s, &mut cursor);
@@ -36,7 +36,7 @@ impl VehiclePath {
 
     /// The first time of a span, s, at which the change of speed along the vehicle's floor has reached `threshold_m_s` since
     /// its acceleration last rose above `wake_m_s2`; none if it never does.
-    pub(crate) fn change_s(&self, [start_s, end_s]: [f64; 2], threshold_m_s: f64, wake_m_s2: f64) -> Option<f64> {
+    pub fn change_s(&self, [start_s, end_s]: [f64; 2], threshold_m_s: f64, wake_m_s2: f64) -> Option<f64> {
         let mut cursor = PathCursor::default();
         let mut acceleration = |t_s: f64| {
             let motion = self.motion(t_s, t_s, &mut cursor);

@@ -5,7 +5,7 @@ use crate::design::Design;
 use crate::ensemble::Ensemble;
 use crate::parameter::Parameter;
 use crate::sobol::MAX_DIMENSIONS;
-use occupant_core::scenario::Resolver;
+use occupant_scenario::Resolver;
 use placed_text::Problem;
 
 /// More runs than this are a slip of the pen: they take months.

@@ -6,7 +6,7 @@ use super::parameters::paths_at;
 use crate::ensemble::{self, Change, Ensemble, Perturbation};
 use crate::parameter::{Parameter, Target};
 use crate::section::{ApplyChoice, PerturbationSection};
-use occupant_core::scenario::Draft;
+use occupant_scenario::Draft;
 
 /// The ensemble of a study, if it has one. Without any tolerance it has the standard ones.
 pub(super) fn bind(binder: &mut Binder, base: &Draft, parameters: &[Parameter]) -> Option<Ensemble> {

@@ -5,7 +5,7 @@ use super::Binder;
 use crate::law::{Distribution, Law, Value};
 use crate::parameter::{Assignment, Parameter, put};
 use crate::section::ApplyChoice;
-use occupant_core::scenario::{Diagnostics, Draft, Place};
+use occupant_scenario::{Diagnostics, Draft, Place};
 use placed_text::{Problem, Severity};
 
 /// The part of a normal distribution beyond which values out of range are not looked for.

@@ -7,8 +7,8 @@ use crate::fit::Fit;
 use crate::fit_section::{FitChannel, FitSection, FitTest};
 use crate::{Parameter, Study, StudyText};
 use crash_measures::trig::ln;
-use occupant_core::scenario::Time;
-use occupant_core::scenario::{Diagnostics, Draft, Resolver};
+use occupant_scenario::Time;
+use occupant_scenario::{Diagnostics, Draft, Resolver};
 use placed_text::{Problem, Value};
 
 /// Evaluations for each parameter.

@@ -3,8 +3,8 @@
 use super::Binder;
 use crate::law::{Distribution, Law, Value};
 use crate::section::{ApplyChoice, GridSection, ParameterSection, ScaleChoice};
-use occupant_core::scenario::Wanted;
-use occupant_core::scenario::kind::{KINDS, Kind, RATIO, UnitSystem};
+use occupant_scenario::Wanted;
+use occupant_scenario::kind::{KINDS, Kind, RATIO, UnitSystem};
 use placed_text::{Value as Written, did_you_mean, one_of};
 
 /// How the values of one parameter are to be read.

@@ -20,8 +20,8 @@ use super::keep::Keep;
 use super::parameter::Parameter;
 use super::sobol::Sobol;
 use super::text::StudyText;
-use occupant_core::scenario::kind::UnitSystem;
-use occupant_core::scenario::{Diagnostics, Draft, Resolver, Wanted};
+use occupant_scenario::kind::UnitSystem;
+use occupant_scenario::{Diagnostics, Draft, Resolver, Wanted};
 use placed_text::{Problem, Value, with_key};
 
 impl StudyText {

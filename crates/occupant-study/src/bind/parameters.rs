@@ -7,7 +7,7 @@ use crate::law::{Distribution, Law};
 use crate::parameter::{Parameter, Target, si_unit};
 use crate::section::{ApplyChoice, ParameterSection};
 use crate::segments::{segments, size};
-use occupant_core::scenario::{Place, Wanted};
+use occupant_scenario::{Place, Wanted};
 
 impl Binder<'_> {
     /// The parameters that have found their places; a broken one is reported and left out.

@@ -5,8 +5,8 @@ use super::law::kind_of;
 use crate::law::{Law, Value};
 use crate::parameter::{Parameter, Target, si_unit};
 use crate::section::ApplyChoice;
-use occupant_core::scenario::kind::Kind;
-use occupant_core::scenario::{Diagnostic, Resolver, Wanted};
+use occupant_scenario::kind::Kind;
+use occupant_scenario::{Diagnostic, Resolver, Wanted};
 use placed_text::{Cell, Problem, Separator, Sources, Span, lines, name_and_unit, one_of, text_of};
 
 /// How the cells of a column are read.

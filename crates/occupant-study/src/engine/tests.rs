@@ -1,6 +1,6 @@
 //! Every run has its row, whatever happens to the others and however many threads there are.
 
-use occupant_core::scenario::{Draft, Format};
+use occupant_scenario::{Draft, Format};
 
 use super::*;
 

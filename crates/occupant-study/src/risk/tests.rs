@@ -5,11 +5,11 @@ use nalgebra::Vector3;
 use super::*;
 use crash_measures::measure::limits::{Grade, Rule};
 use crash_measures::signal::{CfcFamily, ChannelClass, STANDARD_GRAVITY_MPS2 as G, SignalError};
-use occupant_core::scenario::read_record;
 use occupant_core::vehicle::{
     AccelerationRecord, AfterEnd, Interpolation, PulseDefinition, PulsePath, PulseShape, Station, Strength, TablePath,
     TravelDirection, VehiclePath, VehiclePose,
 };
+use occupant_scenario::read_record;
 
 /// Accelerations in g and a yaw rate in deg/s, all constant over 0.2 s; the other rates are zero.
 fn steady(x_g: f64, y_g: f64, z_g: f64, yaw_rate: f64, dt_s: f64) -> AccelerationRecord {

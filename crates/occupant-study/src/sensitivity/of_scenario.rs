@@ -3,7 +3,7 @@
 use super::parameter::{Parameter, size_of};
 use crate::parameter::put;
 use crate::{ApplyChoice, Law, Target, Value};
-use occupant_core::scenario::{Draft, Resolver, Wanted};
+use occupant_scenario::{Draft, Resolver, Wanted};
 use placed_text::Problem;
 
 /// The parameter at a path: the number that stands there, or for a path to several numbers, such as `joints.*.damping`, a

@@ -97,11 +97,11 @@ fn a_tolerance_without_a_place_is_told() {
     assert!(!words.is_empty());
     let fixed = super::StudyText::read(
         "base = \"f.toml\"\nensemble = { members = 8, path = 0.01 }",
-        occupant_core::scenario::Format::Toml,
+        occupant_scenario::Format::Toml,
         "study.toml",
     );
     let free_fall = include_str!("../../../../scenarios/free-fall.toml");
-    let draft = occupant_core::scenario::Draft::read(free_fall, occupant_core::scenario::Format::Toml, "f.toml");
+    let draft = occupant_scenario::Draft::read(free_fall, occupant_scenario::Format::Toml, "f.toml");
     let words = fixed.unwrap().bind(draft.unwrap(), &[], &super::no_files).unwrap_err().to_string();
     assert_eq!(
         words,

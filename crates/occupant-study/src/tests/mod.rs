@@ -12,7 +12,7 @@ mod segments;
 mod tables;
 
 use super::{Study, StudyText, Value};
-use occupant_core::scenario::{Diagnostics, Draft, Format};
+use occupant_scenario::{Diagnostics, Draft, Format};
 
 /// The shortest useful scenario.
 const SHORT: &str = include_str!("short.toml");

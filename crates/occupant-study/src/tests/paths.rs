@@ -6,7 +6,7 @@ use occupant_core::body::Joint;
 use occupant_core::body::tti12;
 use occupant_core::forces::joint::{JointLaw, Joints};
 use occupant_core::model::setup::Setup;
-use occupant_core::scenario::Format;
+use occupant_scenario::Format;
 
 fn setup(study: &super::Study, index: u64) -> Setup {
     let draft = study.draft(index).unwrap();

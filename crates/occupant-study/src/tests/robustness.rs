@@ -2,7 +2,7 @@
 
 use super::super::StudyText;
 use super::{base, no_files};
-use occupant_core::scenario::Format;
+use occupant_scenario::Format;
 
 const STUDY: &str = r#"base = "short.toml"
 units = "in-lbf-s"

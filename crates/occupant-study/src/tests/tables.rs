@@ -2,7 +2,7 @@
 
 use super::super::{StudyText, Value};
 use super::base;
-use occupant_core::scenario::{Diagnostics, Format};
+use occupant_scenario::{Diagnostics, Format};
 
 const STUDY: &str = "base = \"short.toml\"
 design = { kind = \"table\", file = \"samples.csv\" }

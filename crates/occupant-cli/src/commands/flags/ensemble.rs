@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use crash_measures::unit::UnitError;
 use occupant_core::run::batch::Kernel;
-use occupant_core::scenario::Draft;
-use occupant_core::scenario::kind::{self, KINDS, UnitSystem};
+use occupant_scenario::Draft;
+use occupant_scenario::kind::{self, KINDS, UnitSystem};
 use occupant_study::{Study, Tolerances};
 use placed_text::Value;
 

@@ -1,6 +1,6 @@
 //! Flags that exports, plots, comparisons and prints share: times, signals of a test.
 
-use occupant_core::scenario::kind::{KINDS, TIME};
+use occupant_scenario::kind::{KINDS, TIME};
 
 use crate::files::measured::MapArgument;
 

@@ -1,7 +1,7 @@
 //! What `occupant risk` measures: recorded data, or the path of a scenario or run.
 
 use crash_measures::signal::{ChannelClass, STANDARD_GRAVITY_MPS2, SignalError};
-use occupant_core::scenario::{Diagnostics, RecordFile, read_record};
+use occupant_scenario::{Diagnostics, RecordFile, read_record};
 use occupant_study::risk::{Preparation, Unprepared, VehicleSignals, prepare};
 
 use super::Args;

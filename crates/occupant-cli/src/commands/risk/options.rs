@@ -1,6 +1,6 @@
 //! The flags of `occupant risk` in SI.
 
-use occupant_core::scenario::kind::{KINDS, LENGTH, TIME};
+use occupant_scenario::kind::{KINDS, LENGTH, TIME};
 use occupant_study::risk::{Flight, Preparation, VerticalGravity};
 
 use super::Args;

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use occupant_core::results::channel::{Channel, channels, find};
-use occupant_core::scenario::Draft;
+use occupant_scenario::Draft;
 use occupant_study::{Fit, FitChannel, FitTest, Study, StudyText};
 
 use super::target::filter_of;

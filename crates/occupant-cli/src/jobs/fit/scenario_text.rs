@@ -3,7 +3,7 @@
 //! The numbers are put into the text itself. The text counts only if it says the same scenario as the program's own
 //! changes do; where it cannot (a list that only a preset has, a text in JSON), the scenario is written anew.
 
-use occupant_core::scenario::{Draft, Format, Scenario};
+use occupant_scenario::{Draft, Format, Scenario};
 use occupant_study::{Assignment, Parameter};
 use placed_text::{Step, parse_path};
 use serde::Serialize;

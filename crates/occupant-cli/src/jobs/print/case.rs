@@ -6,7 +6,7 @@ use occupant_core::body::tti12::TTI12;
 use occupant_core::forces::contact::PairHistory;
 use occupant_core::model::Model;
 use occupant_core::results::summary::RunStatus;
-use occupant_core::scenario::Loaded;
+use occupant_scenario::Loaded;
 
 use cardio_legacy::{CompartmentLayout, passed_pairs};
 

@@ -2,7 +2,7 @@
 
 use crash_measures::unit::Shown;
 use crash_measures::unit::Unit as Measured;
-use occupant_core::scenario::kind::UnitSystem;
+use occupant_scenario::kind::UnitSystem;
 
 /// A unit of the printout with the decimals that are worth printing.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! What is measured: a file of recorded data, or the path of a scenario's vehicle.
 
 use occupant_core::model::setup::Setup;
-use occupant_core::scenario::RecordFile;
 use occupant_core::vehicle::{AccelerationRecord, Attitude, Interpolation, PathCursor, VehiclePath};
+use occupant_scenario::RecordFile;
 use occupant_study::risk::sampled;
 
 /// Where the motion comes from.

@@ -1,6 +1,6 @@
 //! What differs between two scenarios, key by key.
 
-use occupant_core::scenario::Scenario;
+use occupant_scenario::Scenario;
 use serde_json::Value;
 
 /// Keys that say when a run ends, or are words alone.

@@ -143,7 +143,7 @@ fn same_scenario(file: &Path, stored: &StoredRun, opened: &Opened) -> Result<(),
     let (theirs, ..) = scenario::stored(file, stored)?;
     let mut found = differences(theirs.explicit(), opened.loaded.explicit())
         .map_err(|e| Failure::plain(format!("the scenarios cannot be compared: {e}")))?;
-    let table = |loaded: &occupant_core::scenario::Loaded| loaded.table().map(|(_, text)| sha256(text.as_bytes()));
+    let table = |loaded: &occupant_scenario::Loaded| loaded.table().map(|(_, text)| sha256(text.as_bytes()));
     if table(&theirs) != table(&opened.loaded) {
         found.push("the content of the path's table".to_owned());
     }

@@ -7,7 +7,7 @@ use occupant_core::model::Model;
 use occupant_core::results::outcome::Status;
 use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::run::simulate::simulate;
-use occupant_core::scenario::{Draft, Resolver};
+use occupant_scenario::{Draft, Resolver};
 use occupant_study::sensitivity::finite::{CHANGES, Comparison, Finite, compare, finite_changes};
 use occupant_study::sensitivity::measures::{Derivatives, Request, Values, chosen, derivatives, plain_values};
 use occupant_study::sensitivity::{Built, Parameter, Trajectory, follow, parameter};

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use occupant_core::model::Model;
 use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::run::simulate::simulate;
-use occupant_core::scenario::{Diagnostics, Draft, Loaded};
+use occupant_scenario::{Diagnostics, Draft, Loaded};
 use occupant_study::{Design, Law, Parameter, Setting, Study, StudyText, Value};
 use placed_text::Value as Written;
 

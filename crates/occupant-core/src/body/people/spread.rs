@@ -42,7 +42,7 @@ const QUANTILE_95: f64 = 1.645;
 impl Person {
     /// Within which part of its length 90 % of such people are, to both sides: 1.645 standard errors over the measure that
     /// the segment's length grows with. None for a segment of another name.
-    pub(crate) fn length_band(&self, segment: &str) -> Option<f64> {
+    pub fn length_band(&self, segment: &str) -> Option<f64> {
         let side = ["left_", "right_"].iter().find_map(|side| segment.strip_prefix(side));
         let part = NAMES.iter().find(|(name, _)| *name == side.unwrap_or(segment))?.1;
         let [first, second] = ERRORS_MM[part][usize::from(self.sex == Sex::Female)];

@@ -5,7 +5,7 @@ use nalgebra::{Point3, Vector3};
 use crate::forces::function::Function;
 
 /// A time after every run, s; a force that no belt reaches, N.
-pub(crate) const NEVER: f64 = 1e30;
+pub const NEVER: f64 = 1e30;
 
 /// A belt that runs from its first node over others to its last.
 #[derive(Clone, Debug, PartialEq)]

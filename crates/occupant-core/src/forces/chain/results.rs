@@ -27,30 +27,33 @@ pub struct StrapAction<S> {
     /// T, N.
     pub force: S,
     /// ε.
-    pub(crate) strain: S,
-    /// Length that it lies at, m, and N.
-    pub(crate) length: S,
-    pub(crate) unstretched: S,
+    pub strain: S,
+    /// Length that it lies at, m.
+    pub length: S,
+    /// N, its length without tension, m.
+    pub unstretched: S,
     /// Webbing that has come into it where it begins since the start, unstretched, m: of a spool the payout.
-    pub(crate) fed: S,
+    pub fed: S,
     /// Its speed, of the first strap, m/s.
-    pub(crate) fed_speed: S,
+    pub fed_speed: S,
     /// Phase of the device where it begins; 0 of a ring.
-    pub(crate) phase: S,
+    pub phase: S,
     /// θ where it begins, rad.
-    pub(crate) turn: S,
+    pub turn: S,
     /// 1 while the webbing passes the node where it begins.
-    pub(crate) passes: S,
-    /// Recoverable, limiter included; lost in it and where it begins; work of actuators; J.
-    pub(crate) stored: S,
-    pub(crate) lost: S,
-    pub(crate) driven: S,
+    pub passes: S,
+    /// Recoverable, limiter included, J.
+    pub stored: S,
+    /// Lost in it and where it begins, J.
+    pub lost: S,
+    /// Work of actuators, J.
+    pub driven: S,
     /// Webbing that the solution leaves over, m.
-    pub(crate) residual: S,
+    pub residual: S,
     /// Ends, vehicle axes, m.
-    pub(crate) ends: [V3<S>; 2],
+    pub ends: [V3<S>; 2],
     /// Force of the webbing on the node where it begins, vehicle axes, N.
-    pub(crate) node_force: V3<S>,
+    pub node_force: V3<S>,
     /// The spheres that it wraps.
     arcs: [Arc<S>; MOST_ARCS],
 }

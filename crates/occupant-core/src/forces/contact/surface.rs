@@ -64,7 +64,7 @@ impl Outline {
 }
 
 /// Axis of a steering wheel that stands upright across the vehicle, its top tilted forward by `tilt_rad`.
-pub(crate) fn wheel_axis(frame: Frame, tilt_rad: f64) -> Vector3<f64> {
+pub fn wheel_axis(frame: Frame, tilt_rad: f64) -> Vector3<f64> {
     // Rearward and up: N̂ = (−cos τ, 0, −sin τ) in vehicle axes, z down; z is up in space.
     let (sin, cos) = trig::sin_cos(tilt_rad);
     match frame {

@@ -12,7 +12,7 @@ use crate::motion::scalar::Scalar;
 
 /// Constants of a force function.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct FunctionLaw<S> {
+pub struct FunctionLaw<S> {
     pieces: Vec<Piece<S>>,
     /// Its last point, and where it ends for good; 1e300 of what has none.
     end: S,
@@ -39,13 +39,14 @@ struct Piece<S> {
 }
 
 impl FunctionLaw<f64> {
-    pub(crate) fn new(data: &Function) -> Self {
+    /// The law of a function.
+    pub fn new(data: &Function) -> Self {
         let stop = if data.beyond == Beyond::Limits { data.end() } else { NOWHERE };
         FunctionLaw { end: data.end(), stop, ..Self::of(data.pieces()) }
     }
 
     /// c₁x + c₂x² + c₃x³, of which everywhere the share μ comes back.
-    pub(crate) fn polynomial([c1, c2, c3]: [f64; 3], returned: f64) -> Self {
+    pub fn polynomial([c1, c2, c3]: [f64; 3], returned: f64) -> Self {
         Self::of([(Cubic { from: 0.0, c: [0.0, c1, c2, c3] }, returned)])
     }
 
@@ -159,13 +160,13 @@ impl<S: Scalar> FunctionLaw<S> {
 
     /// f.
     #[inline(always)]
-    pub(crate) fn value(&self, x: S) -> S {
+    pub fn value(&self, x: S) -> S {
         self.piece(|next| next.f.from.lt(x)).f.value(x)
     }
 
     /// M, the recoverable energy, and what is lost up to x*.
     #[inline(always)]
-    pub(crate) fn returned_to(&self, loading: S) -> [S; 3] {
+    pub fn returned_to(&self, loading: S) -> [S; 3] {
         self.piece(|next| next.f.from.lt(loading)).returned_to(loading)
     }
 

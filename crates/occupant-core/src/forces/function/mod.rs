@@ -11,7 +11,7 @@ mod dissipation;
 pub(crate) mod steps;
 
 pub(crate) use cubic::Cubic;
-pub(crate) use curve::FunctionLaw;
+pub use curve::FunctionLaw;
 pub(crate) use data::Goes;
 pub use data::{Beyond, ForceDeflection, Function, Shape, Unloading};
 pub(crate) use deflection::DeflectionLaw;

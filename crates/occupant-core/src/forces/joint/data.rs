@@ -98,16 +98,16 @@ pub struct Joints {
     tree: &'static Tree,
     laws: Vec<JointLaw>,
     /// Elastic limits, dry friction and locks, in the tree's order.
-    pub(crate) limits: Vec<Limits>,
+    pub limits: Vec<Limits>,
     /// Muscles, in the tree's order.
-    pub(crate) muscles: Vec<Muscle>,
+    pub muscles: Vec<Muscle>,
     /// ε that keeps β smooth where the two Z axes are parallel; 0 is the report's formula.
     pub epsilon: f64,
 }
 
 impl Joints {
     /// ε unless a scenario says otherwise.
-    pub(crate) const EPSILON: f64 = 1e-3;
+    pub const EPSILON: f64 = 1e-3;
 
     /// Free joints: no damping, no stop, no spring.
     pub fn free(tree: &'static Tree) -> Self {
@@ -122,7 +122,7 @@ impl Joints {
     }
 
     /// Those of them that a tree has which is a part of this one.
-    pub(crate) fn of_tree(self, tree: &'static Tree) -> Self {
+    pub fn of_tree(self, tree: &'static Tree) -> Self {
         if std::ptr::eq(self.tree, tree) {
             return self;
         }

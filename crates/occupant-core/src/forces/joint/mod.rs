@@ -3,9 +3,10 @@
 mod check;
 mod data;
 mod law;
-pub(crate) mod limit;
-pub(crate) mod muscle;
+pub mod limit;
+pub mod muscle;
 mod posture;
+mod preset;
 mod rates;
 
 pub use data::*;

@@ -1,32 +1,20 @@
 use super::*;
 use crate::body::tti12::HEAD;
-use crate::diagnosis::tests::{lowest_m, model_of};
 use crate::model::Model;
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
 use crate::run::simulate::simulate;
-use crate::scenario::{Draft, Format};
+use crate::tests::{crooked, hard, lowest_m};
 use crash_measures::injury::Options;
 use crash_measures::measure::Dummy;
 
-fn falling(floor: &str, end_s: f64) -> Model {
-    let q: Vec<String> = (0..31).map(|i| format!("{:.2}", 0.3 + 0.07 * f64::from(i))).collect();
-    let rates = ["0.0"; 31].join(", ");
-    model_of(&format!(
-        "title = \"fall\"\ntime = {{ end = {end_s} }}\npath = {{ kind = \"fixed\" }}\nbody = {{ preset = \"male50\" }}\n\
-         joints = {{ preset = \"male50\" }}\ninitial_state = {{ q = [{}], rates = [{rates}] }}\n{floor}",
-        q.join(", ")
-    ))
+fn falling(floor: Option<f64>, end_s: f64) -> Model {
+    Model::new(crooked(end_s, floor.map(|height_m| (height_m, hard(0.5))))).unwrap()
 }
 
-/// A floor in space 5 cm below the lowest sphere.
-fn floor() -> String {
-    format!(
-        "[materials]\nfloor = {{ k1 = \"50 kN/m\", mu1 = 0.5, friction = 0.5 }}\n[surfaces.floor]\n\
-         material = \"floor\"\nframe = \"space\"\nfacing = \"order\"\n\
-         plane = {{ point = [0, 0, {}], normal = [0, 0, 1] }}\n",
-        lowest_m() - 0.05
-    )
+/// Height of a floor in space 5 cm below the lowest sphere, m.
+fn floor() -> Option<f64> {
+    Some(lowest_m() - 0.05)
 }
 
 fn summary_of(model: &Model) -> Summary {
@@ -38,7 +26,7 @@ fn summary_of(model: &Model) -> Summary {
 
 #[test]
 fn a_free_fall_feels_nothing_and_goes_half_g_t_squared() {
-    let s = summary_of(&falling("", 0.1));
+    let s = summary_of(&falling(None, 0.1));
     assert_eq!(s.status, RunStatus::Completed);
     assert_eq!((s.reached_s, s.solver.outputs), (0.1, 101));
     let e = s.head_excursion.unwrap();
@@ -79,7 +67,7 @@ impl Recorder for Everything {
 
 #[test]
 fn peaks_are_those_of_the_whole_record() {
-    let model = falling(&floor(), 0.25);
+    let model = falling(floor(), 0.25);
     let (mut summarizer, mut all) = (Summarizer::new(), Everything::default());
     let outcome = simulate(&model, (&mut summarizer, &mut all)).unwrap();
     let s = summarizer.summary(Some(1.5)).unwrap();
@@ -113,9 +101,9 @@ fn peaks_are_those_of_the_whole_record() {
 
 #[test]
 fn the_same_run_gives_the_same_summary_and_a_summarizer_can_be_used_again() {
-    let model = falling(&floor(), 0.2);
+    let model = falling(floor(), 0.2);
     let mut summarizer = Summarizer::new();
-    simulate(&falling("", 0.05), &mut summarizer).unwrap();
+    simulate(&falling(None, 0.05), &mut summarizer).unwrap();
     simulate(&model, &mut summarizer).unwrap();
     assert_eq!(summarizer.summary(None).unwrap(), summary_of(&model));
 }
@@ -134,7 +122,7 @@ impl Recorder for StopAt {
 
 #[test]
 fn an_interrupted_run_says_so() {
-    let model = falling("", 0.1);
+    let model = falling(None, 0.1);
     let mut summarizer = Summarizer::new();
     simulate(&model, (StopAt(40), &mut summarizer)).unwrap();
     let s = summarizer.summary(None).unwrap();
@@ -147,17 +135,17 @@ fn an_interrupted_run_says_so() {
 #[test]
 fn a_last_output_between_two_regular_times_does_not_bend_the_levels() {
     // the last interval is half as long as the others
-    let model = falling(&floor(), 0.2035);
+    let model = falling(floor(), 0.2035);
     let s = summary_of(&model);
     assert_eq!(s.solver.outputs, model.output_count());
     assert_eq!(s.reached_s, 0.2035);
-    let whole = summary_of(&falling(&floor(), 0.203));
+    let whole = summary_of(&falling(floor(), 0.203));
     assert_eq!(s.accelerations.head.three_ms_contiguous, whole.accelerations.head.three_ms_contiguous);
 }
 
 #[test]
 fn nothing_grows_between_the_first_output_and_the_last() {
-    let model = falling(&floor(), 0.25);
+    let model = falling(floor(), 0.25);
     let mut summarizer = Summarizer::new();
     summarizer.begin(&model).unwrap();
     let before = room(&mut summarizer);
@@ -167,7 +155,7 @@ fn nothing_grows_between_the_first_output_and_the_last() {
 
 #[test]
 fn it_is_json_with_units_in_its_names() {
-    let json = serde_json::to_value(summary_of(&falling(&floor(), 0.2))).unwrap();
+    let json = serde_json::to_value(summary_of(&falling(floor(), 0.2))).unwrap();
     assert_eq!(json["status"], "completed");
     assert!(json["accelerations"]["head"]["peak_g"].is_f64());
     assert!(json["contacts"][0]["closing_m_s"].is_f64());
@@ -176,7 +164,7 @@ fn it_is_json_with_units_in_its_names() {
 
 #[test]
 fn the_list_of_figures_holds_the_summary_under_the_same_names_for_every_run() {
-    let (free, floored) = (falling("", 0.02), falling(&floor(), 0.2));
+    let (free, floored) = (falling(None, 0.02), falling(floor(), 0.2));
     let (touched_nothing, fell) = (summary_of(&free), summary_of(&floored));
     let figures = fell.figures(&floored);
     let names = |figures: &[Figure]| figures.iter().map(|f| f.name.clone()).collect::<Vec<_>>();
@@ -209,94 +197,9 @@ fn room(summarizer: &mut Summarizer) -> Vec<usize> {
     summarizer.signals.all_mut().map(|values| values.capacity()).collect()
 }
 
-/// The caveats of a scenario of this repository with changes.
-fn caveats_of(scenario: &str, changes: &[(&str, &str)]) -> (Summary, Vec<String>) {
-    let mut draft = Draft::read(scenario, Format::Toml, "shipped").unwrap();
-    for (path, value) in changes {
-        draft.set_value(path, value).unwrap_or_else(|problems| panic!("{problems}"));
-    }
-    let (model, _) =
-        draft.load(&|_| Err("none".into())).unwrap().model().unwrap_or_else(|problems| panic!("{problems}"));
-    let summary = summary_of(&model);
-    let names = summary.caveats.iter().map(|caveat| caveat.name.clone()).collect();
-    (summary, names)
-}
-
-const BELTED: &str = include_str!("../../../../../scenarios/cart-lap-torso.toml");
-
-#[test]
-fn a_neck_beyond_its_stop_takes_the_neck_figures_with_it_and_no_others() {
-    let (summary, names) = caveats_of(BELTED, &[]);
-    let neck = summary.caveats.iter().find(|caveat| caveat.name == "neck_beyond_stop").unwrap();
-    assert!(neck.text.starts_with("neck beyond its stop: 119° at 132.0 ms"), "{}", neck.text);
-    assert!(["nij", "neck_tension", "neck_flexion"].iter().all(|figure| neck.touches(figure)));
-    assert!(!["hic15", "head.peak", "chest.peak", "left_femur"].iter().any(|figure| neck.touches(figure)));
-    // a pelvis 181 mm deep in its cushion, shins behind the panel
-    for name in ["pelvis_too_deep", "left_shin_passed", "right_lower_leg_cut"] {
-        assert!(names.iter().any(|found| found == name), "{name} is not among {names:?}");
-    }
-    let json = serde_json::to_value(&summary).unwrap();
-    assert_eq!(json["caveats"][0]["figures"], serde_json::json!(["nij", "neck_*"]));
-    // stops that reach further
-    let far = "{ begin = \"45 deg\", full = \"170 deg\", damping = \"120 in lbf s/rad\" }";
-    let (_, names) = caveats_of(BELTED, &[("joints.neck.stop", far)]);
-    assert!(!names.iter().any(|name| name == "neck_beyond_stop"), "{names:?}");
-}
-
-#[test]
-fn a_head_that_flies_through_a_seat_takes_its_figures_with_it() {
-    let seat = include_str!("../../../../../scenarios/rear-seat.toml");
-    let lap = &seat[seat.find("[belts.lap]").unwrap()..seat.find("[materials]").unwrap()];
-    let (summary, _) = caveats_of(&seat.replace(lap, ""), &[]);
-    let head = summary.caveats.iter().find(|caveat| caveat.name == "head_passed").unwrap();
-    assert!(head.text.contains("through front_seat") && head.text.contains("without force"), "{}", head.text);
-    assert!(["hic15", "head.peak", "head_3ms_cumulative", "contacts.head.peak"].iter().all(|f| head.touches(f)));
-    assert!(!head.touches("chest.peak") && !head.touches("left_femur"));
-    let (_, names) = caveats_of(seat, &[]);
-    assert!(!names.iter().any(|name| name == "head_passed"), "{names:?}");
-}
-
-#[test]
-fn outputs_too_coarse_say_so_and_closer_ones_do_not() {
-    let found = |interval: &str| {
-        let (summary, _) = caveats_of(BELTED, &[("output.interval", interval)]);
-        summary.caveats.into_iter().find(|caveat| caveat.name == "outputs_too_coarse")
-    };
-    let coarse = found("5 ms").unwrap();
-    assert!(coarse.touches("nij") && coarse.touches("hic15") && coarse.touches("head.peak"), "{coarse:?}");
-    assert!(coarse.text.contains("outputs every 5 ms"), "{}", coarse.text);
-    assert!(["belts.lap.peak", "contacts.head.peak", "head_excursion.forward"].iter().all(|f| coarse.touches(f)));
-    let near = found("1 ms").unwrap();
-    assert!(!near.touches("belts.lap.peak") && !near.text.contains("peaks of forces"), "{near:?}");
-    // two outputs, of which none can be left out
-    assert!(found("1 s").unwrap().touches("head.peak"));
-    assert_eq!(found("0.1 ms"), None);
-}
-
-#[test]
-fn an_absurd_vehicle_does_not_hide_the_error_of_the_energy_balance() {
-    // 1000 km/s: the kinetic energy in the vehicle would hide any error
-    let away = ("path", "{ kind = \"pulse\", shape = \"half_sine\", speed = 0, delta_v = -1e6, duration = \"0.1 s\" }");
-    let (summary, names) = caveats_of(BELTED, &[away, ("time.end", "5 ms"), ("output.interval", "5 ms")]);
-    let energy = serde_json::to_value(&summary).unwrap()["energy"].clone();
-    assert_eq!(
-        (&energy["reference"], &energy["balance"]),
-        (&"greatest work of gravity and force elements".into(), &"lost".into())
-    );
-    let [error, reference_j, kinetic_j] =
-        ["balance_error", "reference_j", "greatest_kinetic_j"].map(|key| energy[key].as_f64().unwrap());
-    assert!(error > 0.0 && reference_j < 0.01 * kinetic_j, "{energy}");
-    assert!(names[0] == "energy_balance_lost" && summary.caveats[0].touches("hic15"), "{names:?}");
-    assert!(
-        summary.caveats[0].text.contains("is none of an occupant: the results mean nothing"),
-        "{:?}",
-        summary.caveats[0]
-    );
-}
-
 #[test]
 fn limits_of_another_dummy_are_marked() {
-    let model = falling(&floor(), 0.02);
+    let model = falling(floor(), 0.02);
     let caveats = |dummy| {
         let mut summarizer = Summarizer::judging(Options { dummy, ..Options::default() });
         simulate(&model, &mut summarizer).unwrap();

@@ -1,24 +1,21 @@
 //! The runs side by side in lanes of an array, which every processor has.
 
 use super::*;
+use crate::model::setup::Setup;
 use crate::motion::lanes::Plain;
 use crate::results::recorder::Watch;
 use crate::results::sample::Sample;
 use crate::run::simulate::simulate;
-use crate::scenario::{Format, Scenario};
+use crate::tests::case_in_code::{cart, stop_from};
+use crate::tests::three_point;
 
 fn model(mph: f64) -> Model {
-    of(include_str!("../../../../../scenarios/cart-lap.toml"), "20 mph", mph)
+    stopped(cart().unwrap(), mph)
 }
 
-/// The scenario with another speed, which ends a little later for each mph.
-fn of(text: &str, speed: &str, mph: f64) -> Model {
-    let [old, new] = [speed.to_owned(), format!("{mph} mph")].map(|speed| format!("speed = \"{speed}\""));
-    let text = text.replace(&old, &new);
-    assert!(text.contains(&new));
-    let none = |name: &str| Err(format!("no file beside the text: {name}"));
-    let loaded = Scenario::from_text(&text, Format::Toml, "cart", &none).unwrap();
-    let (mut setup, _) = loaded.build().unwrap();
+/// The case with another speed, which ends a little later for each mph.
+fn stopped(mut setup: Setup, mph: f64) -> Model {
+    setup.path = stop_from(0.447_04 * mph).unwrap();
     setup.time.end_s = 0.05 + 1e-3 * mph;
     Model::new(setup).unwrap()
 }
@@ -42,7 +39,12 @@ fn so_have_bodies_that_are_swept_as_any_tree() {
 /// Retractors lock, pretensioners fire and stall, belts rub and slide at times of their own in each lane.
 #[test]
 fn so_have_belts_over_several_nodes() {
-    let belted = |mph| of(include_str!("../../../../../scenarios/three-point.toml"), "56 km/h", mph);
+    let belted = |mph: f64| {
+        let mut setup = cart().unwrap();
+        setup.belts.clear();
+        setup.chains.push(three_point(&setup.body, 1.0 / mph));
+        stopped(setup, mph)
+    };
     have_the_bits_of_each_alone([25.0, 30.0, 35.0, 40.0].map(belted).into());
 }
 

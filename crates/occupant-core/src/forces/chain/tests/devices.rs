@@ -7,9 +7,11 @@ use super::{Rig, at, chain, fixed, limiter, reel, webbing};
 use crate::body::Body;
 use crate::forces::element::Element;
 use crate::forces::function::Function;
+use crate::model::Model;
 use crate::results::outcome::StepError;
 use crate::run::Run;
-use crate::scenario::{Draft, Format};
+use crate::tests::case_in_code::cart;
+use crate::tests::three_point;
 
 #[test]
 fn a_spool_locks_without_a_jump_and_its_limiter_meets_its_curve_again() {
@@ -162,11 +164,9 @@ fn tensions_that_are_not_found_are_told() {
 /// A run ends there with the belt's name.
 #[test]
 fn a_run_without_tensions_ends_with_its_belt() {
-    let text = include_str!("../../../../../../scenarios/three-point.toml");
-    let mut draft = Draft::read(text, Format::Toml, "test").unwrap();
-    draft.set("integrator={ kind = \"rk4\", step = \"0.1 ms\" }").unwrap();
-    let loaded = draft.load(&|name| Err(name.to_owned())).unwrap();
-    let model = loaded.model().unwrap_or_else(|said| panic!("{said}")).0;
+    let mut setup = cart().unwrap();
+    setup.chains.push(three_point(&setup.body, 0.0));
+    let model = Model::new(setup).unwrap();
     let mut run = Run::new(&model);
     run.history.memory.chains[0].nodes[0].unstretched = f64::NAN;
     let ended = run.advance_to(&model, 1e-3);

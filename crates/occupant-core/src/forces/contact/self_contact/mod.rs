@@ -62,7 +62,7 @@ impl SelfContact {
 
     /// Pairs of spheres of these pairs of parts, each once and in ascending order: those that share neither a segment nor a
     /// joint and are no neighbours.
-    pub(crate) fn between(body: &Body, parts: impl Iterator<Item = [String; 2]>) -> Vec<[usize; 2]> {
+    pub fn between(body: &Body, parts: impl Iterator<Item = [String; 2]>) -> Vec<[usize; 2]> {
         let standing_m = body.standing_m();
         let is_of_arm = |segment| body.tree.landmarks().arms().any(|arm| body.tree.is_of(segment, &arm));
         let can_meet = |&[a, b]: &[usize; 2]| {

@@ -121,7 +121,7 @@ impl Shape {
     }
 
     /// A plate with this polygon in front and `thickness_m` behind its open side; none for an outline of another kind.
-    pub(crate) fn plate(front: &FlatFace, thickness_m: f64, rounding_m: f64) -> Option<Self> {
+    pub fn plate(front: &FlatFace, thickness_m: f64, rounding_m: f64) -> Option<Self> {
         let Outline::Polygon(corners) = &front.outline else { return None };
         let half_width_m = 0.5 * thickness_m;
         let corners_m = corners.iter().map(|p| p - front.normal * half_width_m).collect();

@@ -9,7 +9,7 @@ use crate::motion::scalar::Scalar;
 
 /// A curve of cubics, the first of which reaches down and the last up without end.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Curve<S> {
+pub struct Curve<S> {
     pieces: Vec<Cubic<S>>,
 }
 
@@ -37,7 +37,7 @@ impl<S: Scalar> Curve<S> {
 
     /// Value and slope of a periodic curve at an angle of −π to π.
     #[inline(always)]
-    pub(crate) fn around(&self, angle: S) -> (S, S) {
+    pub fn around(&self, angle: S) -> (S, S) {
         let first = self.pieces.first().map_or(S::zero(), |piece| piece.from);
         let x = S::select(angle.lt(first), angle + S::of(TAU), angle);
         let piece = self.piece(x);
@@ -47,12 +47,12 @@ impl<S: Scalar> Curve<S> {
 
 impl Curve<f64> {
     /// The same value everywhere.
-    pub(crate) fn constant(value: f64) -> Self {
+    pub fn constant(value: f64) -> Self {
         Curve { pieces: vec![Cubic { from: -std::f64::consts::PI, c: [value, 0.0, 0.0, 0.0] }] }
     }
 
     /// The periodic cubic spline of period 2π through points with x that rise within less than that.
-    pub(crate) fn periodic(points: &[[f64; 2]]) -> Self {
+    pub fn periodic(points: &[[f64; 2]]) -> Self {
         let count = points.len();
         let next = |i: usize| (i + 1) % count;
         let length = |i: usize| points[next(i)][0] - points[i][0] + if next(i) == 0 { TAU } else { 0.0 };

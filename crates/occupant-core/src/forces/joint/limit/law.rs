@@ -13,42 +13,45 @@ use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
 /// A resistance that grows beyond a limit: torque over the excess, N·m over rad.
-pub(crate) type Stop<S> = FunctionLaw<S>;
+pub type Stop<S> = FunctionLaw<S>;
 
 /// Limit of the bend θ.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Bend<S> {
+pub struct Bend<S> {
     /// θ₀ over the azimuth, rad.
-    pub(crate) angle: Curve<S>,
-    pub(crate) stop: Stop<S>,
+    pub angle: Curve<S>,
+    /// Torque over θ − θ₀.
+    pub stop: Stop<S>,
     /// Cosine of an angle that θ₀ nowhere falls below.
     gate: S,
 }
 
 /// Limits of the twist of a ball joint, or of the angle of a hinge.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Turn<S> {
+pub struct Turn<S> {
     /// Between these, rad, nothing acts.
-    pub(crate) range: [S; 2],
-    pub(crate) stop: Stop<S>,
+    pub range: [S; 2],
+    /// Torque over the angle beyond.
+    pub stop: Stop<S>,
     /// Cosine of the nearer limit.
     gate: S,
 }
 
 /// Dry friction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Friction<S> {
+pub struct Friction<S> {
     /// C_f, N·m.
-    pub(crate) torque: S,
+    pub torque: S,
     /// ω_f, rad/s, at which it has 71 % of its full value.
-    pub(crate) speed: S,
+    pub speed: S,
 }
 
 /// How much the gate of a bend limit stays below the least θ₀ that a grid has found, rad.
 const MARGIN_RAD: f64 = 0.05;
 
 impl Bend<f64> {
-    pub(crate) fn new(angle: Curve<f64>, stop: Stop<f64>) -> Self {
+    /// A limit with its torque.
+    pub fn new(angle: Curve<f64>, stop: Stop<f64>) -> Self {
         let [least, _] = angle.bounds();
         let gate = crash_measures::trig::sin_cos((least - MARGIN_RAD).max(0.0)).1;
         Bend { angle, stop, gate }
@@ -56,7 +59,8 @@ impl Bend<f64> {
 }
 
 impl Turn<f64> {
-    pub(crate) fn new(range: [f64; 2], stop: Stop<f64>) -> Self {
+    /// A range, rad, with the torque beyond it.
+    pub fn new(range: [f64; 2], stop: Stop<f64>) -> Self {
         let [lower, upper] = range;
         let nearer = upper.min(-lower).max(0.0);
         Turn { range, stop, gate: crash_measures::trig::sin_cos(nearer).1 + 1e-9 }

@@ -14,15 +14,15 @@ const CALM_S: f64 = 5e-3;
 
 /// A lock.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Lock<S> {
+pub struct Lock<S> {
     /// T_y, N·m.
-    pub(crate) until: S,
+    pub until: S,
     /// K, N·m/rad.
-    pub(crate) stiffness: S,
+    pub stiffness: S,
     /// Whether it slips where others open.
-    pub(crate) slips: bool,
+    pub slips: bool,
     /// It closes again below this speed, rad/s; never at 0.
-    pub(crate) relock_below: S,
+    pub relock_below: S,
 }
 
 /// What a lock remembers between steps; all 0 where there is none.

@@ -19,10 +19,11 @@ use crate::motion::mobility::{Mobility, across, greatest};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 use crate::quantity::energy;
-pub(crate) use curve::Curve;
-pub(crate) use law::{Bend, Friction, LimitAction, LimitHistory, LimitLaw, Stop, Turn};
+pub use curve::Curve;
+pub use law::{Bend, Friction, Stop, Turn};
+pub(crate) use law::{LimitAction, LimitHistory, LimitLaw};
 use law::{Past, Site};
-pub(crate) use lock::Lock;
+pub use lock::Lock;
 use lock::LockPast;
 use placed_text::Problems;
 use triads::Triads;
@@ -39,24 +40,36 @@ const OTHER_LIMITS: Unlike = Unlike("other joints have elastic limits, or their 
 
 /// The centre axis ĉ of a joint and the direction x̂ of azimuth 0, in the inner segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Centre {
+pub enum Centre {
     /// Along the outer segment and ahead, both turned about Y: a positive pitch brings a head forward and a hanging limb back.
-    Pitch { pitch_rad: f64 },
+    Pitch {
+        /// Turn about Y of the inner segment.
+        pitch_rad: f64,
+    },
     /// Two directions, for a left joint those of the right one.
-    Axes { axis: Vector3<f64>, forward: Vector3<f64> },
+    Axes {
+        /// ĉ, of any length.
+        axis: Vector3<f64>,
+        /// Where azimuths count from.
+        forward: Vector3<f64>,
+    },
 }
 
 /// Limits, friction and lock of one joint.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Limits {
-    pub(crate) joint: Joint,
-    pub(crate) centre: Centre,
+pub struct Limits {
+    /// Where they act.
+    pub joint: Joint,
+    /// Where they count from.
+    pub centre: Centre,
     /// Of a ball joint's bend.
-    pub(crate) bend: Option<Bend<f64>>,
+    pub bend: Option<Bend<f64>>,
     /// Of a ball joint's twist or a hinge's angle.
-    pub(crate) turn: Option<Turn<f64>>,
-    pub(crate) friction: Option<Friction<f64>>,
-    pub(crate) lock: Option<Lock<f64>>,
+    pub turn: Option<Turn<f64>>,
+    /// Dry friction.
+    pub friction: Option<Friction<f64>>,
+    /// Held until a moment is reached.
+    pub lock: Option<Lock<f64>>,
 }
 
 /// Where GEBOD limits the bend of each of the two joints of a neck, rad: 25°, and what it then resists with, N·m/rad²: 5 in·lbf/deg².
@@ -248,4 +261,4 @@ fn rates(data: &Joints, limits: &Limits, mobility: &Mobility<'_>) -> Vec<Rate> {
 }
 
 #[cfg(test)]
-pub(super) use law::tests::nodding;
+pub(super) use law::tests::{free_neck, nodding};

@@ -6,20 +6,22 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use super::*;
 use crate::body::Body;
-use crate::body::tti12::{LEFT_HIP, LEFT_KNEE, LEFT_SHOULDER, LOWER_BACK, NECK, RIGHT_HIP, RIGHT_SHOULDER};
-use crate::body::tti12::{RIGHT_ELBOW, UPPER_BACK};
-use crate::diagnosis::tests::model_of;
+use crate::body::tti12::{LEFT_HIP, LEFT_SHOULDER, LOWER_BACK, NECK, RIGHT_HIP, RIGHT_SHOULDER, TTI12};
 use crate::forces::function::Function;
 use crate::forces::joint::DAMPING;
-use crate::forces::joint::limit::{Centre, LOST_AT, STORED_AT};
+use crate::forces::joint::Joints;
+use crate::forces::joint::limit::{Centre, LOST_AT, Limits, STORED_AT};
 use crate::model::Model;
+use crate::model::setup::SetupBuilder;
 use crate::motion::dual::Dual;
 use crate::motion::mobility::Mobility;
+use crate::motion::report_coordinates::DOF;
 use crate::motion::vector::M3;
 use crate::results::energy::EnergyLedger;
 use crate::results::recorder::Watch;
 use crate::results::sample::Sample;
 use crate::run::simulate::simulate;
+use crate::tests::placed;
 
 /// Numbers from −1 to 1 (an additive sequence, the same in every run).
 struct Numbers(u64);
@@ -235,18 +237,34 @@ fn work_is_what_is_stored_and_lost() {
     }
 }
 
-/// A body afloat without gravity and damping whose head nods forward at so many rad/s.
-pub(in crate::forces::joint) fn nodding(rate: f64, neck: &str, more: &str) -> Model {
-    let (q, mut rates) = (["0.0"; 31].join(", "), vec!["0.0".to_owned(); 31]);
-    // θ̇ of the head
-    rates[10] = format!("{rate:?}");
-    let rates = rates.join(", ");
-    model_of(&format!(
-        "title = \"nod\"\ngravity = 0\ntime = {{ end = 0.12 }}\noutput = {{ interval = 0.0002 }}\n\
-         path = {{ kind = \"fixed\" }}\nbody = {{ preset = \"male50\" }}\njoints = {{ all = {{ damping = 0 }}, neck = {{ {neck} }} }}\n\
-         initial_state = {{ q = [{q}], rates = [{rates}] }}\n{more}"
-    ))
+/// A body afloat without gravity and damping whose head nods forward at so many rad/s, with these changes of its joints.
+pub(in crate::forces::joint) fn nodding(rate: f64, change: impl FnOnce(&mut Joints)) -> Model {
+    let mut joints = Joints::free(&TTI12);
+    change(&mut joints);
+    let mut case = SetupBuilder::new("nod", Body::male50(), joints);
+    (case.setup.gravity_m_s2, case.setup.time.output_s) = (0.0, 2e-4);
+    let mut rates = [0.0; DOF];
+    rates[10] = rate; // θ̇ of the head
+    Model::new(placed(case, [0.0; DOF], rates, 0.12)).unwrap()
 }
+
+/// The same with this in the neck.
+fn with_neck(rate: f64, neck: Limits) -> Model {
+    nodding(rate, |joints| joints.limits.push(neck))
+}
+
+/// A neck without limits.
+pub(in crate::forces::joint) fn free_neck() -> Limits {
+    Limits { joint: NECK, centre: Centre::Pitch { pitch_rad: 0.0 }, bend: None, turn: None, friction: None, lock: None }
+}
+
+/// A lock that opens at so many N·m, which it reaches at 2°.
+fn lock(until: f64) -> Lock<f64> {
+    Lock { until, stiffness: until / 2_f64.to_radians(), slips: false, relock_below: 0.0 }
+}
+
+/// Dry friction of 15 N·m, full above 12°/s.
+const RUBBING: Friction<f64> = Friction { torque: 15.0, speed: 12.0 * PI / 180.0 };
 
 fn energies(model: &Model) -> (Vec<(EnergyLedger, f64)>, f64) {
     let mut list = Vec::new();
@@ -257,8 +275,8 @@ fn energies(model: &Model) -> (Vec<(EnergyLedger, f64)>, f64) {
 #[test]
 fn a_swing_into_a_limit_returns_its_share() {
     for (returned, least) in [(1.0, 5.0), (0.4, 5.0)] {
-        let neck = format!("limit = {{ angle = 20, torque = {{ c1 = 30, c2 = 200, returned = {returned} }} }}");
-        let (list, balance_error) = energies(&nodding(20.0, &neck, ""));
+        let bend = Bend::new(Curve::constant(20_f64.to_radians()), Stop::polynomial([30.0, 200.0, 0.0], returned));
+        let (list, balance_error) = energies(&with_neck(20.0, Limits { bend: Some(bend), ..free_neck() }));
         let peak = list.iter().map(|(e, _)| e.stored_j[STORED_AT] + e.stored_j[LOST_AT]).fold(0.0, f64::max);
         let taken = |e: &EnergyLedger| e.stored_j[STORED_AT];
         let deepest = (0..list.len()).max_by(|&a, &b| taken(&list[a].0).total_cmp(&taken(&list[b].0))).unwrap();
@@ -275,7 +293,7 @@ fn a_swing_into_a_limit_returns_its_share() {
 
 #[test]
 fn friction_takes_energy_and_brings_the_joint_to_rest() {
-    let (list, balance_error) = energies(&nodding(20.0, "friction = { torque = 15, speed = \"12 deg/s\" }", ""));
+    let (list, balance_error) = energies(&with_neck(20.0, Limits { friction: Some(RUBBING), ..free_neck() }));
     let (begin, end) = (list[0].0, list.last().unwrap().0);
     assert!(balance_error < 1e-6, "{balance_error:e}");
     assert!(end.lost_j[DAMPING] > 0.1 * begin.kinetic_j);
@@ -292,7 +310,8 @@ fn actions(model: &Model) -> (Vec<(f64, LimitAction<f64>)>, f64) {
 /// Small swings of a head on a locked neck have the period that stiffness and inertia make.
 #[test]
 fn a_locked_joint_swings_in_its_period() {
-    let model = nodding(0.2, "lock = { stiffness = 2000 }", "");
+    let closed = Lock { stiffness: 2000.0, ..lock(1e30) };
+    let model = with_neck(0.2, Limits { lock: Some(closed), ..free_neck() });
     let (list, _) = actions(&model);
     let mobility = Mobility::new(&model.system().skeleton, &model.start().state);
     let (inner, outer) = model.system().forces.limits[0].segments;
@@ -309,7 +328,7 @@ fn a_locked_joint_swings_in_its_period() {
 
 #[test]
 fn a_lock_opens_at_its_moment_and_loses_what_it_stored() {
-    let (list, balance_error) = actions(&nodding(20.0, "lock = { until = 40 }", ""));
+    let (list, balance_error) = actions(&with_neck(20.0, Limits { lock: Some(lock(40.0)), ..free_neck() }));
     let (first, last) = (list[0].1, list.last().unwrap().1);
     assert_eq!((first.closed, last.closed, last.stored), (1.0, 0.0, 0.0));
     // ½ T_y²/K with T_y reached at 2°
@@ -320,7 +339,8 @@ fn a_lock_opens_at_its_moment_and_loses_what_it_stored() {
 
 #[test]
 fn a_slipping_lock_loses_its_moment_times_the_slip() {
-    let (list, balance_error) = actions(&nodding(20.0, "lock = { until = 15, slips = true }", ""));
+    let slipping = Lock { slips: true, ..lock(15.0) };
+    let (list, balance_error) = actions(&with_neck(20.0, Limits { lock: Some(slipping), ..free_neck() }));
     let most = list.iter().map(|(_, action)| action.lock.norm_squared().sqrt()).fold(0.0, f64::max);
     let last = list.last().unwrap().1;
     assert!(most < 15.0 * (1.0 + 1e-12) && last.closed == 1.0, "{most}");
@@ -333,58 +353,10 @@ fn a_slipping_lock_loses_its_moment_times_the_slip() {
 
 #[test]
 fn an_open_lock_closes_where_the_joint_comes_to_rest() {
-    let neck = "lock = { until = 10, relock_below = 0.5 }, friction = { torque = 15, speed = \"12 deg/s\" }";
-    let (list, _) = actions(&nodding(20.0, neck, ""));
+    let closing = Lock { relock_below: 0.5_f64.to_radians(), ..lock(10.0) };
+    let neck = Limits { lock: Some(closing), friction: Some(RUBBING), ..free_neck() };
+    let (list, _) = actions(&with_neck(20.0, neck));
     let closed: Vec<f64> = list.iter().map(|(_, action)| action.closed).collect();
     let opens = closed.iter().position(|closed| *closed == 0.0).unwrap();
     assert!(closed[opens..].contains(&1.0));
-}
-
-/// (coefficient in in·lbf/deg², limit in degrees) of bend and of twist, pitch of the centre in degrees.
-type Row = (Joint, (f64, f64), (f64, f64), f64);
-
-#[test]
-fn the_preset_is_gebods_table() {
-    let model = model_of(&format!(
-        "title = \"t\"\ntime = {{ end = 0.01 }}\npath = {{ kind = \"fixed\" }}\nbody = {{ preset = \"male50\" }}\n\
-         joints = {{ preset = \"gebod\" }}\ninitial_state = {{ q = [{}], rates = [{}] }}\n",
-        ["0.0"; 31].join(", "),
-        ["0.0"; 31].join(", ")
-    ));
-    let joints = &model.setup().joints;
-    let unit = 4.4482216152605 * 0.0254;
-    let limits = |joint: Joint| joints.limits.iter().find(|limits| limits.joint == joint).unwrap();
-    let is = |stop: &Stop<f64>, coefficient: f64| {
-        let torque = stop.value(12_f64.to_radians());
-        let [_, back, lost] = stop.returned_to(1.0);
-        assert!(
-            (torque - coefficient * 144.0 * unit).abs() < 1e-9 * torque && (back / (back + lost) - 0.7).abs() < 1e-12
-        );
-    };
-    let rows: [Row; 5] = [
-        (LOWER_BACK, (10.0, 20.0), (10.0, 5.0), 5.0),
-        (UPPER_BACK, (10.0, 20.0), (10.0, 35.0), 5.0),
-        (NECK, (5.0, 25.0), (10.0, 35.0), 10.0),
-        (LEFT_HIP, (10.0, 70.0), (0.8, 40.0), -45.0),
-        (RIGHT_SHOULDER, (10.0, 122.5), (10.0, 65.0), -4.1),
-    ];
-    for (joint, bend, twist, pitch) in rows {
-        let found = limits(joint);
-        let (bend_limit, turn) = (found.bend.as_ref().unwrap(), found.turn.as_ref().unwrap());
-        assert!((bend_limit.angle.around(1.0).0.to_degrees() - bend.1).abs() < 1e-12);
-        assert!((turn.range[1].to_degrees() - twist.1).abs() < 1e-12 && turn.range[0] == -turn.range[1]);
-        is(&bend_limit.stop, bend.0);
-        is(&turn.stop, twist.0);
-        let Centre::Pitch { pitch_rad } = found.centre else { panic!("{found:?}") };
-        assert!((pitch_rad.to_degrees() - pitch).abs() < 1e-12);
-    }
-    for (joint, range) in [(LEFT_KNEE, [0.0, 120.0]), (RIGHT_ELBOW, [-140.0, 0.0])] {
-        let turn = limits(joint).turn.as_ref().unwrap();
-        assert!(turn.range.iter().zip(range).all(|(a, b)| (a.to_degrees() - b).abs() < 1e-12));
-        is(&turn.stop, 1.8);
-    }
-    for (_, law) in joints.iter() {
-        let damping = law.ball().map_or_else(|| law.hinge().unwrap().damping_n_m_s, |ball| ball.damping_n_m_s);
-        assert!((damping - 0.1 * unit * 180.0 / PI).abs() < 1e-12);
-    }
 }

@@ -22,29 +22,30 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 /// A muscle as data.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Muscle {
-    pub(crate) joint: Joint,
+pub struct Muscle {
+    /// Where it acts.
+    pub joint: Joint,
     /// K, N·m/rad.
-    pub(crate) stiffness_n_m: f64,
+    pub stiffness_n_m: f64,
     /// D, N·m·s/rad.
-    pub(crate) damping_n_m_s: f64,
+    pub damping_n_m_s: f64,
     /// T_max, N·m.
-    pub(crate) most_n_m: f64,
+    pub most_n_m: f64,
     /// The posture that is held, from the joint's axes on the proximal segment to those on the distal one; that of the start if
     /// none.
-    pub(crate) hold: Option<UnitQuaternion<f64>>,
+    pub hold: Option<UnitQuaternion<f64>>,
     /// T₀ on the distal segment, along the joint's axes on the proximal one, N·m.
-    pub(crate) torque_n_m: Vector3<f64>,
+    pub torque_n_m: Vector3<f64>,
     /// a₀, 0 to 1.
-    pub(crate) tone: f64,
+    pub tone: f64,
     /// τ, s.
-    pub(crate) rise_s: f64,
+    pub rise_s: f64,
     /// t_on and t_off, s; [`NEVER_S`] for what does not happen.
-    pub(crate) times_s: [f64; 2],
+    pub times_s: [f64; 2],
 }
 
 /// A time after every run, s.
-pub(crate) const NEVER_S: f64 = 1e30;
+pub const NEVER_S: f64 = 1e30;
 
 /// Constants of a muscle.
 #[derive(Clone, Debug)]

@@ -15,7 +15,7 @@ use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 use crate::quantity::Quantity;
 use crash_measures::unit::Unit;
-pub(crate) use law::{Muscle, NEVER_S};
+pub use law::{Muscle, NEVER_S};
 use law::{MuscleAction, MuscleLaw};
 use placed_text::Problems;
 

@@ -1,8 +1,12 @@
 //! Activation and torque of muscles.
 
+use nalgebra::Vector3;
+
 use super::*;
+use crate::body::tti12::NECK;
 use crate::forces::decay::decay;
-use crate::forces::joint::limit::nodding;
+use crate::forces::joint::BallJoint;
+use crate::forces::joint::limit::{Limits, Lock, free_neck, nodding};
 use crate::model::Model;
 use crate::results::energy::EnergyLedger;
 use crate::results::recorder::Watch;
@@ -29,13 +33,35 @@ fn run(model: &Model) -> (Vec<Output>, f64) {
     (list, outcome.energy.balance_error)
 }
 
-const MUSCLES: &str = "muscles.neck = { trigger = \"go\", reaction = 0.03, rise = 0.01, until = 0.08, tone = 0.2, \
-                       stiffness = 60, damping = 1, limit = 12 }\ntriggers.go = { kind = \"time\", at = 0.01 }\n";
+/// Of a neck: it wakes from 30 ms after 10 ms until 80 ms.
+fn waking() -> Muscle {
+    Muscle { most_n_m: 12.0, tone: 0.2, rise_s: 0.01, times_s: [0.04, 0.08], ..tense() }
+}
+
+/// Wholly active and without a limit.
+fn tense() -> Muscle {
+    Muscle {
+        joint: NECK,
+        stiffness_n_m: 60.0,
+        damping_n_m_s: 1.0,
+        most_n_m: NEVER_S,
+        hold: None,
+        torque_n_m: Vector3::zeros(),
+        tone: 1.0,
+        rise_s: 1.0,
+        times_s: [NEVER_S; 2],
+    }
+}
+
+/// A head that nods at so many rad/s against a muscle.
+fn held(rate: f64, muscle: Muscle) -> Model {
+    nodding(rate, |joints| joints.muscles.push(muscle))
+}
 
 /// ȧ = (u − a)/τ, taken in small steps.
 #[test]
 fn the_activation_follows_its_aim() {
-    let (list, _) = run(&nodding(5.0, "", MUSCLES));
+    let (list, _) = run(&held(5.0, waking()));
     let (mut a, mut t) = (0.2, 0.0);
     for (time_s, _, muscles) in &list {
         while t < time_s - 1e-9 {
@@ -51,7 +77,7 @@ fn the_activation_follows_its_aim() {
 
 #[test]
 fn no_muscle_is_stronger_than_its_limit_and_its_work_is_kept() {
-    let (list, balance_error) = run(&nodding(20.0, "", MUSCLES));
+    let (list, balance_error) = run(&held(20.0, waking()));
     let most = list.iter().map(|(_, _, m)| m[0].moment.norm_squared().sqrt() / m[0].activation).fold(0.0, f64::max);
     assert!((most - 12.0).abs() < 1e-9, "{most}");
     assert!(balance_error < 1e-6, "{balance_error:e}");
@@ -64,8 +90,13 @@ fn no_muscle_is_stronger_than_its_limit_and_its_work_is_kept() {
 /// Wholly active and without a limit it is a spring and a damper.
 #[test]
 fn a_tense_muscle_is_a_spring_and_a_damper() {
-    let muscle = nodding(10.0, "", "muscles.neck = { tone = 1, stiffness = 60, damping = 1 }\n");
-    let spring = nodding(10.0, "damping = 1, twist_damping = 1, lock = { stiffness = 60 }", "");
+    let muscle = held(10.0, tense());
+    let spring = nodding(10.0, |joints| {
+        *joints.ball_mut(NECK).unwrap() =
+            BallJoint { damping_n_m_s: 1.0, twist_damping_n_m_s: 1.0, ..BallJoint::default() };
+        let lock = Some(Lock { until: 1e30, stiffness: 60.0, slips: false, relock_below: 0.0 });
+        joints.limits.push(Limits { lock, ..free_neck() });
+    });
     let end = |model: &Model| {
         let mut omega = Vec::new();
         let watch = Watch(|s: &Sample<'_>| omega.push(s.evaluation.kinematics.omega[2].y));

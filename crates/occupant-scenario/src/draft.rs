@@ -1,0 +1,135 @@
+//! A scenario text that has been read but not yet checked: the place to apply overrides.
+
+use super::check::{check_words, references, units_of};
+use super::expand::expand;
+use super::kind::UnitSystem;
+use super::loaded::{Loaded, Resolver};
+use super::overrides::{needs_explicit, put};
+use super::sections::schema;
+use occupant_core::body::shape;
+use occupant_core::body::tti12::TTI12;
+use placed_text::{
+    Diagnostics, Document, Format, Node, SourceId, Step, Value, follow, parse_path, parse_value, refuse, targets,
+    to_text,
+};
+
+/// A scenario text that has been read but not yet checked.
+#[derive(Clone, Debug)]
+pub struct Draft {
+    pub(super) document: Document,
+}
+
+impl Draft {
+    /// Reads a text; `name` is what messages call it, such as its file name.
+    ///
+    /// # Errors
+    /// Everything that is wrong with its syntax.
+    pub fn read(text: &str, format: Format, name: &str) -> Result<Draft, Diagnostics> {
+        Document::read(text, format, name).map(|document| Draft { document })
+    }
+
+    /// Reads bytes that should be UTF-8 text; [`Format::of_text`] says the format unless it is given.
+    ///
+    /// # Errors
+    /// The place of the first byte that is not UTF-8; else as [`Draft::read`].
+    pub fn read_bytes(bytes: &[u8], format: Option<Format>, name: &str) -> Result<Draft, Diagnostics> {
+        Document::read_bytes(bytes, format, name).map(|document| Draft { document })
+    }
+
+    /// Applies `path.to.key=value`, as a command line gives it. The value is read as TOML; what is not TOML is a text, so
+    /// that `path.speed=20 mph` needs no quotes.
+    ///
+    /// # Errors
+    /// No `=`, a path that cannot be read or leads nowhere.
+    pub fn set(&mut self, assignment: &str) -> Result<(), Diagnostics> {
+        match assignment.split_once('=') {
+            Some((path, value)) => self.set_value(path.trim(), value.trim()),
+            None => Err(refuse("override", format!("`{assignment}` has no `=`"), "path.to.key=value")),
+        }
+    }
+
+    /// Applies one value, given as text, at every place the path leads to.
+    ///
+    /// # Errors
+    /// A path that cannot be read or leads nowhere.
+    pub fn set_value(&mut self, path: &str, value: &str) -> Result<(), Diagnostics> {
+        let name = format!("override of {path}");
+        let steps = parse_path(path).map_err(|found| refuse(&name, found, "a path such as belts.lap.anchors[1]"))?;
+        let id = self.document.sources.add(&name, value);
+        let value = self.value(id);
+        let explicit = needs_explicit(&self.document.root, &steps).then(|| self.explicit());
+        let places = targets(explicit.as_ref().unwrap_or(&self.document.root), &steps);
+        if places.is_empty() {
+            return Err(leads_nowhere(&name, path));
+        }
+        for place in places {
+            put(&mut self.document.root, explicit.as_ref(), &place, value.clone())
+                .map_err(|found| refuse(&name, found, "a path that exists in the scenario"))?;
+        }
+        Ok(())
+    }
+
+    /// The values a path leads to, presets included, as texts: `("joints.neck.damping", "20 in lbf s/rad")`.
+    ///
+    /// # Errors
+    /// A path that cannot be read or leads nowhere.
+    pub fn get(&mut self, path: &str) -> Result<Vec<(String, Value)>, Diagnostics> {
+        let steps = parse_path(path).map_err(|found| refuse(path, found, "a path such as belts.lap.slack"))?;
+        let explicit = self.explicit();
+        let value = |place: &Vec<Step>| Some((to_text(place), follow(&explicit, place)?.value.clone()));
+        let found: Vec<_> = targets(&explicit, &steps).iter().filter_map(value).collect();
+        if found.is_empty() { Err(leads_nowhere(path, path)) } else { Ok(found) }
+    }
+
+    /// The units of its bare numbers.
+    pub fn units(&self) -> UnitSystem {
+        units_of(&self.document)
+    }
+
+    /// All that is wrong with the words of the scenario as it stands.
+    pub fn check(&self) -> Diagnostics {
+        self.clone().check_words()
+    }
+
+    /// As [`Draft::check`]; notes every quantity in SI units.
+    pub(super) fn check_words(&mut self) -> Diagnostics {
+        let mut problems = check_words(&mut self.document, schema(), "the scenario");
+        // where the words are right, names are looked up when the plain data are built
+        if problems.has_errors() {
+            let root = self.explicit();
+            let unknown = references(&root, Some(&shape::names(&TTI12)));
+            if !unknown.is_empty() {
+                let whole = Document { root, ..self.document.clone() };
+                unknown.into_iter().for_each(|problem| problems.add(problem, |problem| whole.place(problem)));
+            }
+        }
+        problems
+    }
+
+    /// Checks the scenario and reads the tables it refers to.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it.
+    pub fn load(self, resolver: Resolver) -> Result<Loaded, Diagnostics> {
+        Loaded::from_draft(self, resolver)
+    }
+
+    fn explicit(&mut self) -> Node {
+        expand(&mut self.document.sources, &self.document.root)
+    }
+
+    /// An override's value: TOML, or else the text itself.
+    fn value(&self, id: SourceId) -> Node {
+        let sources = &self.document.sources;
+        parse_value(sources, id).unwrap_or_else(|_| {
+            let text = sources.text(id);
+            let mut span = sources.start_of(id);
+            span.end = text.len();
+            Node::new(span, Value::String(text.to_owned()))
+        })
+    }
+}
+
+fn leads_nowhere(source: &str, path: &str) -> Diagnostics {
+    refuse(source, format!("`{path}` leads to nothing in this scenario"), "a path to at least one place")
+}

@@ -1,0 +1,31 @@
+//! What is known of how people differ from the body of a scenario.
+
+use crate::Loaded;
+use occupant_core::body::people::{Person, REFERENCE_PERSON};
+use occupant_core::diagnosis::BodyFigures;
+
+/// Of the presets of children.
+const CHILDREN: &str = "lengths of a child's segments follow from stature and sitting height alone, no survey of them \
+    was at hand: study them by ±15 % a segment at least";
+
+impl Loaded {
+    /// Adds to the figures of its body how far people differ, where it makes the body of a person or has a preset that is
+    /// one: of lengths that it does not change.
+    pub fn compare_with_people(&self, figures: &mut BodyFigures) {
+        let section = &self.scenario.body;
+        let preset = section.preset.as_deref();
+        figures.weak = preset.filter(|name| name.starts_with("child")).map(|_| CHILDREN);
+        let named = preset.and_then(Person::named);
+        if named.is_none() && !section.describes_a_person() {
+            return;
+        }
+        let person = section.person(named.unwrap_or(REFERENCE_PERSON));
+        let body = person.body(section.division().unwrap_or_default()).0;
+        for (row, made) in body.tree.segment_rows().iter().zip(&body.segments) {
+            let found = figures.segments.iter_mut().find(|figures| figures.segment == row.name);
+            let Some(of) = found.filter(|f| (f.length_m - made.length_m).abs() < 1e-9) else { continue };
+            let band = person.length_band(row.name);
+            of.length_band_m = band.map(|part| [1.0 - part, 1.0 + part].map(|factor| factor * made.length_m));
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! What `body` and `joints` of a scenario start from: occupants that come with the program, in `scenario/presets` or made by
+//! [`occupant_core::body::people`]. Programs that do without a text get the same ones, read as a scenario's are.
+
+use std::sync::OnceLock;
+
+use nalgebra::{UnitQuaternion, Vector2};
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+
+use super::expand::{expand, written};
+use super::sections::{BodySection, occupant};
+use occupant_core::body::people::{self, Person};
+use occupant_core::body::tti12::TTI12;
+use occupant_core::body::{Body, Joint, JointKind};
+use occupant_core::forces::joint::Joints;
+use placed_text::{Document, Format, Node};
+
+/// The body that a scenario calls by this name in `body.preset`; none for a name that it does not know.
+pub fn preset_body(name: &str) -> Option<Body> {
+    Some(read(name)?.0)
+}
+
+/// The occupant of a scenario that says nothing but the names of presets.
+pub(crate) fn read(body: &str) -> Option<(Body, Joints)> {
+    let text = format!("body = {{ preset = {body:?} }}\njoints = {{ preset = \"male50\" }}\n");
+    let mut document = Document::read(&text, Format::Toml, "preset").ok()?;
+    document.root = expand(&mut document.sources, &document.root);
+    occupant(body, &document)
+}
+
+/// The text that a section named `key` of a checked scenario starts from, and what messages call it.
+pub(super) fn base(section: &Node, key: &str) -> Option<(String, Document)> {
+    let preset = section.get("preset").and_then(Node::as_str);
+    match (key, preset) {
+        ("joints", Some("male50")) => Some(("preset male50".to_owned(), male50()?.clone())),
+        ("body", Some(OLD)) if section.get("joints").is_none() => Some(("preset male50".to_owned(), male50()?.clone())),
+        ("joints", Some(name)) => {
+            let at = ELASTIC.iter().position(|(known, _)| *known == name)?;
+            static READ: [OnceLock<Option<Document>>; ELASTIC.len()] = [const { OnceLock::new() }; ELASTIC.len()];
+            let title = format!("preset {name}");
+            let document = READ[at].get_or_init(|| written(&title, ELASTIC[at].1)).clone()?;
+            Some((title, document))
+        }
+        ("body", _) => {
+            let division = BodySection::deserialize(section).ok()?.division().unwrap_or_default();
+            let old = || (preset == Some(OLD)).then(|| preset_body(OLD)).flatten();
+            let made = preset.and_then(|name| people::child(name, division)).or_else(old);
+            let body = made.or_else(|| Some(person(section, preset)?.body(division).0))?;
+            let title = format!("body of {}", preset.unwrap_or("a person"));
+            let document = written(&title, &words(&body, section.get("joints").is_some()))?;
+            Some((title, document))
+        }
+        _ => None,
+    }
+}
+
+/// The preset whose body stands in a file.
+const OLD: &str = "male50-1970";
+
+/// The body of the first version and a starting set of joints.
+fn male50() -> Option<&'static Document> {
+    static READ: OnceLock<Option<Document>> = OnceLock::new();
+    READ.get_or_init(|| written("preset male50", include_str!("presets/male50-1970.toml"))).as_ref()
+}
+
+/// Sections of a scenario that the library has entries for.
+pub(super) const IN_LIBRARY: [&str; 3] = ["materials", "webbings", "limiters"];
+
+/// Materials, webbings and limiters of public texts, with their sources.
+pub(super) fn library() -> Option<&'static Document> {
+    static READ: OnceLock<Option<Document>> = OnceLock::new();
+    READ.get_or_init(|| written("library", include_str!("presets/library.toml"))).as_ref()
+}
+
+/// An entry of a section of the library.
+pub(super) fn from_library<T: DeserializeOwned>(section: &str, name: &str) -> Option<T> {
+    T::deserialize(library()?.root.get(section)?.get(name)?).ok()
+}
+
+/// Joints with elastic limits, by name.
+const ELASTIC: [(&str, &str); 4] = [
+    ("gebod", include_str!("presets/gebod.toml")),
+    ("dummy50-like", include_str!("presets/dummy50-like.toml")),
+    ("dummy05f-like", include_str!("presets/dummy05f-like.toml")),
+    ("dummy06c-like", include_str!("presets/dummy06c-like.toml")),
+];
+
+/// The grown-up that a body section speaks of; the reference where it is too incomplete or out of reach, which is reported
+/// when the body is built.
+fn person(section: &Node, preset: Option<&str>) -> Option<Person> {
+    let own = BodySection::deserialize(section).ok()?;
+    let named = preset.and_then(Person::named);
+    if named.is_none() && !own.describes_a_person() {
+        return None;
+    }
+    let start = named.unwrap_or(people::REFERENCE_PERSON);
+    let person = own.person(start);
+    Some(if person.is_within_reach() { person } else { start })
+}
+
+/// A body in the words of a scenario, with its joints where they are its own or `has_joints` says so. Every number has the
+/// same width, so that places in one text hold in another.
+fn words(body: &Body, has_joints: bool) -> String {
+    let mut lines = vec![
+        "[body]".to_owned(),
+        format!("shoulder_half_width = {}", quantity(body.shoulder_half_width_m, "m")),
+        format!("hip_half_width = {}", quantity(body.hip_half_width_m, "m")),
+        format!("neck_height = {}", quantity(body.neck_height_m, "m")),
+    ];
+    if let Some(at) = body.condyles_m {
+        lines.push(format!("condyles = [{}, {}]", quantity(at.x, "m"), quantity(at.z, "m")));
+    }
+    for (row, p) in body.tree.segment_rows().iter().zip(&body.segments) {
+        lines.push(format!("[body.segments.{}]", row.name));
+        lines.push(format!("length = {}", quantity(p.length_m, "m")));
+        lines.push(format!("cg_from_lower_end = {}", quantity(p.cg_from_lower_end_m, "m")));
+        lines.push(format!("mass = {}", quantity(p.mass_kg, "kg")));
+        lines.push(format!("inertia = {}", list(p.inertia_kg_m2.as_slice(), "kg m^2")));
+        if p.cg_beside_m != Vector2::zeros() {
+            lines.push(format!("cg_beside = {}", list(p.cg_beside_m.as_slice(), "m")));
+        }
+        if p.principal != UnitQuaternion::identity() {
+            lines.push(format!("principal_axes = {}", angles(&p.principal)));
+        }
+    }
+    let joints = body.tree.joints().filter(|_| has_joints || *body.tree != TTI12);
+    lines.extend(joints.flat_map(|joint| joint_words(body, joint)));
+    lines.push("[body.spheres]".to_owned());
+    lines.extend(body.spheres.iter().map(|s| format!("{}.radius = {}", s.name, quantity(s.radius_m, "m"))));
+    lines.join("\n")
+}
+
+fn quantity(value: f64, unit: &str) -> String {
+    format!("\"{value:.16e} {unit}\"")
+}
+
+fn list(values: &[f64], unit: &str) -> String {
+    let each: Vec<String> = values.iter().map(|value| quantity(*value, unit)).collect();
+    format!("[{}]", each.join(", "))
+}
+
+/// Yaw, pitch and roll.
+fn angles(turn: &UnitQuaternion<f64>) -> String {
+    let (roll, pitch, yaw) = turn.euler_angles();
+    list(&[yaw, pitch, roll], "rad")
+}
+
+fn joint_words(body: &Body, joint: Joint) -> Vec<String> {
+    let (row, place) = (&body.tree[joint], body.place(joint));
+    let kind = match row.kind {
+        JointKind::Ball => "ball",
+        JointKind::Hinge => "pin",
+        JointKind::Universal => "universal",
+        JointKind::Fixed => "fixed",
+    };
+    vec![
+        format!("[body.joints.{}]", row.name),
+        format!("proximal = {:?}", body.tree[row.proximal].name),
+        format!("distal = {:?}", body.tree[row.distal].name),
+        format!("kind = {kind:?}"),
+        format!("on_proximal = {}", list(place.proximal.point_m.as_slice(), "m")),
+        format!("on_distal = {}", list(place.distal.point_m.as_slice(), "m")),
+    ]
+}

@@ -1,0 +1,101 @@
+//! `[belts]`: the keys of a belt, and the [`Belt`]s that those with one sphere come to.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::builder::Builder;
+use super::materials::spring;
+use super::nodes::NodeSection;
+use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, point, si_or};
+use super::retractors::StrokeSection;
+use super::three_point::{Preset, Side};
+use super::{Force, Length, Ratio, Scenario, Stiffness};
+use occupant_core::body::Body;
+use occupant_core::forces::belt::{Belt, RestLength};
+use placed_text::with_key;
+
+/// A belt: a loop round one sphere of the body between two anchors, or webbing that runs over nodes, or a preset of such.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend(
+    "x-exactly-one" = [["anchors", "nodes", "preset"]],
+    "x-at-most-one" = [["slack", "length", "pretension"]],
+    "x-together" = [["k2", "delta_b"], ["anchors", "sphere"], ["anchors", "k1"]],
+))]
+pub(crate) struct BeltSection {
+    /// Name of the sphere of a loop, such as "pelvis" or "chest".
+    pub(crate) sphere: Option<String>,
+    /// The two anchor points [x, y, z] of a loop, vehicle axes.
+    pub(crate) anchors: Option<[[Length; 3]; 2]>,
+    /// K₁, loop force per elongation of the belt up to `delta_b`.
+    pub(crate) k1: Option<Stiffness<POSITIVE>>,
+    /// Elongation at which the stiffness changes. Without it the loop is linear.
+    pub(crate) delta_b: Option<Length<NOT_NEGATIVE>>,
+    /// K₂, stiffness beyond `delta_b`.
+    pub(crate) k2: Option<Stiffness<NOT_NEGATIVE>>,
+    /// Added to the length at the start; negative is preload; 0 if absent. Give this or `length`.
+    pub(crate) slack: Option<Length>,
+    /// Unstretched length of the belt, that on a spool apart.
+    pub(crate) length: Option<Length<POSITIVE>>,
+    /// μ₁, fraction of the energy stored up to `delta_b` that unloading returns; 1 if absent, as in the report.
+    pub(crate) mu1: Option<Ratio<FRACTION>>,
+    /// μ₂, the same beyond `delta_b`; equal to `mu1` if absent.
+    pub(crate) mu2: Option<Ratio<FRACTION>>,
+    /// What the webbing passes, in order, from a retractor or an anchor to an anchor.
+    pub(crate) nodes: Option<Vec<NodeSection>>,
+    /// Name of the webbing of a belt with nodes; of a preset, polyester that stretches by 8 % at 11 kN if absent.
+    pub(crate) webbing: Option<String>,
+    /// Tension at the start, instead of `slack` or `length`; with an open retractor none of them is given.
+    pub(crate) pretension: Option<Force<NOT_NEGATIVE>>,
+    /// Name of a limiter that the belt carries at its first node.
+    pub(crate) limiter: Option<String>,
+    /// Name of the trigger that frees the belt for good.
+    pub(crate) release: Option<String>,
+    /// Tension at which the webbing tears; never if absent.
+    pub(crate) strength: Option<Force<POSITIVE>>,
+    /// A belt placed by the seat and the body.
+    pub(crate) preset: Option<Preset>,
+    /// The side of the vehicle on which a preset's upper anchor stands: "left" for a driver on the left.
+    pub(crate) side: Option<Side>,
+    /// Name of the retractor of a preset.
+    pub(crate) retractor: Option<String>,
+    /// Pretensioner of a preset's buckle; pulls it towards its anchor.
+    pub(crate) pretensioner: Option<StrokeSection>,
+}
+
+/// More belts than this are a slip; a body that settles tries them in hundreds of postures.
+pub(super) const MOST: usize = 100;
+
+/// All loops, in the order written.
+pub(super) fn belts(b: &mut Builder, scenario: &Scenario, body: &Body) -> Vec<Belt> {
+    if scenario.belts.len() > MOST {
+        b.error("belts", format!("{} belts", scenario.belts.len()), format!("at most {MOST}"));
+        return Vec::new();
+    }
+    scenario.belts.iter().filter_map(|(name, section)| belt(b, body, name, section)).collect()
+}
+
+fn belt(b: &mut Builder, body: &Body, name: &str, s: &BeltSection) -> Option<Belt> {
+    let path = with_key("belts", name);
+    let (Some(anchors), Some(sphere), Some(k1)) = (&s.anchors, &s.sphere, &s.k1) else {
+        let keys = ["sphere", "k1", "k2", "delta_b", "mu1", "mu2"];
+        b.refuse_keys(
+            &path,
+            &keys,
+            |key| format!("`{key}` of a belt that is no loop"),
+            "`webbing`, or `anchors` for a loop",
+        );
+        return None;
+    };
+    let keys = ["webbing", "pretension", "limiter", "release", "strength", "side", "retractor", "pretensioner"];
+    b.refuse_keys(&path, &keys, |key| format!("`{key}` of a loop round one sphere"), "`nodes` instead of `anchors`");
+    let sphere = b.sphere(&format!("{path}.sphere"), sphere, body);
+    let webbing = spring(k1, &s.k2, &s.delta_b, si_or(&s.mu1, 1.0), &s.mu2);
+    let plain = Belt::new(name, sphere, anchors.each_ref().map(point), webbing);
+    let rest = match (&s.length, &s.slack) {
+        (Some(length), _) => RestLength::Given { length_m: length.si() },
+        (None, Some(slack)) => RestLength::Slack { slack_m: slack.si() },
+        (None, None) => plain.rest,
+    };
+    Some(Belt { rest, ..plain })
+}

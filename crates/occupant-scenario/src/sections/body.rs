@@ -1,0 +1,385 @@
+//! `[body]`: its keys, and the [`Body`] they come to.
+
+use indexmap::IndexMap;
+use nalgebra::{Point3, UnitQuaternion, Vector2, Vector3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::body_joints::own_tree;
+use super::builder::Builder;
+use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, point, si_or};
+use super::{Acceleration, Angle, Force, Inertia, Length, Mass, Ratio};
+use occupant_core::body::SphereRow;
+use occupant_core::body::people::{Division, Person, REACH, REFERENCE_PERSON, Sex};
+use occupant_core::body::tti12::TTI12;
+use occupant_core::body::{Body, ContactSphere, Segment, SegmentProperties, Tree, shape};
+use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
+use placed_text::{Problem, with_key};
+
+/// More spheres than this are a slip: each meets every surface, and others of the body.
+const MOST_SPHERES: usize = 500;
+
+/// A preset, changes to it, or a whole body of one's own.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BodySection {
+    /// Body to start from. Keys given here replace its values. Without a preset or a person everything must be given.
+    #[schemars(extend("enum" = [
+        "male50", "male50-1970", "female05", "female50", "male95", "child06", "child10",
+    ]))]
+    pub(crate) preset: Option<String>,
+    /// Of a grown-up who is made by sex, stature and mass.
+    #[schemars(extend("enum" = ["female", "male"]))]
+    pub(crate) sex: Option<String>,
+    /// Standing height of that person.
+    pub(crate) stature: Option<Length<POSITIVE>>,
+    /// Mass of that person.
+    pub(crate) mass: Option<Mass<POSITIVE>>,
+    /// L_s, distance of a shoulder joint from the middle plane.
+    pub(crate) shoulder_half_width: Option<Length<NOT_NEGATIVE>>,
+    /// L_H, distance of a hip joint from the middle plane.
+    pub(crate) hip_half_width: Option<Length<NOT_NEGATIVE>>,
+    /// Height of the neck's joint above the line of the shoulders; 0 if absent, as in the report.
+    pub(crate) neck_height: Option<Length<NOT_NEGATIVE>>,
+    /// The occipital condyles, [ahead of, above] the neck's joint in the head: loads of the upper neck are given there, at the
+    /// joint if absent.
+    pub(crate) condyles: Option<[Length; 2]>,
+    /// Gravity by which a `weight` is divided to give a mass; standard gravity if absent.
+    pub(crate) weighed_at: Option<Acceleration<POSITIVE>>,
+    /// Into how many segments a preset or a person is divided: 12, the report's; 15, with a neck on two joints and feet;
+    /// 17, with hands too. 12 if absent.
+    pub(crate) segment_count: Option<i64>,
+    /// Segments that carry instruments, of a body whose segments have other names.
+    pub(crate) landmarks: Option<LandmarksSection>,
+    /// Segments by name; of twelve `middle_torso`, `upper_torso`, `head`, `lower_torso`, `left_upper_arm`, `left_forearm`,
+    /// `left_thigh`, `left_lower_leg` and those of the right. `upper_arms`, `forearms`, `hands`, `thighs`, `lower_legs`,
+    /// `feet` stand for left and right.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) segments: IndexMap<String, SegmentSection>,
+    /// How the segments of a body of one's own hang on each other, by the names of their joints, or changes of a preset.
+    /// One segment is carried by no joint: its upper end is the reference point T1.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) joints: IndexMap<String, BodyJointSection>,
+    /// Which spheres there are besides those of `spheres` that you name yourself; "report" if absent.
+    pub(crate) sphere_set: Option<SphereSet>,
+    /// Contact spheres by name. The report's 17 (`head`, `chest`, `pelvis`, `left_shoulder`, …) know their place and need
+    /// only a radius; `shoulders`, `elbows`, `hands`, `thighs`, `knees`, `shins`, `feet` stand for left and right.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) spheres: IndexMap<String, SphereSection>,
+}
+
+/// A set of contact spheres.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum SphereSet {
+    /// The 17 of the report, with gaps between them.
+    Report,
+    /// Without gaps: a face, a chin and a neck, sides of chest and pelvis, an abdomen, rows along the limbs, forefeet. Sizes
+    /// follow from the radii of the 17, of which thighs and shins become rows.
+    Full,
+}
+
+/// Segments that carry instruments.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LandmarksSection {
+    /// Carries the head's accelerometer; its joint is the upper neck's load cell. "head" if absent.
+    pub(crate) head: Option<String>,
+    /// Carries the chest's accelerometer. "upper_torso" or "chest" if absent.
+    pub(crate) chest: Option<String>,
+    /// Carries the pelvis' accelerometer and sits on the cushion. "lower_torso" or "pelvis" if absent.
+    pub(crate) pelvis: Option<String>,
+}
+
+/// A joint of the body and its place on both segments.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-at-most-one" = [["axis", "axes_on_proximal"], ["axis", "axes_on_distal"]]))]
+pub(crate) struct BodyJointSection {
+    /// The segment nearer to the one that no joint carries.
+    pub(crate) proximal: Option<String>,
+    /// The segment that it carries.
+    pub(crate) distal: Option<String>,
+    /// How it turns: "ball", any way; "pin", about one axis; "universal", about Y, then X of the joint's axes; "fixed", not
+    /// at all. "ball" if absent.
+    #[schemars(extend("enum" = ["ball", "pin", "universal", "fixed"]))]
+    pub(crate) kind: Option<String>,
+    /// Its place on the proximal segment, from that one's lower end, in its axes (X ahead, Y left, Z up when standing).
+    pub(crate) on_proximal: Option<[Length; 3]>,
+    /// Its place on the distal segment, from that one's lower end, in its axes.
+    pub(crate) on_distal: Option<[Length; 3]>,
+    /// Axis of a pin in the axes of both segments as they stand at the angle 0; Y if absent.
+    pub(crate) axis: Option<[Ratio; 3]>,
+    /// Yaw, pitch and roll that turn the joint's axes into the proximal segment's; none if absent. A pin turns about the
+    /// joint's Y; bend and twist are those of its Z axes.
+    pub(crate) axes_on_proximal: Option<[Angle; 3]>,
+    /// The same for the distal segment.
+    pub(crate) axes_on_distal: Option<[Angle; 3]>,
+}
+
+/// One segment.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-at-most-one" = [["mass", "weight"]]))]
+pub(crate) struct SegmentSection {
+    /// L, distance between the segment's ends.
+    pub(crate) length: Option<Length<POSITIVE>>,
+    /// ρ, distance of the centre of gravity from the lower end, standing posture (the distal end of a limb).
+    pub(crate) cg_from_lower_end: Option<Length>,
+    /// X and Y of the centre of gravity, if it is not on the line between the ends.
+    pub(crate) cg_beside: Option<[Length; 2]>,
+    /// Mass. Give this or `weight`.
+    pub(crate) mass: Option<Mass<POSITIVE>>,
+    /// Weight, a force; divided by `body.weighed_at` to give the mass.
+    pub(crate) weight: Option<Force<POSITIVE>>,
+    /// I_x, I_y, I_z about the centre of gravity; X ahead, Y left, Z up when standing.
+    pub(crate) inertia: Option<[Inertia; 3]>,
+    /// Yaw, pitch and roll that turn the principal axes into the segment's, if `inertia` is about other axes than these.
+    pub(crate) principal_axes: Option<[Angle; 3]>,
+}
+
+/// A contact sphere.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SphereSection {
+    /// Radius.
+    pub(crate) radius: Option<Length<POSITIVE>>,
+    /// Part of the body that it belongs to, such as "head"; results speak of the forces on all its spheres as one. Absent: the
+    /// part where the sphere set has it, else a part by its own name.
+    pub(crate) part: Option<String>,
+    /// What its contact forces are multiplied by, for a material that was measured on the whole part; 1 if absent.
+    pub(crate) share: Option<Ratio<POSITIVE>>,
+    /// Segment that carries it; those of the sphere set know theirs.
+    pub(crate) segment: Option<String>,
+    /// Centre from the segment's lower end, in segment axes (X ahead, Y left, Z up when standing).
+    pub(crate) centre: Option<[Length; 3]>,
+    /// True takes the sphere away.
+    pub(crate) remove: Option<bool>,
+}
+
+/// Presets that are a person, whom sex, stature and mass change.
+const PEOPLE: &str = "one of female05, female50, male50, male95, or sex, stature and mass without a preset";
+
+impl BodySection {
+    /// Whether it speaks of a person's size.
+    pub(crate) fn describes_a_person(&self) -> bool {
+        self.sex.is_some() || self.stature.is_some() || self.mass.is_some()
+    }
+
+    /// The person it describes, changes of another.
+    pub(crate) fn person(&self, from: Person) -> Person {
+        let sex = self.sex.as_deref().map(|sex| if sex == "female" { Sex::Female } else { Sex::Male });
+        Person {
+            sex: sex.unwrap_or(from.sex),
+            stature_m: si_or(&self.stature, from.stature_m),
+            mass_kg: si_or(&self.mass, from.mass_kg),
+        }
+    }
+}
+
+/// Whether a person's size is whole and within reach of what was measured.
+fn check_person(b: &mut Builder, preset: Option<&str>, section: &BodySection) {
+    if !section.describes_a_person() {
+        return;
+    }
+    let named = preset.and_then(Person::named);
+    if let (Some(preset), None) = (preset, named) {
+        b.error("body.preset", format!("the preset {preset} has one size"), PEOPLE);
+        return;
+    }
+    if named.is_none() {
+        let is_whole = section.sex.is_some() && section.stature.is_some() && section.mass.is_some();
+        b.needed("body", "stature", &section.stature);
+        b.needed("body", "mass", &section.mass);
+        if section.sex.is_none() {
+            b.error("body", "`body` has no key `sex`", "sex = \"female\" or \"male\"");
+        }
+        if !is_whole {
+            return;
+        }
+    }
+    let person = section.person(named.unwrap_or(REFERENCE_PERSON));
+    let size = format!("a person of {:.3} m and {:.1} kg", person.stature_m, person.mass_kg);
+    if !person.is_within_reach() {
+        b.error("body", size, REACH);
+    } else if let factor @ (..0.9 | 1.1..) = person.body(Division::default()).1 {
+        let found = format!("{size}, whose segments by volume must weigh {factor:.2} times as much to reach that mass");
+        b.report(Problem::warning(
+            "body",
+            found,
+            "a factor of 0.9 to 1.1: this person is unlike those who were measured",
+        ));
+    }
+}
+
+impl BodySection {
+    /// The division that a preset or a person has.
+    pub(crate) fn division(&self) -> Option<Division> {
+        self.segment_count.map_or(Some(Division::default()), Division::of)
+    }
+}
+
+/// The body; `section` is explicit, `preset` is the one it came from. One that `is_part` needs no head, chest or pelvis. None
+/// where its joints make no tree.
+pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection, is_part: bool) -> Option<Body> {
+    if section.spheres.len() > MOST_SPHERES {
+        let found = format!("{} spheres", section.spheres.len());
+        b.error("body.spheres", found, format!("at most {MOST_SPHERES}"));
+        return None;
+    }
+    check_person(b, preset, section);
+    check_division(b, preset, section);
+    let weighed_at_m_s2 = si_or(&section.weighed_at, STANDARD_GRAVITY_M_S2);
+    let (tree, places) = if section.joints.is_empty() { (&TTI12, Vec::new()) } else { own_tree(b, section, is_part)? };
+    for name in section.segments.keys().filter(|name| tree.segment_named(name).is_none()) {
+        let names: Vec<&str> = tree.segment_rows().iter().map(|row| row.name).collect();
+        b.unknown(&with_key("body.segments", name), "segment", name, &names);
+    }
+    let half_width_m = |b: &mut Builder, key: &str, width: &Option<Length<NOT_NEGATIVE>>| {
+        if section.joints.is_empty() { b.needed("body", key, width) } else { si_or(width, 0.0) }
+    };
+    let mut body = Body {
+        name: preset.unwrap_or(if section.describes_a_person() { "person" } else { "own" }).to_owned(),
+        tree,
+        segments: tree.segment_rows().iter().map(|row| segment(b, row.name, weighed_at_m_s2)).collect(),
+        places,
+        shoulder_half_width_m: half_width_m(b, "shoulder_half_width", &section.shoulder_half_width),
+        hip_half_width_m: half_width_m(b, "hip_half_width", &section.hip_half_width),
+        neck_height_m: si_or(&section.neck_height, 0.0),
+        condyles_m: section.condyles.as_ref().map(all_si).map(|[ahead, above]| Vector3::new(ahead, 0.0, above)),
+        spheres: Vec::new(),
+    };
+    body.spheres = spheres(b, section, &body);
+    Some(body)
+}
+
+fn check_division(b: &mut Builder, preset: Option<&str>, section: &BodySection) {
+    let Some(count) = section.segment_count else { return };
+    if section.division().is_none() {
+        b.error("body.segment_count", format!("{count} segments"), "12, 15 or 17");
+    } else if count != 12 && preset.is_none() && !section.describes_a_person() && section.joints.is_empty() {
+        let expected = "a preset or a person to divide, or `[body.joints]` of one's own";
+        b.error("body.segment_count", "`segment_count` of a body of one's own", expected);
+    } else if preset == Some("male50-1970") && count != 12 {
+        b.error("body.segment_count", format!("male50-1970 in {count} segments"), "12, or preset = \"male50\"");
+    }
+}
+
+fn segment(b: &mut Builder, name: &str, weighed_at_m_s2: f64) -> SegmentProperties {
+    let path = with_key("body.segments", name);
+    let Some(section) = b.section::<SegmentSection>(&path) else {
+        let found = format!("the body has no segment `{name}`");
+        let hint = "body.preset = \"male50\" gives a whole body to change";
+        b.report(Problem::error(path, found, "all twelve segments").with_hint(Some(hint)));
+        return SegmentProperties::new(f64::NAN, f64::NAN, f64::NAN, Vector3::zeros());
+    };
+    let mass_kg = match (&section.mass, &section.weight) {
+        (None, Some(weight)) => weight.si() / weighed_at_m_s2,
+        (mass, _) => b.needed(&path, "mass", mass),
+    };
+    let inertia_kg_m2 = match &section.inertia {
+        Some(inertia) => Vector3::from(all_si(inertia)),
+        None => {
+            b.error(&path, format!("`{path}` has no key `inertia`"), "inertia = [I_x, I_y, I_z]");
+            Vector3::zeros()
+        }
+    };
+    let length_m = b.needed(&path, "length", &section.length);
+    let cg_m = b.needed(&path, "cg_from_lower_end", &section.cg_from_lower_end);
+    SegmentProperties {
+        cg_beside_m: section.cg_beside.as_ref().map_or_else(Vector2::zeros, |beside| all_si(beside).into()),
+        principal: turned(&section.principal_axes),
+        ..SegmentProperties::new(length_m, mass_kg, cg_m, inertia_kg_m2)
+    }
+}
+
+/// Yaw, pitch and roll: R_z R_y R_x.
+pub(super) fn turned(angles: &Option<[Angle; 3]>) -> UnitQuaternion<f64> {
+    let [yaw, pitch, roll] = angles.as_ref().map_or([0.0; 3], all_si);
+    UnitQuaternion::from_euler_angles(roll, pitch, yaw)
+}
+
+/// The spheres: those of the set in its order, then others as written.
+fn spheres(b: &mut Builder, body_section: &BodySection, body: &Body) -> Vec<ContactSphere> {
+    let sections = &body_section.spheres;
+    let kept = |name: &str| {
+        let section = sections.get(name)?;
+        (section.remove != Some(true)).then_some(section)
+    };
+    let radius_m = |row: &SphereRow| {
+        kept(row.name).map_or(0.0, |s| b.needed(&format!("body.spheres.{}", row.name), "radius", &s.radius))
+    };
+    let standard = body.tree.spheres();
+    let radii_m: Vec<f64> = standard.iter().map(radius_m).collect();
+    let mut spheres = Vec::new();
+    for sphere in body.standard_spheres(&radii_m) {
+        if let Some(section) = kept(&sphere.name) {
+            spheres.push(changed(b, body.tree, sphere, section));
+        }
+    }
+    if body_section.sphere_set == Some(SphereSet::Full) {
+        spheres = shape::full(body, spheres);
+    }
+    for (name, section) in sections.iter().filter(|(name, _)| standard.iter().all(|row| row.name != *name)) {
+        let known = spheres.iter().position(|sphere| sphere.name == *name);
+        match (known, section.remove) {
+            (Some(i), Some(true)) => drop(spheres.remove(i)),
+            (Some(i), _) => spheres[i] = changed(b, body.tree, spheres[i].clone(), section),
+            (None, Some(true)) => {}
+            (None, _) => spheres.extend(own_sphere(b, body.tree, name, section)),
+        }
+    }
+    spheres
+}
+
+/// A sphere of the set with a size, a place or a part of its own.
+fn changed(b: &mut Builder, tree: &Tree, mut sphere: ContactSphere, section: &SphereSection) -> ContactSphere {
+    let path = with_key("body.spheres", &sphere.name);
+    let segment = carrier(b, tree, &path, section);
+    if let Some(centre) = &section.centre {
+        sphere.centre_from_lower_end_m = point(centre);
+        sphere.segment = segment.unwrap_or(sphere.segment);
+    } else if segment.is_some_and(|s| s != sphere.segment) {
+        b.error(
+            &with_key(&path, "segment"),
+            format!("`{}` moved to another segment without a place there", sphere.name),
+            "centre = [x, y, z] from the lower end of that segment",
+        );
+    }
+    ContactSphere {
+        radius_m: si_or(&section.radius, sphere.radius_m),
+        part: section.part.clone().unwrap_or(sphere.part),
+        share: si_or(&section.share, sphere.share),
+        ..sphere
+    }
+}
+
+/// The segment that a sphere is said to be on.
+fn carrier(b: &mut Builder, tree: &Tree, path: &str, section: &SphereSection) -> Option<Segment> {
+    let name = section.segment.as_deref()?;
+    let segment = tree.segment_named(name);
+    if segment.is_none() {
+        let names: Vec<&str> = tree.segment_rows().iter().map(|row| row.name).collect();
+        b.unknown(&with_key(path, "segment"), "segment", name, &names);
+    }
+    segment
+}
+
+fn own_sphere(b: &mut Builder, tree: &Tree, name: &str, section: &SphereSection) -> Option<ContactSphere> {
+    let path = with_key("body.spheres", name);
+    let radius_m = b.needed(&path, "radius", &section.radius);
+    let segment = carrier(b, tree, &path, section);
+    if section.segment.is_none() {
+        let found = format!("sphere `{name}` without a segment");
+        let hint = format!("only the report's 17 spheres know theirs: {}", tree.sphere_names().join(", "));
+        b.report(Problem::error(&path, found, "segment = the segment that carries it").with_hint(Some(hint)));
+    }
+    if section.centre.is_none() {
+        let found = format!("sphere `{name}` without a centre");
+        b.error(&path, found, "centre = [x, y, z] from the lower end of its segment");
+    }
+    let centre_m = section.centre.as_ref().map_or_else(Point3::origin, point);
+    let sphere = ContactSphere::new(name, segment?, centre_m, radius_m);
+    let part = section.part.clone().unwrap_or_else(|| name.to_owned());
+    Some(ContactSphere { part, share: si_or(&section.share, 1.0), ..sphere })
+}

@@ -1,0 +1,163 @@
+//! `[joints]` and `[joint_sets]`: their keys, and the [`Joints`] they come to.
+
+use indexmap::IndexMap;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::builder::Builder;
+use super::limits::{BendLimitSection, CentreSection, FrictionSection, LockSection, RangeLimitSection, limits};
+use super::quantity::{NOT_NEGATIVE, si_or};
+use super::{Angle, Ratio, RotationalDamping, RotationalStiffness};
+use occupant_core::body::{JointKind, Tree};
+use occupant_core::forces::joint::{AngularSpring, BallJoint, HingeJoint, JointLaw, Joints, Stop};
+use placed_text::{Problem, with_key};
+
+/// The joints. What is said of one joint replaces what is said of its pair, that replaces what is said of `all`,
+/// and that replaces the preset. Every joint needs a damping from somewhere.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub(crate) struct JointsSection {
+    /// Joints to start from: "male50", the viscous stops of the report; "gebod", elastic limits of the GEBOD generator;
+    /// "dummy50-like", "dummy05f-like", "dummy06c-like", what the calibration of dummies asks of neck, trunk and hips.
+    #[schemars(extend("enum" = ["male50", "gebod", "dummy50-like", "dummy05f-like", "dummy06c-like"]))]
+    pub(crate) preset: Option<String>,
+    /// ε that keeps joint angles smooth where two segments are in line; 0.001 if absent, 0 is the report's formula.
+    pub(crate) epsilon: Option<Ratio<NOT_NEGATIVE>>,
+    /// All joints.
+    pub(crate) all: Option<JointSection>,
+    /// Joints by name: `neck`, `upper_back`, `lower_back`, `left_shoulder`, `left_elbow`, `left_hip`, `left_knee` and those
+    /// of the right; bodies with more segments have others. `shoulders`, `elbows`, `wrists`, `hips`, `knees`, `ankles` stand
+    /// for both sides.
+    #[serde(flatten)]
+    pub(crate) named: IndexMap<String, JointSection>,
+}
+
+/// Properties of a joint.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct JointSection {
+    /// Name of a joint set in `joint_sets`; keys given here replace its values.
+    pub(crate) set: Option<String>,
+    /// J_N, viscous damping; a bare number is per radian.
+    pub(crate) damping: Option<RotationalDamping<NOT_NEGATIVE>>,
+    /// J_t, damping of turning about the outer segment's long axis; ball joints only, 0 if absent as in the report.
+    pub(crate) twist_damping: Option<RotationalDamping<NOT_NEGATIVE>>,
+    /// Limit of the angle between the two segments; ball joints only.
+    pub(crate) stop: Option<StopSection>,
+    /// Limit towards smaller angles; elbows and knees only.
+    pub(crate) lower_stop: Option<StopSection>,
+    /// Limit towards larger angles; elbows and knees only.
+    pub(crate) upper_stop: Option<StopSection>,
+    /// K, rotational stiffness; ball joints only (the report has it in the two back joints).
+    pub(crate) stiffness: Option<RotationalStiffness<NOT_NEGATIVE>>,
+    /// β₀, angle at which the stiffness gives no torque; the angle at the start if absent.
+    pub(crate) rest_angle: Option<Angle<NOT_NEGATIVE>>,
+    /// Where the limits of a ball joint count from: along the outer segment, straight, if absent.
+    pub(crate) centre: Option<Box<CentreSection>>,
+    /// Elastic limit of the bend away from the centre axis; ball joints only.
+    pub(crate) limit: Option<Box<BendLimitSection>>,
+    /// Elastic limit of the twist; ball joints only.
+    pub(crate) twist_limit: Option<Box<RangeLimitSection>>,
+    /// Elastic limit of the angle; elbows and knees only.
+    pub(crate) angle_limit: Option<Box<RangeLimitSection>>,
+    /// Dry friction.
+    pub(crate) friction: Option<Box<FrictionSection>>,
+    /// Held until a moment is reached.
+    pub(crate) lock: Option<Box<LockSection>>,
+}
+
+/// Damping that grows towards a limit of travel.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StopSection {
+    /// Angle at which the damping starts to grow.
+    pub(crate) begin: Angle,
+    /// Angle at which it is full, and beyond which it stays so.
+    pub(crate) full: Angle,
+    /// J_S, the full damping.
+    pub(crate) damping: RotationalDamping<NOT_NEGATIVE>,
+}
+
+/// The joints of a tree; `section` is explicit.
+pub(super) fn joints(b: &mut Builder, section: &JointsSection, tree: &'static Tree) -> Joints {
+    for name in section.named.keys().filter(|name| tree.joint_named(name).is_none()) {
+        let names: Vec<&str> =
+            tree.joint_rows().iter().map(|row| row.name).chain(["all", "preset", "epsilon"]).collect();
+        b.unknown(&with_key("joints", name), "joint", name, &names);
+    }
+    report_undamped(b, tree);
+    let mut joints = Joints::free(tree);
+    for joint in tree.joints().filter(|joint| tree[*joint].kind != JointKind::Fixed) {
+        let row = &tree[joint];
+        let law = if row.is_hinge() { JointLaw::from(hinge(b, row.name)) } else { JointLaw::from(ball(b, row.name)) };
+        joints = joints.with(joint, law);
+        joints.limits.extend(said_of(b, row.name).and_then(|section| limits(b, joint, row, &section)));
+    }
+    joints.with_epsilon(si_or(&section.epsilon, Joints::EPSILON))
+}
+
+/// What is said of a joint; nothing where its damping is missing, which is reported for all joints at once.
+fn given(b: &Builder, name: &str) -> Option<JointSection> {
+    said_of(b, name).filter(|section| section.damping.is_some())
+}
+
+/// What is said of one joint by its own name.
+pub(super) fn said_of(b: &Builder, name: &str) -> Option<JointSection> {
+    b.section(&with_key("joints", name))
+}
+
+/// One message for all joints that nobody gave a damping.
+fn report_undamped(b: &mut Builder, tree: &Tree) {
+    let names = tree.joint_rows().iter().filter(|row| row.kind != JointKind::Fixed).map(|row| row.name);
+    let undamped: Vec<&str> = names.filter(|name| given(b, name).is_none()).collect();
+    let Some((first, others)) = undamped.split_first() else { return };
+    let found = match others.len() {
+        0 => format!("joint `{first}` has no damping"),
+        n => format!("joint `{first}` and {n} more have no damping"),
+    };
+    let hint = "joints.all.damping is that of every joint, joints.preset = \"male50\" gives a starting set";
+    let expected = "a damping for each joint";
+    b.report(Problem::error(format!("joints.{first}"), found, expected).with_hint(Some(hint)));
+}
+
+fn ball(b: &mut Builder, name: &str) -> BallJoint {
+    let Some(section) = given(b, name) else { return BallJoint::default() };
+    let path = format!("joints.{name}");
+    let expected = "`stop`, the limit of the angle between its segments";
+    b.refuse_keys(
+        &path,
+        &["lower_stop", "upper_stop", "angle_limit"],
+        |key| format!("`{key}` of a ball joint"),
+        expected,
+    );
+    let spring = section.stiffness.as_ref().map(|stiffness| AngularSpring {
+        stiffness_n_m: stiffness.si(),
+        rest_rad: section.rest_angle.as_ref().map(Angle::si),
+    });
+    if section.rest_angle.is_some() && spring.is_none() {
+        b.error(&with_key(&path, "rest_angle"), "`rest_angle` without `stiffness`", "both or neither");
+    }
+    BallJoint {
+        damping_n_m_s: si_or(&section.damping, f64::NAN),
+        twist_damping_n_m_s: si_or(&section.twist_damping, 0.0),
+        stop: section.stop.as_ref().map(stop),
+        spring,
+    }
+}
+
+fn hinge(b: &mut Builder, name: &str) -> HingeJoint {
+    let Some(section) = given(b, name) else { return HingeJoint::default() };
+    let path = format!("joints.{name}");
+    let foreign = ["stop", "twist_damping", "stiffness", "rest_angle", "centre", "limit", "twist_limit"];
+    let expected =
+        "`damping`, `lower_stop`, `upper_stop`, `angle_limit`, `friction`, `lock`: elbows and knees are hinges";
+    b.refuse_keys(&path, &foreign, |key| format!("`{key}` of a hinge"), expected);
+    HingeJoint {
+        damping_n_m_s: si_or(&section.damping, f64::NAN),
+        lower_stop: section.lower_stop.as_ref().map(stop),
+        upper_stop: section.upper_stop.as_ref().map(stop),
+    }
+}
+
+fn stop(section: &StopSection) -> Stop {
+    Stop { begin_rad: section.begin.si(), full_rad: section.full.si(), damping_n_m_s: section.damping.si() }
+}

@@ -1,0 +1,97 @@
+//! `[mount]`: a segment held by a rig, and the [`Mounting`] it comes to.
+
+use indexmap::IndexMap;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::builder::Builder;
+use super::path::pose;
+use super::posture::{angle_words, unknown_angles};
+use super::quantity::point;
+use super::{Angle, Length};
+use nalgebra::Vector3;
+use occupant_core::body::{Body, JointKind, Segment, both_sides};
+use occupant_core::forces::contact::surface::Frame;
+use occupant_core::model::seating::Mounting;
+use placed_text::{Problem, with_key};
+
+/// A rig that holds a segment, such as a pendulum or a sled with a head and neck on it, or a bench with a leg. The body hangs
+/// on that segment, which moves as the frame does: `path` is the path of the rig.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MountSection {
+    /// Name of the segment that is held.
+    pub(crate) segment: String,
+    /// Segments that are left out, with all that hangs on them as seen from the mount: ["middle_torso", "upper_arms"] leaves
+    /// head and neck on an upper torso. Words such as `upper_arms` stand for left and right. None if absent.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) without: Vec<String>,
+    /// What it is fixed to; "vehicle", whose path `path` is, if absent.
+    pub(crate) frame: Option<Frame>,
+    /// The point of the segment that it is held by and for which its load is given, from the segment's lower end in segment axes
+    /// (X ahead, Y left, Z up when standing); [0, 0, 0] if absent.
+    pub(crate) point: Option<[Length; 3]>,
+    /// Where that point is in the frame; [0, 0, 0] if absent.
+    pub(crate) place: Option<[Length; 3]>,
+    /// Roll of the segment from upright and facing forward, right side down; 0 if absent.
+    pub(crate) roll: Option<Angle>,
+    /// Pitch, its top leant back; 0 if absent.
+    pub(crate) pitch: Option<Angle>,
+    /// Yaw, to the right; 0 if absent.
+    pub(crate) yaw: Option<Angle>,
+    /// Angles of the other segments and of pins as in `posture`, in the plane that the mount faces. A segment of which nothing is
+    /// said stands as the one that it hangs on.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) posture: IndexMap<String, Angle>,
+}
+
+/// The body as it hangs on the mount, without what is left out; none where a name leads nowhere.
+pub(super) fn held(b: &mut Builder, section: &MountSection, body: &Body) -> Option<Body> {
+    let tree = body.tree;
+    let names: Vec<&str> = tree.segment_rows().iter().map(|row| row.name).collect();
+    let root = tree.segment_named(&section.segment);
+    if root.is_none() {
+        b.unknown("mount.segment", "segment", &section.segment, &names);
+    }
+    let mut left_out = Vec::new();
+    for (i, word) in section.without.iter().enumerate() {
+        let called = |s: &Segment| tree[*s].name == word || both_sides(tree[*s].name).as_ref() == Some(word);
+        let called: Vec<Segment> = tree.segments().filter(called).collect();
+        let path = format!("mount.without[{i}]");
+        if called.is_empty() {
+            b.unknown(&path, "segment", word, &names);
+        } else if called.iter().any(|s| Some(*s) == root) {
+            b.error(&path, format!("`{word}`, which the mount holds"), "segments beyond the one that is held");
+        }
+        left_out.extend(called);
+    }
+    let held = body.hung_on(root?, &left_out);
+    let turned = held.tree.joint_rows().iter().find(|row| row.is_reversed() && row.kind == JointKind::Universal);
+    if let Some(row) = turned {
+        let found = format!("the universal joint `{}` on the way to the mount", row.name);
+        let problem = Problem::error("mount.segment", found, "a mount on the proximal side of universal joints");
+        let hint =
+            format!("swap `proximal` and `distal` of `body.joints.{}`, or leave out what is beyond it", row.name);
+        b.report(problem.with_hint(Some(hint)));
+    }
+    Some(held)
+}
+
+/// The mount of a body that hangs on it.
+pub(super) fn mounting(b: &mut Builder, section: &MountSection, body: &Body) -> Mounting {
+    let root = body.tree.segment(0);
+    let words = angle_words(body.tree, |segment| segment != root);
+    unknown_angles(b, "mount.posture", section.posture.keys().map(String::as_str), &words);
+    if section.posture.contains_key(&section.segment) {
+        let path = with_key("mount.posture", &section.segment);
+        b.error(&path, "an angle of the segment that is held", "`mount.pitch`, which leans it");
+    }
+    let triple = |of: &Option<[Length; 3]>| of.as_ref().map_or_else(Vector3::zeros, |of| point(of).coords);
+    Mounting {
+        frame: section.frame.unwrap_or_default(),
+        point_m: triple(&section.point),
+        place_m: triple(&section.place),
+        attitude: pose(&None, [&section.roll, &section.pitch, &section.yaw]).attitude,
+        angles_rad: section.posture.iter().map(|(name, angle)| (name.clone(), angle.si())).collect(),
+    }
+}

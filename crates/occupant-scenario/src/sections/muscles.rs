@@ -1,0 +1,89 @@
+//! `[muscles]`: the keys of a muscle, and the [`Muscle`]s they come to.
+
+use nalgebra::{UnitQuaternion, Vector3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::builder::Builder;
+use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, all_si, si_or};
+use super::triggers::Triggers;
+use super::{Angle, Moment, Ratio, RotationalDamping, RotationalStiffness, Scenario, Time};
+use occupant_core::body::{Body, Side, both_sides};
+use occupant_core::forces::joint::muscle::{Muscle, NEVER_S};
+use placed_text::{Problem, did_you_mean, one_of, with_key};
+
+/// A muscle: a spring and a damper to a posture of the joint, and a torque of its own, as strong as it is active.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-together" = [["trigger", "rise"]]))]
+pub(crate) struct MuscleSection {
+    /// Name of the trigger that it answers; without one it keeps its tone.
+    pub(crate) trigger: Option<String>,
+    /// Time from the trigger until it begins to act; 0 if absent.
+    pub(crate) reaction: Option<Time<NOT_NEGATIVE>>,
+    /// Time constant with which its activation follows.
+    pub(crate) rise: Option<Time<POSITIVE>>,
+    /// Time at which it relaxes to its tone again; never if absent.
+    pub(crate) until: Option<Time>,
+    /// The posture that it holds, [yaw, pitch, roll] that turn the outer segment from the joint's angle 0; of a pin the pitch
+    /// is its angle. For a left joint those of the right one. The posture at the start if absent.
+    pub(crate) hold: Option<[Angle; 3]>,
+    /// A torque of its own on the outer segment, wholly active, [about ahead, about left, about up] of the joint's axes on
+    /// the inner one; the second one of a pin bends it. For a left joint that of the right one.
+    pub(crate) torque: Option<[Moment; 3]>,
+    /// Torque per angle away from the posture, wholly active.
+    pub(crate) stiffness: Option<RotationalStiffness<NOT_NEGATIVE>>,
+    /// Torque per rate, wholly active.
+    pub(crate) damping: Option<RotationalDamping<NOT_NEGATIVE>>,
+    /// Greatest torque, wholly active; none if absent.
+    pub(crate) limit: Option<Moment<POSITIVE>>,
+    /// Activation before, 0 to 1; 0 if absent.
+    pub(crate) tone: Option<Ratio<FRACTION>>,
+}
+
+/// A turn of the right side, or its mirror image: yaw and roll go the other way.
+fn mirrored_turn(side: Option<Side>, angles_rad: [f64; 3]) -> UnitQuaternion<f64> {
+    let [roll, pitch, yaw] = mirrored(side, [angles_rad[2], angles_rad[1], angles_rad[0]]).into();
+    UnitQuaternion::from_euler_angles(roll, pitch, yaw)
+}
+
+/// What turns about ahead, left and up on the right side, or its mirror image.
+fn mirrored(side: Option<Side>, about: [f64; 3]) -> Vector3<f64> {
+    let hand = if side == Some(Side::Left) { -1.0 } else { 1.0 };
+    Vector3::new(hand * about[0], about[1], hand * about[2])
+}
+
+/// The muscles of all joints that have any, in the tree's order.
+pub(super) fn muscles(b: &mut Builder, scenario: &Scenario, body: &Body, triggers: &Triggers<'_>) -> Vec<Muscle> {
+    let words = |name: &str| [Some(name.to_owned()), both_sides(name), Some("all".to_owned())];
+    let names: Vec<&str> = body.tree.joint_rows().iter().map(|row| row.name).collect();
+    for name in scenario.muscles.keys() {
+        if !names.iter().any(|joint| words(joint).iter().flatten().any(|word| word == name)) {
+            let found = format!("no joint is named \"{name}\"");
+            let hint = did_you_mean(name, &names, '"');
+            b.report(Problem::error(with_key("muscles", name), found, one_of(&names, '"')).with_hint(hint));
+        }
+    }
+    let mut list = Vec::new();
+    for joint in body.tree.joints() {
+        let words = words(body.tree[joint].name);
+        let Some(key) = words.iter().flatten().find(|word| scenario.muscles.contains_key(*word)) else { continue };
+        let s = &scenario.muscles[key];
+        let at = with_key("muscles", key);
+        let fired_s = s.trigger.as_deref().and_then(|trigger| triggers.time_s(b, &format!("{at}.trigger"), trigger));
+        let side = body.tree[joint].side();
+        let times_s = |at_s| [at_s + si_or(&s.reaction, 0.0), si_or(&s.until, NEVER_S)];
+        list.push(Muscle {
+            joint,
+            hold: s.hold.as_ref().map(|angles| mirrored_turn(side, all_si(angles))),
+            torque_n_m: s.torque.as_ref().map_or_else(Vector3::zeros, |torque| mirrored(side, all_si(torque))),
+            stiffness_n_m: si_or(&s.stiffness, 0.0),
+            damping_n_m_s: si_or(&s.damping, 0.0),
+            most_n_m: si_or(&s.limit, NEVER_S),
+            tone: si_or(&s.tone, 0.0),
+            rise_s: si_or(&s.rise, 1.0),
+            times_s: fired_s.map_or([NEVER_S; 2], times_s),
+        });
+    }
+    list
+}

@@ -1,0 +1,119 @@
+//! Nodes of belts: their keys, and the [`Node`]s they come to.
+
+use nalgebra::Point3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::builder::Builder;
+use super::chains::Parts;
+use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, point, si_or};
+use super::retractors::{StrokeSection, direction};
+use super::{Force, Length, Ratio, Speed};
+use occupant_core::forces::chain::{NEVER, Node, Site, Track};
+
+/// Speed at which webbing slides across a track for each kN beyond friction, m/s: a drag of 100 N·s/m.
+const SLIDE_M_S: f64 = 10.0;
+
+/// A place that webbing passes: a point of the vehicle (`at`), of a segment (`on`, `at`), an arc of a segment (`on`, `track`) or
+/// a sphere of the body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-exactly-one" = [["at", "track", "sphere"]], "x-at-most-one" = [["sphere", "on"]]))]
+pub(crate) struct NodeSection {
+    /// Its name; that of the sphere, or its number, if absent.
+    pub(crate) name: Option<String>,
+    /// Place [x, y, z]: vehicle axes, or with `on` segment axes from the segment's lower end.
+    pub(crate) at: Option<[Length; 3]>,
+    /// Name of the segment that carries it.
+    pub(crate) on: Option<String>,
+    /// Name of the sphere that the webbing wraps.
+    pub(crate) sphere: Option<String>,
+    /// Inner end, crown and outer end of an arc across which the webbing slides, segment axes from the segment's lower end. It
+    /// begins at the crown, and comes off beyond the outer end or where it pulls away from the body.
+    pub(crate) track: Option<[[Length; 3]; 3]>,
+    /// Friction across a track; 0.3 if absent.
+    pub(crate) across: Option<Ratio<NOT_NEGATIVE>>,
+    /// Speed at which webbing slides across a track for each kN beyond friction; 10 m/s if absent.
+    pub(crate) slide_speed: Option<Speed<POSITIVE>>,
+    /// Direction away from the body, segment axes: webbing that pulls that way comes off. Without it a guide holds for ever.
+    pub(crate) normal: Option<[Ratio; 3]>,
+    /// Friction along the webbing; 0 if absent.
+    pub(crate) friction: Option<Ratio<NOT_NEGATIVE>>,
+    /// True: the webbing is sewn fast here.
+    pub(crate) tie: Option<bool>,
+    /// Name of the retractor of the first node.
+    pub(crate) retractor: Option<String>,
+    /// Force at which the webbing comes out of it; never if absent.
+    pub(crate) strength: Option<Force<POSITIVE>>,
+    /// Pretensioner that pulls a point of the vehicle.
+    pub(crate) pretensioner: Option<StrokeSection>,
+}
+
+impl NodeSection {
+    /// One of which nothing is said.
+    pub(super) fn none() -> Self {
+        NodeSection {
+            name: None,
+            at: None,
+            on: None,
+            sphere: None,
+            track: None,
+            across: None,
+            slide_speed: None,
+            normal: None,
+            friction: None,
+            tie: None,
+            retractor: None,
+            strength: None,
+            pretensioner: None,
+        }
+    }
+}
+
+impl Parts<'_> {
+    pub(super) fn node(&self, b: &mut Builder, path: &str, i: usize, s: &NodeSection) -> Node {
+        let name = s.name.clone().or_else(|| s.sphere.clone()).unwrap_or_else(|| (i + 1).to_string());
+        let site = self.site(b, path, s);
+        Node { name, site, friction: si_or(&s.friction, 0.0), strength_n: si_or(&s.strength, NEVER) }
+    }
+
+    fn site(&self, b: &mut Builder, path: &str, s: &NodeSection) -> Site {
+        if let Some(sphere) = &s.sphere {
+            return Site::Sphere(b.sphere(&format!("{path}.sphere"), sphere, self.body));
+        }
+        let at = s.at.as_ref().map_or(Point3::origin(), point);
+        let Some(segment) = &s.on else {
+            b.refuse_keys(
+                path,
+                &["track", "normal"],
+                |key| format!("`{key}` without `on`"),
+                "on = the name of a segment",
+            );
+            let stroke = s.pretensioner.as_ref().map(|stroke| self.stroke(b, path, stroke));
+            return Site::Vehicle(at, stroke);
+        };
+        let tree = self.body.tree;
+        let names: Vec<&str> = tree.segment_rows().iter().map(|row| row.name).collect();
+        let index = names.iter().position(|name| name == segment).unwrap_or_else(|| {
+            b.unknown(&format!("{path}.on"), "segment", segment, &names);
+            0
+        });
+        b.refuse_keys(
+            path,
+            &["pretensioner"],
+            |key| format!("`{key}` of a point of the body"),
+            "a point of the vehicle",
+        );
+        match &s.track {
+            Some(points) => Site::Track(
+                index,
+                Track {
+                    points_m: points.each_ref().map(point),
+                    friction: si_or(&s.across, 0.3),
+                    drag_n_s_m: 1e3 / si_or(&s.slide_speed, SLIDE_M_S),
+                },
+            ),
+            None => Site::Segment(index, at, s.normal.as_ref().map(|normal| direction(all_si(normal)))),
+        }
+    }
+}

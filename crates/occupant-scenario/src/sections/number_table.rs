@@ -1,0 +1,242 @@
+//! Tables of numbers, in a CSV file beside the scenario or in the scenario itself.
+//!
+//! The first line names the columns with their units, `t[s],x[m],yaw[deg]`, or as recorders do, `Time (ms)`; units may stand
+//! in a line of their own below it. Every further line holds one number for each column. Commas, semicolons, tabs or blanks
+//! separate them; blank lines and lines that start with `#` are skipped. Where the scenario names the columns of a file, its
+//! own headings do not count.
+
+use super::heading::heading;
+use crate::kind::{KINDS, UnitSystem};
+use crash_measures::unit::parse;
+use placed_text::{
+    CELL, Cell, Diagnostic, Diagnostics, Node, Problem, Separator, SourceId, Sources, Span, did_you_mean, lines,
+    name_and_unit, one_of, shortened,
+};
+
+/// A column that a table may have.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Column {
+    /// Its name.
+    pub name: &'static str,
+    /// Another name that means the same; empty if it has none.
+    pub alias: &'static str,
+    /// Index of its kind of quantity.
+    pub kind: usize,
+    /// Whether it must be there; others are zero where they are not.
+    pub required: bool,
+}
+
+pub(super) const fn column(name: &'static str, kind: usize, required: bool) -> Column {
+    Column { name, alias: "", kind, required }
+}
+
+/// A table in SI units, angles in radians; one value for each of the columns asked for.
+#[derive(Clone, Debug)]
+pub(super) struct NumberTable {
+    /// Lines of numbers.
+    pub rows: Vec<Vec<f64>>,
+    /// Where each line stands.
+    pub row_spans: Vec<Span>,
+    /// Where the names of the columns stand.
+    pub header: Span,
+    /// Which of the columns asked for are there.
+    pub present: Vec<bool>,
+}
+
+impl NumberTable {
+    fn new(header: Span) -> Self {
+        NumberTable { rows: Vec::new(), row_spans: Vec::new(), header, present: Vec::new() }
+    }
+
+    /// A column in SI, if it is there.
+    pub(crate) fn column(&self, i: usize) -> Option<Vec<f64>> {
+        self.present[i].then(|| self.rows.iter().map(|row| row[i]).collect())
+    }
+}
+
+/// Reads a CSV text; `names` are those of its columns with their units, where its own headings do not count.
+///
+/// # Errors
+/// Unknown, doubled and missing columns, wrong units, lines with too few or too many cells, cells that are no number.
+pub(super) fn read_csv(
+    sources: &Sources,
+    id: SourceId,
+    columns: &[Column],
+    names: Option<(Vec<Cell>, Span)>,
+) -> Result<NumberTable, Diagnostics> {
+    let mut lines = lines(sources, id).peekable();
+    let Some(first) = lines.peek().copied() else {
+        let mut reader = Reader::new(sources, columns, Separator::of(""));
+        reader.error(sources.start_of(id), "an empty table", "a line that names the columns");
+        return Err(reader.problems);
+    };
+    let separator = Separator::of(sources.slice(first));
+    let mut reader = Reader::new(sources, columns, separator);
+    let cells = |line: Span| separator.cells(sources, line);
+    let is_number = |cell: &Cell| separator.number(cell).is_ok();
+    let headings = lines.next_if(|line| names.is_none() || !cells(*line).iter().any(is_number)).map(cells);
+    let is_unit = |cell: &Cell| matches!(cell.text, "" | "-") || parse(bare(cell.text), 0).is_ok();
+    let units = lines.next_if(|line| headings.is_some() && cells(*line).iter().all(is_unit)).map(cells);
+    let mut table = NumberTable::new(first);
+    match names {
+        Some((names, span)) => reader.header(&names, &[], span),
+        None => {
+            let headings = headings.unwrap_or_default();
+            if headings.iter().all(|cell| reader.place(name_and_unit(cell.text).0).is_none()) {
+                // any file can be named in a scenario: what is no such table is not shown
+                let expected = one_of(&reader.names(), '`');
+                reader.error(first, "a first line that names no column of such a table", expected);
+                return Err(reader.problems);
+            }
+            reader.header(&headings, &units.unwrap_or_default(), first);
+        }
+    }
+    for line in lines {
+        let numbers = cells(line).iter().enumerate().map(|(i, cell)| reader.number(i, cell)).collect();
+        reader.row(&mut table, numbers, line);
+    }
+    reader.finish(table)
+}
+
+/// A unit without the brackets round it.
+fn bare(unit: &str) -> &str {
+    unit.trim_matches(['[', ']', '(', ')'])
+}
+
+/// The names that `columns` of a section of the scenario gives to columns, and where.
+pub(super) fn names_of(section: &Node) -> Option<(Vec<Cell<'_>>, Span)> {
+    let columns = section.get("columns")?;
+    let cells = columns.items().iter().filter_map(|node| Some(Cell { text: node.as_str()?, span: node.span }));
+    Some((cells.collect(), columns.span))
+}
+
+/// Reads the `columns` and `rows` of a section of the scenario; both have passed the check.
+///
+/// # Errors
+/// As for [`read_csv`].
+pub(super) fn read_inline(sources: &Sources, section: &Node, columns: &[Column]) -> Result<NumberTable, Diagnostics> {
+    let mut reader = Reader::new(sources, columns, Separator::of(""));
+    let (header, span) = names_of(section).unwrap_or((Vec::new(), section.span));
+    reader.header(&header, &[], span);
+    let mut table = NumberTable::new(span);
+    for row in section.get("rows").map_or(&[][..], Node::items) {
+        let numbers = row.items().iter().map(|n| n.value.number().unwrap_or(f64::NAN)).collect();
+        reader.row(&mut table, numbers, row.span);
+    }
+    reader.finish(table)
+}
+
+struct Reader<'a> {
+    sources: &'a Sources,
+    wanted: &'a [Column],
+    separator: Separator,
+    /// For each column of the table, the wanted column and SI units in one of its own.
+    columns: Vec<Option<(usize, f64)>>,
+    /// Those of the table that are not looked at.
+    left_out: Vec<usize>,
+    problems: Diagnostics,
+}
+
+impl<'a> Reader<'a> {
+    fn new(sources: &'a Sources, wanted: &'a [Column], separator: Separator) -> Self {
+        Reader { sources, wanted, separator, columns: Vec::new(), left_out: Vec::new(), problems: Diagnostics::new() }
+    }
+
+    fn finish(self, mut table: NumberTable) -> Result<NumberTable, Diagnostics> {
+        let there = |i| self.columns.iter().flatten().any(|(at, _)| *at == i);
+        table.present = (0..self.wanted.len()).map(there).collect();
+        if self.problems.is_empty() { Ok(table) } else { Err(self.problems) }
+    }
+
+    fn error(&mut self, span: Span, found: impl Into<String>, expected: impl Into<String>) {
+        self.report(span, Problem::error("", found, expected));
+    }
+
+    fn report(&mut self, span: Span, problem: Problem) {
+        self.problems.add(problem, |problem| Diagnostic::at(self.sources, span, problem));
+    }
+
+    /// Headings, with units that may stand below them.
+    fn header(&mut self, cells: &[Cell], units: &[Cell], span: Span) {
+        for (i, cell) in cells.iter().enumerate() {
+            let below = units.get(i).map(|unit| bare(unit.text)).filter(|unit| !unit.is_empty());
+            let column = self.column(cell, below);
+            self.columns.push(column);
+        }
+        let wanted = self.wanted;
+        for (i, column) in wanted.iter().enumerate() {
+            let there = cells.iter().any(|c| self.place(name_and_unit(c.text).0) == Some(i));
+            let known = self.columns.iter().flatten().any(|(at, _)| *at == i);
+            if column.required && !there && !known {
+                let unit = KINDS[column.kind].bare_unit(UnitSystem::Si);
+                let expected = format!("a column `{}[{unit}]`", column.name);
+                self.error(span, format!("no column `{}`", column.name), expected);
+            }
+        }
+    }
+
+    fn names(&self) -> Vec<&'a str> {
+        self.wanted.iter().map(|column| column.name).collect()
+    }
+
+    /// Which of the columns has this name, or this heading of a recorder.
+    fn place(&self, name: &str) -> Option<usize> {
+        let named =
+            |name: &str| self.wanted.iter().position(|c| c.name == name || (c.alias == name && !name.is_empty()));
+        named(name).or_else(|| named(heading(name)?))
+    }
+
+    fn column(&mut self, cell: &Cell, unit_below: Option<&str>) -> Option<(usize, f64)> {
+        let (name, unit) = name_and_unit(cell.text);
+        let unit_text = unit.or(unit_below);
+        if name == "-" {
+            self.left_out.push(self.columns.len());
+            return None;
+        }
+        let Some(i) = self.place(name) else {
+            let names = self.names();
+            let problem =
+                Problem::error("", format!("unknown column `{}`", shortened(name, CELL)), one_of(&names, '`'));
+            self.report(cell.span, problem.with_hint(did_you_mean(name, &names, '`')));
+            return None;
+        };
+        if self.columns.iter().flatten().any(|(at, _)| *at == i) {
+            self.error(cell.span, format!("column `{name}` a second time"), "each column once");
+            return None;
+        }
+        match KINDS[self.wanted[i].kind].column_factor(name, unit_text) {
+            Ok(factor) => Some((i, factor)),
+            Err(e) => {
+                self.report(cell.span, Problem::error("", e.found, e.expected).with_hint(e.hint));
+                None
+            }
+        }
+    }
+
+    /// The number of column `i` in a line.
+    fn number(&mut self, i: usize, cell: &Cell) -> f64 {
+        let is_left_out = self.left_out.contains(&i);
+        self.separator.number(cell).unwrap_or_else(|found| {
+            if is_left_out {
+                return f64::NAN;
+            }
+            self.error(cell.span, found, "a number");
+            f64::NAN
+        })
+    }
+
+    fn row(&mut self, table: &mut NumberTable, numbers: Vec<f64>, span: Span) {
+        if numbers.len() != self.columns.len() {
+            let expected = format!("{}, one for each column", self.columns.len());
+            return self.error(span, format!("{} numbers", numbers.len()), expected);
+        }
+        let mut row = vec![0.0; self.wanted.len()];
+        for (number, column) in numbers.into_iter().zip(&self.columns) {
+            if let Some((i, factor)) = column {
+                row[*i] = number * factor;
+            }
+        }
+        table.rows.push(row);
+        table.row_spans.push(span);
+    }
+}

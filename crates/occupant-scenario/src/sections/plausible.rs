@@ -1,0 +1,138 @@
+//! Warnings about numbers that are possible but look like a slip of units: inches read as metres, radians as degrees,
+//! lbf/in as N/m, milliseconds as seconds.
+
+use std::ops::RangeInclusive;
+
+use super::builder::Builder;
+use super::joints::said_of;
+use super::posture::PostureSection;
+use super::{Angle, Scenario};
+use occupant_core::body::Tree;
+use occupant_core::model::setup::Setup;
+use placed_text::{Problem, Step, child, follow, number, parse_path, targets, to_text};
+
+/// What is usual of one kind of number, and what an unusual one is likely to be.
+struct Usual {
+    /// Where such numbers stand in an explicit scenario, or what stands for a number made of several; of a list its norm.
+    paths: &'static [&'static str],
+    values: RangeInclusive<f64>,
+    unit: &'static str,
+    in_words: &'static str,
+    what: &'static str,
+    slip: &'static str,
+}
+
+const LEAN: &str = "positive angles lean the top back; 0 is upright";
+const METRES: &str = "bare numbers are metres unless units = \"in-lbf-s\" says inches";
+
+/// Of angles; SI has radians.
+const DEGREES: &str = "°";
+
+const fn usual(
+    paths: &'static [&'static str],
+    values: RangeInclusive<f64>,
+    [unit, in_words, what, slip]: [&'static str; 4],
+) -> Usual {
+    Usual { paths, values, unit, in_words, what, slip }
+}
+
+/// Where, from what to what, in which unit, in words, of what, and the slip.
+#[rustfmt::skip]
+const USUAL: [Usual; 11] = [
+    usual(&["gravity"], 9.5..=10.1, ["m/s²", "9.5 to 10.1 m/s²", "gravity on earth",
+        "386.09 is standard gravity in in/s², 32.17 in ft/s²"]),
+    usual(&["body.segments"], 3.0..=250.0, ["kg", "3 kg to 250 kg", "the mass of a person",
+        "a bare mass is in kg, under units = \"in-lbf-s\" in lbf·s²/in; use \"11.5 lb\", or `weight`"]),
+    usual(&["time.end"], 0.01..=20.0, ["s", "10 ms to 20 s", "the length of a crash",
+        "bare numbers are seconds; use \"200 ms\""]),
+    usual(&["body.spheres.*.radius"], 0.005..=0.5, ["m", "5 mm to 0.5 m", "the radius of a sphere of the body", METRES]),
+    usual(&["materials.*.k1", "belts.*.k1"], 500.0..=1e9, ["N/m", "500 N/m to 1 GN/m", "the stiffness of a part of a car",
+        "bare numbers are N/m unless units = \"in-lbf-s\" says lbf/in; 1 lbf/in is 175 N/m"]),
+    usual(&["materials.*.friction"], 0.0..=3.0, ["", "0 to 3", "a coefficient of friction",
+        "it is the force along the surface over that into it"]),
+    usual(&["belts.*.anchors[*]", "posture.heels[*]"], -10.0..=10.0, ["m", "within 10 m of the origin", "a place in a vehicle", METRES]),
+    usual(&["posture.middle_torso", "posture.upper_torso", "posture.lower_torso"], -45.0..=90.0,
+        [DEGREES, "−45° to 90°", "the lean of a person who sits", LEAN]),
+    usual(&["posture.head"], -60.0..=90.0, [DEGREES, "−60° to 90°", "the lean of a head", LEAN]),
+    usual(&["posture.upper_arms"], -90.0..=180.0, [DEGREES, "−90° to 180°", "the angle of upper arms",
+        "positive angles bring the elbows ahead of the shoulders"]),
+    usual(&["posture.elbows"], -150.0..=10.0, [DEGREES, "−150° to 10°", "the angle of elbows",
+        "negative angles bring the hands forward"]),
+];
+
+/// Adds a warning for every kind of number that looks like a slip.
+pub(super) fn check(b: &mut Builder, setup: &Setup, scenario: &Scenario) {
+    for usual in &USUAL {
+        let factor = if usual.unit == DEGREES { 1f64.to_degrees() } else { 1.0 };
+        let values = usual.paths.iter().flat_map(|path| values(b, setup, path)).map(|(p, x)| (p, x * factor)).collect();
+        warn_unless(b, values, usual);
+    }
+    if let Some(posture) = &scenario.posture {
+        check_posture_angles(b, posture);
+    }
+    check_stop_angles(b, setup.body.tree);
+}
+
+/// SI values and the paths they stand at; a 0 that switches something off is none, nor is what is taken away.
+fn values(b: &Builder, setup: &Setup, path: &str) -> Vec<(String, f64)> {
+    let root = &b.document.root;
+    let of_place = |steps: Vec<Step>| {
+        let above = follow(root, &steps[..steps.len() - 1])?;
+        let node = child(above, steps.last()?)?;
+        let norm = || node.items().iter().filter_map(|n| n.si).map(|x| x * x).sum::<f64>().sqrt();
+        let value = node.si.unwrap_or_else(norm);
+        (value != 0.0 && !above.is_removed()).then(|| (to_text(&steps), value))
+    };
+    match path {
+        "body.segments" => vec![(path.to_owned(), setup.body.mass_kg())],
+        "time.end" => vec![(path.to_owned(), setup.time.end_s - setup.time.start_s)],
+        _ => targets(root, &parse_path(path).unwrap_or_default()).into_iter().filter_map(of_place).collect(),
+    }
+}
+
+/// One warning for all values of a kind that are out of the usual range, at the first of them.
+fn warn_unless(b: &mut Builder, values: Vec<(String, f64)>, usual: &Usual) {
+    let mut unusual = values.into_iter().filter(|(_, v)| !usual.values.contains(v));
+    let Some((path, value)) = unusual.next() else { return };
+    let more = match unusual.count() {
+        0 => String::new(),
+        n => format!(", and so are {n} more"),
+    };
+    let rounded = (value * 1e6).round() / 1e6;
+    let value = number(if rounded == 0.0 { value } else { rounded });
+    let found = format!("{} is unusual for {}{more}", format!("{value} {}", usual.unit).trim_end(), usual.what);
+    b.report(Problem::warning(path, found, usual.in_words).with_hint(Some(usual.slip)));
+}
+
+/// Bare angles that are all below π, and not all whole or nearly nothing, were meant in radians. A text carries its unit
+/// and is what it says.
+fn look_like_radians(angles: &[&Angle]) -> bool {
+    let degrees: Option<Vec<f64>> = angles.iter().map(|a| a.bare()).collect();
+    degrees.is_some_and(|all| {
+        all.iter().all(|a| a.abs() <= std::f64::consts::PI) && all.iter().any(|a| a.abs() > 0.05 && a.fract() != 0.0)
+    })
+}
+
+fn check_posture_angles(b: &mut Builder, p: &PostureSection) {
+    let angles: Vec<&Angle> = p.angles().map(|(_, angle)| angle).collect();
+    if look_like_radians(&angles) {
+        let found = "angles of the posture that are all below 3.2°, as if they were radians";
+        let hint = "bare angles are degrees; write \"0.26 rad\" for radians";
+        b.report(Problem::warning("posture", found, "degrees").with_hint(Some(hint)));
+    }
+}
+
+fn check_stop_angles(b: &mut Builder, tree: &Tree) {
+    for joint in tree.joint_rows() {
+        let Some(section) = said_of(b, joint.name) else { continue };
+        let stops = [("stop", &section.stop), ("lower_stop", &section.lower_stop), ("upper_stop", &section.upper_stop)];
+        for (key, stop) in stops {
+            if stop.as_ref().is_some_and(|s| look_like_radians(&[&s.begin, &s.full])) {
+                let found = "angles of a stop that are both below 3.2°, as if they were radians";
+                let hint = "bare angles are degrees; write \"0.79 rad\" for radians";
+                let path = format!("joints.{}.{key}", joint.name);
+                b.report(Problem::warning(path, found, "degrees").with_hint(Some(hint)));
+            }
+        }
+    }
+}

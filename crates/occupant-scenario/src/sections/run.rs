@@ -1,0 +1,107 @@
+//! `[time]`, `[integrator]` and `[output]`: their keys, and the [`TimeSpan`], [`Integrator`] and [`OutputOptions`] they
+//! come to.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::builder::Builder;
+use super::markers::markers;
+use super::quantity::{NOT_NEGATIVE, POSITIVE, si_or};
+use super::{Length, Ratio, Scenario, Speed, Time};
+use occupant_core::body::Body;
+use occupant_core::model::setup::{DEFAULT_OUTPUT_S, Integrator, OutputOptions, TimeSpan};
+
+/// When the run starts and ends.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TimeSection {
+    /// Start; 0 if absent.
+    pub(crate) start: Option<Time>,
+    /// End.
+    pub(crate) end: Time,
+}
+
+/// What is recorded.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct OutputSection {
+    /// Time between two records; 1 ms if absent.
+    pub(crate) interval: Option<Time<POSITIVE>>,
+    /// Also record the report's coordinates q₁…q₃₁ and their rates; false if absent.
+    pub(crate) report_coordinates: Option<bool>,
+}
+
+/// How the equations of motion are integrated.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub(crate) enum IntegratorSection {
+    /// The classical fourth-order Runge–Kutta method with a fixed step, as in the report.
+    Rk4 {
+        /// Step.
+        step: Time<POSITIVE>,
+    },
+    /// An embedded 3(2) pair that chooses its step.
+    Adaptive(Box<AdaptiveSection>),
+}
+
+/// Settings of "adaptive".
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct AdaptiveSection {
+    /// Relative tolerance of velocities; 3e-8 if absent.
+    pub(crate) relative: Option<Ratio<NOT_NEGATIVE>>,
+    /// Absolute tolerance of positions; 3e-9 m if absent.
+    pub(crate) absolute_length: Option<Length<POSITIVE>>,
+    /// Absolute tolerance of velocities; 3e-7 m/s if absent.
+    pub(crate) absolute_speed: Option<Speed<POSITIVE>>,
+    /// Smallest step, and the first; 1e-10 s if absent.
+    pub(crate) min_step: Option<Time<POSITIVE>>,
+    /// Largest step; 2 ms if absent.
+    pub(crate) max_step: Option<Time<POSITIVE>>,
+}
+
+/// Start, end and output interval.
+pub(super) fn time(b: &mut Builder, s: &Scenario) -> TimeSpan {
+    let span = TimeSpan {
+        start_s: si_or(&s.time.start, 0.0),
+        end_s: s.time.end.si(),
+        output_s: s.output.as_ref().map_or(DEFAULT_OUTPUT_S, |o| si_or(&o.interval, DEFAULT_OUTPUT_S)),
+    };
+    if span.end_s <= span.start_s {
+        let found = format!("a run from {} s to {} s", span.start_s, span.end_s);
+        b.error("time.end", found, "an end after the start");
+    }
+    span
+}
+
+/// The integrator.
+pub(super) fn integrator(b: &mut Builder, s: &Scenario) -> Integrator {
+    let mut integrator = Integrator::default();
+    match (&s.integrator, &mut integrator) {
+        (Some(IntegratorSection::Rk4 { step }), _) => return Integrator::Rk4 { step_s: step.si() },
+        (
+            Some(IntegratorSection::Adaptive(a)),
+            Integrator::Adaptive { relative, absolute_m, absolute_m_s, min_step_s, max_step_s },
+        ) => {
+            *relative = si_or(&a.relative, *relative);
+            *absolute_m = si_or(&a.absolute_length, *absolute_m);
+            *absolute_m_s = si_or(&a.absolute_speed, *absolute_m_s);
+            *min_step_s = si_or(&a.min_step, *min_step_s);
+            *max_step_s = si_or(&a.max_step, *max_step_s);
+            if max_step_s < min_step_s {
+                let found = format!("a largest step of {max_step_s} s below the smallest, {min_step_s} s");
+                b.error("integrator.max_step", found, "min_step ≤ max_step");
+            }
+        }
+        _ => {}
+    }
+    integrator
+}
+
+/// Extra outputs.
+pub(super) fn output(b: &mut Builder, s: &Scenario, body: &Body) -> OutputOptions {
+    OutputOptions {
+        report_coordinates: s.output.as_ref().and_then(|o| o.report_coordinates) == Some(true),
+        markers: markers(b, &s.markers, body),
+    }
+}

@@ -1,0 +1,59 @@
+//! `[self_contact]`: its keys, and the [`SelfContact`] they come to.
+
+use indexmap::IndexMap;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Scenario;
+use super::builder::{Builder, index_of};
+use occupant_core::body::Body;
+use occupant_core::forces::contact::self_contact::SelfContact;
+use placed_text::with_key;
+
+/// Lets parts of the body touch each other. Absent: they go through each other, as in the report.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SelfContactSection {
+    /// Name of the material in `materials` of which the body's skin is. Two skins deform in series.
+    pub(crate) skin: String,
+    /// Materials of the skins of single parts, by the names of parts or spheres.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) skins: IndexMap<String, String>,
+    /// Pairs of parts that can touch; absent: hands, elbows, knees, thighs, shins and feet with what they reach. Parts that
+    /// share a joint or overlap in a body that stands never meet.
+    pub(crate) pairs: Option<Vec<[String; 2]>>,
+}
+
+/// What the body does to itself, if anything.
+pub(super) fn self_contact(b: &mut Builder, scenario: &Scenario, body: &Body) -> Option<SelfContact> {
+    let section = scenario.self_contact.as_ref()?;
+    let material = |name: &str| index_of(name, scenario.materials.keys().map(String::as_str));
+    let mut own = SelfContact::of(body, material(&section.skin));
+    for (part, skin) in &section.skins {
+        let spheres = body.spheres_called(part);
+        if spheres.is_empty() {
+            b.sphere(&with_key("self_contact.skins", part), part, body);
+        }
+        spheres.into_iter().for_each(|sphere| own.skins[sphere] = material(skin));
+    }
+    if let Some(pairs) = &section.pairs {
+        own.pairs = pairs.iter().enumerate().flat_map(|(i, pair)| named(b, body, i, pair)).collect();
+        own.pairs.sort_unstable();
+        own.pairs.dedup();
+    }
+    Some(own)
+}
+
+/// The pairs of spheres of a named pair of parts.
+fn named(b: &mut Builder, body: &Body, i: usize, pair: &[String; 2]) -> Vec<[usize; 2]> {
+    let path = format!("self_contact.pairs[{i}]");
+    if b.spheres(&path, pair, body).len() < 2 {
+        return Vec::new();
+    }
+    let spheres = SelfContact::between(body, [pair.clone()].into_iter());
+    if spheres.is_empty() {
+        let found = format!("{} and {}, which share a joint or overlap in a body that stands", pair[0], pair[1]);
+        b.error(&path, found, "parts that can be apart and meet");
+    }
+    spheres
+}

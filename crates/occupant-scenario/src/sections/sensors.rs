@@ -1,0 +1,189 @@
+//! `[path]` of kind "sensors": its keys, and the [`SensorPath`] they come to.
+
+use nalgebra::Vector3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::builder::Builder;
+use super::number_table::{Column, NumberTable, column};
+use super::path::{direction, numbers, pose, refuse};
+use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si};
+use super::{Angle, Length, Ratio, Speed, Time};
+use crate::kind;
+use crash_measures::signal::ChannelClass;
+use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
+use occupant_core::vehicle::{
+    AccelerationRecord, AfterEnd, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord,
+};
+use placed_text::{Diagnostic, Problem, SourceId};
+
+/// What sensors in the vehicle recorded, along its axes: x forward, y right, z down.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-exactly-one" = [["file", "rows"]], "dependentRequired" = {"rows": ["columns"]}))]
+pub(crate) struct SensorsSection {
+    /// CSV file beside the scenario; its first line names the columns and their units: `t`, accelerations `ax`, `ay`, `az`
+    /// and rates `wx`, `wy`, `wz` (or `roll_rate`, `pitch_rate`, `yaw_rate`), such as `t[s],ax[g],ay[g],wz[deg/s]`; or
+    /// velocity changes `dvx`, `dvy` with `wz`, such as `t[ms],dvx[km/h]`; or as recorders do, such as
+    /// `Time (ms),Delta-V longitudinal (km/h)`. Commas, semicolons, tabs or blanks separate them. An acceleration, rate or velocity change that
+    /// has no column is a motion that is not there.
+    pub(crate) file: Option<String>,
+    /// Names and units of the columns of `rows`, such as `["t[ms]", "ax[g]"]`; or of those of `file` in place of its headings, `"-"` for one
+    /// that is left out.
+    pub(crate) columns: Option<Vec<String>>,
+    /// The record itself, one list for each time.
+    pub(crate) rows: Option<Vec<Vec<f64>>>,
+    /// Speed of the vehicle's centre of gravity when the path starts.
+    pub(crate) speed: Speed<NOT_NEGATIVE>,
+    /// Direction of that speed [x, y, z], any length; where the vehicle heads if absent.
+    pub(crate) direction: Option<[Ratio; 3]>,
+    /// What gravity does in the accelerations. Must be given with them.
+    pub(crate) gravity: Option<SensorGravity>,
+    /// Which way the sensors' axes point; "z_down" if absent.
+    pub(crate) axes: Option<SensorAxes>,
+    /// Where the sensors stand, [x, y, z] from the vehicle's centre of gravity, forward, right, down; [0, 0, 0] if absent.
+    pub(crate) offset: Option<[Length; 3]>,
+    /// Channel frequency class (ISO 6487, without phase lag) that all accelerations and rates are filtered by; not
+    /// filtered if absent.
+    pub(crate) filter: Option<FilterClass>,
+    /// Length of the rest, or steady travel, at the beginning of the record; what each channel reads there on average
+    /// beyond what it should is taken away from all of it. Nothing is taken away if absent.
+    pub(crate) baseline: Option<Time<POSITIVE>>,
+    /// Time of the record at which the path starts and position, angles and speed hold; its first time if absent.
+    pub(crate) start: Option<Time>,
+    /// [x, y, z] of the vehicle's centre of gravity when the path starts; [0, 0, 0] if absent.
+    pub(crate) position: Option<[Length; 3]>,
+    /// Roll when the path starts; 0 if absent.
+    pub(crate) roll: Option<Angle>,
+    /// Pitch when the path starts; 0 if absent.
+    pub(crate) pitch: Option<Angle>,
+    /// Yaw when the path starts; 0 if absent.
+    pub(crate) yaw: Option<Angle>,
+    /// What the vehicle does after the last time; a run that goes on is refused if absent.
+    pub(crate) after: Option<AfterEnd>,
+}
+
+/// Which way the axes of sensors point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum SensorAxes {
+    /// x forward, y right, z down (SAE J211, J670).
+    ZDown,
+    /// x forward, y left, z up (ISO 8855).
+    ZUp,
+}
+
+// in the order of `ChannelClass::ALL`
+/// Channel frequency class.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum FilterClass {
+    /// CFC 60.
+    Cfc60,
+    /// CFC 180.
+    Cfc180,
+    /// CFC 600.
+    Cfc600,
+    /// CFC 1000.
+    Cfc1000,
+}
+
+/// Columns of a record: the time, accelerations, rates, velocity changes.
+pub(super) const COLUMNS: [Column; 9] = [
+    column("t", kind::TIME, true),
+    column("ax", kind::ACCELERATION, false),
+    column("ay", kind::ACCELERATION, false),
+    column("az", kind::ACCELERATION, false),
+    rate("wx", "roll_rate"),
+    rate("wy", "pitch_rate"),
+    rate("wz", "yaw_rate"),
+    column("dvx", kind::SPEED, false),
+    column("dvy", kind::SPEED, false),
+];
+
+/// How many of them come before the velocity changes.
+pub(super) const RECORDED: usize = 7;
+
+const fn rate(name: &'static str, alias: &'static str) -> Column {
+    Column { alias, ..column(name, kind::ANGULAR_VELOCITY, false) }
+}
+
+/// The path of a record; `file` is the CSV text the section names, if it names one.
+pub(super) fn path(
+    b: &mut Builder,
+    s: &SensorsSection,
+    file: Option<SourceId>,
+    gravity_m_s2: f64,
+) -> Option<SensorPath> {
+    let table = numbers(b, file, &COLUMNS)?;
+    let path = SensorPath::new(SensorDefinition {
+        record: record(b, s, &table)?,
+        initial: pose(&s.position, [&s.roll, &s.pitch, &s.yaw]),
+        initial_speed_m_s: s.speed.si(),
+        direction: direction(&s.direction),
+        offset_m: Vector3::from(s.offset.as_ref().map_or([0.0; 3], all_si)),
+        gravity: s.gravity.unwrap_or(SensorGravity::Removed),
+        gravity_m_s2: match gravity_m_s2 {
+            0.0 => STANDARD_GRAVITY_M_S2,
+            g => g,
+        },
+        filter: s.filter.map(|word| ChannelClass::ALL[word as usize]),
+        baseline_s: s.baseline.as_ref().map(Time::si),
+        starts_at_s: s.start.as_ref().map(Time::si),
+        after: s.after.unwrap_or_default(),
+    });
+    path.map_err(|p| refuse(b, &p, Some(&table))).ok()
+}
+
+/// The channels of the table, in axes forward, right, down.
+fn record(b: &mut Builder, s: &SensorsSection, table: &NumberTable) -> Option<SensorRecord> {
+    let time_s = table.column(0).unwrap_or_default();
+    let sign = match s.axes {
+        Some(SensorAxes::ZUp) => [1.0, -1.0, -1.0],
+        Some(SensorAxes::ZDown) | None => [1.0; 3],
+    };
+    let channel = |i: usize, axis: usize| {
+        let samples = table.column(i)?;
+        Some(samples.into_iter().map(|x| sign[axis] * x).collect())
+    };
+    let accelerations = (1..=3).any(|i| table.present[i]);
+    if (7..=8).any(|i| table.present[i]) {
+        let sound = check_delta_v(b, table);
+        return sound.then(|| {
+            SensorRecord::DeltaV(DeltaVRecord {
+                time_s,
+                longitudinal_m_s: channel(7, 0),
+                lateral_m_s: channel(8, 1),
+                yaw_rate_rad_s: channel(6, 2),
+            })
+        });
+    }
+    if accelerations && s.gravity.is_none() {
+        b.error(
+            "path",
+            "`path` has no key `gravity`, and the record has accelerations",
+            "gravity = \"included\", \"zeroed\" or \"removed\"",
+        );
+        return None;
+    }
+    Some(SensorRecord::Accelerations(AccelerationRecord {
+        time_s,
+        acceleration_m_s2: [channel(1, 0), channel(2, 1), channel(3, 2)],
+        rate_rad_s: [channel(4, 0), channel(5, 1), channel(6, 2)],
+    }))
+}
+
+/// Whether a record of velocity changes is free of what has no meaning there.
+fn check_delta_v(b: &mut Builder, table: &NumberTable) -> bool {
+    let before = b.problems.len();
+    for i in [1, 2, 3, 4, 5].into_iter().filter(|&i| table.present[i]) {
+        let found = format!("`{}` beside velocity changes", COLUMNS[i].name);
+        let expected = "`t`, `dvx`, `dvy` and `wz`, or accelerations and rates without velocity changes";
+        let problem = Problem::error("path", found, expected);
+        b.problems.push(Diagnostic::at(&b.document.sources, table.header, problem));
+    }
+    let expected = "a record of accelerations, or no such key";
+    let found = |key: &str| format!("`{key}` with a record of velocity changes");
+    b.refuse_keys("path", &["gravity", "filter", "baseline"], found, expected);
+    b.problems.len() == before
+}

@@ -1,0 +1,106 @@
+//! The sections of a checked scenario → the core's plain SI data.
+//!
+//! Words, numbers and names have passed the check; here keys that only make sense together are put together. Numbers that
+//! contradict the physics are left to the model, which checks plain data whoever made it.
+
+use serde::Deserialize;
+
+use super::builder::Builder;
+use super::quantity::si_or;
+use super::{
+    BodySection, JointsSection, Scenario, belts, body, chains, joints, materials, mount, muscles, path, plausible,
+    posture, run, self_contact, solids, surfaces, triggers,
+};
+use crate::check::references;
+use occupant_core::body::Body;
+use occupant_core::forces::joint::Joints;
+use occupant_core::model::setup::{STANDARD_GRAVITY_M_S2, Setup};
+use placed_text::{Diagnostics, Document, Problem, SourceId, locate, with_key};
+
+/// Builds the plain data; `written` is the scenario as it was written, `explicit` the one with presets written out, and
+/// `document` the tree of the latter.
+pub(crate) fn setup(
+    written: &Scenario,
+    explicit: &Scenario,
+    document: &Document,
+    path_table: Option<SourceId>,
+) -> Result<(Setup, Diagnostics), Diagnostics> {
+    let b = &mut Builder { document, problems: Diagnostics::new() };
+    let is_part = explicit.mount.is_some();
+    let whole = body::body(b, written.body.preset.as_deref(), &explicit.body, is_part);
+    // what is said of joints that are left out is as good as what is said of all
+    let joints = whole.as_ref().map(|whole| joints::joints(b, &explicit.joints, whole.tree));
+    let held = |whole: Body| match &explicit.mount {
+        Some(section) => mount::held(b, section, &whole),
+        None => Some(whole),
+    };
+    let (Some(body), Some(joints)) = (whole.and_then(held), joints) else {
+        return Err(std::mem::take(&mut b.problems));
+    };
+    let mut joints = joints.of_tree(body.tree);
+    references(&document.root, None).into_iter().for_each(|problem| b.report(problem));
+    let materials = materials::materials(b, explicit);
+    let surfaces = surfaces::surfaces(b, explicit, &body);
+    let solids = solids::solids(b, explicit, &body);
+    let self_contact = self_contact::self_contact(b, explicit, &body);
+    let belts = belts::belts(b, explicit, &body);
+    let (posture, velocity) = posture::posture(b, explicit, &body);
+    let time = run::time(b, explicit);
+    let integrator = run::integrator(b, explicit);
+    let output = run::output(b, explicit, &body);
+    let gravity_m_s2 = si_or(&explicit.gravity, STANDARD_GRAVITY_M_S2);
+    let path = path::path(b, &explicit.path, path_table, gravity_m_s2);
+    let mut chains = Vec::new();
+    if let Some(path) = &path {
+        let triggers = triggers::triggers(b, explicit, path, &time);
+        joints.muscles = muscles::muscles(b, explicit, &body, &triggers);
+        chains = chains::chains(b, explicit, &body, &triggers);
+    }
+    check_provenance(b, written);
+    let (Some(path), Some(posture), false) = (path, posture, b.problems.has_errors()) else {
+        return Err(std::mem::take(&mut b.problems));
+    };
+    let setup = Setup {
+        title: explicit.title.clone(),
+        body,
+        joints,
+        gravity_m_s2,
+        materials,
+        surfaces,
+        solids,
+        edge_force: surfaces::edge_force(explicit),
+        self_contact,
+        belts,
+        chains,
+        path,
+        posture,
+        velocity,
+        time,
+        integrator,
+        output,
+    };
+    plausible::check(b, &setup, explicit);
+    Ok((setup, std::mem::take(&mut b.problems)))
+}
+
+/// Builds the occupant alone; `document` is the tree of an explicit scenario that came from `preset`.
+pub(crate) fn occupant(preset: &str, document: &Document) -> Option<(Body, Joints)> {
+    let body = BodySection::deserialize(document.root.get("body")?).ok()?;
+    let joints = JointsSection::deserialize(document.root.get("joints")?).ok()?;
+    let b = &mut Builder { document, problems: Diagnostics::new() };
+    let body = body::body(b, Some(preset), &body, false)?;
+    let joints = joints::joints(b, &joints, body.tree);
+    (!b.problems.has_errors()).then_some((body, joints))
+}
+
+/// Warns of provenance notes that speak of nothing in the scenario.
+fn check_provenance(b: &mut Builder, written: &Scenario) {
+    for topic in written.provenance.keys() {
+        let is_path = topic.contains('.') && !topic.contains(' ');
+        if is_path && locate(&b.document.root, topic).is_none() {
+            let found = format!("`{topic}` is no part of the scenario");
+            let expected = "a path such as materials.seat, or a topic in words";
+            b.report(Problem::warning(with_key("provenance", topic), found, expected));
+        }
+    }
+}

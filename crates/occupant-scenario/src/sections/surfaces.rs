@@ -1,0 +1,193 @@
+//! `[surfaces]` and `[contact]`: the keys of a surface, and the [`Surface`] they come to.
+
+use nalgebra::Vector3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::builder::{Builder, index_of};
+use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, point, si_or};
+use super::{Angle, Length, Ratio, Scenario};
+use occupant_core::body::Body;
+use occupant_core::forces::contact::EdgeForce;
+use occupant_core::forces::contact::surface::{Facing, Frame, Outline, Surface};
+use placed_text::{Problem, with_key};
+
+/// A plane surface: `points`, `edge` with `half_width`, `disc`, or `plane`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend(
+    "x-exactly-one" = [["points", "edge", "disc", "plane"]],
+    "x-together" = [["edge", "half_width"]],
+))]
+pub(crate) struct SurfaceSection {
+    /// Name of its material in `materials`.
+    pub(crate) material: String,
+    /// What it is fixed to; "vehicle" if absent.
+    pub(crate) frame: Option<Frame>,
+    /// Corners [x, y, z] in order round a convex plane polygon.
+    #[schemars(extend("minItems" = 3))]
+    pub(crate) points: Option<Vec<[Length; 3]>>,
+    /// Two points [x, z] of a rectangle seen from the side.
+    pub(crate) edge: Option<[[Length; 2]; 2]>,
+    /// Half the rectangle's width.
+    pub(crate) half_width: Option<Length<POSITIVE>>,
+    /// Half the width at the second point of `edge`, where it differs.
+    pub(crate) end_half_width: Option<Length<NOT_NEGATIVE>>,
+    /// Lateral place of the rectangle's middle; 0 if absent.
+    pub(crate) y: Option<Length>,
+    /// A circular disc, such as a steering wheel.
+    pub(crate) disc: Option<DiscSection>,
+    /// A whole plane without bounds.
+    pub(crate) plane: Option<PlaneSection>,
+    /// A point on the open side, in the surface's frame; the scenario's `inside` if absent.
+    pub(crate) inside: Option<[Length; 3]>,
+    /// "order" takes the open side from the order of the corners, or from `normal`, instead of from a point.
+    pub(crate) facing: Option<FacingChoice>,
+    /// Names of the parts or spheres of the body that can touch it; all if absent.
+    pub(crate) spheres: Option<Vec<String>>,
+}
+
+/// A circular disc.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-exactly-one" = [["tilt", "normal"]]))]
+pub(crate) struct DiscSection {
+    /// Centre.
+    pub(crate) centre: [Length; 3],
+    /// Diameter.
+    pub(crate) diameter: Length<POSITIVE>,
+    /// Angle of the disc's plane from the vertical, its upper edge ahead, as a steering wheel's.
+    pub(crate) tilt: Option<Angle>,
+    /// Normal of the disc; any length.
+    pub(crate) normal: Option<[Ratio; 3]>,
+}
+
+/// A plane without bounds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PlaneSection {
+    /// A point of it.
+    pub(crate) point: [Length; 3],
+    /// Its normal; any length.
+    pub(crate) normal: [Ratio; 3],
+}
+
+/// How the open side is told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum FacingChoice {
+    /// Corners run counter-clockwise seen from the open side; a normal points to it.
+    Order,
+}
+
+/// How contact forces act.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ContactSection {
+    /// Where the in-plane force of a surface's edge acts on a sphere; "contact_point" if absent.
+    pub(crate) edge_force: Option<EdgeForce>,
+}
+
+/// Where the edge force acts.
+pub(super) fn edge_force(s: &Scenario) -> EdgeForce {
+    s.contact.as_ref().and_then(|c| c.edge_force).unwrap_or_default()
+}
+
+/// All surfaces, in the order written.
+pub(super) fn surfaces(b: &mut Builder, scenario: &Scenario, body: &Body) -> Vec<Surface> {
+    let mut undecided = Vec::new();
+    let each = scenario.surfaces.iter();
+    let surfaces = each
+        .map(|(name, section)| surface(b, scenario, body, (&with_key("surfaces", name), name, section), &mut undecided))
+        .collect();
+    report_undecided(b, &undecided);
+    surfaces
+}
+
+/// The surface that the section at `path` says.
+pub(super) fn surface(
+    b: &mut Builder,
+    scenario: &Scenario,
+    body: &Body,
+    (path, name, section): (&str, &str, &SurfaceSection),
+    undecided: &mut Vec<String>,
+) -> Surface {
+    let frame = section.frame.unwrap_or_default();
+    let spheres = format!("{path}.spheres");
+    Surface {
+        name: name.to_owned(),
+        frame,
+        outline: outline(b, path, section, frame),
+        facing: facing(b, scenario, (path, section), frame, undecided),
+        material: index_of(&section.material, scenario.materials.keys().map(String::as_str)),
+        spheres: section.spheres.as_ref().map(|names| b.spheres(&spheres, names, body)),
+    }
+}
+
+fn outline(b: &mut Builder, path: &str, section: &SurfaceSection, frame: Frame) -> Outline {
+    if section.edge.is_none() {
+        let for_edges = ["half_width", "end_half_width", "y"];
+        b.refuse_keys(path, &for_edges, |key| format!("`{key}` without `edge`"), "`edge`, which it belongs to");
+    }
+    if let Some(plane) = &section.plane {
+        let axis = Vector3::from(all_si(&plane.normal));
+        return Outline::Unbounded { point_m: point(&plane.point), axis };
+    }
+    if let Some(section) = &section.disc {
+        return disc(section, frame);
+    }
+    if let Some(edge) = &section.edge {
+        let near = si_or(&section.half_width, f64::NAN);
+        let far = si_or(&section.end_half_width, near);
+        return Outline::strip(edge.each_ref().map(all_si), si_or(&section.y, 0.0), near, far);
+    }
+    Outline::Polygon(section.points.iter().flatten().map(point).collect())
+}
+
+fn disc(section: &DiscSection, frame: Frame) -> Outline {
+    let (centre_m, diameter_m) = (point(&section.centre), section.diameter.si());
+    match (&section.tilt, &section.normal) {
+        (Some(tilt), None) => Outline::wheel(frame, centre_m, diameter_m, tilt.si()),
+        (_, normal) => {
+            let axis = normal.as_ref().map_or(Vector3::zeros(), |normal| Vector3::from(all_si(normal)));
+            Outline::Disc { centre_m, radius_m: 0.5 * diameter_m, axis }
+        }
+    }
+}
+
+/// The open side: the surface's own word, else the scenario's `inside`, else a given normal.
+fn facing(
+    b: &mut Builder,
+    scenario: &Scenario,
+    (path, section): (&str, &SurfaceSection),
+    frame: Frame,
+    undecided: &mut Vec<String>,
+) -> Facing {
+    if let Some(inside) = &section.inside {
+        if section.facing.is_some() {
+            b.error(&with_key(path, "facing"), "`facing` and `inside` together", "one of them only");
+        }
+        return Facing::Towards(point(inside));
+    }
+    match (&section.facing, &scenario.inside, frame) {
+        (Some(_), ..) => Facing::Order,
+        (None, Some(inside), Frame::Vehicle) => Facing::Towards(point(inside)),
+        _ if section.disc.is_some() || section.plane.is_some() => Facing::Order,
+        _ => {
+            undecided.push(path.to_owned());
+            Facing::Order
+        }
+    }
+}
+
+/// One message for all surfaces whose open side is not told.
+pub(super) fn report_undecided(b: &mut Builder, paths: &[String]) {
+    let Some((first, others)) = paths.split_first() else { return };
+    let found = match others.len() {
+        0 => format!("`{first}` does not say which side is open"),
+        n => format!("`{first}` and {n} more do not say which side is open"),
+    };
+    let expected = "inside = [x, y, z], a point on the open side, or facing = \"order\"";
+    let hint = "a key `inside` at the top of the scenario serves all surfaces of the vehicle";
+    b.report(Problem::error(first, found, expected).with_hint(Some(hint)));
+}

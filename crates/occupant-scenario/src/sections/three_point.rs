@@ -1,0 +1,148 @@
+//! `belts.*.preset`: a three-point belt placed by the seat and the body.
+//!
+//! All places are ours, of a usual car, seen from the pelvis of a body that sits on the seat: metres back, outboard and down.
+
+use nalgebra::{Matrix2, Vector2};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::belts::BeltSection;
+use super::builder::Builder;
+use super::functions::WebbingSection;
+use super::nodes::NodeSection;
+use super::quantity::si_or;
+use super::{Length, Ratio, Scenario};
+use crate::presets;
+use occupant_core::body::Body;
+use occupant_core::forces::function::Function;
+
+/// Belts placed by the seat and the body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Preset {
+    /// A shoulder and a lap belt in one, from an upper anchor on one side over the shoulder, through a buckle on the other side, to
+    /// an anchor on the first: webbing slides through ring and buckle.
+    ThreePoint,
+}
+
+/// A side of the vehicle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Side {
+    /// At negative y.
+    #[default]
+    Left,
+    /// At positive y.
+    Right,
+}
+
+/// From the pelvis back, outboard and down, m.
+const REEL_M: [f64; 3] = [0.40, 0.27, 0.12];
+const RING_M: [f64; 3] = [0.40, 0.27, -0.64];
+const BUCKLE_M: [f64; 3] = [0.06, -0.19, 0.04];
+const SILL_M: [f64; 3] = [0.12, 0.25, 0.20];
+
+/// Friction of webbing over a steel ring, over a tongue and over a clothed shoulder; ours, of the size of ATB's.
+const FRICTION: [f64; 3] = [0.1, 0.15, 0.25];
+
+/// How far the plane of the track over the shoulder leans ahead; ours.
+const TRACK_LEANS_RAD: f64 = 40.0 * std::f64::consts::PI / 180.0;
+
+/// How deep a pelvis sinks into a cushion, m.
+const SINKS_M: f64 = 0.03;
+
+/// Webbing of a preset that names none.
+pub(super) fn webbing(b: &mut Builder) -> Function {
+    let webbing: Option<WebbingSection> = presets::from_library("webbings", "webbing_atb");
+    webbing.map_or_else(|| Function::lines(Vec::new(), 1.0), |webbing| webbing.function(b, "webbings").0)
+}
+
+/// The nodes of a preset of the belt at `path`.
+pub(super) fn nodes(
+    b: &mut Builder,
+    scenario: &Scenario,
+    body: &Body,
+    path: &str,
+    section: &BeltSection,
+    Preset::ThreePoint: Preset,
+) -> Vec<NodeSection> {
+    let needed = ["pelvis", "chest", "left_shoulder", "right_shoulder"];
+    let lacking = needed.into_iter().find(|name| body.sphere(name).is_none());
+    let (Some([x, y, z]), None) = (pelvis_m(scenario, body), lacking) else {
+        let expected = "a body with pelvis, chest and shoulders in a seat that has edges or profiles; else `nodes`";
+        b.error(&format!("{path}.preset"), "a preset that finds no seat or no such body", expected);
+        return Vec::new();
+    };
+    let out = if section.side == Some(Side::Right) { 1.0 } else { -1.0 };
+    let at = |[back, outboard, down]: [f64; 3]| Some([x - back, y + out * outboard, z + down].map(Length::of_si));
+    let plain = |name: &str, place| NodeSection { name: Some(name.to_owned()), at: at(place), ..NodeSection::none() };
+    let sphere = |name: &str| NodeSection { sphere: Some(name.to_owned()), ..NodeSection::none() };
+    let rubs = |node: NodeSection, friction| NodeSection { friction: Some(Ratio::of_si(friction)), ..node };
+    let [ring, tongue, shoulder] = FRICTION;
+    let reel = NodeSection { retractor: section.retractor.clone(), ..plain("reel", REEL_M) };
+    let mut nodes = vec![reel, rubs(plain("d_ring", RING_M), ring)];
+    if section.retractor.is_none() {
+        nodes = vec![plain("upper_anchor", RING_M)];
+    }
+    let buckle = NodeSection { pretensioner: section.pretensioner.clone(), ..plain("buckle", BUCKLE_M) };
+    nodes.extend([
+        rubs(track(body, out), shoulder),
+        sphere("chest"),
+        rubs(buckle, tongue),
+        sphere("pelvis"),
+        plain("sill", SILL_M),
+    ]);
+    nodes
+}
+
+/// Across the shoulder on the outboard side, from beside the neck over the collarbone to below the arm's root, in a plane that
+/// leans ahead: webbing bears on the front of a shoulder rather than on its top.
+fn track(body: &Body, out: f64) -> NodeSection {
+    let shoulder = &body.spheres[body.sphere(if out > 0.0 { "right_shoulder" } else { "left_shoulder" }).unwrap_or(0)];
+    let (centre, r) = (shoulder.centre_from_lower_end_m, shoulder.radius_m);
+    let (ahead, up) = crash_measures::trig::sin_cos(TRACK_LEANS_RAD);
+    let point = |share: f64, beyond: f64, height: f64| {
+        let outward = share * centre.y + beyond * r * centre.y.signum();
+        [centre.x + height * r * ahead, outward, centre.z + height * r * up].map(Length::of_si)
+    };
+    NodeSection {
+        name: Some("shoulder".to_owned()),
+        on: Some(body.tree[shoulder.segment].name.to_owned()),
+        track: Some([point(0.3, 0.0, 1.0), point(0.7, 0.0, 1.0), point(1.0, 0.9, -0.3)]),
+        ..NodeSection::none()
+    }
+}
+
+/// Where the pelvis of the seated body will be, about: beside the seat back and a little in the cushion.
+fn pelvis_m(scenario: &Scenario, body: &Body) -> Option<[f64; 3]> {
+    let seat = scenario.seats.get(&scenario.posture.as_ref()?.seat)?;
+    let r = body.spheres[body.sphere("pelvis")?].radius_m;
+    // the faces that a body sits on and leans against, seen from the side
+    let cushion = edge(scenario, &seat.cushion, -Vector2::y())?;
+    let back = edge(scenario, &seat.back, Vector2::x())?;
+    let (up, ahead) = (normal(cushion, -Vector2::y()), normal(back, Vector2::x()));
+    let matrix = Matrix2::new(up.x, up.y, ahead.x, ahead.y);
+    let right = Vector2::new(up.dot(&cushion[0]) + r - SINKS_M, ahead.dot(&back[0]) + r);
+    let place = matrix.try_inverse()? * right;
+    Some([place.x, si_or(&seat.y, 0.0), place.y])
+}
+
+/// The normal of an edge that looks towards a direction.
+fn normal([a, b]: [Vector2<f64>; 2], towards: Vector2<f64>) -> Vector2<f64> {
+    let along = b - a;
+    let normal = Vector2::new(-along.y, along.x).normalize();
+    normal * normal.dot(&towards).signum()
+}
+
+/// The edge of a surface or solid seen from the side that looks most in a direction, as points x, z, m.
+fn edge(scenario: &Scenario, name: &str, looks: Vector2<f64>) -> Option<[Vector2<f64>; 2]> {
+    let point = |point: &[Length; 2]| Vector2::new(point[0].si(), point[1].si());
+    if let Some(surface) = scenario.surfaces.get(name) {
+        return surface.edge.as_ref().map(|edge| edge.each_ref().map(point));
+    }
+    let points: Vec<_> = scenario.solids.get(name)?.profile()?.iter().map(point).collect();
+    let middle = points.iter().sum::<Vector2<f64>>() / points.len() as f64;
+    let edges = (0..points.len()).map(|i| [points[i], points[(i + 1) % points.len()]]);
+    let outward = |[a, b]: [Vector2<f64>; 2]| normal([a, b], (a + b) / 2.0 - middle).dot(&looks);
+    edges.max_by(|a, b| outward(*a).total_cmp(&outward(*b)))
+}

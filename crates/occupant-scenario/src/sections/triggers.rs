@@ -1,0 +1,248 @@
+//! `[triggers]`: what sets something off, and when it does.
+
+use std::collections::HashMap;
+
+use indexmap::IndexMap;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::builder::Builder;
+use super::quantity::{NOT_NEGATIVE, POSITIVE, si_or};
+use super::{Acceleration, Force, Length, Scenario, Speed, Time};
+use occupant_core::forces::chain::{Cue, Watch, Watched};
+use occupant_core::model::setup::TimeSpan;
+use occupant_core::vehicle::VehiclePath;
+use placed_text::{Problem, with_key};
+
+/// What sets something off.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub(crate) enum TriggerSection {
+    /// A time.
+    Time {
+        /// When.
+        at: Time,
+    },
+    /// The vehicle's acceleration along its floor, of its centre of gravity.
+    VehicleAcceleration {
+        /// How strong it must be.
+        threshold: Acceleration<POSITIVE>,
+        /// For how long without a break; 0 if absent.
+        #[serde(rename = "for")]
+        lasting: Option<Time<NOT_NEGATIVE>>,
+    },
+    /// The vehicle's change of speed along its floor since its acceleration last rose above `wake`.
+    DeltaV {
+        /// How great it must be.
+        threshold: Speed<POSITIVE>,
+        /// Acceleration below which it counts from 0 again.
+        wake: Acceleration<POSITIVE>,
+    },
+    /// The first of others that fires.
+    Any {
+        /// Names of triggers.
+        of: Vec<String>,
+    },
+    /// The last of others that fires.
+    All {
+        /// Names of triggers.
+        of: Vec<String>,
+    },
+    /// The tension where the belt leaves its first node, of the belt whose device answers.
+    BeltTension {
+        /// How great it must be.
+        threshold: Force<POSITIVE>,
+        /// For how long without a break; 0 if absent.
+        #[serde(rename = "for")]
+        lasting: Option<Time<NOT_NEGATIVE>>,
+    },
+    /// Webbing that has left the spool that answers, since the start.
+    Payout {
+        /// How much it must be.
+        threshold: Length<POSITIVE>,
+        /// For how long without a break; 0 if absent.
+        #[serde(rename = "for")]
+        lasting: Option<Time<NOT_NEGATIVE>>,
+    },
+    /// The speed at which webbing leaves the spool that answers.
+    PayoutSpeed {
+        /// How great it must be.
+        threshold: Speed<POSITIVE>,
+        /// For how long without a break; 0 if absent.
+        #[serde(rename = "for")]
+        lasting: Option<Time<NOT_NEGATIVE>>,
+    },
+    /// The acceleration of webbing that leaves the spool that answers: its speed less the average over 5 ms, over 5 ms.
+    PayoutAcceleration {
+        /// How great it must be.
+        threshold: Acceleration<POSITIVE>,
+        /// For how long without a break; 0 if absent.
+        #[serde(rename = "for")]
+        lasting: Option<Time<NOT_NEGATIVE>>,
+    },
+}
+
+/// When triggers fire.
+pub(super) struct Triggers<'s>(IndexMap<&'s str, Fires>);
+
+/// When a trigger fires.
+#[derive(Clone, Copy)]
+enum Fires {
+    /// At a time, s.
+    At(f64),
+    /// As soon as what a belt does has reached a threshold for so long, s.
+    Watch(Watched, f64, f64),
+}
+
+impl Triggers<'_> {
+    /// When a trigger fires, s; none if it does not in this run. What belts watch is refused at `path`.
+    pub(super) fn time_s(&self, b: &mut Builder, path: &str, name: &str) -> Option<f64> {
+        match self.0.get(name)? {
+            Fires::At(at_s) => Some(*at_s),
+            Fires::Watch(..) => {
+                b.error(
+                    path,
+                    format!("\"{name}\", a trigger that belts watch"),
+                    "a trigger by time or by the vehicle's motion",
+                );
+                None
+            }
+        }
+    }
+
+    /// What sets a device of a belt off `delay_s` after a trigger.
+    pub(super) fn cue(&self, name: &str, delay_s: f64) -> Cue {
+        match self.0.get(name) {
+            None => Cue::NEVER,
+            Some(Fires::At(at_s)) => Cue { due_s: at_s + delay_s, watch: None },
+            Some(&Fires::Watch(of, threshold, lasting_s)) => {
+                Cue { watch: Some(Watch { of, threshold, lasting_s, delay_s }), ..Cue::NEVER }
+            }
+        }
+    }
+}
+
+/// More triggers than this are a slip; so groups of groups are less deep.
+const MOST: usize = 100;
+/// Vehicle's motion that is looked at for all triggers together, at most, s.
+const MOST_MOTION_S: f64 = 500.0;
+
+/// When each trigger fires; one that never does is left out and warned about.
+pub(super) fn triggers<'s>(
+    b: &mut Builder,
+    scenario: &'s Scenario,
+    path: &VehiclePath,
+    time: &TimeSpan,
+) -> Triggers<'s> {
+    let mut fires = IndexMap::new();
+    if is_too_much(b, scenario, time) {
+        return Triggers(fires);
+    }
+    let mut search = Search { scenario, path, time, known: HashMap::new() };
+    for name in scenario.triggers.keys() {
+        let at = with_key("triggers", name);
+        match search.found(name, MOST) {
+            Ok(Some(Fires::At(at_s))) if at_s <= time.end_s => drop(fires.insert(name.as_str(), Fires::At(at_s))),
+            Ok(Some(watch @ Fires::Watch(..))) => drop(fires.insert(name.as_str(), watch)),
+            Ok(_) => b.report(Problem::warning(at, "a trigger that never fires in this run", "one that does")),
+            Err([found, expected]) => b.error(&at, found, expected),
+        }
+    }
+    Triggers(fires)
+}
+
+/// Refuses more triggers, or more motion to look at for them, than a run needs.
+fn is_too_much(b: &mut Builder, scenario: &Scenario, time: &TimeSpan) -> bool {
+    use TriggerSection::{DeltaV, VehicleAcceleration};
+    let count = scenario.triggers.len();
+    let by_motion = scenario.triggers.values().filter(|t| matches!(t, VehicleAcceleration { .. } | DeltaV { .. }));
+    let motion_s = by_motion.count() as f64 * (time.end_s - time.start_s);
+    if count > MOST {
+        b.error("triggers", format!("{count} triggers"), format!("at most {MOST}"));
+    } else if motion_s > MOST_MOTION_S {
+        let found = format!("{motion_s} s of the vehicle's motion to look at");
+        b.error("triggers", found, format!("at most {MOST_MOTION_S} s for all triggers together: a shorter run"));
+    }
+    count > MOST || motion_s > MOST_MOTION_S
+}
+
+/// When one fires, and what is wrong with it.
+type Found = Result<Option<Fires>, [&'static str; 2]>;
+
+/// Works out when triggers fire, each once.
+struct Search<'s> {
+    scenario: &'s Scenario,
+    path: &'s VehiclePath,
+    time: &'s TimeSpan,
+    known: HashMap<&'s str, Found>,
+}
+
+impl<'s> Search<'s> {
+    /// When the trigger of this name fires; others are followed at most `depth` deep.
+    fn found(&mut self, name: &'s str, depth: usize) -> Found {
+        if let Some(known) = self.known.get(name) {
+            return *known;
+        }
+        let found = self.scenario.triggers.get(name).map_or(Ok(None), |trigger| self.look(trigger, depth));
+        self.known.insert(name, found);
+        found
+    }
+
+    fn look(&mut self, trigger: &'s TriggerSection, depth: usize) -> Found {
+        let (path, span_s) = (self.path, [self.time.start_s, self.time.end_s]);
+        let watch = |of, threshold, lasting: &Option<Time<NOT_NEGATIVE>>| {
+            Ok(Some(Fires::Watch(of, threshold, si_or(lasting, 0.0))))
+        };
+        let by_motion = || {
+            let expected = "another kind of trigger, or a path with interpolate = \"spline\"";
+            path.has_accelerations()
+                .then_some(())
+                .ok_or(["a trigger by acceleration with a path that has none", expected])
+        };
+        match trigger {
+            TriggerSection::Time { at } => Ok(Some(Fires::At(at.si()))),
+            TriggerSection::VehicleAcceleration { threshold, lasting } => {
+                by_motion()?;
+                Ok(path.jolt_s(span_s, threshold.si(), si_or(lasting, 0.0)).map(Fires::At))
+            }
+            TriggerSection::DeltaV { threshold, wake } => {
+                by_motion()?;
+                Ok(path.change_s(span_s, threshold.si(), wake.si()).map(Fires::At))
+            }
+            TriggerSection::Any { of } => {
+                let times_s = self.times_s(of, depth)?;
+                Ok(times_s.into_iter().flatten().min_by(f64::total_cmp).map(Fires::At))
+            }
+            TriggerSection::All { of } => {
+                let times_s: Option<Vec<f64>> = self.times_s(of, depth)?.into_iter().collect();
+                Ok(times_s.into_iter().flatten().max_by(f64::total_cmp).map(Fires::At))
+            }
+            TriggerSection::BeltTension { threshold, lasting } => watch(Watched::Tension, threshold.si(), lasting),
+            TriggerSection::Payout { threshold, lasting } => watch(Watched::Payout, threshold.si(), lasting),
+            TriggerSection::PayoutSpeed { threshold, lasting } => watch(Watched::PayoutSpeed, threshold.si(), lasting),
+            TriggerSection::PayoutAcceleration { threshold, lasting } => {
+                watch(Watched::PayoutAcceleration, threshold.si(), lasting)
+            }
+        }
+    }
+
+    /// When others fire, s; none of one that does not.
+    fn times_s(&mut self, names: &'s [String], depth: usize) -> Result<Vec<Option<f64>>, [&'static str; 2]> {
+        if depth == 0 {
+            let found = "triggers that wait for one another in a circle";
+            return Err([found, "triggers of which the last waits for none"]);
+        }
+        let mut list = Vec::new();
+        for name in names.iter().filter(|name| self.scenario.triggers.contains_key(*name)) {
+            match self.found(name, depth - 1)? {
+                Some(Fires::Watch(..)) => {
+                    let expected = "triggers by time or by the vehicle's motion";
+                    return Err(["a group with a trigger that belts watch", expected]);
+                }
+                Some(Fires::At(at_s)) => list.push(Some(at_s)),
+                None => list.push(None),
+            }
+        }
+        Ok(list)
+    }
+}

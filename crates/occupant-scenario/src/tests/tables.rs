@@ -1,0 +1,156 @@
+//! Tables of numbers, inline and in CSV files.
+
+use approx::assert_relative_eq;
+
+use super::super::{Format, Scenario};
+use super::{build, complaint, short_with};
+use occupant_core::model::setup::Setup;
+use occupant_core::vehicle::{Interpolation, VehiclePath};
+
+pub(super) const PULSE: &str = "kind = \"pulse\"
+shape = \"half_sine\"
+speed = \"30 km/h\"
+delta_v = \"30 km/h\"
+duration = \"100 ms\"";
+
+const TABLE: &str = "kind = \"table\"\nfile = \"path.csv\"\nafter = \"hold\"";
+
+fn with_csv(path: &str, csv: &str) -> Result<Setup, String> {
+    let files = |name: &str| match name {
+        "path.csv" => Ok(csv.as_bytes().to_vec()),
+        _ => Err("no such file".to_owned()),
+    };
+    let text = short_with(PULSE, path);
+    let loaded = Scenario::from_text(&text, Format::Toml, "s.toml", &files);
+    loaded.and_then(|l| l.build()).map(|(setup, _)| setup).map_err(|e| e.to_string())
+}
+
+#[test]
+fn a_csv_file_gives_the_path_in_its_own_units() {
+    let csv = "\u{feff}# a comment\n t[ms], x[ft], yaw[deg]\r\n0,0,0\r\n\r\n100, 10, 90\n200,20,180\n";
+    let setup = with_csv(TABLE, csv).unwrap();
+    let VehiclePath::Table(table) = &setup.path else { panic!("{:?}", setup.path) };
+    assert_eq!(table.interpolation(), Interpolation::Spline);
+    let station = table.stations()[1];
+    assert_relative_eq!(station.time_s, 0.1);
+    assert_relative_eq!(station.pose.position_m.x, 3.048, max_relative = 1e-15);
+    assert_relative_eq!(station.pose.attitude.yaw_rad, std::f64::consts::FRAC_PI_2);
+    assert_eq!(station.pose.position_m.z, 0.0);
+}
+
+#[test]
+fn an_inline_table_gives_the_same_path() {
+    let csv = "t[ms],x[ft],yaw[deg]\n0,0,0\n100,10,90\n200,20,180\n";
+    let inline = "kind = \"table\"\nafter = \"hold\"\ncolumns = [\"t[ms]\", \"x[ft]\", \"yaw[deg]\"]
+rows = [[0, 0, 0], [100, 10, 90], [200, 20, 180.0]]";
+    assert_eq!(with_csv(TABLE, csv).unwrap().path, build(&short_with(PULSE, inline)).path);
+}
+
+#[test]
+fn tables_of_recorders_are_read_as_they_are() {
+    const RECORDER: &str = "kind = \"sensors\"\nfile = \"path.csv\"\nspeed = \"30 km/h\"\nafter = \"hold\"";
+    let path = |section: &str, csv: &str| with_csv(section, csv).map(|setup| setup.path).unwrap();
+    let plain = path(RECORDER, "t[ms],dvx[km/h]\n0,0\n50,-12.5\n100,-25\n");
+    for csv in [
+        "Time (ms),Delta-V longitudinal (km/h)\n0,0\n50,-12.5\n100,-25\n",
+        "\"Time (ms)\",\"Delta-V, longitudinal (km/h)\"\n0,0\n50,-12.5\n100,-25\n",
+        "Time [ms];Cumulative Delta V [km/h]\n0;0\n50;-12,5\n100;-25\n",
+        "Time\tDelta-V\nms\tkm/h\n0\t0\n50\t-12,5\n100\t-25\n",
+        "time (ms)   dvx [km/h]\n0 0\n50   -12.5\n100  -25\n",
+    ] {
+        assert_eq!(path(RECORDER, csv), plain, "{csv}");
+    }
+    let named = format!("{RECORDER}\ncolumns = [\"t[ms]\", \"-\", \"dvx[km/h]\"]");
+    for csv in ["clock,brake,change\n0,off,0\n50,on,-12.5\n100,on,-25\n", "0,1,0\n50,1,-12.5\n100,1,-25\n"] {
+        assert_eq!(path(&named, csv), plain, "{csv}");
+    }
+    let refused = with_csv(RECORDER, "Time (ms),Engine speed (rpm)\n0,0\n").unwrap_err();
+    assert!(refused.contains("unknown column `Engine speed`"), "{refused}");
+}
+
+#[test]
+fn a_tabulated_pulse_is_in_g() {
+    let pulse = "kind = \"pulse\"\nshape = \"tabulated\"\nspeed = 10\ncolumns = [\"t[ms]\", \"a[g]\"]
+rows = [[0, 0], [40, 20], [80, 0]]";
+    let VehiclePath::Pulse(path) = build(&short_with(PULSE, pulse)).path else { panic!("no pulse") };
+    assert_relative_eq!(path.peak_deceleration_m_s2(), 20.0 * 9.80665, max_relative = 1e-15);
+}
+
+#[test]
+fn mistakes_name_the_file_line_and_column() {
+    for (csv, expected) in [
+        (
+            "t[s],x[m],q[m]\n0,0,0\n",
+            "error: unknown column `q`
+ --> path.csv:1:11
+  = expected: `t`, `x`, `y`, `z`, `roll`, `pitch` or `yaw`",
+        ),
+        (
+            "t[s],x\n0,0\n",
+            "error: column `x` without a unit
+ --> path.csv:1:6
+  = expected: the unit of a length in brackets, such as `x[m]`",
+        ),
+        (
+            "t[m],x[m]\n0,0\n",
+            "error: `m` is not the unit of a time
+ --> path.csv:1:1
+  = expected: the unit of a time in brackets, such as `t[s]`",
+        ),
+        (
+            "user:secret,q\nroot:hidden,0\n",
+            "error: a first line that names no column of such a table
+ --> path.csv:1:1
+  = expected: `t`, `x`, `y`, `z`, `roll`, `pitch` or `yaw`",
+        ),
+        (
+            "x[m]\n0\n",
+            "error: no column `t`
+ --> path.csv:1:1
+  = expected: a column `t[s]`",
+        ),
+        (
+            "t[s],x[m]\n0,0\n\n0.1,abc\n0.2,,1\n",
+            "error: `abc`
+ --> path.csv:4:5
+  = expected: a number
+
+error: an empty cell
+ --> path.csv:5:5
+  = expected: a number
+
+error: 3 numbers
+ --> path.csv:5:1
+  = expected: 2, one for each column",
+        ),
+        (
+            "t[s],x[m]\n0,0\n0,1\n",
+            "error: station 2: found t = 0 s
+ --> path.csv:3:1
+  = in: path
+  = expected: a time after that of the station before (0 s)",
+        ),
+        (
+            "",
+            "error: an empty table
+ --> path.csv:1:1
+  = expected: a line that names the columns",
+        ),
+    ] {
+        assert_eq!(with_csv(TABLE, csv).unwrap_err(), expected);
+    }
+}
+
+#[test]
+fn a_file_that_cannot_be_read_is_named() {
+    assert_eq!(
+        complaint(&short_with(PULSE, TABLE)),
+        "error: `path.csv` cannot be read: there is no file path.csv
+ --> s.toml:7:8
+  |
+7 | file = \"path.csv\"
+  |        ^^^^^^^^^^
+  = in: path.file
+  = expected: a CSV file, its name relative to the scenario"
+    );
+}
