@@ -10,50 +10,12 @@
 //!
 //! # A run
 //!
-//! A run is made of a [`model::setup::Setup`], plain SI data. It comes from a text, a TOML or JSON
-//! [`scenario::Scenario`], or from code; both ways have the same defaults and presets. [`model::Model::new`] checks it and
+//! A run is made of a [`model::setup::Setup`], plain SI data. It comes from code, or from the TOML or JSON of a scenario,
+//! which the crate `occupant-scenario` reads; both ways have the same defaults. [`model::Model::new`] checks it and
 //! computes the start; a model is immutable. [`run::simulate::simulate`] runs it and hands every output time to a
 //! [`results::recorder::Recorder`], which takes what it wants of the [`results::sample::Sample`].
 //!
-//! From a text:
-//!
-//! ```
-//! use occupant_core::body::tti12::HEAD;
-//! use occupant_core::results::outcome::Status;
-//! use occupant_core::results::recorder::Watch;
-//! use occupant_core::results::sample::Sample;
-//! use occupant_core::run::simulate::simulate;
-//! use occupant_scenario::{Format, Scenario};
-//!
-//! // a standing body, let go two metres above the origin
-//! let text = r#"
-//!     title = "Free fall"
-//!     time = { end = 0.5 }
-//!     path = { kind = "fixed" }
-//!     body = { preset = "male50" }
-//!     joints = { preset = "male50" }
-//!
-//!     [initial_state]
-//!     q     = [0, 0, 2,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0,  0, 0, 0,  0, 0, 0,  0, 0]
-//!     rates = [0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0,  0, 0, 0,  0, 0, 0,  0, 0]
-//! "#;
-//! let no_files = |name: &str| Err(format!("{name}: there are no files here"));
-//! let loaded = Scenario::from_text(text, Format::Toml, "free-fall", &no_files)?;
-//! let (model, _warnings) = loaded.model()?;
-//!
-//! let (mut drop_m, mut reading_m_s2) = (0.0, f64::NAN);
-//! let outcome = simulate(&model, Watch(|sample: &Sample<'_>| {
-//!     drop_m = 2.0 - sample.state.t1().z;
-//!     reading_m_s2 = sample.specific_force_m_s2(HEAD).norm();
-//! }))?;
-//!
-//! assert_eq!(outcome.status, Status::Completed);
-//! assert!((drop_m - 0.5 * 9.80665 * 0.5_f64.powi(2)).abs() < 1e-9); // g t²/2
-//! assert!(reading_m_s2 < 1e-9); // an accelerometer reads nothing in free fall
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
-//!
-//! In code, the same occupant dropped onto the ground from a parked vehicle:
+//! An occupant dropped onto the ground from a parked vehicle:
 //!
 //! ```
 //! use nalgebra::{Point3, Vector3};
@@ -91,15 +53,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! `examples/` beside this crate's sources are programs to start from:
-//!
-//! | example | shows |
-//! |---|---|
-//! | `scenario_from_text` | a scenario file, all that is wrong with it, the peaks of its run |
-//! | `case_in_code` | a driver, a compartment, belts and a crash pulse without a text |
-//! | `own_vehicle_path` | a program's own vehicle model as the path, a [`vehicle::VehicleMotion`] |
-//! | `own_recorder` | a recorder of one's own, and a run that ends early |
-//! | `sweep_with_rayon` | many runs on all cores |
+//! `examples/case_in_code.rs` beside this crate's sources is a driver, a compartment, belts and a crash pulse without a text.
+//! Examples that start from a scenario stand in `occupant-scenario`: a vehicle path of one's own (a
+//! [`vehicle::VehicleMotion`]), a recorder of one's own, many runs on all cores.
 //!
 //! # Notation
 //!
@@ -127,9 +83,9 @@
 //! | [`run`] | steps, output times, many runs side by side ([`run::batch`]) |
 //! | [`results`] | samples, channels, reactions, energies, recorders, summaries, checkpoints to resume from |
 //! | [`diagnosis`] | what will be simulated and whether the step suits it, before a run |
-//! | [`scenario`] | scenarios as text: units, presets, overrides, messages with line and column |
 //!
-//! Above this crate `occupant-study` has designs, searches and sensitivities of many runs, and the risk of a path alone; below it `crash-measures` has
+//! Above this crate `occupant-scenario` has scenarios as text: units, presets, overrides, messages with line and column;
+//! `occupant-study` has designs, searches and sensitivities of many runs, and the risk of a path alone; below it `crash-measures` has
 //! filters and injury measures of any time history, and `placed-text` reads TOML, JSON and CSV with places and says what is
 //! wrong with them.
 

@@ -1,7 +1,7 @@
 //! A scenario from a text file: everything that is wrong with it at once, or the peaks of its run.
 //!
 //! ```text
-//! cargo run -p occupant-core --example scenario_from_text -- scenarios/cart-lap.toml
+//! cargo run -p occupant-scenario --example scenario_from_text -- scenarios/cart-lap.toml
 //! ```
 #![allow(clippy::print_stdout, reason = "an example prints its result")]
 

@@ -1,4 +1,4 @@
-//! Scenarios: what a person writes, read with places, checked, and turned into the core's plain data.
+//! Scenarios: what a person writes, read with places, checked, and turned into the plain data of [`occupant_core`].
 //!
 //! ```text
 //! text ─ Draft (overrides) ─ check ─ sections ─ Loaded ─ plain data ─ Setup ─ Model
@@ -14,6 +14,44 @@
 //!
 //! ```text
 //! `path.speed = "20 mph"` ─ Value ─ 8.9408 m/s in the tree ─ Quantity ─ PulseDefinition
+//! ```
+//!
+//! A run from a text:
+//!
+//! ```
+//! use occupant_core::body::tti12::HEAD;
+//! use occupant_core::results::outcome::Status;
+//! use occupant_core::results::recorder::Watch;
+//! use occupant_core::results::sample::Sample;
+//! use occupant_core::run::simulate::simulate;
+//! use occupant_scenario::{Format, Scenario};
+//!
+//! // a standing body, let go two metres above the origin
+//! let text = r#"
+//!     title = "Free fall"
+//!     time = { end = 0.5 }
+//!     path = { kind = "fixed" }
+//!     body = { preset = "male50" }
+//!     joints = { preset = "male50" }
+//!
+//!     [initial_state]
+//!     q     = [0, 0, 2,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0,  0, 0, 0,  0, 0, 0,  0, 0]
+//!     rates = [0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0,  0, 0, 0,  0, 0, 0,  0, 0]
+//! "#;
+//! let no_files = |name: &str| Err(format!("{name}: there are no files here"));
+//! let loaded = Scenario::from_text(text, Format::Toml, "free-fall", &no_files)?;
+//! let (model, _warnings) = loaded.model()?;
+//!
+//! let (mut drop_m, mut reading_m_s2) = (0.0, f64::NAN);
+//! let outcome = simulate(&model, Watch(|sample: &Sample<'_>| {
+//!     drop_m = 2.0 - sample.state.t1().z;
+//!     reading_m_s2 = sample.specific_force_m_s2(HEAD).norm();
+//! }))?;
+//!
+//! assert_eq!(outcome.status, Status::Completed);
+//! assert!((drop_m - 0.5 * 9.80665 * 0.5_f64.powi(2)).abs() < 1e-9); // g t²/2
+//! assert!(reading_m_s2 < 1e-9); // an accelerometer reads nothing in free fall
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! Problems never stop at the first: each stage reports everything it can find, with file, line and column.
@@ -35,6 +73,15 @@
 //! ));
 //! # Ok::<(), occupant_scenario::Diagnostics>(())
 //! ```
+//!
+//! `examples/` beside this crate's sources are programs to start from; one that needs no text is in `occupant-core`:
+//!
+//! | example | shows |
+//! |---|---|
+//! | `scenario_from_text` | a scenario file, all that is wrong with it, the peaks of its run |
+//! | `own_vehicle_path` | a program's own vehicle model as the path, an [`occupant_core::vehicle::VehicleMotion`] |
+//! | `own_recorder` | a recorder of one's own, and a run that ends early |
+//! | `sweep_with_rayon` | many runs on all cores |
 
 mod check;
 mod draft;

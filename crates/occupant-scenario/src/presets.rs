@@ -1,4 +1,4 @@
-//! What `body` and `joints` of a scenario start from: occupants that come with the program, in `scenario/presets` or made by
+//! What `body` and `joints` of a scenario start from: occupants that come with the program, in `presets` or made by
 //! [`occupant_core::body::people`]. Programs that do without a text get the same ones, read as a scenario's are.
 
 use std::sync::OnceLock;

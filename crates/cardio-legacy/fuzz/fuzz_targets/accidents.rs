@@ -4,8 +4,7 @@
 use arbitrary::Arbitrary;
 use cardio_legacy::{ConvertOptions, Deck, ParseOptions, PathSource, Strictness};
 use libfuzzer_sys::fuzz_target;
-use occupant_scenario::Scenario;
-use occupant_scenario::Format;
+use occupant_scenario::{Format, Scenario};
 
 /// The last takes its path from [`PATH`].
 const DECKS: [&[u8]; 6] = [

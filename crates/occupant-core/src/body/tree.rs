@@ -351,7 +351,7 @@ impl Tree {
         self.joints().find(|j| self[*j].name == name)
     }
 
-    /// The joint by which a segment hangs on one nearer to the first, which hangs on none: [`Tree::carrier`] but where the way
+    /// The joint by which a segment hangs on one nearer to the first, which hangs on none: that of which it is the distal segment but where the way
     /// to a mount goes against it.
     pub fn bearer(&self, segment: Segment) -> Option<Joint> {
         self.joints().find(|joint| self[*joint].carrying()[1] == segment)
