@@ -264,7 +264,7 @@ pub const fn energy(
 fn suffix(unit: Unit) -> String {
     match unit {
         Unit::One => String::new(),
-        unit => unit.symbol().to_lowercase().replace(['/', '·'], "_").replace('²', "2"),
+        unit => unit.symbol().to_lowercase().replace(['/', '·'], "_").replace('²', "2").replace('³', "3"),
     }
 }
 

@@ -11,7 +11,7 @@ pub use expression::{UnitError, parse};
 pub use named::{NamedUnit, Scale, UNITS};
 pub use shown::Shown;
 
-/// Exponents of length, mass, time and angle.
+/// Exponents of length, mass, time, angle, temperature and amount of substance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Dimension {
     /// Length.
@@ -22,12 +22,44 @@ pub struct Dimension {
     pub time: i32,
     /// Plane angle, kept apart from plain numbers so that `15` and `15 deg` cannot be confused.
     pub angle: i32,
+    /// Temperature.
+    pub temperature: i32,
+    /// Amount of substance.
+    pub amount: i32,
 }
 
 impl Dimension {
-    /// A dimension from its four exponents.
+    /// That of plain numbers.
+    pub const NONE: Dimension = Dimension::new(0, 0, 0, 0);
+
+    /// A dimension from its exponents, without temperature and amount of substance.
     pub const fn new(length: i32, mass: i32, time: i32, angle: i32) -> Self {
-        Dimension { length, mass, time, angle }
+        Dimension { length, mass, time, angle, temperature: 0, amount: 0 }
+    }
+
+    /// The same with exponents of temperature and amount of substance.
+    pub const fn with_heat(self, temperature: i32, amount: i32) -> Self {
+        Dimension { temperature, amount, ..self }
+    }
+
+    /// All exponents.
+    pub(crate) fn exponents(self) -> [i32; 6] {
+        [self.length, self.mass, self.time, self.angle, self.temperature, self.amount]
+    }
+
+    fn of(e: [i32; 6]) -> Self {
+        Dimension::new(e[0], e[1], e[2], e[3]).with_heat(e[4], e[5])
+    }
+
+    /// f of every exponent.
+    pub(crate) fn map(self, f: impl Fn(i32) -> i32) -> Self {
+        Dimension::of(self.exponents().map(f))
+    }
+
+    /// That of a product.
+    pub(crate) fn plus(self, other: Dimension) -> Self {
+        let (a, b) = (self.exponents(), other.exponents());
+        Dimension::of(std::array::from_fn(|i| a[i] + b[i]))
     }
 
     /// Whether a value of dimension `self` may stand where `wanted` is expected.
@@ -78,6 +110,24 @@ pub enum Unit {
     NewtonMetrePerRadianSquared,
     /// N·m/rad³.
     NewtonMetrePerRadianCubed,
+    /// Pa.
+    Pascal,
+    /// K.
+    Kelvin,
+    /// m².
+    MetreSquared,
+    /// m³.
+    MetreCubed,
+    /// kg/s.
+    KilogramPerSecond,
+    /// kg/mol.
+    KilogramPerMole,
+    /// J/(kg·K).
+    JoulePerKilogramKelvin,
+    /// J/(kg·K²).
+    JoulePerKilogramKelvinSquared,
+    /// W/(m²·K).
+    WattPerMetreSquaredKelvin,
 }
 
 /// What there is to say of a [`Unit`].
@@ -101,9 +151,17 @@ const fn row(
     Row { quantity, symbol, si, inch_pound, dimension: Dimension::new(length, mass, time, angle) }
 }
 
+impl Row {
+    /// With exponents of temperature and amount of substance.
+    const fn heat(mut self, temperature: i32, amount: i32) -> Self {
+        self.dimension = self.dimension.with_heat(temperature, amount);
+        self
+    }
+}
+
 /// In the order of [`Unit`]; exponents of length, mass, time, angle.
 #[rustfmt::skip]
-const TABLE: [Row; 18] = [
+const TABLE: [Row; 27] = [
     row("length", ["m", "m", "in"], [1, 0, 0, 0]),
     row("velocity", ["m/s", "m/s", "in/s"], [1, 0, -1, 0]),
     row("acceleration", ["m/s²", "m/s^2", "in/s^2"], [1, 0, -2, 0]),
@@ -122,6 +180,15 @@ const TABLE: [Row; 18] = [
     row("rotational damping", ["N·m·s/rad", "N·m·s/rad", "in·lbf·s/rad"], [2, 1, -1, -1]),
     row("moment per angle squared", ["N·m/rad²", "N·m/rad^2", "in·lbf/rad^2"], [2, 1, -2, -2]),
     row("moment per angle cubed", ["N·m/rad³", "N·m/rad^3", "in·lbf/rad^3"], [2, 1, -2, -3]),
+    row("pressure", ["Pa", "Pa", "psi"], [-1, 1, -2, 0]),
+    row("temperature", ["K", "K", "K"], [0, 0, 0, 0]).heat(1, 0),
+    row("area", ["m²", "m^2", "in^2"], [2, 0, 0, 0]),
+    row("volume", ["m³", "m^3", "in^3"], [3, 0, 0, 0]),
+    row("mass flow", ["kg/s", "kg/s", "lb/s"], [0, 1, -1, 0]),
+    row("molar mass", ["kg/mol", "kg/mol", "kg/mol"], [0, 1, 0, 0]).heat(0, -1),
+    row("specific heat", ["J/(kg·K)", "J/(kg·K)", "J/(kg·K)"], [2, 0, -2, 0]).heat(-1, 0),
+    row("specific heat per kelvin", ["J/(kg·K²)", "J/(kg·K^2)", "J/(kg·K^2)"], [2, 0, -2, 0]).heat(-2, 0),
+    row("heat transfer", ["W/(m²·K)", "W/(m^2·K)", "W/(m^2·K)"], [0, 1, -3, 0]).heat(-1, 0),
 ];
 
 impl Unit {
@@ -155,7 +222,7 @@ impl Unit {
 mod tests {
     use super::*;
 
-    const ALL: [Unit; 18] = [
+    const ALL: [Unit; 27] = [
         Unit::Metre,
         Unit::MetrePerSecond,
         Unit::MetrePerSecondSquared,
@@ -174,6 +241,15 @@ mod tests {
         Unit::NewtonMetreSecondPerRadian,
         Unit::NewtonMetrePerRadianSquared,
         Unit::NewtonMetrePerRadianCubed,
+        Unit::Pascal,
+        Unit::Kelvin,
+        Unit::MetreSquared,
+        Unit::MetreCubed,
+        Unit::KilogramPerSecond,
+        Unit::KilogramPerMole,
+        Unit::JoulePerKilogramKelvin,
+        Unit::JoulePerKilogramKelvinSquared,
+        Unit::WattPerMetreSquaredKelvin,
     ];
 
     /// SI units read back as 1 of themselves, those in inches and pounds as the same dimension.

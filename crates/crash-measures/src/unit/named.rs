@@ -23,6 +23,9 @@ const fn unit(names: &'static [&'static str], [length, mass, time, angle]: [i32;
     NamedUnit { names, dimension: Dimension::new(length, mass, time, angle), factor }
 }
 
+const KELVIN: Dimension = Dimension::NONE.with_heat(1, 0);
+const MOLE: Dimension = Dimension::NONE.with_heat(0, 1);
+
 /// International pound, kg (exact, 1959).
 const POUND_KG: f64 = 0.453_592_37;
 /// Pound-force, N (exact: pound times standard gravity).
@@ -74,6 +77,11 @@ pub const UNITS: &[NamedUnit] = &[
     unit(&["psi"], [-1, 1, -2, 0], POUND_FORCE_N / (0.0254 * 0.0254)),
     unit(&["Hz"], [0, 0, -1, 0], 1.0),
     unit(&["%"], [0, 0, 0, 0], 0.01),
+    unit(&["l", "L", "litre", "liter"], [3, 0, 0, 0], 1e-3),
+    unit(&["bar"], [-1, 1, -2, 0], 1e5),
+    NamedUnit { names: &["K"], dimension: KELVIN, factor: 1.0 },
+    NamedUnit { names: &["mol"], dimension: MOLE, factor: 1.0 },
+    NamedUnit { names: &["kmol"], dimension: MOLE, factor: 1000.0 },
 ];
 
 /// What a unit expression amounts to.
@@ -105,26 +113,17 @@ pub(super) fn named(name: &str, start: usize, end: usize) -> Result<Scale, UnitE
 impl Scale {
     /// The power, unless it is beyond sense.
     pub(super) fn power(self, n: i32) -> Option<Scale> {
-        let d = self.dimension;
-        let raised = Scale {
-            dimension: Dimension::new(d.length * n, d.mass * n, d.time * n, d.angle * n),
-            factor: self.factor.powi(n),
-        };
+        let raised = Scale { dimension: self.dimension.map(|exponent| exponent * n), factor: self.factor.powi(n) };
         raised.is_sensible().then_some(raised)
     }
 
     /// The product, unless its powers are beyond sense.
     pub(super) fn times(self, other: Scale) -> Option<Scale> {
-        let (a, b) = (self.dimension, other.dimension);
-        let product = Scale {
-            dimension: Dimension::new(a.length + b.length, a.mass + b.mass, a.time + b.time, a.angle + b.angle),
-            factor: self.factor * other.factor,
-        };
+        let product = Scale { dimension: self.dimension.plus(other.dimension), factor: self.factor * other.factor };
         product.is_sensible().then_some(product)
     }
 
     fn is_sensible(&self) -> bool {
-        let d = self.dimension;
-        [d.length, d.mass, d.time, d.angle].iter().all(|n| n.abs() <= MAX_EXPONENT) && self.factor.is_normal()
+        self.dimension.exponents().iter().all(|n| n.abs() <= MAX_EXPONENT) && self.factor.is_normal()
     }
 }

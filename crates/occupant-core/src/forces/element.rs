@@ -12,7 +12,7 @@ use crate::motion::kinematics::Kinematics;
 use crate::motion::layout::MOST_SEGMENTS;
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
-use crate::motion::state::{State, Work};
+use crate::motion::state::{MOST_OWN, State, Work};
 use crate::motion::vector::V3;
 use crate::quantity::{Energy, FieldWords, Quantity};
 use placed_text::Problems;
@@ -61,6 +61,9 @@ pub trait Element: Copy + Debug {
         _problems: &mut Problems,
     ) {
     }
+
+    /// Appends the numbers of the state that they own, as they begin, scaled to the order of 1; each notes where its stand.
+    fn own(_law: &mut Self::Law<f64>, _numbers: &mut Vec<f64>) {}
 
     /// What each remembers of a body that stands where it is.
     fn start(law: &Self::Law<f64>, at: &Instant<'_, f64>) -> Vec<Self::Past<f64>>;
@@ -226,13 +229,15 @@ pub struct Load<S> {
     pub wrench: [Wrench<S>; MOST_SEGMENTS],
     /// W.
     pub power: Work<S>,
+    /// Rates of the numbers of the state that force elements own, which each writes anew, 1/s.
+    pub own: [S; MOST_OWN],
 }
 
 impl<S: Scalar> Load<S> {
     /// None yet.
     #[inline(always)]
     pub(crate) fn zero() -> Self {
-        Load { wrench: [Wrench::zero(); MOST_SEGMENTS], power: Work::zero() }
+        Load { wrench: [Wrench::zero(); MOST_SEGMENTS], power: Work::zero(), own: [S::zero(); MOST_OWN] }
     }
 
     /// None of as many segments.

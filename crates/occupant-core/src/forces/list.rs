@@ -1,5 +1,6 @@
 //! The list of all kinds of force elements, and what follows from it.
 
+use super::bag::Bags;
 use super::belt::Belts;
 use super::chain::Chains;
 use super::contact::Contacts;
@@ -199,6 +200,13 @@ macro_rules! kinds {
                 $($Kind::begin(&mut self.$kind, data.$kind, body, at, problems);)+
             }
 
+            /// The numbers of the state that elements own, as they begin; see [`Element::own`].
+            pub(crate) fn own(&mut self) -> Vec<f64> {
+                let mut numbers = Vec::new();
+                $($Kind::own(&mut self.$kind, &mut numbers);)+
+                numbers
+            }
+
             /// What all remember of a body that stands where it is.
             pub(crate) fn start(&self, at: &Instant<'_, f64>) -> History<f64> {
                 History::new(self, Memory { $($kind: $Kind::start(&self.$kind, at)),+ })
@@ -350,6 +358,7 @@ kinds! {
     contacts: Contacts,
     belts: Belts,
     chains: Chains,
+    bags: Bags,
     joints: JointMoments,
     limits: JointLimits,
     muscles: Muscles,

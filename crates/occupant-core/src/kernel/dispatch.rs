@@ -43,7 +43,7 @@ impl System<f64> {
     ) -> Evaluation<f64> {
         let mut scratch = Scratch::blank(&self.skeleton);
         self.derive_once(&mut scratch, situation, history, observer);
-        let Scratch { kinematics, load: Load { wrench, power }, sweep } = scratch;
+        let Scratch { kinematics, load: Load { wrench, power, .. }, sweep } = scratch;
         Evaluation { kinematics, wrench, accelerations: sweep.accelerations, power }
     }
 
@@ -57,7 +57,7 @@ impl System<f64> {
         rate: &mut State<f64>,
     ) {
         self.derive_once(scratch, situation, history, observer);
-        scratch.sweep.accelerations.write_rate(&self.skeleton.layout, situation.state, scratch.load.power, rate);
+        scratch.write_rate(&self.skeleton, situation.state, rate);
     }
 
     /// [`System::derive`] in instructions that every processor has. It is inlined whole wherever it is called: outside the

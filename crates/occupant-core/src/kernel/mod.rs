@@ -108,6 +108,15 @@ impl<S: Scalar> Scratch<S> {
     pub fn blank(body: &Skeleton<S>) -> Self {
         Scratch { kinematics: Kinematics::blank(), load: Load::zero(), sweep: Sweep::blank(body) }
     }
+
+    /// The rate that the last evaluation found.
+    #[inline(always)]
+    fn write_rate(&self, body: &Skeleton<S>, state: &State<S>, rate: &mut State<S>) {
+        let Load { power, own, .. } = &self.load;
+        self.sweep.accelerations.write_rate(&body.layout, state, *power, rate);
+        let numbers = rate.own_mut();
+        numbers.copy_from_slice(&own[..numbers.len()]);
+    }
 }
 
 impl<S: Scalar> System<S> {
@@ -123,7 +132,7 @@ impl<S: Scalar> System<S> {
         rate: &mut State<S>,
     ) {
         self.derive(scratch, situation, history, observer);
-        scratch.sweep.accelerations.write_rate(&self.skeleton.layout, situation.state, scratch.load.power, rate);
+        scratch.write_rate(&self.skeleton, situation.state, rate);
     }
 
     /// Motion, loads and accelerations.

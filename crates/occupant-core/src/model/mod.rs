@@ -9,6 +9,7 @@ pub mod setup;
 mod validate;
 
 use crate::body::Body;
+use crate::forces::bag::Bag;
 use crate::forces::chain::Chain;
 use crate::forces::contact::OPEN;
 use crate::forces::contact::flat_face::FlatFace;
@@ -25,7 +26,7 @@ use crate::model::setup::Setup;
 use crate::motion::frame::{Frames, Moving};
 use crate::motion::kinematics::Kinematics;
 use crate::motion::skeleton::Skeleton;
-use crate::motion::state::State;
+use crate::motion::state::{MOST_OWN, State};
 use crate::motion::vector::V3;
 use crate::vehicle::{FrameMotion, PathCursor, VehiclePath};
 use nalgebra::Vector3;
@@ -132,12 +133,13 @@ impl Model {
         self.setup.time.whole_intervals() as usize + 2
     }
 
-    /// Times at which the vehicle's motion jumps or a muscle begins or ends to act, s, in increasing order: no step goes
+    /// Times at which the vehicle's motion jumps, a muscle begins or ends to act, or a device of a belt or bag does, s, in increasing order: no step goes
     /// across one where the error control chooses it.
     pub(crate) fn breaks_s(&self) -> Vec<f64> {
         let mut breaks_s = self.setup.path.breaks_s();
         breaks_s.extend(self.setup.joints.muscles.iter().flat_map(|muscle| muscle.times_s));
         breaks_s.extend(self.setup.chains.iter().flat_map(Chain::breaks_s));
+        breaks_s.extend(self.setup.bags.iter().flat_map(Bag::breaks_s));
         breaks_s.sort_by(f64::total_cmp);
         breaks_s.dedup();
         breaks_s
@@ -189,6 +191,12 @@ fn begin(setup: &Setup, faces: &[FlatFace], problems: &mut Problems) -> Option<(
     forces.lay(&data, &setup.body, &at);
     forces.begin(&data, &setup.body, &at, problems);
     rest.iter().for_each(|rest| rest.keep(forces));
+    let own = forces.own();
+    if own.len() > MOST_OWN {
+        let found = format!("bags with {} numbers of gas", own.len());
+        problems.error("bags", found, format!("at most {MOST_OWN}: four for each bag and one more for each inflator"));
+        return None;
+    }
     let mut history = forces.start(&at);
     rest.iter().for_each(|rest| rest.hold(&mut history));
     if let InitialPosture::Continued { passed, .. } = &setup.posture {
@@ -200,6 +208,7 @@ fn begin(setup: &Setup, faces: &[FlatFace], problems: &mut Problems) -> Option<(
         carry(&mut system, &still, &standing, &history);
         settled.lack = lack(&system, &setup.body, &still, &standing, &history);
     }
+    let state = state.with_own(&own);
     Some((system, Start { state, history, seated, settled, unsettled }))
 }
 

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::body::{Body, ContactSphere, Segment};
 use crate::forces::Data;
+use crate::forces::bag::Bag;
 use crate::forces::belt::Belt;
 use crate::forces::chain::Chain;
 use crate::forces::contact::flat_face::FlatFace;
@@ -168,6 +169,8 @@ pub struct Setup {
     pub belts: Vec<Belt>,
     /// Belts over several nodes.
     pub chains: Vec<Chain>,
+    /// Air bags.
+    pub bags: Vec<Bag>,
     /// Motion of the vehicle.
     pub path: VehiclePath,
     /// Position at the start.
@@ -232,6 +235,7 @@ impl Setup {
             contacts,
             belts: &self.belts,
             chains: &self.chains,
+            bags: &self.bags,
             joints: &self.joints,
             limits: &self.joints,
             muscles: &self.joints,
@@ -261,6 +265,7 @@ impl SetupBuilder {
             self_contact: None,
             belts: Vec::new(),
             chains: Vec::new(),
+            bags: Vec::new(),
             path: VehiclePath::parked(),
             posture: InitialPosture::Coordinates(Box::new(ReportCoordinates { q: [0.0; DOF], rates: [0.0; DOF] })),
             velocity: InitialVelocity::default(),

@@ -35,7 +35,7 @@ impl<S: Scalar> Quat<S> {
 }
 
 /// Work sums of the force elements.
-pub(crate) const WORK_SUMS: usize = 5;
+pub(crate) const WORK_SUMS: usize = 6;
 
 /// Work done since the start, for the energy ledger, J.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,8 +55,8 @@ impl<S: Scalar> Work<S> {
     }
 }
 
-/// Most numbers that force elements have in a state.
-const MOST_OWN: usize = 0;
+/// Most numbers that force elements own in a state.
+pub(crate) const MOST_OWN: usize = 24;
 /// Most numbers of a state.
 const MOST_NUMBERS: usize = 6 + 7 * MOST_SEGMENTS + WORK_SUMS + 1 + MOST_OWN;
 
@@ -252,6 +252,18 @@ impl<S: Copy> State<S> {
         w[WORK_SUMS] = work.vehicle;
     }
 
+    /// Numbers that force elements own, each scaled by its element to the order of 1.
+    #[inline(always)]
+    pub fn own(&self) -> &[S] {
+        &self.numbers[self.shape.len() - self.shape.own..self.shape.len()]
+    }
+
+    /// [`State::own`] to be changed.
+    #[inline(always)]
+    pub(crate) fn own_mut(&mut self) -> &mut [S] {
+        &mut self.numbers[self.shape.len() - self.shape.own..self.shape.len()]
+    }
+
     /// Places of the orientations.
     #[inline(always)]
     pub fn turns(&self) -> std::ops::Range<usize> {
@@ -301,7 +313,7 @@ impl<S: Scalar> State<S> {
     #[inline(always)]
     pub(crate) fn finite(&self) -> S::Mask {
         let (limit, mut all) = (S::of(f64::INFINITY), S::truth(true));
-        for x in &self.numbers[..self.shape.moving()] {
+        for x in self.numbers[..self.shape.moving()].iter().chain(self.own()) {
             all = all & x.abs().lt(limit);
         }
         all
@@ -326,6 +338,13 @@ impl PartialEq for State<f64> {
 }
 
 impl State<f64> {
+    /// The same with these numbers that force elements own, of which there are at most [`MOST_OWN`].
+    pub(crate) fn with_own(mut self, own: &[f64]) -> Self {
+        self.shape = self.shape.with_own(own.len());
+        self.own_mut().copy_from_slice(own);
+        self
+    }
+
     /// The state of this shape with these numbers, if there are as many.
     pub fn from_numbers(shape: Shape, numbers: &[f64]) -> Option<Self> {
         let mut state = State::zero(shape);
@@ -347,12 +366,14 @@ mod tests {
     #[test]
     fn a_state_is_its_numbers() {
         let shape = Shape::of(&Layout::of(&TTI12));
-        let numbers: [f64; 76] = from_fn(|i| i as f64 + 0.5);
+        let numbers: [f64; 77] = from_fn(|i| i as f64 + 0.5);
         let state = State::from_numbers(shape, &numbers).unwrap();
         assert_eq!(state.numbers(), numbers);
         assert_eq!((state.orientation(7).v.z, state.hinge()[0]), (34.5, 35.5));
         assert_eq!((state.velocity().x, state.omega(7).z, state.hinge_rate()), (39.5, 65.5, &numbers[66..70]));
-        assert_eq!((state.work().sums[0], state.work().vehicle), (70.5, 75.5));
+        assert_eq!((state.work().sums[0], state.work().vehicle), (70.5, 76.5));
         assert_eq!(State::from_numbers(shape, &numbers[1..]), None);
+        let owning = state.with_own(&[1.0, 2.0]);
+        assert_eq!((owning.own(), owning.work(), owning.numbers().len()), (&[1.0, 2.0][..], state.work(), 79));
     }
 }

@@ -110,11 +110,15 @@ fn norm(error: &State<f64>, from: &State<f64>, to: &State<f64>, tolerance: &Tole
         sum.add(q.v * 2.0, place);
         sum.add(error.omega(i), speed(from.omega(i), to.omega(i)));
     }
+    let scalar = |x: f64| V3 { x, y: 0.0, z: 0.0 };
     for (i, angle) in error.hinge().iter().enumerate() {
-        let scalar = |x: f64| V3 { x, y: 0.0, z: 0.0 };
         sum.add(scalar(*angle), place);
         let [rate, from, to] = [error, from, to].map(|state| scalar(state.hinge_rate()[i]));
         sum.add(rate, speed(from, to));
+    }
+    for (error, (from, to)) in error.own().iter().zip(from.own().iter().zip(to.own())) {
+        // of the order of 1
+        sum.add(scalar(*error), place + tolerance.relative * from.abs().max(to.abs()));
     }
     (sum.squares / sum.count).sqrt()
 }
