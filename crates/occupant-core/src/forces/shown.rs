@@ -44,6 +44,11 @@ pub trait Reported: Element + 'static {
         Vec::new()
     }
 
+    /// Plane figures that pictures draw.
+    fn sections(_shown: &Shown<'_, Self>) -> Vec<Section> {
+        Vec::new()
+    }
+
     /// Shows every force on a sphere but those of contacts, which have points and depths of their own.
     fn pulls(_shown: &Shown<'_, Self>, _show: &mut dyn FnMut(&Pull<'_>)) {}
 
@@ -94,6 +99,15 @@ pub struct Line {
     pub points_m: Vec<Point3<f64>>,
     /// Force along it, N.
     pub force_n: f64,
+}
+
+/// A plane figure that pictures draw for an element, such as a section of a bag.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    /// Name of the element.
+    pub name: String,
+    /// Corners of a convex polygon, vehicle axes, m.
+    pub corners_m: Vec<Point3<f64>>,
 }
 
 /// The force of an element on a sphere.

@@ -194,7 +194,7 @@ fn begin(setup: &Setup, faces: &[FlatFace], problems: &mut Problems) -> Option<(
     let own = forces.own();
     if own.len() > MOST_OWN {
         let found = format!("bags with {} numbers of gas", own.len());
-        problems.error("bags", found, format!("at most {MOST_OWN}: four for each bag and one more for each inflator"));
+        problems.error("bags", found, format!("at most {MOST_OWN}: five for each bag and one more for each inflator"));
         return None;
     }
     let mut history = forces.start(&at);

@@ -1,6 +1,6 @@
 //! Force elements in results, kind by kind: what they draw, pull and tell at an output.
 
-use crate::forces::shown::{Line, Named, Pull, Shown};
+use crate::forces::shown::{Line, Named, Pull, Section, Shown};
 use crate::forces::table::Tables;
 use crate::forces::{Listed, Visitor, visit_kinds};
 use crate::model::Model;
@@ -22,6 +22,13 @@ impl Sample<'_> {
     /// Lines that pictures draw for force elements.
     pub fn lines(&self) -> Vec<Line> {
         let mut list = Lines(self, Vec::new());
+        visit_kinds(&mut list);
+        list.1
+    }
+
+    /// Plane figures that pictures draw for force elements.
+    pub fn sections(&self) -> Vec<Section> {
+        let mut list = Sections(self, Vec::new());
         visit_kinds(&mut list);
         list.1
     }
@@ -53,6 +60,14 @@ struct Lines<'s, 'a>(&'s Sample<'a>, Vec<Line>);
 impl Visitor for Lines<'_, '_> {
     fn visit<E: Listed>(&mut self) {
         self.1.extend(self.0.show(E::lines));
+    }
+}
+
+struct Sections<'s, 'a>(&'s Sample<'a>, Vec<Section>);
+
+impl Visitor for Sections<'_, '_> {
+    fn visit<E: Listed>(&mut self) {
+        self.1.extend(self.0.show(E::sections));
     }
 }
 

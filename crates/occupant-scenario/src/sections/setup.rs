@@ -72,6 +72,7 @@ pub(crate) fn setup(
         self_contact,
         belts,
         chains,
+        bags: Vec::new(),
         path,
         posture,
         velocity,

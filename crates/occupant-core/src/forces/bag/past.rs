@@ -1,0 +1,65 @@
+//! What a bag remembers between steps: plain numbers that change only at accepted steps.
+
+use super::{MOST_SPHERES, MOST_VENTS};
+use crate::motion::scalar::Scalar;
+
+/// What a bag remembers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BagPast<S> {
+    /// 1 once it has fired.
+    pub(super) fired: S,
+    /// U − G + p_aV when it fired, J; see [`super::law`].
+    pub(super) book: S,
+    /// Greatest U and greatest residual of the book since, J.
+    pub(super) greatest: S,
+    pub(super) residual: S,
+    /// Number of the sphere, from 1 on, whose centre was deepest in the full envelope when it fired; 0 of none.
+    pub(super) caught: S,
+    /// 1 of each vent that the pressure has opened.
+    pub(super) open: [S; MOST_VENTS],
+    /// Depth at which each sphere is held, m; 0 of one that is not.
+    pub(super) held: [S; MOST_SPHERES],
+}
+
+impl<S> BagPast<S> {
+    /// f called with every number and the one in the same place of `other`.
+    pub(super) fn each<A>(&mut self, other: &mut BagPast<A>, f: &mut impl FnMut(&mut S, &mut A)) {
+        f(&mut self.fired, &mut other.fired);
+        f(&mut self.book, &mut other.book);
+        f(&mut self.greatest, &mut other.greatest);
+        f(&mut self.residual, &mut other.residual);
+        f(&mut self.caught, &mut other.caught);
+        self.open.iter_mut().zip(&mut other.open).for_each(|(a, b)| f(a, b));
+        self.held.iter_mut().zip(&mut other.held).for_each(|(a, b)| f(a, b));
+    }
+}
+
+impl<A: Copy> BagPast<A> {
+    pub(super) fn map<S>(&self, f: &mut impl FnMut(A) -> S) -> BagPast<S> {
+        BagPast {
+            fired: f(self.fired),
+            book: f(self.book),
+            greatest: f(self.greatest),
+            residual: f(self.residual),
+            caught: f(self.caught),
+            open: self.open.map(&mut *f),
+            held: self.held.map(&mut *f),
+        }
+    }
+}
+
+impl<S: Scalar> BagPast<S> {
+    /// Of a bag that has not fired.
+    pub(super) fn none() -> Self {
+        let o = S::zero();
+        BagPast {
+            fired: o,
+            book: o,
+            greatest: o,
+            residual: o,
+            caught: o,
+            open: [o; MOST_VENTS],
+            held: [o; MOST_SPHERES],
+        }
+    }
+}

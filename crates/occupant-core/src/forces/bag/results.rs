@@ -1,0 +1,255 @@
+//! What a bag contributes to results.
+
+use crash_measures::unit::Unit::{
+    Joule, Kelvin, Kilogram, KilogramPerSecond, MetreCubed, MetreSquared, Newton, One, Pascal, Second,
+};
+use nalgebra::Point3;
+
+use super::data::{Bag, FOLDED};
+use super::inflator::Outflow;
+use super::law::{Flows, Now};
+use super::past::BagPast;
+use super::{BagLaw, Bags, MOST_SPHERES, MOST_VENTS, Pushes, outline};
+use crate::forces::element::{Element, Instant};
+use crate::forces::shown::{Named, OneOf, Pull, Reported, Section, Shown, Tracked};
+use crate::forces::stored::Archive;
+use crate::forces::table::{Cell, Column, Table};
+use crate::motion::scalar::Scalar;
+use crate::motion::vector::V3;
+use crate::quantity::{Axes, FieldWords, Quantity};
+
+/// What one bag does at one instant.
+#[derive(Clone, Copy, Debug)]
+pub struct BagAction<S> {
+    /// p − p_a, Pa.
+    pub(crate) pressure: S,
+    /// T, K.
+    pub(crate) temperature: S,
+    /// Of the gas, m³ and kg.
+    pub(crate) volume: S,
+    pub(crate) mass: S,
+    /// From inflators, kg/s.
+    inwards: S,
+    out: Outflow<S>,
+    /// That has flowed out since the start, kg.
+    vented: S,
+    /// Of the envelope that spheres cover, m², and that they displace, m³.
+    covered: S,
+    taken: S,
+    /// Work of the body on it since the start, J.
+    pub(super) work: S,
+    /// Greatest residual of the gas's book over its greatest energy.
+    pub(super) residual: S,
+    /// 1 once it has fired, g, and λ.
+    pub(crate) fired: S,
+    pub(crate) share: S,
+    scale: S,
+    /// Vents that the pressure has opened.
+    opened: S,
+    /// Number of the sphere, from 1 on, that has reached the mount plane or the middle, and of that which was within when it
+    /// fired; 0 of none.
+    pub(crate) bottoms: S,
+    pub(crate) caught: S,
+    /// On what it is mounted, vehicle axes, N.
+    pub(super) force: V3<S>,
+    /// On its spheres, in their order, vehicle axes, N.
+    pub(super) pushes: [V3<S>; MOST_SPHERES],
+}
+
+impl<S: Scalar> BagAction<S> {
+    /// Of a bag that has not fired.
+    #[inline(always)]
+    pub(super) fn idle(law: &BagLaw<S>) -> Self {
+        let (o, none) = (S::zero(), V3::zero());
+        let [temperature, volume, mass] = law.folded();
+        BagAction {
+            pressure: o,
+            temperature,
+            volume,
+            mass,
+            inwards: o,
+            out: Outflow { vents: o, fabric: o },
+            vented: o,
+            covered: o,
+            taken: o,
+            work: o,
+            residual: o,
+            fired: o,
+            share: S::of(FOLDED),
+            scale: o,
+            opened: o,
+            bottoms: o,
+            caught: o,
+            force: none,
+            pushes: [none; MOST_SPHERES],
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn new(
+        law: &BagLaw<S>,
+        at: &Instant<'_, S>,
+        (now, past): (&Now<S>, &BagPast<S>),
+        pushes: &Pushes<S>,
+        flows: &Flows<S>,
+    ) -> Self {
+        let o = S::zero();
+        let axes = &at.frames[crate::motion::frame::VEHICLE].axes;
+        let [work, vented] = law.sums(at);
+        let pushes = pushes.forces.map(|force| axes.into_frame(force));
+        BagAction {
+            pressure: now.gauge,
+            temperature: now.gas.temperature,
+            volume: now.volume,
+            mass: now.gas.mass,
+            inwards: flows.inwards,
+            out: flows.out,
+            vented,
+            covered: now.covered,
+            taken: now.taken,
+            work,
+            residual: past.residual / past.greatest.max(S::of(1e-12)),
+            fired: past.fired,
+            share: now.unfolded.share,
+            scale: now.unfolded.scale,
+            opened: past.open.iter().fold(o, |sum, open| sum + *open),
+            bottoms: now.bottoms,
+            caught: past.caught,
+            force: pushes.iter().fold(V3::zero(), |sum, push| sum - *push),
+            pushes,
+        }
+    }
+}
+
+type Of = Quantity<OneOf<Bags>>;
+
+const fn peak(of: fn(&BagAction<f64>) -> f64, column: Column) -> Tracked<BagAction<f64>> {
+    Tracked { of, column, time: None, at_least_zero: true }
+}
+
+/// With the time at which the peak was first reached, under these names in JSON and among the measures.
+const fn timed(
+    of: fn(&BagAction<f64>) -> f64,
+    column: Column,
+    key: &'static str,
+    measure: &'static str,
+) -> Tracked<BagAction<f64>> {
+    Tracked { time: Some(Column::time(key).measure(measure, Second)), ..peak(of, column) }
+}
+
+const fn scaled(scale: f64, column: Column) -> Column {
+    Column { scale, ..column }
+}
+
+impl Reported for Bags {
+    const MESSAGE: &'static str = "Bag";
+    const TELLS: bool = true;
+
+    #[rustfmt::skip]
+    const QUANTITIES: &'static [Of] = &[
+        Of::number(Pascal, |b| b.pressure).channel("pressure", "gauge pressure of the {}").field(2, "pressure", "gauge pressure"),
+        Of::number(Kelvin, |b| b.temperature).channel("temperature", "temperature of the {}").field(3, "temperature", "temperature of its gas"),
+        Of::number(MetreCubed, |b| b.volume).channel("volume", "volume of the {}").field(4, "volume", "volume of its gas"),
+        Of::number(Kilogram, |b| b.mass).channel("mass", "mass of gas in the {}").field(5, "mass", "mass of its gas"),
+        Of::number(KilogramPerSecond, |b| b.inwards).channel("flow_in", "flow of inflators into the {}").field(6, "flow_in", "mass flow of its inflators"),
+        Of::number(KilogramPerSecond, |b| b.out.vents).channel("flow_out", "flow through vents of the {}").field(7, "flow_out", "mass flow through its vents"),
+        Of::number(KilogramPerSecond, |b| b.out.fabric).channel("leak", "flow through fabric of the {}").field(8, "leak", "mass flow through its fabric"),
+        Of::number(MetreSquared, |b| b.covered).channel("area", "area of the {} that bodies press").field(9, "area", "area that the body presses"),
+        Of::vector(Newton, Axes::Vehicle, |b| b.force.to_vector()).channel("force", "force of the {} on its mount").field(10, "force", "force on its mount"),
+        Of::number(Joule, |b| b.work).channel("work", "work of the body on the {}").field(11, "work", "work of the body on it since the start"),
+    ];
+
+    #[rustfmt::skip]
+    const PEAKS: &'static [Tracked<BagAction<f64>>] = &[
+        timed(|b| b.pressure, scaled(1e-3, Column::number("peak_pressure_pa", "pressure, kPa", 1)).measure("peak_pressure", Pascal), "peak_pressure_time_s", "peak_pressure_time"),
+        timed(|b| b.fired * b.share, scaled(1e2, Column::number("unfolded", "unfolded, %", 0)), "full_time_s", "full_time"),
+        timed(|b| f64::from(b.covered > 0.0), Column::number("touched", "touched", 0), "contact_time_s", "contact_time"),
+        peak(|b| b.taken, scaled(1e3, Column::number("displaced_m3", "displaced, l", 1)).measure("displaced", MetreCubed)),
+        timed(|b| f64::from(b.bottoms > 0.0), Column::number("bottomed", "bottomed", 0), "bottomed_time_s", "bottomed_time"),
+        peak(|b| b.vented, scaled(1e3, Column::number("vented_kg", "vented, g", 1)).measure("vented_mass", Kilogram)),
+        peak(|b| b.work, Column::number("energy_j", "work, J", 1).measure("energy", Joule)),
+        peak(|b| b.residual, scaled(1e6, Column::number("gas_balance_error", "gas balance, 1e-6", 1)).measure("gas_balance_error", One)),
+    ];
+
+    fn keep(past: &mut Vec<BagPast<f64>>, like: Option<&[BagPast<f64>]>, file: &mut dyn Archive) {
+        let number = if like.is_some() { 54 } else { 53 };
+        let meaning = "what each bag remembers: whether it has fired, its gas's book, of 4 vents, of 12 spheres";
+        let mut list = Vec::new();
+        for bag in &*past {
+            bag.map(&mut |x| list.push(x));
+        }
+        let list = file.numbers(FieldWords { number, stem: "bags", meaning }, list);
+        let size = 5 + MOST_VENTS + MOST_SPHERES;
+        if list.len() % size != 0 {
+            return file.refuse("a list of bags with parts missing");
+        }
+        let bag = |numbers: &[f64]| {
+            let mut numbers = numbers.iter().copied();
+            BagPast::<f64>::none().map(&mut |none| numbers.next().unwrap_or(none))
+        };
+        *past = list.chunks(size).map(bag).collect();
+    }
+
+    fn named<'a>(data: Self::Data<'a>) -> Vec<Named<'a>> {
+        data.iter().map(|bag| Named { name: &bag.name, sphere: None }).collect()
+    }
+
+    fn start_table(shown: &Shown<'_, Self>) -> Option<Table> {
+        if shown.data.is_empty() {
+            return None;
+        }
+        let columns = [
+            scaled(1e3, Column::time("fires_s")),
+            scaled(1e3, Column::number("volume_m3", "volume, l", 1)),
+            scaled(1e3, Column::number("gas_kg", "gas, g", 1)),
+            scaled(1e3, Column::number("filled_m3", "fills unpressed, l", 1)),
+        ];
+        let row = |bag: &Bag| {
+            let [mass, volume] = bag.filled();
+            let fires_s = Some(bag.fires_s).filter(|fires_s| *fires_s < crate::forces::chain::NEVER);
+            let numbers = [fires_s, Some(bag.volume_m3), Some(mass), Some(volume)];
+            (bag.name.clone(), numbers.map(Cell::Number).to_vec())
+        };
+        Some(Table::new(Self::NAMES[0], &columns, shown.data.iter().map(row)))
+    }
+
+    fn sections(shown: &Shown<'_, Self>) -> Vec<Section> {
+        let drawn = shown.data.iter().zip(shown.actions).filter(|(_, action)| action.fired > 0.0);
+        drawn.flat_map(|(bag, action)| outline::sections(bag, action.scale)).collect()
+    }
+
+    fn pulls(shown: &Shown<'_, Self>, show: &mut dyn FnMut(&Pull<'_>)) {
+        let [of, _] = Self::NAMES;
+        for (bag, action) in shown.data.iter().zip(shown.actions) {
+            for ((sphere, _), push) in bag.spheres.iter().zip(&action.pushes) {
+                let force_n = push.to_vector();
+                if force_n.norm() > 0.0 {
+                    let point_m: Point3<f64> = (shown.centre_m)(*sphere);
+                    show(&Pull { of, name: &bag.name, sphere: *sphere, point_m, force_n });
+                }
+            }
+        }
+    }
+
+    fn event<S: Scalar>(before: &BagAction<S>, now: &BagAction<S>) -> Option<(&'static str, Option<S>)> {
+        let o = S::zero();
+        let begins = |of: fn(&BagAction<S>) -> S| S::any(of(now).gt(o)) && !S::any(of(before).gt(o));
+        let whole = S::of(1.0 - 1e-9);
+        if begins(|b| b.fired) {
+            return Some(("fires", None));
+        }
+        if begins(|b| b.bottoms) {
+            return Some(("is pressed in as far as its mount or its middle", None));
+        }
+        if S::any(now.opened.gt(before.opened)) {
+            return Some(("opens a vent", None));
+        }
+        if begins(|b| b.covered) {
+            return Some(("is touched", None));
+        }
+        if S::any(now.share.gt(whole)) && !S::any(before.share.gt(whole)) {
+            return Some(("is unfolded", None));
+        }
+        (S::any(before.covered.gt(o)) && !S::any(now.covered.gt(o))).then_some(("is left", None))
+    }
+}
