@@ -31,8 +31,7 @@ pub(super) fn data(bag: &Bag, body: &Body, problems: &mut Problems) {
         volume(bag, &at("volume"), problems);
     }
     for (i, inflator) in bag.inflators.iter().enumerate() {
-        let path = if bag.inflators.len() == 1 { at("inflator") } else { format!("{path}.inflators[{i}]") };
-        check_inflator(inflator, &path, bag.ambient, problems);
+        check_inflator(inflator, &format!("{path}.inflators[{i}]"), bag.ambient, problems);
     }
     if bag.inflators.len() > 2 {
         problems.error(at("inflators"), format!("{} inflators", bag.inflators.len()), "at most two stages");
@@ -80,7 +79,8 @@ fn volume(bag: &Bag, path: &str, problems: &mut Problems) {
     let [_, filled] = bag.filled();
     let [least, most] = FILLS.map(|part| part * bag.volume_m3);
     if !bag.inflators.is_empty() && !(least..=most).contains(&filled) {
-        let found = format!("gas for {:.1} l at the pressure outside in a bag of {:.1} l", 1e3 * filled, 1e3 * bag.volume_m3);
+        let found =
+            format!("gas for {:.1} l at the pressure outside in a bag of {:.1} l", 1e3 * filled, 1e3 * bag.volume_m3);
         problems.warning(path, found, "gas for 0.8 to 3 times the volume");
     }
 }
@@ -88,26 +88,34 @@ fn volume(bag: &Bag, path: &str, problems: &mut Problems) {
 fn check_inflator(inflator: &Inflator, path: &str, ambient: [f64; 2], problems: &mut Problems) {
     let rows = &inflator.rows;
     if rows.len() < 2 {
-        return problems.error(format!("{path}.rows"), "a table without two rows", "times, flows and temperatures");
+        return problems.error(format!("{path}.times"), "a table without two rows", "times, flows and temperatures");
     }
     if rows.windows(2).any(|pair| pair[1][0].partial_cmp(&pair[0][0]) != Some(std::cmp::Ordering::Greater)) {
-        problems.error(format!("{path}.rows"), "times that do not rise", "times that rise from row to row");
+        problems.error(format!("{path}.times"), "times that do not rise", "times that rise from row to row");
     }
     if rows.iter().any(|row| !(row[1] >= 0.0 && row[1].is_finite())) {
-        problems.error(format!("{path}.rows"), "a flow below 0", "flows of at least 0");
+        problems.error(format!("{path}.flow"), "a flow below 0", "flows of at least 0");
     }
     if rows.iter().any(|row| !(row[2] > 0.0 && row[2].is_finite())) {
-        problems.error(format!("{path}.rows"), "a temperature that is not above 0 K", "temperatures in K");
+        problems.error(format!("{path}.temperature"), "a temperature that is not above 0 K", "temperatures in K");
     }
     if rows.iter().any(|row| row[2] > HOTTEST_K) {
         let found = format!("gas hotter than {HOTTEST_K} K");
-        problems.warning(format!("{path}.rows"), found, "cooler gas: the specific heats are fitted up to 1000 K");
+        problems.warning(
+            format!("{path}.temperature"),
+            found,
+            "cooler gas: the specific heats are fitted up to 1000 K",
+        );
     }
     if let Some([volume, said]) = inflator.tank {
         let found = tank_pa(inflator, volume, ambient);
         if !((found / said - 1.0).abs() <= TANK_OFF) {
             let found = format!("a table that gives {:.1} kPa in the tank, not {:.1}", 1e-3 * found, 1e-3 * said);
-            problems.warning(format!("{path}.tank.pressure"), found, "the table's within 10 %, in a tank that loses no heat");
+            problems.warning(
+                format!("{path}.tank.pressure"),
+                found,
+                "the table's within 10 %, in a tank that loses no heat",
+            );
         }
     }
 }
@@ -133,7 +141,11 @@ fn outlets(bag: &Bag, path: &str, problems: &mut Problems) {
         problems.check_positive(&at("discharge"), vent.discharge, "1");
         problems.check_at_least_zero(&at("opens_at"), vent.opens_at_pa, "Pa");
         if vent.discharge > 1.0 {
-            problems.warning(at("discharge"), format!("{}", vent.discharge), "0.6 to 0.8: no hole passes more than its area");
+            problems.warning(
+                at("discharge"),
+                format!("{}", vent.discharge),
+                "0.6 to 0.8: no hole passes more than its area",
+            );
         }
     }
     match &bag.leakage {
@@ -225,4 +237,3 @@ impl Shape {
         }
     }
 }
-

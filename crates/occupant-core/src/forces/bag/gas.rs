@@ -1,11 +1,11 @@
 //! Ideal gases and the mixture in a bag (B.1 of the theory manual's chapter on air bags).
 //!
 //! With c_p = a + bT of each part: h = aT + ½bT², u = h − RT. Of all parts together, B = Σm(a − R) and C = Σmb,
-//! U = BT + ½CT², so that
+//! U = BT + ½CT², so that T = 2U/(B + √(B² + 2CU)).
 //!
-//! ```text
-//! T = 2U/(B + √(B² + 2CU))
-//! ```
+//! A bag's state holds E = U + p_aV and not U, with p_a the pressure outside: its rate does not jump where gas comes to fill
+//! the bag or no longer does. Gas that does not fill V_free has p = p_a and the enthalpy E; if it would take more than V_free
+//! then, it fills V_free and has U = E − p_aV_free. At mRT = p_aV_free both are the same.
 
 use super::data::Gas;
 use crate::forces::decay::{decay, logarithm};
@@ -25,13 +25,17 @@ pub(super) struct Mixture<S> {
     /// m, kg.
     pub(super) mass: S,
     /// mR, J/K.
-    pub(super) mass_r: S,
+    mass_r: S,
     /// T, K.
     pub(super) temperature: S,
     /// U, J.
     pub(super) energy: S,
+    /// V, m³.
+    pub(super) volume: S,
+    /// p − p_a, Pa.
+    pub(super) gauge: S,
     /// m c_v, J/K.
-    pub(super) heat: S,
+    heat: S,
 }
 
 impl<S: Copy> GasLaw<S> {
@@ -50,18 +54,12 @@ impl<S: Scalar> GasLaw<S> {
     pub(super) fn enthalpy(&self, temperature: S) -> S {
         (self.a + self.b * temperature * S::of(0.5)) * temperature
     }
-
-    /// u, J/kg.
-    #[inline(always)]
-    pub(super) fn energy(&self, temperature: S) -> S {
-        self.enthalpy(temperature) - self.r * temperature
-    }
 }
 
 impl<S: Scalar> Mixture<S> {
-    /// Of masses of these gases with the energy U together.
+    /// Of masses of these gases with E together, in a bag that has V_free for them.
     #[inline(always)]
-    pub(super) fn new(energy: S, parts: impl Iterator<Item = (GasLaw<S>, S)>) -> Self {
+    pub(super) fn new(total: S, ambient: S, free: S, parts: impl Iterator<Item = (GasLaw<S>, S)>) -> Self {
         let o = S::zero();
         let (mut mass, mut mass_r, mut b, mut c) = (o, o, o, o);
         for (gas, m) in parts {
@@ -71,14 +69,26 @@ impl<S: Scalar> Mixture<S> {
             c += m * gas.b;
         }
         let two = S::of(2.0);
-        let temperature = two * energy / (b + (b * b + two * c * energy).sqrt());
-        Mixture { mass, mass_r, temperature, energy, heat: b + c * temperature }
+        let temperature = |energy: S, b: S| two * energy / (b + (b * b + two * c * energy).sqrt());
+        let slack = temperature(total, b + mass_r);
+        let fills = (mass_r * slack).gt(ambient * free);
+        let energy = S::select(fills, total - ambient * free, total - mass_r * slack);
+        let temperature = if S::any(fills) { S::select(fills, temperature(energy, b), slack) } else { slack };
+        let volume = S::select(fills, free, mass_r * temperature / ambient);
+        let gauge = S::select(fills, (mass_r * temperature / free - ambient).max(o), o);
+        Mixture { mass, mass_r, temperature, energy, volume, gauge, heat: b + c * temperature }
     }
 
     /// mRT = pV, J.
     #[inline(always)]
-    pub(super) fn pressure_volume(&self) -> S {
+    fn pressure_volume(&self) -> S {
         self.mass_r * self.temperature
+    }
+
+    /// kg/m³.
+    #[inline(always)]
+    pub(super) fn density(&self) -> S {
+        self.mass / self.volume
     }
 
     /// h of the mixture, J/kg.

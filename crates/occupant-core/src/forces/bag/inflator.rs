@@ -89,11 +89,8 @@ impl<S: Scalar> InflatorLaw<S> {
 
 impl OutletLaw<f64> {
     pub(super) fn new(bag: &Bag) -> Self {
-        let vent = |vent: &Vent| VentLaw {
-            area: vent.discharge * vent.area_m2,
-            opens_at: vent.opens_at_pa,
-            due: vent.due_s,
-        };
+        let vent =
+            |vent: &Vent| VentLaw { area: vent.discharge * vent.area_m2, opens_at: vent.opens_at_pa, due: vent.due_s };
         let (part, speed) = match &bag.leakage {
             Leakage::Fraction(part) => (*part, Steps::new(&[])),
             Leakage::Speed(rows) => (0.0, Steps::new(rows)),
@@ -131,17 +128,17 @@ impl<S: Scalar> OutletLaw<S> {
         }
     }
 
-    /// What flows out at a gauge pressure, through fabric of this area.
+    /// What flows out, through fabric of this area.
     #[inline(always)]
     pub(super) fn at(
         &self,
         at: &Instant<'_, S>,
         gas: &Mixture<S>,
-        (gauge, ambient): (S, S),
+        ambient: S,
         fabric: S,
         past: &BagPast<S>,
     ) -> Outflow<S> {
-        let o = S::zero();
+        let (o, gauge) = (S::zero(), gas.gauge);
         if !S::any(gauge.gt(o)) {
             return Outflow { vents: o, fabric: o };
         }
@@ -153,8 +150,7 @@ impl<S: Scalar> OutletLaw<S> {
         let per_area = gas.outflow(ambient + gauge.max(linear), ambient) * (gauge / linear).min(S::one());
         let mut through = self.part * per_area;
         if self.speed.len() > 0 {
-            let density = (ambient + gauge) * gas.mass / gas.pressure_volume();
-            through += density * self.speed.at(gauge);
+            through += gas.density() * self.speed.at(gauge);
         }
         Outflow { vents: holes * per_area, fabric: through * fabric }
     }

@@ -8,16 +8,19 @@
 //! V̇_free = V̇_e (φ + κX) − κ Σ A_k δ̇_k,   force on a sphere = κ (p − p_a) A_k ∇s
 //! ```
 //!
-//! so that the work of the gas is that of the forces exactly. Gas that does not fill the envelope has p = p_a and
-//! V = mRT/p_a; gas that does has p = mRT/V_free.
+//! so that the work of the gas is that of the forces exactly. With E = U + p_aV of `gas`
 //!
-//! The energy has a book of its own: G sums what comes in less what goes out, heat and (p − p_a)V̇, and U − G + p_aV, V being
-//! that of the instant, stays what it was when the bag fired.
+//! ```text
+//! Ė = Σ ṁ_in h(T_in) − ṁ_out h(T) − q A_f (T − T_a) − (p − p_a) V̇_free
+//! ```
+//!
+//! whether it fills the bag or not. The last term is summed twice: with the integrator's weights, and from pressures and volumes
+//! at the ends of accepted steps. Their difference is the residual of the gas's balance.
 
 use super::MOST_SPHERES;
 use super::data::{Bag, FOLDED, Gas};
 use super::gas::{GasLaw, Mixture};
-use super::inflator::{InflatorLaw, OutletLaw, Outflow};
+use super::inflator::{InflatorLaw, Outflow, OutletLaw};
 use super::past::BagPast;
 use super::shape::{ShapeLaw, displaced, size};
 use super::unfold::{UnfoldLaw, Unfolded};
@@ -33,7 +36,7 @@ const LOST: f64 = 0.1;
 
 /// Where the numbers stand that a bag owns in a state, from its first on; then the masses of its gases, the air first.
 const ENERGY: usize = 0;
-const BOOK: usize = 1;
+const PRESSED: usize = 1;
 const WORK: usize = 2;
 const VENTED: usize = 3;
 const MASSES: usize = 4;
@@ -87,10 +90,7 @@ pub(super) struct Now<S: Scalar> {
     pub(super) gas: Mixture<S>,
     /// κ.
     pub(super) crowd: S,
-    /// p − p_a, Pa.
-    pub(super) gauge: S,
-    /// V, m³, and V̇_free, m³/s.
-    pub(super) volume: S,
+    /// V̇_free, m³/s.
     growth: S,
     /// Σ V_k, m³, and Σ A_k, m².
     pub(super) taken: S,
@@ -140,7 +140,7 @@ impl BagLaw<f64> {
     pub(super) fn own(&mut self, numbers: &mut Vec<f64>) {
         self.first = numbers.len();
         let temperature = self.ambient[1];
-        let energy = FOLDED * self.air.energy(temperature) / (self.air.r * temperature);
+        let energy = FOLDED * self.air.enthalpy(temperature) / (self.air.r * temperature);
         numbers.extend([energy, 0.0, 0.0, 0.0, FOLDED]);
         numbers.extend(self.inflators.iter().map(|_| 0.0));
     }
@@ -230,17 +230,14 @@ impl<S: Scalar> BagLaw<S> {
         let (share, crowd) = free(taken / envelope);
         let (own, [unit_energy, unit_mass]) = (&at.state.own()[self.first..], self.units());
         let masses = own[MASSES..].iter().map(|m| *m * unit_mass);
-        let gas = Mixture::new(own[ENERGY] * unit_energy, self.gases().zip(masses));
-        let most = envelope * share;
-        let gauge = (gas.pressure_volume() / most - self.ambient[0]).max(o);
-        let gauge = S::select(unfolded.fired, gauge, o);
+        let parts = self.gases().zip(masses);
+        let mut gas = Mixture::new(own[ENERGY] * unit_energy, self.ambient[0], envelope * share, parts);
+        gas.gauge = S::select(unfolded.fired, gas.gauge, o);
         Now {
             unfolded,
             pressed,
             gas,
             crowd,
-            gauge,
-            volume: gas.pressure_volume() / (self.ambient[0] + gauge),
             growth: self.volume * unfolded.growth * (share + crowd * taken / envelope) - crowd * closing,
             taken,
             covered,
@@ -284,7 +281,7 @@ impl<S: Scalar> BagLaw<S> {
             changes = changes | held.lt(pressed.held) | held.gt(pressed.held);
             *held = pressed.held;
         }
-        self.outlet.commit(now.gauge, past);
+        self.outlet.commit(now.gas.gauge, past);
         changes
     }
 
@@ -302,32 +299,23 @@ impl<S: Scalar> BagLaw<S> {
         let [per_energy, per_mass] = self.units().map(|unit| S::one() / unit);
         let scale = now.unfolded.scale;
         let fabric = (self.area * scale * scale - now.covered).max(o);
-        let out = self.outlet.at(at, gas, (now.gauge, p_a), fabric, past);
+        let out = self.outlet.at(at, gas, p_a, fabric, past);
         let leaving = out.vents + out.fabric;
         let heat = self.heat * fabric * (gas.temperature - t_a);
         let own = &at.state.own()[self.first..];
         let share = leaving / gas.mass;
         rates[MASSES] = -(own[MASSES] * share);
-        // what comes in: mass, enthalpy, enthalpy above that of the gas there, energy of the gas there
-        let (mut inwards, mut enthalpy, mut excess, mut energy) = (o, o, o, o);
+        let (mut inwards, mut enthalpy) = (o, o);
         for (i, inflator) in self.inflators.iter().enumerate() {
             let [flow, temperature] = inflator.at(at);
-            let law = &inflator.gas;
-            let brought = law.enthalpy(temperature);
             inwards += flow;
-            enthalpy += flow * brought;
-            excess += flow * (brought - law.enthalpy(gas.temperature));
-            energy += flow * law.energy(gas.temperature);
+            enthalpy += flow * inflator.gas.enthalpy(temperature);
             let at = MASSES + 1 + i;
             rates[at] = flow * per_mass - own[at] * share;
         }
-        let carried = enthalpy - leaving * gas.enthalpy() - heat;
-        let taut = carried - (p_a + now.gauge) * now.growth;
-        // ṁ_out = 0 and pV̇ eliminated: m c_v Ṫ + Σ u ṁ, Ṫ = (excess − heat)/(m c_p)
-        let slack = gas.heat * (excess - heat) / (gas.heat + gas.mass_r) + energy;
-        let is_taut = now.gauge.gt(o);
-        rates[ENERGY] = S::select(is_taut, taut, slack) * per_energy;
-        rates[BOOK] = (carried - now.gauge * now.growth) * per_energy;
+        let pressed = gas.gauge * now.growth;
+        rates[ENERGY] = (enthalpy - leaving * gas.enthalpy() - heat - pressed) * per_energy;
+        rates[PRESSED] = pressed * per_energy;
         rates[WORK] = power * per_energy;
         rates[VENTED] = leaving * per_mass;
         for rate in rates {
@@ -336,20 +324,21 @@ impl<S: Scalar> BagLaw<S> {
         Flows { inwards, out }
     }
 
-    /// Keeps the book of an accepted step.
+    /// Keeps the balance of the gas at an accepted step.
     #[inline(always)]
-    pub(super) fn keep_book(&self, at: &Instant<'_, S>, now: &Now<S>, past: &mut BagPast<S>) {
-        let (own, [unit, _]) = (&at.state.own()[self.first..], self.units());
-        let book = now.gas.energy - own[BOOK] * unit + self.ambient[0] * now.volume;
-        let begins = now.unfolded.fired & !past.fired.gt(S::zero());
+    pub(super) fn keep_balance(&self, at: &Instant<'_, S>, now: &Now<S>, past: &mut BagPast<S>) {
+        let (o, gas, [unit, _]) = (S::zero(), &now.gas, self.units());
+        let begins = now.unfolded.fired & !past.fired.gt(o);
         if S::any(begins) {
             past.caught = S::select(begins, self.caught(at), past.caught);
+            past.fired = S::select(begins, S::one(), past.fired);
         }
-        past.book = S::select(begins, book, past.book);
-        past.fired = S::select(begins, S::one(), past.fired);
-        let off = S::select(past.fired.gt(S::zero()), (book - past.book).abs(), S::zero());
-        past.greatest = past.greatest.max(now.gas.energy);
+        let mean = (past.gauge + gas.gauge) * S::of(0.5);
+        past.pressed += S::select(begins, o, mean * (gas.volume - past.volume));
+        (past.gauge, past.volume) = (gas.gauge, gas.volume);
+        let off = (at.state.own()[self.first + PRESSED] * unit - past.pressed).abs();
         past.residual = past.residual.max(off);
+        past.greatest = past.greatest.max(gas.energy);
     }
 }
 

@@ -69,13 +69,7 @@ impl Element for Bags {
         data.iter().map(BagLaw::new).collect()
     }
 
-    fn begin(
-        law: &mut Vec<BagLaw<f64>>,
-        data: &[Bag],
-        body: &Body,
-        at: &Instant<'_, f64>,
-        problems: &mut Problems,
-    ) {
+    fn begin(law: &mut Vec<BagLaw<f64>>, data: &[Bag], body: &Body, at: &Instant<'_, f64>, problems: &mut Problems) {
         law.iter().zip(data).for_each(|(law, bag)| check::laid(law, bag, body, at, problems));
     }
 
@@ -99,9 +93,8 @@ impl Element for Bags {
         f: &impl Fn(S, A) -> T,
     ) -> Result<Vec<BagLaw<T>>, Unlike> {
         let is_like = one.len() == other.len() && one.iter().zip(other).all(|(a, b)| a.is_like(b));
-        let both = one.iter().zip(other).filter(|_| is_like);
-        let all: Option<Vec<_>> = both.map(|(a, b)| a.zip(b, f)).collect();
-        all.filter(|_| is_like).ok_or(OTHER_BAGS)
+        let all = is_like.then(|| one.iter().zip(other).map(|(a, b)| a.zip(b, f)).collect());
+        all.flatten().ok_or(OTHER_BAGS)
     }
 
     fn each<S, A>(one: &mut BagPast<S>, other: &mut BagPast<A>, f: &mut impl FnMut(&mut S, &mut A)) {
@@ -149,7 +142,7 @@ fn act<S: Scalar>(
     let pushes = bear(law, at, &now, load);
     let flows = law.flow(at, &now, past, pushes.power, &mut load.own[law.numbers()]);
     if at.accepted {
-        law.keep_book(at, &now, past);
+        law.keep_balance(at, &now, past);
     }
     show(&BagAction::new(law, at, (&now, past), &pushes, &flows));
 }
@@ -167,7 +160,7 @@ struct Pushes<S> {
 fn bear<S: Scalar>(law: &BagLaw<S>, at: &Instant<'_, S>, now: &Now<S>, load: &mut Load<S>) -> Pushes<S> {
     let (o, frame) = (S::zero(), &at.frames[law.frame]);
     let mut pushes = Pushes { forces: [V3::zero(); MOST_SPHERES], power: o };
-    let pressure = now.crowd * now.gauge;
+    let pressure = now.crowd * now.gas.gauge;
     for (i, (sphere, _)) in law.spheres.iter().enumerate() {
         let pressed = &now.pressed[i];
         if !S::any(pressed.area.gt(o)) {

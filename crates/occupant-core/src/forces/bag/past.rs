@@ -8,11 +8,13 @@ use crate::motion::scalar::Scalar;
 pub struct BagPast<S> {
     /// 1 once it has fired.
     pub(super) fired: S,
-    /// U − G + p_aV when it fired, J; see [`super::law`].
-    pub(super) book: S,
-    /// Greatest U and greatest residual of the book since, J.
-    pub(super) greatest: S,
+    /// p − p_a, Pa, and V, m³, of the last accepted step.
+    pub(super) gauge: S,
+    pub(super) volume: S,
+    /// ∫(p − p_a)dV over accepted steps, J; greatest residual of it and greatest U so far, J.
+    pub(super) pressed: S,
     pub(super) residual: S,
+    pub(super) greatest: S,
     /// Number of the sphere, from 1 on, whose centre was deepest in the full envelope when it fired; 0 of none.
     pub(super) caught: S,
     /// 1 of each vent that the pressure has opened.
@@ -25,9 +27,11 @@ impl<S> BagPast<S> {
     /// f called with every number and the one in the same place of `other`.
     pub(super) fn each<A>(&mut self, other: &mut BagPast<A>, f: &mut impl FnMut(&mut S, &mut A)) {
         f(&mut self.fired, &mut other.fired);
-        f(&mut self.book, &mut other.book);
-        f(&mut self.greatest, &mut other.greatest);
+        f(&mut self.gauge, &mut other.gauge);
+        f(&mut self.volume, &mut other.volume);
+        f(&mut self.pressed, &mut other.pressed);
         f(&mut self.residual, &mut other.residual);
+        f(&mut self.greatest, &mut other.greatest);
         f(&mut self.caught, &mut other.caught);
         self.open.iter_mut().zip(&mut other.open).for_each(|(a, b)| f(a, b));
         self.held.iter_mut().zip(&mut other.held).for_each(|(a, b)| f(a, b));
@@ -38,9 +42,11 @@ impl<A: Copy> BagPast<A> {
     pub(super) fn map<S>(&self, f: &mut impl FnMut(A) -> S) -> BagPast<S> {
         BagPast {
             fired: f(self.fired),
-            book: f(self.book),
-            greatest: f(self.greatest),
+            gauge: f(self.gauge),
+            volume: f(self.volume),
+            pressed: f(self.pressed),
             residual: f(self.residual),
+            greatest: f(self.greatest),
             caught: f(self.caught),
             open: self.open.map(&mut *f),
             held: self.held.map(&mut *f),
@@ -54,9 +60,11 @@ impl<S: Scalar> BagPast<S> {
         let o = S::zero();
         BagPast {
             fired: o,
-            book: o,
-            greatest: o,
+            gauge: o,
+            volume: o,
+            pressed: o,
             residual: o,
+            greatest: o,
             caught: o,
             open: [o; MOST_VENTS],
             held: [o; MOST_SPHERES],

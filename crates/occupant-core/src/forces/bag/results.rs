@@ -98,9 +98,9 @@ impl<S: Scalar> BagAction<S> {
         let [work, vented] = law.sums(at);
         let pushes = pushes.forces.map(|force| axes.into_frame(force));
         BagAction {
-            pressure: now.gauge,
+            pressure: now.gas.gauge,
             temperature: now.gas.temperature,
-            volume: now.volume,
+            volume: now.gas.volume,
             mass: now.gas.mass,
             inwards: flows.inwards,
             out: flows.out,
@@ -179,7 +179,7 @@ impl Reported for Bags {
             bag.map(&mut |x| list.push(x));
         }
         let list = file.numbers(FieldWords { number, stem: "bags", meaning }, list);
-        let size = 5 + MOST_VENTS + MOST_SPHERES;
+        let size = 7 + MOST_VENTS + MOST_SPHERES;
         if list.len() % size != 0 {
             return file.refuse("a list of bags with parts missing");
         }

@@ -151,12 +151,7 @@ impl<S: Scalar> ShapeLaw<S> {
 #[inline(always)]
 fn near_round<S: Scalar>(seen: V3<S>, radius: S) -> Near<S> {
     let far = length(seen);
-    Near {
-        distance: far - radius,
-        gradient: seen * (S::one() / far),
-        left: None,
-        from_middle: Some(far / radius),
-    }
+    Near { distance: far - radius, gradient: seen * (S::one() / far), left: None, from_middle: Some(far / radius) }
 }
 
 /// |v|, kept off 0.

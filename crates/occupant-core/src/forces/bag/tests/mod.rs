@@ -72,7 +72,7 @@ impl Rig {
         let unit = bag.ambient[0] * bag.volume_m3;
         let unit_mass = unit / (Gas::AIR.r_j_kg_k * bag.ambient[1]);
         rig.own = vec![0.0; rig.own.len()];
-        rig.own[0] = mass * 2.5 * IDEAL.r_j_kg_k * temperature / unit;
+        rig.own[0] = mass * 2.5 * IDEAL.r_j_kg_k * temperature / unit + volume / bag.volume_m3;
         rig.own[5] = mass / unit_mass;
         rig
     }
@@ -100,7 +100,7 @@ impl Rig {
         let mut sum = vec![0.0; start.len()];
         let mut at = start.clone();
         for (i, (share, weight)) in [(0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0)].into_iter().enumerate() {
-            let rates = self.rates(i == 0, time + share * h, [at[0], at[1]], &at[2..].to_vec());
+            let rates = self.rates(i == 0, time + share * h, [at[0], at[1]], &at[2..]);
             sum.iter_mut().zip(&rates).for_each(|(sum, rate)| *sum += weight * rate);
             let next = [0.5, 0.5, 1.0, 0.0][i];
             at = start.iter().zip(&rates).map(|(x, rate)| x + next * h * rate).collect();

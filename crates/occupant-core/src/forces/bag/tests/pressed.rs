@@ -16,9 +16,9 @@ fn gas_that_is_pressed_together_follows_the_adiabat() {
     rig.place = [0.16 + 0.12, -1.0];
     rig.run(0.06, 1e-4);
     assert!((rig.actions[0].volume - 0.05).abs() < 1e-12);
-    // measured: 1e-12 of it
     assert!((rig.absolute() - 141_986.296).abs() < 1e-3, "{}", rig.absolute());
-    assert!(rig.actions[0].residual < 1e-11, "{:e}", rig.actions[0].residual);
+    // measured: 4e-9, of the sum over steps
+    assert!(rig.actions[0].residual < 1e-8, "{:e}", rig.actions[0].residual);
 }
 
 /// Weight of 10 kg on a bag at 1.05 p_a: it rests 25.805163 mm deep and swings with 3.221852 Hz,
@@ -60,20 +60,19 @@ fn a_mass_that_falls_onto_a_closed_bag_rises_as_high_again() {
     (rig.mass, rig.gravity, rig.place) = (Some(10.0), GRAVITY, [0.30, 0.0]);
     let mut lowest = rig.place[0];
     while rig.time < 2.0 && !(rig.time > 0.1 && rig.place[1] < 0.0 && rig.place[0] > 0.29) {
-        rig.step(1e-4);
+        rig.step(1e-5);
         lowest = lowest.min(rig.place[0]);
     }
     assert!(lowest < 0.24, "{lowest}");
     let energy = 10.0 * (GRAVITY * (rig.place[0] - 0.30) + 0.5 * rig.place[1] * rig.place[1]);
-    // measured: 4e-11 J of 10
-    assert!(energy.abs() < 1e-9, "{energy:e}");
+    // measured: 7e-10 of what it has fallen
+    assert!(energy.abs() < 1e-9 * 10.0 * GRAVITY * (0.30 - lowest), "{energy:e}");
 }
 
 /// The dome of the sketch, under a mass of 10 kg that comes at 6 m/s, fired so late that it presses on a bag hardly unfolded.
 #[test]
 fn work_on_a_dome_is_the_gass_even_where_it_has_hardly_unfolded() {
-    let shape =
-        Shape::Dome { axis: Vector3::z(), depth_m: 0.23, radius_m: 0.33, face_radius_m: 0.533, edge_m: 0.1 };
+    let shape = Shape::Dome { axis: Vector3::z(), depth_m: 0.23, radius_m: 0.33, face_radius_m: 0.533, edge_m: 0.1 };
     let rows = vec![[0.0, 0.0, 700.0], [0.004, 2.2, 700.0], [0.02, 1.2, 600.0], [0.045, 0.0, 500.0]];
     let inflator = Inflator { gas: IDEAL, due_s: 0.0, rows, tank: None };
     let vent = Vent { area_m2: 2.5e-3, discharge: 0.7, opens_at_pa: 5e3, due_s: NEVER };
@@ -87,12 +86,17 @@ fn work_on_a_dome_is_the_gass_even_where_it_has_hardly_unfolded() {
             rig.step(1e-4);
             rig.look();
             least = least.min(rig.actions[0].pressure);
-            assert!(rig.place[1].abs() < 60.0 && rig.absolute() < 2e6, "{height} at {}: {:?}", rig.time, rig.actions[0]);
+            assert!(
+                rig.place[1].abs() < 60.0 && rig.absolute() < 2e6,
+                "{height} at {}: {:?}",
+                rig.time,
+                rig.actions[0]
+            );
         }
         let action = rig.actions[0];
         let lost = start - 0.5 * 10.0 * rig.place[1] * rig.place[1];
-        // measured: work to 1e-9 J or so, the gas's book to 3e-5 where it fires into the body
-        assert!((lost - action.work).abs() < 1e-4 * start, "{height}: {lost} {}", action.work);
+        // measured: 2e-8 of the start's energy and 3e-5 of the gas's where it fires into the sphere, 1e-11 and 2e-6 in position
+        assert!((lost - action.work).abs() < 1e-7 * start, "{height}: {lost} {}", action.work);
         assert!(action.residual < 1e-4, "{height}: {:e}", action.residual);
         assert!(least >= 0.0);
     }
@@ -102,7 +106,11 @@ fn work_on_a_dome_is_the_gass_even_where_it_has_hardly_unfolded() {
 #[test]
 fn two_bags_are_independent() {
     let one = with_sphere(closed());
-    let other = Bag { mount_m: Point3::new(3.0, 0.0, 0.0), shape: Shape::Sphere { centre_m: Point3::new(3.0, 0.0, 0.2), radius_m: 0.24 }, ..one.clone() };
+    let other = Bag {
+        mount_m: Point3::new(3.0, 0.0, 0.0),
+        shape: Shape::Sphere { centre_m: Point3::new(3.0, 0.0, 0.2), radius_m: 0.24 },
+        ..one.clone()
+    };
     let mut both = Rig::new(&[one.clone(), other]);
     let mut alone = Rig::new(&[one]);
     let gas = Rig::filled(&with_sphere(closed()), 130_000.0, 350.0, 0.06).own;
@@ -114,6 +122,6 @@ fn two_bags_are_independent() {
     }
     assert_eq!((both.place, &both.own[..gas.len()]), (alone.place, &alone.own[..]));
     let (push, mount) = (both.actions[0].pushes[0], both.actions[0].force);
-    assert!(push.z > 1000.0 && mount.z == -push.z && mount.x == -push.x, "{push:?} {mount:?}");
+    assert!(push.z > 100.0 && mount.z == -push.z && mount.x == -push.x, "{push:?} {mount:?}");
     assert_eq!(both.actions[1].pressure, 0.0);
 }

@@ -11,7 +11,6 @@ fn a_vessel_that_is_filled_has_the_temperature_and_pressure_of_the_closed_form()
     let mut rig = Rig::filled(&bag, 101_325.0, 300.0, 0.06);
     rig.run(0.031, 1e-4);
     let (temperature, pressure) = (rig.actions[0].temperature, rig.absolute());
-    // measured: 1e-13 of both
     assert!((temperature - 618.0585).abs() < 5e-5, "{temperature}");
     assert!((pressure - 392_189.0).abs() < 5e-2, "{pressure}");
     assert!(rig.actions[0].residual < 1e-12, "{:e}", rig.actions[0].residual);
@@ -25,12 +24,11 @@ fn a_vessel_that_empties_through_a_hole_follows_the_closed_form_while_the_flow_i
     let bag = Bag { vents: vec![vent], ..closed() };
     let mut rig = Rig::filled(&bag, 250_000.0, 600.0, 0.06);
     let tau: f64 = 0.137_699_476;
-    for (ms, pressure) in [(1.0, 247_472.936), (2.0, 244_975.023), (3.0, 242_505.883), (26.0, 192_713.7)] {
+    for (ms, pressure) in [(1.0, 247_472.936), (2.0, 244_975.023), (3.0, 242_505.883), (26.0, 192_864.177)] {
         let end = 1e-3 * ms;
         rig.run(end, 1e-5);
         let closed = 250_000.0 * (1.0 + 0.2 * end / tau).powi(-7);
         assert!((closed / pressure - 1.0).abs() < 1e-6, "{closed}");
-        // measured: 1e-10
         assert!((rig.absolute() / closed - 1.0).abs() < 3e-10, "{ms} ms: {} {closed}", rig.absolute());
         let temperature = 600.0 * (1.0 + 0.2 * end / tau).powi(-2);
         assert!((rig.actions[0].temperature / temperature - 1.0).abs() < 1e-9);
@@ -43,14 +41,16 @@ fn a_vessel_that_empties_through_a_hole_follows_the_closed_form_while_the_flow_i
 
 #[test]
 fn the_flow_through_a_hole_chokes_where_it_should() {
-    let mixture = gas::Mixture::new(2.5 * 296.8 * 600.0, [(gas::GasLaw::new(&IDEAL), 1.0)].into_iter());
+    let mixture =
+        gas::Mixture::new(3.5 * 296.8 * 600.0, 101_325.0, 10.0, [(gas::GasLaw::new(&IDEAL), 1.0)].into_iter());
     let over_root = |pressure: f64| mixture.outflow(pressure, 101_325.0) * (296.8_f64 * 600.0).sqrt() / pressure;
     let critical = 101_325.0 / 0.528_281_788;
     assert!((over_root(2.0 * critical) - 0.684_731_456).abs() < 1e-9);
     assert!((over_root(1.01 * critical) - over_root(1.5 * critical)).abs() < 1e-15);
     let (pi, gamma): (f64, f64) = (0.8, 1.4);
     let subsonic = (2.0 * gamma / (gamma - 1.0) * (pi.powf(2.0 / gamma) - pi.powf((gamma + 1.0) / gamma))).sqrt();
-    assert!((over_root(101_325.0 / pi) - subsonic).abs() < 1e-14);
+    let off = over_root(101_325.0 / pi) - subsonic;
+    assert!(off.abs() < 3e-14, "{off:e}");
 }
 
 /// A vent opens at its pressure and stays open; heat goes out until the gas is as cold as the air around it.
@@ -62,8 +62,8 @@ fn a_vent_that_has_opened_stays_open() {
     shut.run(0.01, 1e-4);
     assert!((shut.absolute() / 121_000.0 - 1.0).abs() < 1e-12);
     let mut open = Rig::filled(&bag, 121_400.0, 300.0, 0.06);
-    open.run(0.01, 1e-4);
-    assert!(open.actions[0].pressure < 15_000.0, "{}", open.actions[0].pressure);
+    open.run(1.0, 1e-4);
+    assert!(open.actions[0].pressure < 1.0, "{}", open.actions[0].pressure);
 }
 
 #[test]
@@ -85,14 +85,16 @@ fn a_bag_that_is_slack_has_the_pressure_outside_until_it_is_full() {
     rig.run(0.05, 1e-4);
     let slack = rig.actions[0];
     let folded = 0.02 * 0.06;
-    assert!((slack.pressure, slack.temperature) == (0.0, slack.temperature) && (slack.temperature - 300.0).abs() < 1e-9);
+    assert!(
+        (slack.pressure, slack.temperature) == (0.0, slack.temperature) && (slack.temperature - 300.0).abs() < 1e-9
+    );
     assert!((slack.volume - folded - 0.05 * 296.8 * 300.0 / 101_325.0).abs() < 1e-12, "{}", slack.volume);
     rig.run(0.1, 1e-4);
     // full after 66 ms: more gas than fits is compressed and hotter
     let taut = rig.actions[0];
     assert!(taut.pressure > 1000.0 && taut.temperature > 300.0 && (taut.volume - 0.06).abs() < 1e-12);
     // measured: 3e-7, by the step in which it becomes taut
-    assert!(taut.residual < 2e-6, "{:e}", taut.residual);
+    assert!(taut.residual < 1e-6, "its walls stand still but for one step: {:e}", taut.residual);
 }
 
 /// An unfolding bag that gets no gas stays slack, and air alone keeps its temperature.
@@ -112,9 +114,14 @@ fn a_mixture_has_the_energy_of_its_parts() {
     let gases = ["nitrogen", "carbon_dioxide", "water", "helium"].map(|name| Gas::named(name).unwrap());
     let masses = [0.02, 0.03, 0.01, 0.004];
     let (temperature, law) = (731.0, gases.each_ref().map(gas::GasLaw::new));
-    let energy: f64 = law.iter().zip(masses).map(|(gas, m)| m * gas.energy(temperature)).sum();
-    let mixture = gas::Mixture::new(energy, law.into_iter().zip(masses));
-    assert!((mixture.temperature / temperature - 1.0).abs() < 1e-14);
-    let heat = |t: f64| law.iter().zip(masses).map(|(gas, m)| m * gas.energy(t)).sum::<f64>();
-    assert!((mixture.heat - (heat(732.0) - heat(730.0)) / 2.0).abs() < 1e-9);
+    let energy: f64 =
+        law.iter().zip(masses).map(|(gas, m)| m * (gas.enthalpy(temperature) - gas.r * temperature)).sum();
+    let mixture = |free: f64| gas::Mixture::new(energy + 1e5 * free, 1e5, free, law.into_iter().zip(masses));
+    let taut = mixture(0.06);
+    assert!((taut.temperature / temperature - 1.0).abs() < 1e-14 && (taut.energy / energy - 1.0).abs() < 1e-14);
+    let r: f64 = law.iter().zip(masses).map(|(gas, m)| m * gas.r).sum();
+    assert!((taut.gauge + 1e5 - r * temperature / 0.06).abs() < 1e-8);
+    // in as much room as it takes at the pressure outside it is just slack, at the same temperature
+    let slack = mixture(r * temperature / 1e5 * (1.0 + 1e-12));
+    assert!(slack.gauge == 0.0 && (slack.temperature / temperature - 1.0).abs() < 1e-12);
 }
