@@ -78,9 +78,28 @@ pub(crate) const MOMENT_PER_ANGLE_2: usize = 14;
 /// Moment per angle cubed.
 pub(crate) const MOMENT_PER_ANGLE_3: usize = 15;
 
+/// Area.
+pub(crate) const AREA: usize = 16;
+/// Volume.
+pub(crate) const VOLUME: usize = 17;
+/// Pressure.
+pub(crate) const PRESSURE: usize = 18;
+/// Temperature.
+pub(crate) const TEMPERATURE: usize = 19;
+/// Mass flow.
+pub(crate) const MASS_FLOW: usize = 20;
+/// Molar mass.
+pub(crate) const MOLAR_MASS: usize = 21;
+/// Specific heat.
+pub(crate) const SPECIFIC_HEAT: usize = 22;
+/// Specific heat per kelvin.
+pub(crate) const SPECIFIC_HEAT_SLOPE: usize = 23;
+/// Heat transfer.
+pub(crate) const HEAT_TRANSFER: usize = 24;
+
 /// All kinds.
 #[rustfmt::skip]
-pub const KINDS: [Kind; 16] = [
+pub const KINDS: [Kind; 25] = [
     kind("length", "a length", Unit::Metre, "0.3, \"12 in\", \"305 mm\""),
     kind("time", "a time", Unit::Second, "0.08, \"80 ms\""),
     kind("angle", "an angle", Unit::Radian, "15, \"15 deg\", \"0.26 rad\""),
@@ -97,6 +116,15 @@ pub const KINDS: [Kind; 16] = [
     kind("moment", "a moment", Unit::NewtonMetre, "12, \"12 N m\", \"100 in lbf\""),
     kind("moment per angle squared", "a moment per angle squared", Unit::NewtonMetrePerRadianSquared, "371, \"371 N m/rad^2\", \"1 in lbf/deg^2\""),
     kind("moment per angle cubed", "a moment per angle cubed", Unit::NewtonMetrePerRadianCubed, "100, \"100 N m/rad^3\", \"0.01 in lbf/deg^3\""),
+    kind("area", "an area", Unit::MetreSquared, "0.0025, \"25 cm^2\", \"3.9 in^2\""),
+    kind("volume", "a volume", Unit::MetreCubed, "0.06, \"60 l\", \"3660 in^3\""),
+    kind("pressure", "a pressure", Unit::Pascal, "5000, \"5 kPa\", \"0.73 psi\""),
+    kind("temperature", "a temperature above absolute zero", Unit::Kelvin, "293, \"293 K\""),
+    kind("mass flow", "a mass flow", Unit::KilogramPerSecond, "2.2, \"2.2 kg/s\""),
+    kind("molar mass", "a molar mass", Unit::KilogramPerMole, "0.033, \"33 kg/kmol\""),
+    kind("specific heat", "a specific heat", Unit::JoulePerKilogramKelvin, "1070, \"1070 J/(kg K)\""),
+    kind("specific heat per kelvin", "a specific heat per kelvin", Unit::JoulePerKilogramKelvinSquared, "0.2, \"0.2 J/(kg K^2)\""),
+    kind("heat transfer", "a heat transfer", Unit::WattPerMetreSquaredKelvin, "50, \"50 W/(m^2 K)\""),
 ];
 
 impl Kind {

@@ -4,7 +4,7 @@ use indexmap::IndexSet;
 use placed_text::{Node, Problem, did_you_mean, follow, one_of, parse_path, targets, to_text};
 
 /// Where a name stands, what it names, and the tables that have things of that kind.
-const REFERENCES: [(&str, &str, &str); 30] = [
+const REFERENCES: [(&str, &str, &str); 34] = [
     ("joints.*.set", "joint set", "joint_sets"),
     ("muscles.*.trigger", "trigger", "triggers"),
     ("surfaces.*.material", "material", "materials"),
@@ -12,6 +12,10 @@ const REFERENCES: [(&str, &str, &str); 30] = [
     ("solids.*.material", "material", "materials"),
     ("solids.*.spheres[*]", "sphere", "body.spheres"),
     ("triggers.*.of[*]", "trigger", "triggers"),
+    ("bags.*.trigger", "trigger", "triggers"),
+    ("bags.*.inflators[*].trigger", "trigger", "triggers"),
+    ("bags.*.vents[*].trigger", "trigger", "triggers"),
+    ("bags.*.spheres[*]", "sphere", "body.spheres"),
     ("belts.*.sphere", "sphere", "body.spheres"),
     ("belts.*.webbing", "webbing", "webbings"),
     ("belts.*.limiter", "limiter", "limiters"),

@@ -3,6 +3,7 @@
 //! The structs are the only declaration of the keys: the JSON Schema, and so the check, the overrides and the hints, come
 //! from them. Their doc comments are the descriptions of the schema, so they speak to the person who writes a scenario.
 
+mod bags;
 mod belts;
 mod body;
 mod body_joints;
@@ -44,6 +45,7 @@ pub use quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, Quantity};
 pub use record_file::{RecordFile, read_record};
 pub(super) use setup::{occupant, setup};
 
+use self::bags::{BagSection, GasSection};
 use self::belts::BeltSection;
 pub(super) use self::body::BodySection;
 use self::functions::{LimiterSection, WebbingSection};
@@ -90,6 +92,15 @@ type AngularVelocity<const RANGE: usize = ANY> = Quantity<{ kind::ANGULAR_VELOCI
 type Moment<const RANGE: usize = ANY> = Quantity<{ kind::MOMENT }, RANGE>;
 type MomentPerAngle2<const RANGE: usize = ANY> = Quantity<{ kind::MOMENT_PER_ANGLE_2 }, RANGE>;
 type MomentPerAngle3<const RANGE: usize = ANY> = Quantity<{ kind::MOMENT_PER_ANGLE_3 }, RANGE>;
+type Area<const RANGE: usize = ANY> = Quantity<{ kind::AREA }, RANGE>;
+type Volume<const RANGE: usize = ANY> = Quantity<{ kind::VOLUME }, RANGE>;
+type Pressure<const RANGE: usize = ANY> = Quantity<{ kind::PRESSURE }, RANGE>;
+type Temperature<const RANGE: usize = ANY> = Quantity<{ kind::TEMPERATURE }, RANGE>;
+type MassFlow<const RANGE: usize = ANY> = Quantity<{ kind::MASS_FLOW }, RANGE>;
+type MolarMass<const RANGE: usize = ANY> = Quantity<{ kind::MOLAR_MASS }, RANGE>;
+type SpecificHeat<const RANGE: usize = ANY> = Quantity<{ kind::SPECIFIC_HEAT }, RANGE>;
+type SpecificHeatSlope<const RANGE: usize = ANY> = Quantity<{ kind::SPECIFIC_HEAT_SLOPE }, RANGE>;
+type HeatTransfer<const RANGE: usize = ANY> = Quantity<{ kind::HEAT_TRANSFER }, RANGE>;
 
 /// A crash or a violent manoeuvre with one occupant.
 ///
@@ -158,6 +169,12 @@ pub struct Scenario {
     /// Retractors by name, each of one belt.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) retractors: IndexMap<String, RetractorSection>,
+    /// Air bags by name.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) bags: IndexMap<String, BagSection>,
+    /// Gases by name, for inflators; "air", "nitrogen", "carbon_dioxide", "water", "helium" and "argon" are known.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) gases: IndexMap<String, GasSection>,
     /// Contact materials by name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) materials: IndexMap<String, MaterialSection>,

@@ -8,8 +8,8 @@ use serde::Deserialize;
 use super::builder::Builder;
 use super::quantity::si_or;
 use super::{
-    BodySection, JointsSection, Scenario, belts, body, chains, joints, materials, mount, muscles, path, plausible,
-    posture, run, self_contact, solids, surfaces, triggers,
+    BodySection, JointsSection, Scenario, bags, belts, body, chains, joints, materials, mount, muscles, path,
+    plausible, posture, run, self_contact, solids, surfaces, triggers,
 };
 use crate::check::references;
 use occupant_core::body::Body;
@@ -50,11 +50,12 @@ pub(crate) fn setup(
     let output = run::output(b, explicit, &body);
     let gravity_m_s2 = si_or(&explicit.gravity, STANDARD_GRAVITY_M_S2);
     let path = path::path(b, &explicit.path, path_table, gravity_m_s2);
-    let mut chains = Vec::new();
+    let (mut chains, mut bags) = (Vec::new(), Vec::new());
     if let Some(path) = &path {
         let triggers = triggers::triggers(b, explicit, path, &time);
         joints.muscles = muscles::muscles(b, explicit, &body, &triggers);
         chains = chains::chains(b, explicit, &body, &triggers);
+        bags = bags::bags(b, explicit, &body, &triggers);
     }
     check_provenance(b, written);
     let (Some(path), Some(posture), false) = (path, posture, b.problems.has_errors()) else {
@@ -72,7 +73,7 @@ pub(crate) fn setup(
         self_contact,
         belts,
         chains,
-        bags: Vec::new(),
+        bags,
         path,
         posture,
         velocity,

@@ -1,7 +1,7 @@
 //! What is wrong with a bag: with its data, and with where the body is at the start.
 
 use super::data::{Bag, FOLDED, Gas, Inflator, Leakage, Shape};
-use super::{BagLaw, MOST_SPHERES, MOST_VENTS, size};
+use super::{BagLaw, MOST_SPHERES, MOST_VENTS};
 use crate::body::Body;
 use crate::forces::element::Instant;
 use placed_text::{Problems, with_key};
@@ -70,7 +70,7 @@ fn shape(shape: &Shape, path: &str, problems: &mut Problems) -> bool {
 }
 
 fn volume(bag: &Bag, path: &str, problems: &mut Problems) {
-    let [of_shape, _] = size(&bag.shape);
+    let of_shape = bag.shape.volume_m3();
     if (bag.volume_m3 / of_shape - 1.0).abs() > MOST_OFF {
         let [said, of_shape] = [bag.volume_m3, of_shape].map(|volume| 1e3 * volume);
         let found = format!("{said:.1} l of a shape that holds {of_shape:.1} l");

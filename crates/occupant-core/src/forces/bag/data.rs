@@ -23,6 +23,9 @@ pub struct Gas {
 }
 
 impl Gas {
+    /// Names of [`Gas::named`].
+    pub const NAMES: [&'static str; 6] = ["air", "nitrogen", "carbon_dioxide", "water", "helium", "argon"];
+
     /// Dry air: least squares on its ideal-gas table from 300 to 1000 K, to 1.2 %.
     pub const AIR: Gas = Gas { r_j_kg_k: 287.05, a_j_kg_k: 930.4, b_j_kg_k2: 0.2091 };
 

@@ -28,7 +28,6 @@ use law::Now;
 pub use past::BagPast;
 use placed_text::Problems;
 pub use results::BagAction;
-pub(crate) use shape::size;
 
 /// Most spheres of the body that a bag touches.
 pub(crate) const MOST_SPHERES: usize = 12;

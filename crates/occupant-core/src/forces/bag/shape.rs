@@ -183,6 +183,13 @@ pub(super) fn displaced<S: Scalar>(depth: S, r: S, face: Option<S>) -> [S; 2] {
     [area, pi * cap * cap * lens / (S::of(12.0) * d) + area * (d - apart)]
 }
 
+impl Shape {
+    /// What it holds, m³.
+    pub fn volume_m3(&self) -> f64 {
+        size(self)[0]
+    }
+}
+
 /// The volume of a full bag, m³, and the area of its envelope, m².
 pub(crate) fn size(shape: &Shape) -> [f64; 2] {
     use std::f64::consts::PI;

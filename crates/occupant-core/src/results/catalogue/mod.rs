@@ -168,6 +168,9 @@ impl Catalogue {
             let (channel, words) = (format!("sphere.{name}"), format!("sphere {name}"));
             let place = Place { message: "SphereLoad", topic, name: &channel, words: &words };
             all.add(&place, sphere::QUANTITIES, move |s| (s, i));
+            if !model.setup().bags.is_empty() {
+                all.add(&place, sphere::OF_BAGS, move |s| (s, i));
+            }
         }
         visit_kinds(&mut Elements { model, all: &mut all });
         for joint in tree.joints() {

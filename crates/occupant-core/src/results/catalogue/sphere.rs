@@ -36,6 +36,11 @@ pub(super) const QUANTITIES: &[Of] = &[
     Of::new(One, Axes::None, Take::Parts("occupant.Touch", |at| touches(at))).field(7, "touches", "surfaces touched, one by one (item 5)"),
 ];
 
+/// What a sphere feels of bags, where there are any.
+pub(super) const OF_BAGS: &[Of] = &[Of::vector(Newton, Axes::Vehicle, |(s, i)| s.sphere_pull_n(*i, Some("bag")))
+    .channel("bag_force", "bag forces on the {}")
+    .field(8, "bag_force", "sum of the forces of bags")];
+
 fn touches<'a>((s, i): &(&'a Sample<'a>, usize)) -> Vec<Vec<(u32, Value)>> {
     s.contacts().filter(|c| c.sphere == *i).map(|c| values(TOUCH, &(*s, c))).collect()
 }

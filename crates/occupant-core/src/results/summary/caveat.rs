@@ -124,6 +124,17 @@ impl Caveat {
         Caveat::new(format!("{belt}_limiter_bottomed"), text, vec![format!("straps.{belt}.*")])
     }
 
+    /// A sphere that was in the way of a bag when it fired, or pressed it in as far as its mount or its middle.
+    pub(super) fn of_bag(body: &Body, sphere: usize, sign: &str, bag: &str, time_s: f64) -> Self {
+        let at = format!("at {:.1} ms", 1e3 * time_s);
+        let seen = if sign == "caught" {
+            format!("was within the bag {bag} when it fired, {at}: it hits nobody as it unfolds")
+        } else {
+            format!("pressed the bag {bag} in as far as its mount or its middle {at}")
+        };
+        Caveat::of_sphere(body, sphere, sign, seen)
+    }
+
     /// A sphere whose centre went through the axis of a bar or a rim, and was pushed on.
     pub(super) fn through(body: &Body, sphere: usize, solid: &str, depth: Peak) -> Self {
         let seen = format!("went through {solid} {} and was pushed out beyond", at(depth));

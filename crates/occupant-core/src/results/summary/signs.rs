@@ -3,6 +3,7 @@
 use super::caveat::{Caveat, Turned};
 use super::peak::Peak;
 use crate::body::{Body, Segment};
+use crate::forces::bag::{Bag, BagAction};
 use crate::forces::chain::Chain;
 use crate::forces::contact::{ContactSystem, Group, PASSED, Part, Plane, Touch};
 use crate::forces::joint::JointLaw;
@@ -43,6 +44,9 @@ pub(super) struct Signs {
     /// By strap: strain beyond the last point of its webbing; by belt over several nodes: way of its limiter beyond its own, m.
     stretched: Vec<Peak>,
     run_out: Vec<Peak>,
+    /// By bag: the sphere, by its place in the bag's list, that was in its way when it fired, and that which pressed it in as far
+    /// as its mount, and when, s.
+    bags: Vec<[Option<(usize, f64)>; 2]>,
     /// By what pairs remember, of bars and rims.
     normals: Vec<Option<Bar>>,
     /// By segment: how far from its spheres it went through a surface.
@@ -101,6 +105,7 @@ impl Signs {
             beyond: spheres.iter().map(|none| (*none, 0.0)).collect(),
             stretched: vec![Peak::NONE; model.setup().chains.iter().map(|chain| chain.straps.len()).sum()],
             run_out: vec![Peak::NONE; model.setup().chains.len()],
+            bags: vec![[None; 2]; model.setup().bags.len()],
             normals: vec![None; model.start().history.memory.contacts.len()],
             deep: spheres,
             cuts: vec![Sunk::NONE; body.tree.segments().len()],
@@ -135,6 +140,7 @@ impl Signs {
             self.see_last_point(sample, touch);
         }
         self.see_chains(sample);
+        self.see_bags(sample);
         if !self.is_begun || time_s - self.seen_s >= LOOK_S {
             for group in &model.system().forces.contacts.groups {
                 self.see_group(sample, group);
@@ -175,6 +181,21 @@ impl Signs {
             if let Some(end_m) = chain.device.end_m() {
                 peak.see(past.limiter_m() - end_m, sample.time_s);
             }
+        }
+    }
+
+    /// Spheres in the way of a bag that fires, and those that press one in as far as its mount.
+    fn see_bags(&mut self, sample: &Sample<'_>) {
+        let first = |seen: &mut Option<(usize, f64)>, number: f64| {
+            if number > 0.0 && seen.is_none() {
+                *seen = Some((number as usize - 1, sample.time_s));
+            }
+        };
+        for ([caught, bottoms], BagAction { caught: one, bottoms: other, .. }) in
+            self.bags.iter_mut().zip(&sample.actions.bags)
+        {
+            first(caught, *one);
+            first(bottoms, *other);
         }
     }
 
@@ -225,7 +246,7 @@ impl Signs {
     }
 
     /// What to know of the figures.
-    pub(super) fn caveats(&self, body: &Body, surfaces: &[String], chains: &[Chain]) -> Vec<Caveat> {
+    pub(super) fn caveats(&self, body: &Body, surfaces: &[String], chains: &[Chain], bags: &[Bag]) -> Vec<Caveat> {
         let name = |sunk: &Sunk| surfaces[sunk.surface].as_str();
         let joints = body.tree.joints().zip(&self.joints).filter(|(_, turned)| turned.beyond.value > AT_STOP_RAD);
         let joints = joints.map(|(joint, turned)| Caveat::beyond_stop(body, joint, turned));
@@ -251,7 +272,7 @@ impl Signs {
         let beyond = worst_of_parts(body, beyond).into_iter();
         let beyond = beyond.map(|(s, sunk)| Caveat::beyond_curve(body, s, name(sunk), sunk.most, self.beyond[s].1));
         let of_sphere = passed.chain(deep).chain(bottomed).chain(beyond).chain(through).chain(cuts);
-        joints.chain(of_sphere).chain(self.of_chains(chains)).collect()
+        joints.chain(of_sphere).chain(self.of_chains(chains)).chain(self.of_bags(body, bags)).collect()
     }
 
     /// What to know of belts over several nodes.
@@ -263,6 +284,17 @@ impl Signs {
         let run_out =
             run_out.filter_map(|(chain, peak)| Some(Caveat::run_out(&chain.belt, *peak, chain.device.end_m()?)));
         stretched.chain(run_out)
+    }
+}
+
+impl Signs {
+    /// What to know of bags.
+    fn of_bags(&self, body: &Body, bags: &[Bag]) -> impl Iterator<Item = Caveat> {
+        let seen = bags.iter().zip(&self.bags).flat_map(|(bag, [caught, bottoms])| {
+            let caught = caught.map(|seen| (bag, seen, "caught"));
+            [caught, bottoms.map(|seen| (bag, seen, "through_bag"))].into_iter().flatten()
+        });
+        seen.map(|(bag, (i, time_s), sign)| Caveat::of_bag(body, bag.spheres[i].0, sign, &bag.name, time_s))
     }
 }
 

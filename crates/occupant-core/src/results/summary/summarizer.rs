@@ -10,6 +10,7 @@ use super::{
     SpherePeak, Summary,
 };
 use crate::body::{Body, ContactSphere};
+use crate::forces::bag::Bag;
 use crate::forces::chain::Chain;
 use crate::model::Model;
 use crate::model::setup::{STANDARD_GRAVITY_M_S2, Setup, TimeSpan};
@@ -54,6 +55,7 @@ struct Case {
     surfaces: Vec<String>,
     meets_itself: bool,
     chains: Vec<Chain>,
+    bags: Vec<Bag>,
     /// Whether parts of the body may be left out, as on a rig.
     is_mounted: bool,
     /// [`Joints::is_half_a_neck`](crate::forces::joint::Joints::is_half_a_neck).
@@ -145,7 +147,7 @@ impl Summarizer {
 
     /// What the outputs show of the body, then what is to know of its neck and of measures alone.
     fn caveats(&self, case: &Case, measures: &[Measure]) -> Vec<Caveat> {
-        let mut caveats = self.signs.caveats(&case.body, &case.surfaces, &case.chains);
+        let mut caveats = self.signs.caveats(&case.body, &case.surfaces, &case.chains, &case.bags);
         let off = injury::coarseness(&self.signals, &self.options, measures);
         let off: Vec<_> = measures.iter().zip(off).filter(|(_, off)| *off > COARSE).collect();
         let others = [
@@ -227,6 +229,7 @@ impl Recorder for Summarizer {
             surfaces: touchable(setup),
             meets_itself: setup.self_contact.is_some(),
             chains: setup.chains.clone(),
+            bags: setup.bags.clone(),
             is_mounted: setup.mounting().is_some(),
             is_half_a_neck: setup.joints.is_half_a_neck(),
             integrator: setup.integrator.name(),

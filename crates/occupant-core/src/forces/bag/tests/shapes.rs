@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::motion::vector::v3;
-use shape::{ShapeLaw, displaced};
+use shape::{ShapeLaw, displaced, size};
 
 /// A is the derivative of V, and V of a sphere wholly behind a flat face is half of it and a cylinder.
 #[test]

@@ -1,0 +1,325 @@
+//! `[bags]` and `[gases]`: their keys, and the [`Bag`]s they come to.
+
+use indexmap::IndexMap;
+use nalgebra::Vector3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::builder::Builder;
+use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, all_si, point, si_or};
+use super::triggers::Triggers;
+use super::{
+    Area, HeatTransfer, Length, MassFlow, MolarMass, Pressure, Quantity, Ratio, Scenario, SpecificHeat,
+    SpecificHeatSlope, Speed, Temperature, Time, Volume,
+};
+use occupant_core::body::Body;
+use occupant_core::forces::bag::{AMBIENT, Bag, GAS_CONSTANT_J_MOL_K, Gas, Inflator, Leakage, Shape, Vent};
+use occupant_core::forces::chain::NEVER;
+use occupant_core::forces::contact::material::DEFAULT_FRICTION_SPEED_M_S;
+use placed_text::with_key;
+
+/// An ideal gas.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct GasSection {
+    /// Molar mass.
+    pub(crate) molar_mass: MolarMass<POSITIVE>,
+    /// Specific heat at constant pressure, extrapolated to 0 K where it rises with the temperature.
+    pub(crate) cp: SpecificHeat<POSITIVE>,
+    /// What it rises by per kelvin; 0 if absent.
+    pub(crate) cp_slope: Option<SpecificHeatSlope<NOT_NEGATIVE>>,
+}
+
+/// An air bag.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend(
+    "x-exactly-one" = [["dome", "sphere", "capsule"]],
+    "x-at-most-one" = [["leakage", "permeability"]],
+))]
+pub(crate) struct BagSection {
+    /// Name of the trigger that fires it, one by time or by the vehicle's motion.
+    pub(crate) trigger: String,
+    /// Time from the trigger until it fires; 0 if absent.
+    pub(crate) delay: Option<Time<NOT_NEGATIVE>>,
+    /// Time from then until its envelope is unfolded; its volume grows evenly from 2 %.
+    pub(crate) deploy: Time<POSITIVE>,
+    /// Where it is fixed and unfolds from, vehicle axes.
+    pub(crate) mount: [Length; 3],
+    /// A driver's bag: from a plane through its mount to a face of a ball.
+    pub(crate) dome: Option<DomeSection>,
+    /// A ball.
+    pub(crate) sphere: Option<BallSection>,
+    /// A passenger's, side or curtain bag: all that is near a straight line.
+    pub(crate) capsule: Option<BagCapsuleSection>,
+    /// Volume when it is full; that of the shape if absent, from which it must not differ by more than 30 %.
+    pub(crate) volume: Option<Volume<POSITIVE>>,
+    /// What blows gas into it: one, or two stages.
+    pub(crate) inflators: Vec<InflatorSection>,
+    /// Holes, four at most.
+    pub(crate) vents: Option<Vec<VentSection>>,
+    /// Part of the fabric that is open, like a hole; 0 if absent.
+    pub(crate) leakage: Option<Ratio<FRACTION>>,
+    /// Speed of gas through the fabric over gauge pressure.
+    pub(crate) permeability: Option<PermeabilitySection>,
+    /// Heat that passes through the fabric; 0 if absent.
+    pub(crate) heat_transfer: Option<HeatTransfer<NOT_NEGATIVE>>,
+    /// Friction of the body on the fabric; 0 if absent.
+    pub(crate) friction: Option<Ratio<NOT_NEGATIVE>>,
+    /// Speed of slip at which friction is 71 % of its full size, as of a material.
+    pub(crate) friction_speed: Option<Speed<POSITIVE>>,
+    /// Names of the parts or spheres of the body that it touches, twelve spheres at most.
+    pub(crate) spheres: Vec<String>,
+    /// By how much the area of a part or sphere is multiplied, where it stands for more than itself; 1 if absent.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) reach: IndexMap<String, Ratio<POSITIVE>>,
+    /// The air around it.
+    pub(crate) ambient: Option<AmbientSection>,
+}
+
+/// A cylinder that ends in the face of a ball.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DomeSection {
+    /// Direction towards the occupant, vehicle axes; any length.
+    pub(crate) axis: [Ratio; 3],
+    /// From the mount to the middle of the face.
+    pub(crate) depth: Length<POSITIVE>,
+    /// Radius of the cylinder.
+    pub(crate) radius: Length<POSITIVE>,
+    /// Radius of the ball that the face is a part of; more than the depth.
+    pub(crate) face_radius: Length<POSITIVE>,
+    /// Radius of the edge of the face; 0 if absent.
+    pub(crate) edge: Option<Length<NOT_NEGATIVE>>,
+}
+
+/// A ball.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BallSection {
+    /// Its middle, vehicle axes.
+    pub(crate) centre: [Length; 3],
+    /// Its radius.
+    pub(crate) radius: Length<POSITIVE>,
+}
+
+/// All that is near a straight line.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BagCapsuleSection {
+    /// Ends of the line, vehicle axes.
+    pub(crate) ends: [[Length; 3]; 2],
+    /// How near.
+    pub(crate) radius: Length<POSITIVE>,
+}
+
+/// What blows gas into a bag: its flow over time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct InflatorSection {
+    /// Mass fractions by the names of gases; their sum is 1.
+    pub(crate) gas: IndexMap<String, Ratio<FRACTION>>,
+    /// Name of its own trigger, as of a second stage; that of the bag if absent.
+    pub(crate) trigger: Option<String>,
+    /// Time from its trigger until it ignites; if absent, that of the bag with its trigger, 0 with one of its own.
+    pub(crate) delay: Option<Time<NOT_NEGATIVE>>,
+    /// Times since then.
+    pub(crate) times: Vec<Time<NOT_NEGATIVE>>,
+    /// Flow at each; none before the first and behind the last.
+    pub(crate) flow: Vec<MassFlow<NOT_NEGATIVE>>,
+    /// Temperature of the gas at each.
+    pub(crate) temperature: Vec<Temperature<POSITIVE>>,
+    /// What it does in a closed tank: a check of the table.
+    pub(crate) tank: Option<TankSection>,
+}
+
+/// A closed tank of air that an inflator was fired into.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TankSection {
+    /// Its volume.
+    pub(crate) volume: Volume<POSITIVE>,
+    /// Greatest gauge pressure in it.
+    pub(crate) pressure: Pressure<POSITIVE>,
+}
+
+/// A hole. It is open from the start if nothing opens it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct VentSection {
+    /// Its area.
+    pub(crate) area: Area<NOT_NEGATIVE>,
+    /// Its discharge coefficient.
+    pub(crate) discharge: Ratio<POSITIVE>,
+    /// Gauge pressure that opens it for good.
+    pub(crate) opens_at: Option<Pressure<NOT_NEGATIVE>>,
+    /// Name of the trigger that opens it.
+    pub(crate) trigger: Option<String>,
+    /// Time from the trigger until it opens; 0 if absent.
+    pub(crate) delay: Option<Time<NOT_NEGATIVE>>,
+}
+
+/// Speed of gas through fabric.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PermeabilitySection {
+    /// Gauge pressures, from 0 on.
+    pub(crate) pressure: Vec<Pressure<NOT_NEGATIVE>>,
+    /// Speed at each, from 0 on; must not fall.
+    pub(crate) speed: Vec<Speed<NOT_NEGATIVE>>,
+}
+
+/// The air around a bag.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct AmbientSection {
+    /// Its pressure; 101 325 Pa if absent.
+    pub(crate) pressure: Option<Pressure<POSITIVE>>,
+    /// Its temperature; 293.15 K if absent.
+    pub(crate) temperature: Option<Temperature<POSITIVE>>,
+}
+
+/// All bags, in the order written.
+pub(super) fn bags(b: &mut Builder, scenario: &Scenario, body: &Body, triggers: &Triggers<'_>) -> Vec<Bag> {
+    let parts = Parts { scenario, triggers };
+    scenario.bags.iter().filter_map(|(name, section)| parts.bag(b, name, section, body)).collect()
+}
+
+/// What bags refer to.
+struct Parts<'a> {
+    scenario: &'a Scenario,
+    triggers: &'a Triggers<'a>,
+}
+
+impl Parts<'_> {
+    fn bag(&self, b: &mut Builder, name: &str, s: &BagSection, body: &Body) -> Option<Bag> {
+        let path = with_key("bags", name);
+        let shape = shape(s)?;
+        let fires_s = self.due_s(b, &path, &s.trigger, &s.delay);
+        let inflators = s.inflators.iter().enumerate();
+        let inflators = inflators.map(|(i, one)| self.inflator(b, &format!("{path}.inflators[{i}]"), one, s)).collect();
+        let vents = s.vents.iter().flatten().enumerate();
+        let vents = vents.map(|(i, vent)| self.vent(b, &format!("{path}.vents[{i}]"), vent)).collect();
+        let air = s.ambient.as_ref();
+        let ambient = [
+            air.map_or(AMBIENT[0], |air| si_or(&air.pressure, AMBIENT[0])),
+            air.map_or(AMBIENT[1], |air| si_or(&air.temperature, AMBIENT[1])),
+        ];
+        Some(Bag {
+            name: name.to_owned(),
+            mount_m: point(&s.mount),
+            shape,
+            volume_m3: si_or(&s.volume, shape.volume_m3()),
+            fires_s,
+            deploy_s: s.deploy.si(),
+            ambient,
+            inflators,
+            vents,
+            leakage: leakage(b, &path, s),
+            heat_w_m2_k: si_or(&s.heat_transfer, 0.0),
+            friction: si_or(&s.friction, 0.0),
+            friction_speed_m_s: si_or(&s.friction_speed, DEFAULT_FRICTION_SPEED_M_S),
+            spheres: spheres(b, &path, s, body),
+        })
+    }
+
+    /// When something is due that waits for a trigger.
+    fn due_s(&self, b: &mut Builder, path: &str, trigger: &str, delay: &Option<Time<NOT_NEGATIVE>>) -> f64 {
+        let at = self.triggers.time_s(b, &format!("{path}.trigger"), trigger);
+        at.map_or(NEVER, |at_s| at_s + si_or(delay, 0.0))
+    }
+
+    fn inflator(&self, b: &mut Builder, path: &str, s: &InflatorSection, bag: &BagSection) -> Inflator {
+        let due_s = match &s.trigger {
+            Some(trigger) => self.due_s(b, path, trigger, &s.delay),
+            None => self.due_s(b, path, &bag.trigger, if s.delay.is_some() { &s.delay } else { &bag.delay }),
+        };
+        let counts = [s.times.len(), s.flow.len(), s.temperature.len()];
+        if counts.iter().any(|count| *count != counts[0]) {
+            let found = format!("{} times, {} flows and {} temperatures", counts[0], counts[1], counts[2]);
+            b.error(path, found, "as many of each");
+        }
+        let rows = s.times.iter().zip(&s.flow).zip(&s.temperature);
+        Inflator {
+            gas: self.gas(b, path, s),
+            due_s,
+            rows: rows.map(|((time, flow), temperature)| [time.si(), flow.si(), temperature.si()]).collect(),
+            tank: s.tank.as_ref().map(|tank| [tank.volume.si(), tank.pressure.si()]),
+        }
+    }
+
+    fn gas(&self, b: &mut Builder, path: &str, s: &InflatorSection) -> Gas {
+        let path = format!("{path}.gas");
+        let sum: f64 = s.gas.values().map(Quantity::si).sum();
+        if !((sum - 1.0).abs() <= 1e-6) {
+            b.error(&path, format!("mass fractions with the sum {sum}"), "fractions with the sum 1");
+        }
+        let mut parts = Vec::new();
+        for (name, fraction) in &s.gas {
+            match self.scenario.gases.get(name).map(gas).or_else(|| Gas::named(name)) {
+                Some(gas) => parts.push((gas, fraction.si())),
+                None => {
+                    let own = self.scenario.gases.keys().map(String::as_str);
+                    let names: Vec<&str> = own.chain(Gas::NAMES).collect();
+                    b.unknown(&with_key(&path, name), "gas", name, &names);
+                }
+            }
+        }
+        Gas::mixed(parts)
+    }
+
+    fn vent(&self, b: &mut Builder, path: &str, s: &VentSection) -> Vent {
+        let is_open = s.opens_at.is_none() && s.trigger.is_none();
+        Vent {
+            area_m2: s.area.si(),
+            discharge: s.discharge.si(),
+            opens_at_pa: si_or(&s.opens_at, if is_open { 0.0 } else { NEVER }),
+            due_s: s.trigger.as_ref().map_or(NEVER, |trigger| self.due_s(b, path, trigger, &s.delay)),
+        }
+    }
+}
+
+fn gas(s: &GasSection) -> Gas {
+    Gas { r_j_kg_k: GAS_CONSTANT_J_MOL_K / s.molar_mass.si(), a_j_kg_k: s.cp.si(), b_j_kg_k2: si_or(&s.cp_slope, 0.0) }
+}
+
+/// The one shape that a checked section has.
+fn shape(s: &BagSection) -> Option<Shape> {
+    let dome = s.dome.as_ref().map(|dome| Shape::Dome {
+        axis: Vector3::from(all_si(&dome.axis)),
+        depth_m: dome.depth.si(),
+        radius_m: dome.radius.si(),
+        face_radius_m: dome.face_radius.si(),
+        edge_m: si_or(&dome.edge, 0.0),
+    });
+    let sphere = s.sphere.as_ref();
+    let sphere = sphere.map(|ball| Shape::Sphere { centre_m: point(&ball.centre), radius_m: ball.radius.si() });
+    let capsule = s.capsule.as_ref();
+    let capsule =
+        capsule.map(|one| Shape::Capsule { ends_m: one.ends.each_ref().map(point), radius_m: one.radius.si() });
+    dome.or(sphere).or(capsule)
+}
+
+fn leakage(b: &mut Builder, path: &str, s: &BagSection) -> Leakage {
+    let Some(table) = &s.permeability else { return Leakage::Fraction(si_or(&s.leakage, 0.0)) };
+    if table.pressure.len() != table.speed.len() {
+        let found = format!("{} pressures and {} speeds", table.pressure.len(), table.speed.len());
+        b.error(&format!("{path}.permeability"), found, "as many of each");
+    }
+    Leakage::Speed(table.pressure.iter().zip(&table.speed).map(|(p, v)| [p.si(), v.si()]).collect())
+}
+
+/// Its spheres, each with the reach of its own name or of that of its part.
+fn spheres(b: &mut Builder, path: &str, s: &BagSection, body: &Body) -> Vec<(usize, f64)> {
+    let list = b.spheres(&format!("{path}.spheres"), &s.spheres, body);
+    let names: Vec<String> = s.reach.keys().cloned().collect();
+    let reach = format!("{path}.reach");
+    for name in names.iter().filter(|name| !body.spheres_called(name).iter().any(|sphere| list.contains(sphere))) {
+        b.error(&with_key(&reach, name), format!("\"{name}\", which is none of its spheres"), "a name of `spheres`");
+    }
+    let reach_of = |sphere: usize| {
+        let called = s.reach.iter().filter(|(name, _)| body.spheres_called(name).contains(&sphere));
+        called.last().map_or(1.0, |(_, reach)| reach.si())
+    };
+    list.into_iter().map(|sphere| (sphere, reach_of(sphere))).collect()
+}
