@@ -69,6 +69,9 @@ impl Units {
             M::RadianPerSecond | M::NewtonMetreSecondPerRadian => [3, 3],
             M::One => [4, 4],
             M::Second => [6, 6],
+            M::Kelvin | M::Pascal | M::JoulePerKilogramKelvin | M::WattPerMetreSquaredKelvin => [1, 3],
+            M::MetreSquared | M::MetreCubed | M::KilogramPerSecond => [4, 2],
+            M::KilogramPerMole | M::JoulePerKilogramKelvinSquared => [4, 4],
         };
         let (shown, decimals) = match (measured, self.system) {
             (M::Radian, _) => (measured.shown_in("deg"), si),

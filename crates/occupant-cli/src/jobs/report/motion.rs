@@ -1,6 +1,7 @@
 //! The motion, output by output: poses, lines of force elements, contacts.
 
 use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
+use occupant_core::forces::shown::{Line, Section};
 use occupant_core::model::Model;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
@@ -14,7 +15,7 @@ const LINE_POINTS: usize = 20;
 /// What moves: places in m and forces in N, in vehicle axes.
 #[derive(Debug, Default, Serialize)]
 pub(crate) struct Motion {
-    /// Lines of force elements.
+    /// Lines of force elements, and those round sections.
     #[serde(rename = "belts")]
     lines: Vec<MovingLine>,
     /// Poses of the segments: x, y, z, quaternion x, y, z, w.
@@ -59,7 +60,8 @@ impl Recorder for Motion {
         let rotation = Rotation3::from_matrix_unchecked(turned * sample.vehicle.rotation);
         let turn = UnitQuaternion::from_rotation_matrix(&rotation);
         add_pose(&mut self.vehicle, turned * sample.vehicle.origin_m, &turn);
-        let lines = sample.lines();
+        let mut lines = sample.lines();
+        lines.extend(sample.sections().into_iter().map(closed));
         self.lines.resize_with(lines.len(), MovingLine::default);
         for (moving, line) in self.lines.iter_mut().zip(lines) {
             moving.points.float32(evenly(&line.points_m).iter().flat_map(|p| [p.x, p.y, p.z]));
@@ -69,6 +71,13 @@ impl Recorder for Motion {
         self.contacts.add(sample);
         Ok(Flow::Continue)
     }
+}
+
+/// A section as a line round it.
+fn closed(section: Section) -> Line {
+    let Section { name, corners_m: mut points_m } = section;
+    points_m.extend(points_m.first().copied());
+    Line { name, points_m, force_n: 0.0 }
 }
 
 impl Contacts {

@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 use occupant_core::forces::contact::flat_face::FlatFace;
 use occupant_core::forces::contact::surface::{Frame, Outline};
-use occupant_core::forces::shown::Line;
+use occupant_core::forces::shown::{Line, Section};
 use occupant_core::model::Model;
 use occupant_core::results::sample::{Contact, Sample};
 use occupant_core::vehicle::FrameMotion;
@@ -23,6 +23,8 @@ pub(crate) struct Snapshot {
     pub(crate) spheres_m: Vec<Point3<f64>>,
     /// Lines of force elements.
     pub(crate) lines: Vec<Line>,
+    /// Plane figures of force elements.
+    pub(crate) sections: Vec<Section>,
     /// Touching pairs.
     pub(crate) contacts: Vec<Contact>,
     /// Motion of the vehicle in space.
@@ -41,6 +43,7 @@ impl Snapshot {
             poses: body.tree.segments().map(pose).collect(),
             spheres_m: (0..body.spheres.len()).map(|s| sample.sphere_centre_m(s)).collect(),
             lines: sample.lines(),
+            sections: sample.sections(),
             contacts: sample.contacts().collect(),
             vehicle: *sample.vehicle,
         }

@@ -1,7 +1,7 @@
 //! Scales and legend below the panels, and the axes beside each row.
 
 use super::layout::{Layout, MARGIN};
-use super::panel::{CONTACT, Pen, SLACK, SURFACE, TAUT, arrow};
+use super::panel::{BAG, CONTACT, Pen, SLACK, SURFACE, TAUT, arrow};
 use super::projection::View;
 use crate::pictures::font::{self, Weight};
 use crate::pictures::svg::{Anchor, Svg, Text};
@@ -44,6 +44,9 @@ pub(crate) fn draw(svg: &mut Svg, layout: &Layout, pen: &Pen<'_>) {
         if found {
             row.stroke(&format!("stroke=\"{color}\" stroke-width=\"1.8\""), label);
         }
+    }
+    if pen.strip.moments.iter().any(|m| !m.sections.is_empty()) {
+        row.stroke(&format!("stroke=\"{BAG}\" stroke-width=\"1.4\""), "air bag");
     }
     if pen.strip.model.setup().surface_names().next().is_some() {
         let line = format!("stroke=\"{SURFACE}\"");

@@ -1,7 +1,7 @@
 //! One panel: the body in the compartment at one moment from one side.
 //!
 //! Painted from the back to the front: surfaces behind the body, the body's parts by depth, then what must never be
-//! hidden: lines of force elements, surfaces before the body (as dashed outlines), contacts.
+//! hidden: bags and lines of force elements, surfaces before the body (as dashed outlines), contacts.
 
 use nalgebra::Point3;
 
@@ -19,6 +19,8 @@ pub(crate) const SURFACE: &str = "#5b6770";
 pub(crate) const TAUT: &str = "#c2410c";
 /// A line that does not.
 pub(crate) const SLACK: &str = "#8a8a8a";
+/// Sections of bags.
+pub(crate) const BAG: &str = "#7c6f9c";
 /// Contact points and forces.
 pub(crate) const CONTACT: &str = "#be123c";
 /// Length of an arrow's head over its width.
@@ -67,6 +69,7 @@ pub(crate) fn draw(svg: &mut Svg, pen: &Pen<'_>, moment: &Snapshot, view: View, 
     }
     draw_body(svg, &place, pen, moment);
     draw_spheres(svg, &place, pen, moment);
+    draw_sections(svg, &place, moment);
     draw_lines(svg, &place, moment);
     for corners in &before {
         draw_surface(svg, &place, corners, true);
@@ -152,6 +155,14 @@ fn draw_spheres(svg: &mut Svg, place: &Place, pen: &Pen<'_>, moment: &Snapshot) 
         svg.circle(place.of(centre), place.scale * sphere.radius_m, "");
     }
     svg.end();
+}
+
+/// Sections of bags, through which the body stays to be seen.
+fn draw_sections(svg: &mut Svg, place: &Place, moment: &Snapshot) {
+    let look = format!("fill=\"{BAG}\" fill-opacity=\"0.12\" stroke=\"{BAG}\" stroke-width=\"0.7\"");
+    for section in &moment.sections {
+        svg.polygon(&place.all(&section.corners_m), &look);
+    }
 }
 
 fn draw_lines(svg: &mut Svg, place: &Place, moment: &Snapshot) {

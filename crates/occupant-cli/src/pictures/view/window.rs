@@ -58,7 +58,8 @@ impl Window {
                 self.add(&(pose * Point3::from(lump.centre_m)));
             }
         }
-        for point in moment.lines.iter().flat_map(|line| &line.points_m) {
+        let sections = moment.sections.iter().flat_map(|section| &section.corners_m);
+        for point in moment.lines.iter().flat_map(|line| &line.points_m).chain(sections) {
             self.add(point);
         }
     }

@@ -62,6 +62,7 @@ impl<S: Scalar> BagAction<S> {
     pub(super) fn idle(law: &BagLaw<S>) -> Self {
         let (o, none) = (S::zero(), V3::zero());
         let [temperature, volume, mass] = law.folded();
+        let folded = S::of(FOLDED_SCALE);
         BagAction {
             pressure: o,
             temperature,
@@ -76,7 +77,7 @@ impl<S: Scalar> BagAction<S> {
             residual: o,
             fired: o,
             share: S::of(FOLDED),
-            scale: o,
+            scale: folded,
             opened: o,
             bottoms: o,
             caught: o,
@@ -120,6 +121,9 @@ impl<S: Scalar> BagAction<S> {
         }
     }
 }
+
+/// λ of a folded bag: the cube root of its part of the volume.
+const FOLDED_SCALE: f64 = 0.271_441_761_659_490_7;
 
 type Of = Quantity<OneOf<Bags>>;
 
@@ -214,8 +218,8 @@ impl Reported for Bags {
     }
 
     fn sections(shown: &Shown<'_, Self>) -> Vec<Section> {
-        let drawn = shown.data.iter().zip(shown.actions).filter(|(_, action)| action.fired > 0.0);
-        drawn.flat_map(|(bag, action)| outline::sections(bag, action.scale)).collect()
+        let both = shown.data.iter().zip(shown.actions);
+        both.flat_map(|(bag, action)| outline::sections(bag, action.scale)).collect()
     }
 
     fn pulls(shown: &Shown<'_, Self>, show: &mut dyn FnMut(&Pull<'_>)) {
