@@ -34,6 +34,7 @@ pub fn lap(integrator: Integrator) -> Setup {
         edge_force: EdgeForce::AtContactPoint,
         belts: vec![lap_belt()],
         chains: Vec::new(),
+        bags: Vec::new(),
         path: path(),
         posture: InitialPosture::Seated(seating()),
         velocity: InitialVelocity::WithVehicle,

@@ -104,6 +104,7 @@ pub fn afloat(body: Body, end_s: f64, step_s: f64) -> Setup {
         edge_force: EdgeForce::default(),
         belts: Vec::new(),
         chains: Vec::new(),
+        bags: Vec::new(),
         path: parked(),
         posture: straight(Vector3::zeros(), Vector3::zeros()),
         velocity: InitialVelocity::WithVehicle,

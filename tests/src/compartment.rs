@@ -113,6 +113,7 @@ impl Compartment {
             contacts: ContactSystem::new(&system.body, &data),
             belts: Vec::new(),
             chains: Vec::new(),
+            bags: Vec::new(),
             joints: JointSystem::new(&system.joints, &skeleton, |_| f64::NAN),
             limits: Vec::new(),
             muscles: Vec::new(),

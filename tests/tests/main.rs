@@ -2,6 +2,7 @@
 
 mod any_tree;
 mod appendix3;
+mod bags;
 mod belts;
 mod bodies;
 mod cart_cases;

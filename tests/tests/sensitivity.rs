@@ -398,6 +398,33 @@ fn slopes_by_the_shape_and_place_of_a_solid_are_those_of_differences() {
 }
 
 /// The feet fall onto the ground: t = √(2h/g) comes earlier by t/2g a unit of gravity and later by 1/gt a metre of height.
+/// A bag that unfolds before a body in the air and pushes it: by what is in it, what lets it out, and its size.
+#[test]
+fn slopes_by_the_gas_and_size_of_a_bag_are_those_of_differences() {
+    let bag = "bags.ball={ trigger = \"go\", deploy = \"10 ms\", mount = [0.5, 0, -2], volume = \"50 l\", friction = 0.2, \
+               sphere = { centre = [0.36, 0, -2], radius = 0.23 }, spheres = [\"chest\"], leakage = 0.001, \
+               vents = [{ area = \"10 cm^2\", discharge = 0.7 }], inflators = [{ gas = { nitrogen = 0.7, carbon_dioxide = 0.3 }, \
+               times = [0, 0.005, 0.02], flow = [0, 8, 0], temperature = [500, 450, 400] }] }";
+    let set = ["triggers.go={ kind = \"time\", at = 0 }", bag, "time.end=0.03"];
+    let mut draft = tumbling();
+    set.iter().for_each(|assignment| draft.set(assignment).unwrap());
+    let model = model_of(&draft);
+    let touched =
+        channels(&model).into_iter().filter(|c| ["bag.ball.area", "bag.ball.pressure"].contains(&c.name.as_str()));
+    let mut seen = Series::new(touched.collect());
+    simulate(&model, &mut seen).unwrap();
+    assert!(seen.values.iter().all(|values| values.iter().any(|value| *value > 1e-3)), "{:?}", seen.values);
+    let paths = [
+        "bags.ball.volume",
+        "bags.ball.vents[0].area",
+        "bags.ball.inflators[0].flow[1]",
+        "bags.ball.inflators[0].temperature[1]",
+        "joints.neck.damping",
+    ];
+    // the bag must not be slack in one run of a pair and taut in the other
+    against_runs(&draft, &paths, &[1e-4, 1e-5], 1e-6);
+}
+
 #[test]
 fn the_instant_of_a_contact_shifts_as_in_free_fall() {
     let ground = "\n[materials]\nsoil = { k1 = 20000, mu1 = 0.5, friction = 0.5 }\n[surfaces]\nground = { material = \"soil\", frame = \"space\", plane = { point = [0, 0, 0.95], normal = [0, 0, 1] }, facing = \"order\" }\n";

@@ -184,9 +184,11 @@ fn spheres(bag: &Bag, body: &Body, path: &str, problems: &mut Problems) {
 
 /// What of the body is where the bag unfolds, when the run begins.
 pub(super) fn laid(law: &BagLaw<f64>, bag: &Bag, body: &Body, at: &Instant<'_, f64>, problems: &mut Problems) {
-    let number = law.caught(at) as usize;
-    if let Some((sphere, _)) = number.checked_sub(1).and_then(|i| bag.spheres.get(i)) {
-        let found = format!("the centre of {} within the full bag at the start", body.spheres[*sphere].name);
+    let caught = law.caught(at) as u32;
+    let within = bag.spheres.iter().enumerate().filter(|(i, _)| caught >> i & 1 == 1);
+    let names: Vec<&str> = within.map(|(_, (sphere, _))| body.spheres[*sphere].name.as_str()).collect();
+    if !names.is_empty() {
+        let found = format!("within the full bag at the start: {}", names.join(", "));
         let expected = "a body in front of it: out of position the model has no punch-out";
         problems.warning(with_key("bags", &bag.name), found, expected);
     }

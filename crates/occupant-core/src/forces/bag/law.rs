@@ -95,7 +95,7 @@ pub(super) struct Now<S: Scalar> {
     /// Σ V_k, m³, and Σ A_k, m².
     pub(super) taken: S,
     pub(super) covered: S,
-    /// Number of a sphere, from 1 on, that has reached the mount plane or the middle; 0 of none.
+    /// The spheres that have reached the mount plane or the middle: the sum of 2^i of their places i.
     pub(super) bottoms: S,
 }
 
@@ -223,7 +223,7 @@ impl<S: Scalar> BagLaw<S> {
             taken += one.volume;
             closing += one.area * one.closing;
             covered += one.area;
-            bottoms = bottoms.max(one.bottoms * S::of(i as f64 + 1.0));
+            bottoms += one.bottoms * flag(i);
             pressed[i] = one;
         }
         let envelope = self.volume * unfolded.share;
@@ -343,15 +343,13 @@ impl<S: Scalar> BagLaw<S> {
 }
 
 impl<S: Scalar> BagLaw<S> {
-    /// Number of the sphere, from 1 on, whose centre is deepest in the full envelope; 0 of none.
+    /// The spheres whose centres are within the full envelope: the sum of 2^i of their places i.
     pub(super) fn caught(&self, at: &Instant<'_, S>) -> S {
-        let (mut least, mut found) = (S::zero(), S::zero());
-        for (i, (sphere, _)) in self.spheres.iter().enumerate() {
+        let o = S::zero();
+        self.spheres.iter().enumerate().fold(o, |sum, (i, (sphere, _))| {
             let distance = self.shape.near(self.seen(at, *sphere), S::one()).distance;
-            found = S::select(distance.lt(least), S::of(i as f64 + 1.0), found);
-            least = least.min(distance);
-        }
-        found
+            sum + S::select(distance.lt(o), flag(i), o)
+        })
     }
 
     /// A sphere's centre seen from the mount, in the axes of the frame, m.
@@ -366,6 +364,12 @@ impl<S: Scalar> BagLaw<S> {
         let [_, mass] = self.units();
         [self.ambient[1], self.volume * S::of(FOLDED), mass * S::of(FOLDED)]
     }
+}
+
+/// 2^i.
+#[inline(always)]
+fn flag<S: Scalar>(i: usize) -> S {
+    S::of(f64::from(1_u32 << i))
 }
 
 /// φ and κ.

@@ -15,7 +15,7 @@ pub struct BagPast<S> {
     pub(super) pressed: S,
     pub(super) residual: S,
     pub(super) greatest: S,
-    /// Number of the sphere, from 1 on, whose centre was deepest in the full envelope when it fired; 0 of none.
+    /// The spheres whose centres were within the full envelope when it fired: the sum of 2^i of their places i.
     pub(super) caught: S,
     /// 1 of each vent that the pressure has opened.
     pub(super) open: [S; MOST_VENTS],

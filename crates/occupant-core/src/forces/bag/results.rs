@@ -46,8 +46,8 @@ pub struct BagAction<S> {
     scale: S,
     /// Vents that the pressure has opened.
     opened: S,
-    /// Number of the sphere, from 1 on, that has reached the mount plane or the middle, and of that which was within when it
-    /// fired; 0 of none.
+    /// The spheres that have reached the mount plane or the middle, and those that were within when it fired: the sum of 2^i
+    /// of their places i.
     pub(crate) bottoms: S,
     pub(crate) caught: S,
     /// On what it is mounted, vehicle axes, N.

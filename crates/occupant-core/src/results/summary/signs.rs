@@ -3,7 +3,7 @@
 use super::caveat::{Caveat, Turned};
 use super::peak::Peak;
 use crate::body::{Body, Segment};
-use crate::forces::bag::{Bag, BagAction};
+use crate::forces::bag::Bag;
 use crate::forces::chain::Chain;
 use crate::forces::contact::{ContactSystem, Group, PASSED, Part, Plane, Touch};
 use crate::forces::joint::JointLaw;
@@ -44,9 +44,8 @@ pub(super) struct Signs {
     /// By strap: strain beyond the last point of its webbing; by belt over several nodes: way of its limiter beyond its own, m.
     stretched: Vec<Peak>,
     run_out: Vec<Peak>,
-    /// By bag: the sphere, by its place in the bag's list, that was in its way when it fired, and that which pressed it in as far
-    /// as its mount, and when, s.
-    bags: Vec<[Option<(usize, f64)>; 2]>,
+    /// By bag and by its spheres: when it fired with the sphere in its way, and when the sphere pressed it in as far as its mount, s.
+    bags: Vec<Vec<[Option<f64>; 2]>>,
     /// By what pairs remember, of bars and rims.
     normals: Vec<Option<Bar>>,
     /// By segment: how far from its spheres it went through a surface.
@@ -105,7 +104,7 @@ impl Signs {
             beyond: spheres.iter().map(|none| (*none, 0.0)).collect(),
             stretched: vec![Peak::NONE; model.setup().chains.iter().map(|chain| chain.straps.len()).sum()],
             run_out: vec![Peak::NONE; model.setup().chains.len()],
-            bags: vec![[None; 2]; model.setup().bags.len()],
+            bags: model.setup().bags.iter().map(|bag| vec![[None; 2]; bag.spheres.len()]).collect(),
             normals: vec![None; model.start().history.memory.contacts.len()],
             deep: spheres,
             cuts: vec![Sunk::NONE; body.tree.segments().len()],
@@ -186,16 +185,13 @@ impl Signs {
 
     /// Spheres in the way of a bag that fires, and those that press one in as far as its mount.
     fn see_bags(&mut self, sample: &Sample<'_>) {
-        let first = |seen: &mut Option<(usize, f64)>, number: f64| {
-            if number > 0.0 && seen.is_none() {
-                *seen = Some((number as usize - 1, sample.time_s));
+        let is = |flags: f64, i: usize| flags as u32 >> i & 1 == 1;
+        for (spheres, action) in self.bags.iter_mut().zip(&sample.actions.bags) {
+            for (i, seen) in spheres.iter_mut().enumerate() {
+                for (seen, flags) in seen.iter_mut().zip([action.caught, action.bottoms]) {
+                    *seen = seen.or(is(flags, i).then_some(sample.time_s));
+                }
             }
-        };
-        for ([caught, bottoms], BagAction { caught: one, bottoms: other, .. }) in
-            self.bags.iter_mut().zip(&sample.actions.bags)
-        {
-            first(caught, *one);
-            first(bottoms, *other);
         }
     }
 
@@ -290,11 +286,13 @@ impl Signs {
 impl Signs {
     /// What to know of bags.
     fn of_bags(&self, body: &Body, bags: &[Bag]) -> impl Iterator<Item = Caveat> {
-        let seen = bags.iter().zip(&self.bags).flat_map(|(bag, [caught, bottoms])| {
-            let caught = caught.map(|seen| (bag, seen, "caught"));
-            [caught, bottoms.map(|seen| (bag, seen, "through_bag"))].into_iter().flatten()
-        });
-        seen.map(|(bag, (i, time_s), sign)| Caveat::of_bag(body, bag.spheres[i].0, sign, &bag.name, time_s))
+        let all =
+            bags.iter().zip(&self.bags).flat_map(|(bag, seen)| seen.iter().zip(&bag.spheres).map(move |s| (bag, s)));
+        all.flat_map(move |(bag, ([caught, bottoms], (sphere, _)))| {
+            let new = |sign, time_s| Caveat::of_bag(body, *sphere, sign, &bag.name, time_s);
+            [caught.map(|time_s| new("caught", time_s)), bottoms.map(|time_s| new("through_bag", time_s))]
+        })
+        .flatten()
     }
 }
 
