@@ -422,7 +422,7 @@ fn slopes_by_the_gas_and_size_of_a_bag_are_those_of_differences() {
         "joints.neck.damping",
     ];
     // the bag must not be slack in one run of a pair and taut in the other
-    against_runs(&draft, &paths, &[1e-4, 1e-5], 1e-6);
+    against_runs(&draft, &paths, &[1e-4, 1e-5], 3e-6);
 }
 
 #[test]

@@ -6,7 +6,7 @@
 use std::hint::black_box;
 use std::ops::ControlFlow;
 
-use occupant_bench::{self as scene, Instant, LIMITED_S, STEP_S, TOUCHING_S};
+use occupant_bench::{self as scene, Instant, LIMITED_S, PRESSED_S, STEP_S, TOUCHING_S};
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
 use occupant_core::run::batch::{Job, Kernel, simulate_many};
@@ -14,7 +14,7 @@ use occupant_core::run::batch::{Job, Kernel, simulate_many};
 /// A piece of work: calls that are counted.
 type Work = fn(count: usize);
 
-const WORKS: [(&str, Work); 14] = [
+const WORKS: [(&str, Work); 17] = [
     ("evaluation_bare", bare),
     ("evaluation_joints_and_belts", held),
     ("evaluation_full_within_step", |n| rates(n, instant())),
@@ -22,6 +22,9 @@ const WORKS: [(&str, Work); 14] = [
     ("evaluation_three_point", |n| rates(n, Instant::full(&scene::belted(), LIMITED_S))),
     ("evaluation_three_point_step_start", |n| commits(n, Instant::full(&scene::belted(), LIMITED_S))),
     ("evaluation_three_point_left_out", |n| rates(n, Instant::full(&scene::belted(), LIMITED_S).unbelted())),
+    ("evaluation_air_bag", |n| rates(n, Instant::full(&scene::bagged(), PRESSED_S))),
+    ("evaluation_air_bag_step_start", |n| commits(n, Instant::full(&scene::bagged(), PRESSED_S))),
+    ("evaluation_air_bag_left_out", |n| rates(n, Instant::full(&scene::bagged(), PRESSED_S).without_bags())),
     ("evaluation_solids_12_within_step", |n| rates(n, among_solids(&[]))),
     ("evaluation_solids_12_step_start", |n| commits(n, among_solids(&[]))),
     ("evaluation_solids_17_full_within_step", |n| rates(n, among_solids(&FULL_17))),

@@ -22,6 +22,12 @@ pub const TEXT: &str = include_str!("../car.toml");
 /// A driver in a three-point belt, as shipped.
 pub const BELTED: &str = include_str!("../../../scenarios/three-point.toml");
 
+/// A driver with belt and air bag, as shipped.
+pub const BAGGED: &str = include_str!("../../../scenarios/airbag-driver.toml");
+
+/// Instant of that crash that is timed, s: the bag is full, head and chest press it, gas comes in and leaves.
+pub const PRESSED_S: f64 = 0.058;
+
 /// Instant of that crash that is timed, s: on the limiter, webbing slides over the rings.
 pub const LIMITED_S: f64 = 0.06;
 
@@ -67,6 +73,11 @@ pub fn model() -> Model {
 /// The driver in a three-point belt.
 pub fn belted() -> Model {
     read(BELTED).model().expect("the scene is valid").0
+}
+
+/// The driver with belt and air bag.
+pub fn bagged() -> Model {
+    read(BAGGED).model().expect("the scene is valid").0
 }
 
 /// The driver of `occupant new` among 15 of the solids of his car, with these changes.
@@ -148,6 +159,16 @@ impl Instant {
         let mut now = self.clone();
         now.system.forces.chains = Vec::new();
         let memory = Memory { chains: Vec::new(), ..self.history.memory.clone() };
+        now.history = History::new(&now.system.forces, memory);
+        now.commit();
+        now
+    }
+
+    /// The same without air bags.
+    pub fn without_bags(&self) -> Self {
+        let mut now = self.clone();
+        now.system.forces.bags = Vec::new();
+        let memory = Memory { bags: Vec::new(), ..self.history.memory.clone() };
         now.history = History::new(&now.system.forces, memory);
         now.commit();
         now

@@ -16,6 +16,7 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units, sample: &Sampl
     forces(case, units, sample).write(pages);
     application_points(units, sample).write(pages);
     ELEMENTS.iter().for_each(|element| (element.output)(pages, units, sample));
+    bags(pages, units, sample);
     joints(pages, sample);
     energy(pages, units, sample);
 }
@@ -70,6 +71,18 @@ fn application_points(units: Units, s: &Sample<'_>) -> Table {
         table.row_of(&[&[(i + 1).to_string(), name.to_owned()], &point]);
     }
     table
+}
+
+/// What every bag does, where there are any.
+fn bags(pages: &mut Pages, units: Units, s: &Sample<'_>) {
+    for bag in s.model.named("bag") {
+        let all = matching(s.model, &format!("bag.{}.*", bag.name));
+        let head = |name: &str| energy_head(name.rsplit(&format!("{}.", bag.name)).next().unwrap_or(name));
+        let heads: Vec<String> = all.iter().map(|c| format!("{} {}", head(&c.name), units.of(c.unit).name())).collect();
+        let mut table = Table::new(format!("AIR BAG {}", bag.name), &heads.join("|"));
+        table.row(all.iter().map(|channel| units.of(channel.unit).show(channel.value(s))));
+        table.write(pages);
+    }
 }
 
 fn joints(pages: &mut Pages, s: &Sample<'_>) {

@@ -1,4 +1,4 @@
-//! Ideal gases and the mixture in a bag (B.1 of the theory manual's chapter on air bags).
+//! Ideal gases and the mixture in a bag; equations of the theory manual's chapter on air bags.
 //!
 //! With c_p = a + bT of each part: h = aT + ½bT², u = h − RT. Of all parts together, B = Σm(a − R) and C = Σmb,
 //! U = BT + ½CT², so that T = 2U/(B + √(B² + 2CU)).
