@@ -184,7 +184,7 @@ fn spheres(bag: &Bag, body: &Body, path: &str, problems: &mut Problems) {
 
 /// What of the body is where the bag unfolds, when the run begins.
 pub(super) fn laid(law: &BagLaw<f64>, bag: &Bag, body: &Body, at: &Instant<'_, f64>, problems: &mut Problems) {
-    let caught = law.caught(at) as u32;
+    let caught = law.envelope.caught(at) as u32;
     let within = bag.spheres.iter().enumerate().filter(|(i, _)| caught >> i & 1 == 1);
     let names: Vec<&str> = within.map(|(_, (sphere, _))| body.spheres[*sphere].name.as_str()).collect();
     if !names.is_empty() {

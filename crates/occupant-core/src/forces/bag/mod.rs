@@ -1,11 +1,12 @@
 //! Air bags: gas of one pressure in an envelope that unfolds, and the spheres of the body that press it in.
 //!
 //! The state owns the gas of each bag (`law`): its energy, the masses of its parts, its sums. Inflators and outlets
-//! (`inflator`) change it, and so does the volume that the body displaces (`shape`); the forces on the body follow from that
+//! (`inflator`) change it, and so does the volume that the body displaces (`envelope`); the forces on the body follow from that
 //! volume, so that the work of the gas is theirs. What a bag remembers (`past`) changes at accepted steps alone.
 
 mod check;
 mod data;
+mod envelope;
 mod gas;
 mod inflator;
 mod law;
@@ -157,11 +158,12 @@ struct Pushes<S> {
 /// Loads of the bag on the body, and their powers: κ(p − p_a)A∇s at the centre of a sphere, friction where it touches.
 #[inline(always)]
 fn bear<S: Scalar>(law: &BagLaw<S>, at: &Instant<'_, S>, now: &Now<S>, load: &mut Load<S>) -> Pushes<S> {
-    let (o, frame) = (S::zero(), &at.frames[law.frame]);
+    let (o, envelope) = (S::zero(), &now.envelope);
+    let frame = &at.frames[law.envelope.frame];
     let mut pushes = Pushes { forces: [V3::zero(); MOST_SPHERES], power: o };
-    let pressure = now.crowd * now.gas.gauge;
-    for (i, (sphere, _)) in law.spheres.iter().enumerate() {
-        let pressed = &now.pressed[i];
+    let pressure = envelope.crowd * now.gas.gauge;
+    for (i, (sphere, _)) in law.envelope.spheres.iter().enumerate() {
+        let pressed = &envelope.pressed[i];
         if !S::any(pressed.area.gt(o)) {
             continue;
         }
