@@ -251,7 +251,7 @@ impl Parts<'_> {
     fn gas(&self, b: &mut Builder, path: &str, s: &InflatorSection) -> Gas {
         let path = format!("{path}.gas");
         let sum: f64 = s.gas.values().map(Quantity::si).sum();
-        if !((sum - 1.0).abs() <= 1e-6) {
+        if sum.is_nan() || (sum - 1.0).abs() > 1e-6 {
             b.error(&path, format!("mass fractions with the sum {sum}"), "fractions with the sum 1");
         }
         let mut parts = Vec::new();

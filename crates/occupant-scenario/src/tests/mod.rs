@@ -1,5 +1,6 @@
 //! Tests of the scenario format.
 
+mod bags;
 mod belts;
 mod bodies;
 mod carts;

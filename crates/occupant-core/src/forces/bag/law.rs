@@ -191,14 +191,7 @@ impl<S: Scalar> BagLaw<S> {
         let own = &at.state.own()[self.first..];
         let share = leaving / gas.mass;
         rates[MASSES] = -(own[MASSES] * share);
-        let (mut inwards, mut enthalpy) = (o, o);
-        for (i, inflator) in self.inflators.iter().enumerate() {
-            let [flow, temperature] = inflator.at(at);
-            inwards += flow;
-            enthalpy += flow * inflator.gas.enthalpy(temperature);
-            let at = MASSES + 1 + i;
-            rates[at] = flow * per_mass - own[at] * share;
-        }
+        let [inwards, enthalpy] = self.blow(at, share, rates);
         let pressed = gas.gauge * now.envelope.growth;
         rates[ENERGY] = (enthalpy - leaving * gas.enthalpy() - heat - pressed) * per_energy;
         rates[PRESSED] = pressed * per_energy;
@@ -208,6 +201,22 @@ impl<S: Scalar> BagLaw<S> {
             *rate = S::select(now.unfolded.fired, *rate, o);
         }
         Flows { inwards, out }
+    }
+
+    /// Writes the rates of the masses of what inflators blow in, of which the part `share` leaves each second; their mass flow,
+    /// kg/s, and the enthalpy that comes with it, W.
+    #[inline(always)]
+    fn blow(&self, at: &Instant<'_, S>, share: S, rates: &mut [S]) -> [S; 2] {
+        let (own, [_, unit]) = (&at.state.own()[self.first..], self.units());
+        let mut sums = [S::zero(); 2];
+        for (i, inflator) in self.inflators.iter().enumerate() {
+            let [flow, temperature] = inflator.at(at);
+            sums[0] += flow;
+            sums[1] += flow * inflator.gas.enthalpy(temperature);
+            let at = MASSES + 1 + i;
+            rates[at] = flow / unit - own[at] * share;
+        }
+        sums
     }
 
     /// Keeps the balance of the gas at an accepted step.
