@@ -277,9 +277,10 @@ impl Checkpoint {
         let misfit = Misfit::Count { of, found: numbers.len(), expected: shape.len() };
         let mut numbers = numbers.to_vec();
         // older files have no work of bags, those of 0.1.0 none of muscles; both stand before that of the vehicle
-        if (1..=2).contains(&shape.len().saturating_sub(numbers.len())) && !numbers.is_empty() {
+        let missing = shape.len().saturating_sub(numbers.len());
+        if model.setup().bags.is_empty() && (1..=2).contains(&missing) {
             let vehicle = numbers.len() - 1;
-            numbers.splice(vehicle..vehicle, (numbers.len()..shape.len()).map(|_| 0.0).collect::<Vec<_>>());
+            numbers.splice(vehicle..vehicle, vec![0.0; missing]);
         }
         State::from_numbers(shape, &numbers).ok_or(CheckpointError::Memory(misfit))
     }
