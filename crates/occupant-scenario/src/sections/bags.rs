@@ -318,8 +318,8 @@ fn spheres(b: &mut Builder, path: &str, s: &BagSection, body: &Body) -> Vec<(usi
         b.error(&with_key(&reach, name), format!("\"{name}\", which is none of its spheres"), "a name of `spheres`");
     }
     let reach_of = |sphere: usize| {
-        let called = s.reach.iter().filter(|(name, _)| body.spheres_called(name).contains(&sphere));
-        called.last().map_or(1.0, |(_, reach)| reach.si())
+        let mut called = s.reach.iter().filter(|(name, _)| body.spheres_called(name).contains(&sphere));
+        called.next_back().map_or(1.0, |(_, reach)| reach.si())
     };
     list.into_iter().map(|sphere| (sphere, reach_of(sphere))).collect()
 }

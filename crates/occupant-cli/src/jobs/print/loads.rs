@@ -78,8 +78,10 @@ fn bags(pages: &mut Pages, units: Units, s: &Sample<'_>) {
     for bag in s.model.named("bag") {
         let all = matching(s.model, &format!("bag.{}.*", bag.name));
         let head = |name: &str| energy_head(name.rsplit(&format!("{}.", bag.name)).next().unwrap_or(name));
-        let heads: Vec<String> = all.iter().map(|c| format!("{} {}", head(&c.name), units.of(c.unit).name())).collect();
-        let mut table = Table::new(format!("AIR BAG {}", bag.name), &heads.join("|"));
+        let heads: Vec<String> = all.iter().map(|channel| head(&channel.name)).collect();
+        let mut names: Vec<String> = all.iter().map(|channel| units.of(channel.unit).name()).collect();
+        names.dedup();
+        let mut table = Table::new(format!("AIR BAG {} ({})", bag.name, names.join(", ")), &heads.join("|"));
         table.row(all.iter().map(|channel| units.of(channel.unit).show(channel.value(s))));
         table.write(pages);
     }
