@@ -214,6 +214,11 @@ pub struct Landmarks {
 }
 
 impl Landmarks {
+    /// Segments that carry the accelerometers of head, chest and pelvis.
+    pub fn instruments(&self) -> [Option<Segment>; 3] {
+        [self.head, self.chest, self.pelvis]
+    }
+
     /// The arms that the body has.
     pub fn arms(&self) -> impl Iterator<Item = Limb> + Clone + use<> {
         [self.arms.left, self.arms.right].into_iter().flatten()

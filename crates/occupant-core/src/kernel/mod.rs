@@ -159,6 +159,18 @@ impl<S: Scalar> System<S> {
         }
     }
 
+    /// Resultants of what accelerometers of head, chest and pelvis read at the evaluation that has just been made, m/s²; 0 of
+    /// what the body lacks.
+    #[inline(always)]
+    pub(crate) fn readings(&self, Scratch { kinematics, sweep, .. }: &Scratch<S>) -> [S; 3] {
+        let of = |n: usize| {
+            let mut a = sweep.accelerations.cg(&self.skeleton, kinematics, n);
+            a.z += self.skeleton.gravity;
+            a.norm_squared().sqrt()
+        };
+        self.skeleton.instruments.map(|segment| segment.map_or(S::zero(), of))
+    }
+
     /// A sphere's centre seen from its segment's joint, in space, and its velocity; all in space axes.
     pub fn sphere(&self, k: &Kinematics<S>, sphere: usize) -> (V3<S>, V3<S>, V3<S>) {
         self.spheres[sphere].place(k)

@@ -130,7 +130,7 @@ impl<S: Scalar> Accelerations<S> {
     }
 
     /// Acceleration of the centre of gravity of segment `n`.
-    #[inline]
+    #[inline(always)]
     pub fn cg(&self, body: &Skeleton<S>, k: &Kinematics<S>, n: usize) -> V3<S> {
         let r = k.axes[n].out(body.links[n].cg);
         let w = k.omega[n];

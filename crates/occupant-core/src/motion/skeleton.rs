@@ -74,6 +74,8 @@ pub struct Skeleton<S> {
     pub mount: Option<Mount<S>>,
     /// Whether the closed forms of the report's body hold.
     pub(crate) is_closed: bool,
+    /// Segments that carry the accelerometers of head, chest and pelvis.
+    pub(crate) instruments: [Option<usize>; 3],
 }
 
 impl Part {
@@ -146,7 +148,10 @@ impl<S: Copy> Skeleton<S> {
     /// Whether another has the same tree, carried by the same frame, and is computed in the same way.
     pub(crate) fn is_like<A>(&self, other: &Skeleton<A>) -> bool {
         let frames = (self.mount.as_ref().map(|m| m.frame), other.mount.as_ref().map(|m| m.frame));
-        self.layout == other.layout && self.is_closed == other.is_closed && frames.0 == frames.1
+        self.layout == other.layout
+            && self.is_closed == other.is_closed
+            && frames.0 == frames.1
+            && self.instruments == other.instruments
     }
 
     /// f applied to every number and the one in the same place of `other`, which [is like](Skeleton::is_like) it.
@@ -162,6 +167,7 @@ impl<S: Copy> Skeleton<S> {
             gravity: f(self.gravity, other.gravity),
             mount: self.mount.as_ref().zip(other.mount.as_ref()).map(mount),
             is_closed: self.is_closed,
+            instruments: self.instruments,
         }
     }
 }
@@ -170,7 +176,8 @@ impl Skeleton<f64> {
     /// Constants of `body` under gravity `gravity_m_s2`.
     pub fn new(body: &Body, gravity_m_s2: f64) -> Self {
         let parts: Vec<Part> = body.tree.segments().map(|segment| part(body, segment)).collect();
-        let skeleton = Skeleton::of(Layout::of(body.tree), &parts, gravity_m_s2);
+        let instruments = body.tree.landmarks().instruments().map(|segment| segment.map(Segment::index));
+        let skeleton = Skeleton { instruments, ..Skeleton::of(Layout::of(body.tree), &parts, gravity_m_s2) };
         // joints that a body places itself may be where no closed form has them
         if body.places.is_empty() { skeleton } else { skeleton.without_closed_forms() }
     }
@@ -180,7 +187,7 @@ impl Skeleton<f64> {
         debug_assert_eq!(layout.len(), parts.len());
         let is_closed = closed::holds(&layout) && parts.iter().all(Part::is_plain);
         let links = parts.iter().map(Link::new).collect();
-        Skeleton { layout, links, gravity: gravity_m_s2, mount: None, is_closed }
+        Skeleton { layout, links, gravity: gravity_m_s2, mount: None, is_closed, instruments: [None; 3] }
     }
 
     /// The same, carried by a frame.

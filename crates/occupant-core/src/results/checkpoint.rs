@@ -25,10 +25,48 @@ pub struct Checkpoint {
     pub memory: Memory<f64>,
     /// First touches so far, in the order in which they happened.
     pub first_touches: Vec<FirstTouch>,
+    /// Greatest values at the accepted steps so far.
+    pub step_peaks: StepPeaks,
     /// Sums and extremes.
     pub progress: Progress,
     /// The step of the error control in which the output lies, if it goes on beyond it.
     pub under_way: Option<StepStart>,
+}
+
+/// Greatest values at the accepted steps of a run so far, which see what happens between its outputs. No figure is made of
+/// them: they tell whether the outputs are close enough.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StepPeaks {
+    /// Resultants that accelerometers of head, chest and pelvis read, m/s².
+    pub readings_m_s2: [f64; 3],
+    /// Normal force of one contact on each sphere, N.
+    pub contacts_n: Vec<f64>,
+}
+
+impl StepPeaks {
+    /// None seen yet of so many spheres.
+    pub(crate) fn none(spheres: usize) -> Self {
+        StepPeaks { readings_m_s2: [0.0; 3], contacts_n: vec![0.0; spheres] }
+    }
+
+    /// Looks at readings of accelerometers.
+    #[inline]
+    pub(crate) fn see(&mut self, readings_m_s2: [f64; 3]) {
+        for (greatest, now) in self.readings_m_s2.iter_mut().zip(readings_m_s2) {
+            *greatest = greatest.max(now);
+        }
+    }
+
+    /// Looks at a contact on a sphere.
+    #[inline]
+    pub(crate) fn touch(&mut self, sphere: usize, normal_force_n: f64) {
+        let greatest = &mut self.contacts_n[sphere];
+        *greatest = greatest.max(normal_force_n);
+    }
+
+    fn numbers(&self) -> impl Iterator<Item = f64> {
+        self.readings_m_s2.iter().chain(&self.contacts_n).copied()
+    }
 }
 
 /// A step that leads beyond an output, by its start: taking it again gives the same bits.
@@ -169,6 +207,7 @@ impl Checkpoint {
             state: Vec::new(),
             memory: Memory::none(),
             first_touches: Vec::new(),
+            step_peaks: StepPeaks::default(),
             progress: Progress::default(),
             under_way: None,
         };
@@ -186,7 +225,19 @@ impl Checkpoint {
         self.memory.keep(None, file);
         self.keep_touches(file);
         self.progress.keep(file);
+        self.keep_step_peaks(file);
         self.keep_step(file);
+    }
+
+    fn keep_step_peaks(&mut self, file: &mut dyn Archive) {
+        let meaning = "greatest values at the accepted steps so far: resultants that accelerometers of head, chest and pelvis \
+                       read (m/s²), then the normal force of one contact on each sphere (N)";
+        // files before 0.2 have none
+        if let [head, chest, pelvis, contacts_n @ ..] =
+            &file.numbers(words(60, "step_peaks", meaning), self.step_peaks.numbers().collect())[..]
+        {
+            self.step_peaks = StepPeaks { readings_m_s2: [*head, *chest, *pelvis], contacts_n: contacts_n.to_vec() };
+        }
     }
 
     fn keep_touches(&mut self, file: &mut dyn Archive) {
@@ -309,7 +360,7 @@ impl Checkpoint {
         let p = &self.progress;
         // a balance may be lost without end
         let numbers = [p.wanted_s, p.step_error, p.greatest.kinetic_j, p.greatest.work_j, p.energy_start.mechanical_j];
-        check_finite(numbers.into_iter().chain(p.energy_start.stored_j))
+        check_finite(numbers.into_iter().chain(p.energy_start.stored_j).chain(self.step_peaks.numbers()))
     }
 }
 

@@ -14,7 +14,7 @@ use crate::motion::frame::VEHICLE;
 use crate::motion::report_coordinates::ReportCoordinates;
 use crate::motion::state::State;
 use crate::motion::vector::V3;
-use crate::results::checkpoint::{Checkpoint, Progress, StepUnderWay};
+use crate::results::checkpoint::{Checkpoint, Progress, StepPeaks, StepUnderWay};
 use crate::results::energy::EnergyLedger;
 use crate::results::outcome::FirstTouch;
 use crate::vehicle::{FrameMotion, VehiclePose};
@@ -63,6 +63,8 @@ pub struct Sample<'a> {
     pub progress: Progress,
     /// First touches so far, in the order in which they happened.
     pub first_touches: &'a [FirstTouch],
+    /// Greatest values at the accepted steps so far.
+    pub step_peaks: &'a StepPeaks,
     /// The step of the error control in which this output lies, if it goes on beyond it.
     pub under_way: Option<StepUnderWay<'a>>,
 }
@@ -103,6 +105,7 @@ impl<'a> Sample<'a> {
             state: self.state.numbers().to_vec(),
             memory: self.history.memory.clone(),
             first_touches: self.first_touches.to_vec(),
+            step_peaks: self.step_peaks.clone(),
             progress: self.progress,
             under_way: self.under_way.map(|step| step.to_start()),
         }

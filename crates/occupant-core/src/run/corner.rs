@@ -25,13 +25,12 @@ const BEGINNING: f64 = 0.1;
 pub(super) struct Touching {
     pub meeting: Meeting,
     depth_m: f64,
-    force_n: f64,
 }
 
 impl From<&Touch<f64>> for Touching {
     #[inline(always)]
     fn from(touch: &Touch<f64>) -> Self {
-        Touching { meeting: touch.into(), depth_m: touch.depth, force_n: touch.normal_force }
+        Touching { meeting: touch.into(), depth_m: touch.depth }
     }
 }
 
@@ -65,14 +64,14 @@ impl Crossing<'_> {
     fn beginning(&self, end: &Touching) -> Option<f64> {
         let h = self.step.length_s();
         let since_s = (end.depth_m / end.meeting.closing_m_s.max(1e-3)).min(h);
-        self.if_it_matters(1.0 - since_s / h, BEGINNING * end.force_n * since_s, end)
+        self.if_it_matters(1.0 - since_s / h, BEGINNING * end.meeting.normal_force_n * since_s, end)
     }
 
     /// A contact that ends, as seen from the start.
     fn ending(&self, start: &Touching) -> Option<f64> {
         let h = self.step.length_s();
         let left_s = (start.depth_m / (-start.meeting.closing_m_s).max(1e-3)).min(h);
-        self.if_it_matters(left_s / h, BEGINNING * start.force_n * left_s, start)
+        self.if_it_matters(left_s / h, BEGINNING * start.meeting.normal_force_n * left_s, start)
     }
 
     /// A contact that is deepest within the step: what comes behind still follows the loading line, as Δ_m is committed at
@@ -96,7 +95,7 @@ impl Crossing<'_> {
         let deepest_m = d0 + s * (h * v0 + s * (square + cube * s));
         let greatest_m = self.history.memory.contacts[end.meeting.pair].greatest;
         let missed_m = deepest_m - end.depth_m.max(greatest_m);
-        let stiffness = end.force_n / end.depth_m.max(1e-6);
+        let stiffness = end.meeting.normal_force_n / end.depth_m.max(1e-6);
         let impulse = stiffness * missed_m * (1.0 - s) * h / 3.0;
         self.if_it_matters(s, impulse, end)
     }

@@ -90,11 +90,15 @@ impl Run {
             let frames = step.frames(model, &mut self.cursor);
             self.met.clear();
             let (history, mut met) = (&mut self.history, Met(&mut self.met));
+            let peaks = &mut self.seen.peaks;
             // one call: each would be a whole kernel
             let next = *stages.step(&self.state, step.length_s(), |stage, state, rate| {
                 let accepted = stage == Stage::Start;
                 let situation = Situation { state, frames: &frames[stage as usize], accepted };
                 system.rate_alone(scratch, situation, history, &mut accepted.then_some(&mut met), rate);
+                if accepted {
+                    peaks.see(system.readings(scratch));
+                }
             });
             for touching in &self.met {
                 self.seen.note(model, step.start_s, touching.meeting);

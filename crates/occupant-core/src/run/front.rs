@@ -142,8 +142,12 @@ impl Front {
         self.trial.memory.failure(&model.setup().forces(&[]), &model.system().forces)
     }
 
-    /// Notes what touches at the end of the step, as all outputs before it are recorded.
+    /// Notes what is felt and what touches at the end of the step, as all outputs before it are recorded.
     pub(super) fn note(&mut self, model: &Model, seen: &mut Seen) {
+        // before the first step nothing was evaluated
+        if self.step.length_s() > 0.0 {
+            seen.peaks.see(model.system().readings(&self.scratch));
+        }
         for touching in &self.met {
             seen.note(model, self.step.end_s, touching.meeting);
         }

@@ -115,7 +115,7 @@ impl Run {
         }
         run.energy_start = Some(progress.energy_start);
         run.greatest = progress.greatest;
-        run.seen.know(&from.first_touches);
+        run.seen.know(&from.first_touches, &from.step_peaks);
         Ok(run)
     }
 
@@ -176,6 +176,7 @@ impl Run {
                 greatest: self.greatest,
             },
             first_touches: &self.seen.touches,
+            step_peaks: &self.seen.peaks,
             under_way: self.front.as_ref().and_then(|front| front.under_way(t)),
         });
         recorded.map_err(|e| self.unrecorded(e))

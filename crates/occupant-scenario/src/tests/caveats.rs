@@ -71,6 +71,23 @@ fn outputs_too_coarse_say_so_and_closer_ones_do_not() {
     assert_eq!(found("0.1 ms"), None);
 }
 
+/// A chest that meets the wheel between two outputs.
+#[test]
+fn a_peak_between_two_outputs_is_told_by_the_steps() {
+    let unbelted = include_str!("../../../../scenarios/cart-unbelted.toml");
+    let of = |interval: &str| {
+        let (summary, _) = caveats_of(unbelted, &[("output.interval", interval)]);
+        let chest = summary.accelerations.chest.peak_m_s2;
+        (chest, summary.caveats.into_iter().find(|caveat| caveat.name == "outputs_too_coarse"))
+    };
+    let [(coarse, told), (fine, no_more)] = ["1 ms", "0.1 ms"].map(of);
+    let told = told.unwrap();
+    let percent = (100.0 * (fine / coarse - 1.0)).round();
+    assert!(percent > 10.0 && told.touches("chest.peak"), "{percent} {told:?}");
+    assert!(told.text.contains(&format!("between two outputs chest.peak is passed by {percent} %")), "{}", told.text);
+    assert!(!no_more.is_some_and(|caveat| caveat.touches("chest.peak")));
+}
+
 #[test]
 fn an_absurd_vehicle_does_not_hide_the_error_of_the_energy_balance() {
     // 1000 km/s: the kinetic energy in the vehicle would hide any error

@@ -60,7 +60,7 @@ impl<'a> Marks<'a> {
 pub(crate) fn summary_table(summary: &Summary, written: &Written, marks: &Marks) -> String {
     let mut parts = vec![title(summary), accelerations(summary, marks)];
     parts.extend(elements::texts(&summary.elements, marks));
-    parts.extend(events(&summary.events));
+    parts.extend(events(&summary.events, summary.more_events));
     if !summary.first_contacts.is_empty() {
         parts.push(first_contacts(summary, marks));
     }
@@ -108,9 +108,10 @@ fn acceleration(name: &str, part: &Acceleration, marks: &Marks) -> [String; 6] {
 }
 
 /// What happened to belts, in order; none where nothing did.
-fn events(events: &[Event]) -> Option<String> {
+fn events(events: &[Event], more: u64) -> Option<String> {
     let rows = events.iter().map(|event| [ms(event.time_s), format!("{} {}", shown(&event.name), event.what)]);
-    (!events.is_empty()).then(|| table(&[(Right, &["at, ms"]), (Left, &["event"])], rows))
+    let rest = if more > 0 { format!("and {more} more events\n") } else { String::new() };
+    (!events.is_empty()).then(|| table(&[(Right, &["at, ms"]), (Left, &["event"])], rows) + &rest)
 }
 
 /// Parts whose row is there even if they touched nothing.

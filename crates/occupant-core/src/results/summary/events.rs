@@ -7,7 +7,7 @@ use crate::forces::{Actions, Listed, Visitor, visit_kinds};
 use crate::model::Model;
 use crate::results::sample::Sample;
 
-/// More are not told.
+/// More are counted only.
 const MOST: usize = 100;
 
 /// What happened to a force element.
@@ -27,8 +27,25 @@ pub(super) struct Events {
     /// Of the output before.
     before: Option<Actions<f64>>,
     names: Vec<String>,
+    seen: Seen,
+}
+
+/// The first events, and how many more there were.
+#[derive(Clone, Debug, Default)]
+struct Seen {
     /// Time, place among the names, words.
-    seen: Vec<(f64, usize, &'static str)>,
+    first: Vec<(f64, usize, &'static str)>,
+    more: u64,
+}
+
+impl Seen {
+    fn note(&mut self, time_s: f64, name: usize, what: &'static str) {
+        if self.first.len() < MOST {
+            self.first.push((time_s, name, what));
+        } else {
+            self.more += 1;
+        }
+    }
 }
 
 impl Events {
@@ -37,7 +54,7 @@ impl Events {
         let mut names = Names(model, Vec::new());
         visit_kinds(&mut names);
         let before = (!names.1.is_empty()).then(|| Actions::with_room(&model.system().forces));
-        Events { before, names: names.1, seen: Vec::with_capacity(MOST) }
+        Events { before, names: names.1, seen: Seen { first: Vec::with_capacity(MOST), more: 0 } }
     }
 
     pub(super) fn see(&mut self, sample: &Sample<'_>) {
@@ -46,14 +63,19 @@ impl Events {
         before.take_over(sample.actions);
     }
 
-    /// All, in the order in which they happened.
+    /// How many there were beyond those of the list.
+    pub(super) fn more(&self) -> u64 {
+        self.seen.more
+    }
+
+    /// The first, in the order in which they happened.
     pub(super) fn list(&self) -> Vec<Event> {
         let event = |(time_s, i, what): &(f64, usize, &'static str)| Event {
             time_s: *time_s,
             name: self.names[*i].clone(),
             what,
         };
-        self.seen.iter().map(event).collect()
+        self.seen.first.iter().map(event).collect()
     }
 }
 
@@ -71,7 +93,7 @@ struct See<'s, 'a> {
     before: &'s Actions<f64>,
     /// Place of the kind's first name.
     first: usize,
-    seen: &'s mut Vec<(f64, usize, &'static str)>,
+    seen: &'s mut Seen,
 }
 
 impl Visitor for See<'_, '_> {
@@ -81,12 +103,23 @@ impl Visitor for See<'_, '_> {
         }
         let now = E::actions(self.sample.actions);
         for (i, (before, now)) in E::actions(self.before).iter().zip(now).enumerate() {
-            if let Some((what, _)) = E::event(before, now)
-                && self.seen.len() < MOST
-            {
-                self.seen.push((self.sample.time_s, self.first + i, what));
+            if let Some((what, _)) = E::event(before, now) {
+                self.seen.note(self.sample.time_s, self.first + i, what);
             }
         }
         self.first += now.len();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn events_beyond_the_list_are_counted() {
+        let mut events = Events { names: vec!["strap".to_owned()], ..Events::default() };
+        (0..MOST + 27).for_each(|i| events.seen.note(i as f64, 0, "goes slack"));
+        assert_eq!((events.list().len(), events.more()), (MOST, 27));
+        assert_eq!(events.list().last().unwrap().time_s, 99.0);
     }
 }

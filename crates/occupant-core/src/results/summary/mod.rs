@@ -46,8 +46,10 @@ pub struct Summary {
     /// Peaks of force elements.
     #[serde(flatten)]
     pub elements: Tables,
-    /// What happened to belts over several nodes.
+    /// What happened to belts over several nodes: the first hundred events.
     pub events: Vec<Event>,
+    /// How many more there were.
+    pub more_events: u64,
     /// First contacts of the parts of the body after the start.
     pub first_contacts: Vec<FirstContact>,
     /// Every first touch of a part of the body with a surface, in the order in which they happened.

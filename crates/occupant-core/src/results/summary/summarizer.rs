@@ -7,13 +7,14 @@ use super::events::Events;
 use super::signs::Signs;
 use super::{
     Acceleration, Accelerations, Caveat, ContactBegin, Excursion, FirstContact, Level, Peak, RunStatus, Solver,
-    SpherePeak, Summary,
+    SpherePeak, Summary, word,
 };
 use crate::body::{Body, ContactSphere};
 use crate::forces::bag::Bag;
 use crate::forces::chain::Chain;
 use crate::model::Model;
 use crate::model::setup::{STANDARD_GRAVITY_M_S2, Setup, TimeSpan};
+use crate::results::checkpoint::StepPeaks;
 use crate::results::outcome::{Outcome, Status};
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
@@ -23,6 +24,8 @@ use crash_measures::measure::ThreeMs;
 /// Measures that change by more of their value without every other output are not quoted to a per cent. The change is about the
 /// error: see `measures.md`.
 const COARSE: f64 = 0.01;
+/// Peaks that steps pass by less are not looked at, m/s² or N.
+const LEAST: f64 = 1.0;
 
 /// Collects a [`Summary`]. Allocates at the start of a run and at its end, never between.
 #[derive(Clone, Debug, Default)]
@@ -39,6 +42,8 @@ pub struct Summarizer {
     part_of: Vec<usize>,
     parts: Vec<PartTrack>,
     pub(super) signals: Signals,
+    /// Greatest values at the outputs, and at all accepted steps up to the latest.
+    peaks: [StepPeaks; 2],
     head_start: Option<Point3<f64>>,
     /// Of the head.
     excursion: Option<Excursion>,
@@ -108,6 +113,7 @@ impl Summarizer {
             accelerations: Accelerations { head, chest, pelvis },
             elements: self.elements.tables(),
             events: self.events.list(),
+            more_events: self.events.more(),
             first_contacts: first_contacts(&contacts, &case.body),
             contacts,
             sphere_forces: self.sphere_forces(case),
@@ -152,11 +158,28 @@ impl Summarizer {
         let off: Vec<_> = measures.iter().zip(off).filter(|(_, off)| *off > COARSE).collect();
         let others = [
             case.is_half_a_neck.then(Caveat::half_a_neck),
-            Caveat::too_coarse(self.signals.interval_s, &off),
+            Caveat::too_coarse(self.signals.interval_s, &off, &self.passed(case)),
             if case.is_mounted { None } else { Caveat::other_dummy(self.options.dummy, case.body.mass_kg(), measures) },
         ];
         caveats.extend(others.into_iter().flatten());
         caveats
+    }
+
+    /// Peaks that the steps between the outputs pass by more than a part of their value, by the names of their
+    /// figures, each with that part: infinite where no output has seen anything.
+    fn passed(&self, case: &Case) -> Vec<(String, f64)> {
+        let [outputs, steps] = &self.peaks;
+        let felt = ["head", "chest", "pelvis"].into_iter().zip(&self.accelerations).zip(steps.readings_m_s2);
+        let felt = felt.filter_map(|((part, peak), steps)| Some((format!("{part}.peak"), peak.as_ref()?.value, steps)));
+        let greatest_n = |of: &StepPeaks, part: usize| {
+            let own = self.part_of.iter().zip(&of.contacts_n).filter(|(of, _)| **of == part);
+            own.map(|(_, force_n)| *force_n).fold(0.0, f64::max)
+        };
+        let touched = case.body.parts().enumerate();
+        let touched = touched
+            .map(|(i, part)| (format!("contacts.{}.peak", word(part)), greatest_n(outputs, i), greatest_n(steps, i)));
+        let is_passed = |(_, outputs, steps): &(String, f64, f64)| steps - outputs > LEAST.max(COARSE * outputs);
+        felt.chain(touched).filter(is_passed).map(|(name, outputs, steps)| (name, steps / outputs - 1.0)).collect()
     }
 
     fn sphere_forces(&self, case: &Case) -> Vec<SpherePeak> {
@@ -176,8 +199,8 @@ impl Summarizer {
     }
 
     fn see_accelerations(&mut self, sample: &Sample<'_>) {
-        let marks = sample.model.body().tree.landmarks();
-        for (peak, segment) in self.accelerations.iter_mut().zip([marks.head, marks.chest, marks.pelvis]) {
+        let instruments = sample.model.body().tree.landmarks().instruments();
+        for (peak, segment) in self.accelerations.iter_mut().zip(instruments) {
             if let Some(segment) = segment {
                 peak.get_or_insert(Peak::NONE).see(sample.specific_force_m_s2(segment).norm(), sample.time_s);
             }
@@ -203,6 +226,14 @@ impl Summarizer {
                 track.surface = track.hit;
             }
         }
+    }
+
+    fn see_peaks(&mut self, sample: &Sample<'_>) {
+        let [outputs, steps] = &mut self.peaks;
+        for touch in &sample.actions.contacts {
+            outputs.touch(touch.sphere, touch.normal_force);
+        }
+        steps.clone_from(sample.step_peaks);
     }
 
     fn see_head(&mut self, sample: &Sample<'_>) {
@@ -247,6 +278,7 @@ impl Recorder for Summarizer {
             events: Events::new(model),
             part_of: setup.body.spheres.iter().map(part_of).collect(),
             parts: vec![part; parts.len()],
+            peaks: [StepPeaks::none(setup.body.spheres.len()), StepPeaks::none(setup.body.spheres.len())],
             signs: Signs::new(model),
             case: Some(case),
             ..Summarizer::default()
@@ -258,6 +290,7 @@ impl Recorder for Summarizer {
         self.outputs += 1;
         self.see_accelerations(sample);
         self.see_contacts(sample);
+        self.see_peaks(sample);
         self.elements.see(sample);
         self.events.see(sample);
         self.see_head(sample);

@@ -1,7 +1,9 @@
 use super::*;
 use crate::body::tti12::HEAD;
 use crate::model::Model;
-use crate::results::recorder::{Flow, Recorder, RecorderError};
+use crate::model::setup::Integrator;
+use crate::results::checkpoint::StepPeaks;
+use crate::results::recorder::{Flow, Recorder, RecorderError, Watch};
 use crate::results::sample::Sample;
 use crate::run::simulate::simulate;
 use crate::tests::{crooked, hard, lowest_m};
@@ -97,6 +99,34 @@ fn peaks_are_those_of_the_whole_record() {
         let earliest = earliest.map(|c| c.time_s).fold(f64::INFINITY, f64::min);
         assert_eq!(first.time_s, earliest);
     }
+}
+
+/// Steps of a fixed length see what outputs at each of them do.
+#[test]
+fn peaks_of_steps_are_those_of_outputs_at_every_step() {
+    let of = |output_s: f64| {
+        let mut setup = crooked(0.25, floor().map(|height_m| (height_m, hard(0.5))));
+        setup.integrator = Integrator::Rk4 { step_s: 5e-4 };
+        setup.time.output_s = output_s;
+        let model = Model::new(setup).unwrap();
+        let (mut steps, mut outputs) = (StepPeaks::default(), StepPeaks::none(model.body().spheres.len()));
+        let instruments = model.body().tree.landmarks().instruments();
+        let watch = Watch(|s: &Sample<'_>| {
+            outputs.see(instruments.map(|n| n.map_or(0.0, |n| s.specific_force_m_s2(n).norm())));
+            s.actions.contacts.iter().for_each(|touch| outputs.touch(touch.sphere, touch.normal_force));
+            steps = s.step_peaks.clone();
+        });
+        simulate(&model, watch).unwrap();
+        (steps, outputs)
+    };
+    let ((steps, seldom), (_, always)) = (of(0.05), of(5e-4));
+    // a step that ends at an output has its time to the rounding, and no step begins at the end; measured: 4e-15
+    let is_near = |(seen, all): (f64, &f64)| (seen - all).abs() <= 1e-12 * all;
+    assert!(steps.contacts_n.iter().copied().zip(&always.contacts_n).all(is_near), "{steps:?} {always:?}");
+    let felt = steps.readings_m_s2.iter().zip(seldom.readings_m_s2).map(|(step, output)| step.max(output));
+    assert!(felt.zip(&always.readings_m_s2).all(is_near), "{steps:?} {seldom:?} {always:?}");
+    let passed = steps.contacts_n.iter().zip(&seldom.contacts_n).filter(|(step, output)| **step > 1.02 * *output);
+    assert!(passed.count() > 0, "{steps:?} {seldom:?}");
 }
 
 #[test]

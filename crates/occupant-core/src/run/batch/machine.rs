@@ -45,6 +45,9 @@ impl<L: Lanes> Around<L> {
         let situation = Situation { state, frames: &self.frames[stage as usize], accepted };
         let observer = &mut accepted.then_some(witness);
         self.system.rate_with(&mut self.scratch, situation, &mut self.history, observer, rate);
+        if let Some(witness) = observer {
+            witness.feel(self.system.readings(&self.scratch));
+        }
     }
 }
 

@@ -82,8 +82,19 @@ impl Place {
     }
 }
 
-/// Notes the first touches of every run.
+/// Notes what touches and what is felt in every run.
 pub(crate) struct Witness<'a>(pub(super) &'a mut [Option<Box<Place>>]);
+
+impl Witness<'_> {
+    /// Readings of the accelerometers, m/s².
+    pub(super) fn feel<L: Lanes>(&mut self, readings: [L; 3]) {
+        for (i, place) in self.0.iter_mut().enumerate() {
+            if let Some(place) = place {
+                place.run.seen.peaks.see(readings.map(|reading| reading.lane(i)));
+            }
+        }
+    }
+}
 
 impl<L: Lanes> Observer<L> for Witness<'_> {
     fn contacts(&mut self, touch: &Touch<L>) {
@@ -95,6 +106,7 @@ impl<L: Lanes> Observer<L> for Witness<'_> {
                     pair: touch.pair,
                     part: touch.part.lane(i) as usize,
                     closing_m_s: touch.closing.lane(i),
+                    normal_force_n: touch.normal_force.lane(i),
                     velocity_m_s: v3(touch.velocity.x.lane(i), touch.velocity.y.lane(i), touch.velocity.z.lane(i)),
                 };
                 let time_s = place.step.start_s;
