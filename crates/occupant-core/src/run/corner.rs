@@ -112,7 +112,9 @@ impl Crossing<'_> {
     }
 }
 
-/// The same pair in `list`.
+/// The same pair in `list`, which is in the order of the pairs as all evaluations see them.
 fn partner<'a>(list: &'a [Touching], of: &Touching) -> Option<&'a Touching> {
-    list.iter().find(|t| t.meeting.pair == of.meeting.pair)
+    debug_assert!(list.is_sorted_by_key(|touching| touching.meeting.pair));
+    let at = list.binary_search_by_key(&of.meeting.pair, |touching| touching.meeting.pair).ok()?;
+    Some(&list[at])
 }

@@ -56,3 +56,23 @@ fn surfaces_that_all_share_one_edge_are_refused() {
     let found = said("", 3000, fan);
     assert!(found.clone().unwrap_err().contains("too many neighbours"), "{found:?}");
 }
+
+/// Each step of a run would look at all of them, and be as short as so many springs ask for.
+#[test]
+fn a_body_that_touches_things_by_thousands_is_refused() {
+    let under = |count: usize| {
+        let boxes = (0..count).map(|i| {
+            format!(
+                "q{i} = {{ kind = \"box\", material = \"foam\", centre = [0, 0, 0.31], lengths = [0.5, 0.5, 0.5] }}\n"
+            )
+        });
+        let text = format!("{}\n[solids]\n{}", super::SHORT, boxes.collect::<String>());
+        load(&text).and_then(|loaded| loaded.model()).map(|_| ()).map_err(|problems| problems.to_string())
+    };
+    let said = under(1500).unwrap_err();
+    assert!(
+        said.contains("contacts of spheres with surfaces and solids at the start") && said.contains("at most 2000"),
+        "{said}"
+    );
+    assert_eq!(under(100), Ok(()));
+}

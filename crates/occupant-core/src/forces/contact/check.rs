@@ -8,7 +8,7 @@ use crate::forces::contact::material::{Force, Material};
 use crate::forces::contact::near::{Bounds, near_pairs};
 use crate::forces::contact::self_contact::is_skin;
 use crate::forces::contact::solid::{CONCAVE_WITHIN_M, Solid, build, concave_rad};
-use crate::forces::contact::{ContactData, ContactSystem, OPEN, PASSED};
+use crate::forces::contact::{ContactData, ContactSystem, OPEN, PASSED, PairHistory};
 use crate::forces::element::Instant;
 use crate::forces::function::steps::Steps;
 use placed_text::{Problem, Problems, with_key};
@@ -150,6 +150,24 @@ pub(super) fn crowds(faces: &[FlatFace], problems: &mut Problems) {
     if !FlatFace::neighbours(faces).is_complete {
         let expected = "some tens beside each: surfaces of one plane lie beside each other";
         problems.error("surfaces", format!("{CROWD} among {} surfaces", faces.len()), expected);
+    }
+}
+
+/// With more contacts at the start each millisecond of the run would take minutes.
+const MOST_TOUCHING: usize = 2000;
+
+/// Refuses a body that touches things by thousands: their springs and friction act together, so that the steps that bear them
+/// are as short as there are many, and each looks at all.
+pub(super) fn touching(start: &[PairHistory<f64>], problems: &mut Problems) {
+    let count = start.iter().filter(|past| past.phase > OPEN && past.phase < PASSED).count();
+    if count > MOST_TOUCHING {
+        let expected =
+            format!("at most {MOST_TOUCHING}: one surface or solid for each part of a car that the body touches");
+        problems.error(
+            "surfaces",
+            format!("{count} contacts of spheres with surfaces and solids at the start"),
+            expected,
+        );
     }
 }
 

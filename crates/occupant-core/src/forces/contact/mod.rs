@@ -107,6 +107,7 @@ impl Element for Contacts {
         check::crowds(data.faces, problems);
         check::centres(law, &data, body, at, problems);
         check::overlaps(law, body, at, problems);
+        check::touching(&Self::start(law, at), problems);
     }
 
     fn start(law: &ContactSystem<f64>, at: &Instant<'_, f64>) -> Vec<PairHistory<f64>> {
