@@ -6,7 +6,7 @@ use crate::random::Random;
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
 use occupant_core::forces::{Forces, History, Memory};
 use occupant_core::kernel::System;
-use occupant_core::motion::layout::{Axis, Freedom, Layout, MOST_HINGES};
+use occupant_core::motion::layout::{Axis, Freedom, Layout, MOST_OF_TREE};
 use occupant_core::motion::skeleton::{Part, Skeleton};
 use occupant_core::motion::state::{Quat, Shape, State};
 use occupant_core::motion::vector::{V3, v3};
@@ -15,7 +15,7 @@ use occupant_core::motion::vector::{V3, v3};
 pub fn bare(skeleton: Skeleton<f64>) -> (System<f64>, History<f64>) {
     let forces = Forces::none();
     let history = History::new(&forces, Memory::none());
-    (System { skeleton, spheres: Vec::new(), forces }, history)
+    (System::new(skeleton, Vec::new(), forces), history)
 }
 
 /// A tree by its rows.
@@ -82,7 +82,7 @@ impl AnyTree {
         let mut hinges = 0;
         while rows.len() < count {
             let freedom = JOINTS[random.bits() as usize % JOINTS.len()];
-            if hinges + axes_of(freedom).len() <= MOST_HINGES {
+            if hinges + axes_of(freedom).len() <= MOST_OF_TREE {
                 hinges += axes_of(freedom).len();
                 rows.push((Some(random.bits() as usize % rows.len()), freedom));
             }

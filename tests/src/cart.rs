@@ -23,6 +23,8 @@ pub const GRAVITY_M_S2: f64 = 386.04 * INCH_M;
 /// The lap case: 0.2 s with outputs every millisecond.
 pub fn lap(integrator: Integrator) -> Setup {
     Setup {
+        frames: Vec::new(),
+        members: Vec::new(),
         title: "cart, lap belt".into(),
         body: male50(),
         joints: joints(),
@@ -38,7 +40,7 @@ pub fn lap(integrator: Integrator) -> Setup {
         path: path(),
         posture: InitialPosture::Seated(seating()),
         velocity: InitialVelocity::WithVehicle,
-        time: TimeSpan { start_s: 0.0, end_s: 0.2, output_s: 1e-3 },
+        time: TimeSpan { start_s: 0.0, end_s: 0.2, output_s: 1e-3, stops_at_rest: false },
         integrator,
         output: OutputOptions::default(),
     }
@@ -162,6 +164,7 @@ pub fn joints() -> Joints {
 fn lap_belt() -> Belt {
     let anchor = |side: f64| Point3::new(-6.0, DRIVER_IN + side * 9.0, 9.0) * INCH_M;
     Belt {
+        frame: Frame::Vehicle,
         name: "lap".into(),
         sphere: 2,
         anchors_m: [anchor(-1.0), anchor(1.0)],

@@ -93,6 +93,8 @@ pub fn parked() -> VehiclePath {
 /// A body afloat in space: straight, upright, at rest, T1 at the origin; free joints, no gravity, nothing to touch.
 pub fn afloat(body: Body, end_s: f64, step_s: f64) -> Setup {
     Setup {
+        frames: Vec::new(),
+        members: Vec::new(),
         title: "afloat".into(),
         body,
         joints: Joints::free(&TTI12),
@@ -108,7 +110,7 @@ pub fn afloat(body: Body, end_s: f64, step_s: f64) -> Setup {
         path: parked(),
         posture: straight(Vector3::zeros(), Vector3::zeros()),
         velocity: InitialVelocity::WithVehicle,
-        time: TimeSpan { start_s: 0.0, end_s, output_s: end_s },
+        time: TimeSpan { start_s: 0.0, end_s, output_s: end_s, stops_at_rest: false },
         integrator: Integrator::Rk4 { step_s },
         output: OutputOptions::default(),
     }
@@ -165,6 +167,7 @@ pub fn rectangle(name: &str, x_m: [f64; 2], y_m: [f64; 2]) -> Surface {
 /// A belt round sphere 0 with a straight-line webbing of stiffness `k`, N/m.
 pub fn belt(anchors_m: [Point3<f64>; 2], k: f64, slack_m: f64) -> Belt {
     Belt {
+        frame: Frame::Vehicle,
         name: "belt".into(),
         sphere: 0,
         anchors_m,

@@ -23,7 +23,7 @@ use occupant_core::forces::spring::BilinearSpring;
 use occupant_core::forces::{Forces, History, Memory};
 use occupant_core::kernel;
 use occupant_core::motion::frame::Frames;
-use occupant_core::motion::frame::Moving;
+use occupant_core::motion::frame::{Moving, VEHICLE};
 use occupant_core::motion::skeleton::Skeleton;
 use occupant_core::motion::vector::M3;
 use occupant_core::motion::vector::V3;
@@ -84,7 +84,7 @@ impl Compartment {
     pub fn frame(&self, index: usize) -> FrameState {
         match self.surfaces[index].frame {
             Frame::Vehicle => self.vehicle,
-            Frame::Space => FrameState {
+            _ => FrameState {
                 origin: Vector3::zeros(),
                 axes: Matrix3::identity(),
                 velocity: Vector3::zeros(),
@@ -128,8 +128,10 @@ impl Compartment {
             omega: V3::of(&self.vehicle.omega),
             ..Moving::space()
         };
-        let kernel = kernel::System { skeleton, spheres: Site::all(&system.body), forces };
-        (kernel, Frames { time: 0.0, moving: [Moving::space(), vehicle] }, history)
+        let kernel = kernel::System::new(skeleton, Site::all(&system.body), forces);
+        let mut frames = Frames::still(0.0);
+        frames[VEHICLE] = vehicle;
+        (kernel, frames, history)
     }
 
     /// The same compartment in a scene turned by `r`; it must have no plane in space.

@@ -6,7 +6,7 @@ use crate::{
 };
 use nalgebra::Vector3;
 use occupant_core::body::tti12::TTI12;
-use occupant_core::forces::joint::JointSystem;
+use occupant_core::forces::joint::{DAMPING, JointSystem};
 use occupant_core::motion::dynamics;
 use occupant_core::motion::dynamics::Accelerations;
 use occupant_core::motion::dynamics::Wrench;
@@ -59,7 +59,11 @@ impl CoreSide {
         let joints = JointSystem::new(&system.joints, &skeleton, |_| f64::NAN);
         let kinematics = Kinematics::new(&skeleton, &state);
         let mut wrench = external(system, &kinematics);
-        let dissipated = joints.apply(&kinematics, &state, &mut wrench, &mut |_| {});
+        let by_joints = joints.loads(&kinematics, &state, &skeleton.layout);
+        for (sum, own) in wrench.iter_mut().zip(&by_joints.wrench) {
+            sum.moment += own.moment;
+        }
+        let dissipated = by_joints.power[0].sums[DAMPING];
         let found = dynamics::solve(&skeleton, &kinematics, state.hinge_rate(), &wrench);
         let accelerations = SpaceMotion::of_core(&found);
         CoreSide { skeleton, joints, kinematics, dissipated, accelerations, segments: found }

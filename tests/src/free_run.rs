@@ -42,8 +42,8 @@ impl FreeRun {
         let joints = JointSystem::new(&system.joints, &skeleton, |_| f64::NAN);
         let forces = Forces { joints, ..Forces::none() };
         let history = History::new(&forces, Memory::none());
-        let system = kernel::System { skeleton, spheres: Site::all(&system.body), forces };
-        FreeRun { system, history, frames: Frames { time: 0.0, moving: [Moving::space(); 2] } }
+        let system = kernel::System::new(skeleton, Site::all(&system.body), forces);
+        FreeRun { system, history, frames: Frames::still(0.0) }
     }
 
     /// The state after `steps` steps of `h` seconds.
@@ -65,7 +65,7 @@ impl FreeRun {
         let energy = energy::kinetic(body, &k, &Moving::space())
             + energy::gravity(body, &k)
             + self.system.forces.joints.stored(&k)
-            + state.work().sums[DAMPING];
+            + state.work(0).sums[DAMPING];
         Conserved { energy, linear: linear.to_vector(), angular: angular.to_vector() }
     }
 

@@ -5,7 +5,7 @@ use occupant_core::forces::History;
 use occupant_core::kernel::{Scratch, Situation};
 use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
-use occupant_core::motion::frame::{Frames, Moving};
+use occupant_core::motion::frame::Frames;
 use occupant_core::motion::integrate::rk4;
 use occupant_core::motion::layout::Freedom;
 use occupant_core::motion::state::State;
@@ -41,9 +41,9 @@ fn a_step_of_any_tree_allocates_nothing() {
     let mut random = Random::new(3);
     let tree = AnyTree::random(&mut random, 17, Freedom::Ball);
     let (state, (kernel, mut history)) = (tree.state(&mut random), bare(tree.skeleton()));
-    let frames = Frames { time: 0.0, moving: [Moving::space(); 2] };
+    let frames = Frames::still(0.0);
     let step = |history: &mut History<f64>| {
-        let scratch = &mut Scratch::blank(&kernel.skeleton);
+        let scratch = &mut Scratch::blank(&kernel);
         let rate = |_, s: &State<f64>, rate: &mut State<f64>| {
             kernel.rate_alone(scratch, Situation::accepted(s, &frames), history, &mut (), rate);
         };

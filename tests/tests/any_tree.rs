@@ -7,7 +7,7 @@ use occupant_core::motion::dynamics::{Accelerations, Wrench, solve};
 use occupant_core::motion::frame::{Frames, Moving, VEHICLE};
 use occupant_core::motion::integrate::rk4;
 use occupant_core::motion::kinematics::Kinematics;
-use occupant_core::motion::layout::{Axis, Freedom, MOST_SEGMENTS};
+use occupant_core::motion::layout::{Axis, Freedom, MOST_OF_TREE, MOST_SEGMENTS};
 use occupant_core::motion::skeleton::{Mount, Part, Skeleton};
 use occupant_core::motion::state::{Shape, State, Work};
 use occupant_core::motion::vector::{M3, V3, v3};
@@ -68,7 +68,7 @@ fn any_tree_moves_as_its_segments_do_one_by_one() {
     for seed in 0..200 {
         let mut random = Random::new(seed);
         let root = if seed % 3 == 0 { Freedom::Guided } else { Freedom::Ball };
-        let tree = AnyTree::random(&mut random, 1 + seed as usize % MOST_SEGMENTS, root);
+        let tree = AnyTree::random(&mut random, 1 + seed as usize % MOST_OF_TREE, root);
         let (skeleton, state, loads) = (tree.skeleton(), tree.state(&mut random), loads(&mut random));
         let k = Kinematics::new(&skeleton, &state);
         let found = solve(&skeleton, &k, state.hinge_rate(), &loads);
@@ -104,7 +104,7 @@ fn lost_in_flight(steps: usize) -> [f64; 3] {
             state = rk4::step(&state, 0.1 / steps as f64, |_, state, rate| {
                 let k = Kinematics::new(&skeleton, state);
                 let loads = [Wrench::zero(); MOST_SEGMENTS];
-                *rate = solve(&skeleton, &k, state.hinge_rate(), &loads).rate(&skeleton.layout, state, Work::zero());
+                *rate = solve(&skeleton, &k, state.hinge_rate(), &loads).rate(&skeleton.layout, state, &[Work::zero()]);
             });
         }
         let (before, after) = (kept(&start), kept(&state));
@@ -143,8 +143,7 @@ fn a_pendulum_on_a_mount_swings_as_its_closed_form_says() {
         let mut random = Random::new(seed);
         let (angle, rate) = (random.between(-3.0, 3.0), random.between(-4.0, 4.0));
         let (tree, state) = pendulum(&mut random, angle, rate);
-        let mut skeleton = tree.skeleton();
-        skeleton.mount = Some(Mount {
+        let skeleton = tree.skeleton().mounted(Mount {
             frame: VEHICLE,
             place: V3::of(&random.vector(0.5)),
             axes: M3::of(&nalgebra::Matrix3::identity()),
@@ -152,7 +151,8 @@ fn a_pendulum_on_a_mount_swings_as_its_closed_form_says() {
         let (kernel, mut history) = bare(skeleton);
         let push = random.vector(100.0);
         let vehicle = Moving { acceleration: V3::of(&push), ..Moving::space() };
-        let frames = Frames { time: 0.0, moving: [Moving::space(), vehicle] };
+        let mut frames = Frames::still(0.0);
+        frames[VEHICLE] = vehicle;
         let found = kernel.rate(Situation::within(&state, &frames), &mut history, &mut ());
         // (I_y + M l²) α̈ = M l (a_x cos α + (g + a_z) (−sin α)), the rod hanging along −Z
         let (part, l) = (&tree.parts[1], 0.3);
@@ -170,9 +170,9 @@ fn a_tree_on_a_mount_that_turns_moves_as_its_segments_do_one_by_one() {
     for seed in 0..40 {
         let mut random = Random::new(seed);
         let tree = AnyTree::random(&mut random, 2 + seed as usize % 12, Freedom::Guided);
-        let mut skeleton = tree.skeleton();
+        let skeleton = tree.skeleton();
         let (place, turn) = (random.vector(0.5), random.turn().to_rotation_matrix().into_inner());
-        skeleton.mount = Some(Mount { frame: VEHICLE, place: V3::of(&place), axes: M3::of(&turn) });
+        let skeleton = skeleton.mounted(Mount { frame: VEHICLE, place: V3::of(&place), axes: M3::of(&turn) });
         let vehicle = Moving {
             origin: V3::of(&random.vector(2.0)),
             axes: M3::of(random.turn().to_rotation_matrix().matrix()),
@@ -199,7 +199,8 @@ fn a_tree_on_a_mount_that_turns_moves_as_its_segments_do_one_by_one() {
         // the state's own root is not looked at
         state.set_t1(v3(7.0, 8.0, 9.0));
         state.set_omega(0, v3(1.0, 2.0, 3.0));
-        let frames = Frames { time: 0.0, moving: [Moving::space(), vehicle] };
+        let mut frames = Frames::still(0.0);
+        frames[VEHICLE] = vehicle;
         let found = kernel.evaluate(Situation::within(&state, &frames), &mut history, &mut ());
         worst = worst.max(difference(&found.accelerations, &expected));
     }

@@ -51,7 +51,7 @@ fn contact_forces_act_at_the_touching_point() {
 
         let sum = |f: fn(&ContactForce) -> f64| -> f64 { contacts.iter().map(f).sum() };
         let size = sum(|c| c.power.abs());
-        let power = &found.power;
+        let power = &found.power[0];
         let total = power.vehicle - power.sums[PRESS] - power.sums[FRICTION];
         worst = worst.max((total - sum(|c| c.power)).abs() / size);
         worst = worst.max((power.sums[FRICTION] - sum(|c| c.friction_loss)).abs() / size);

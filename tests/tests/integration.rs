@@ -91,7 +91,7 @@ fn distances(a: &State<f64>, b: &State<f64>) -> [f64; 4] {
         angles += (a.hinge()[i] - b.hinge()[i]).powi(2);
         speeds += (a.hinge_rate()[i] - b.hinge_rate()[i]).powi(2);
     }
-    let (w, u) = (a.work(), b.work());
+    let (w, u) = (a.work(0), b.work(0));
     let work = [w.sums[joint::DAMPING] - u.sums[joint::DAMPING], w.sums[belt::STRETCH] - u.sums[belt::STRETCH]];
     let work: f64 = work.iter().map(|d| d * d).sum();
     [v(a.t1(), b.t1()), angles, speeds, work].map(f64::sqrt)

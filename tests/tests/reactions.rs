@@ -5,8 +5,6 @@ use nalgebra::Vector3;
 use occupant_core::body::tti12::{self, TTI12};
 use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
-use occupant_core::motion::dynamics::Wrench;
-use occupant_core::motion::layout::MOST_SEGMENTS;
 use occupant_core::results::channel::{channels, find, matching};
 use occupant_core::results::reaction::{femur_axial_n, reaction};
 use occupant_core::results::recorder::Watch;
@@ -56,10 +54,9 @@ fn a_hinge_carries_its_torque_about_its_axis_and_more_across() {
     let mut worst = 0.0_f64;
     let mut across = 0.0_f64;
     watch(&cart(), |s| {
-        let mut passive = [Wrench::zero(); MOST_SEGMENTS];
         let k = &s.evaluation.kinematics;
         let joints = &s.model.system().forces.joints;
-        joints.apply(k, s.state, &mut passive, &mut |_| {});
+        let passive = joints.loads(k, s.state, &s.model.system().skeleton.layout).wrench;
         for joint in joints.hinges.iter().map(|hinge| hinge.joint) {
             let n = TTI12[joint].distal.index();
             let torque = k.axes[n].y.dot(passive[n].moment);

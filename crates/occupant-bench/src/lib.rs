@@ -131,7 +131,7 @@ impl Instant {
             state: start.state,
             frames: model.frames(0.0, 0.0, &mut cursor),
             history: start.history.clone(),
-            scratch: Scratch::blank(&model.system().skeleton),
+            scratch: Scratch::blank(model.system()),
             stages: Stages::new(start.state.shape()),
             rate: start.state,
         };
@@ -212,7 +212,7 @@ impl Instant {
         rk4::step(&self.state, STEP_S, |_, state, rate| {
             let kinematics = Kinematics::new(skeleton, state);
             let motion = dynamics::solve(skeleton, &kinematics, state.hinge_rate(), loads);
-            *rate = motion.rate(&skeleton.layout, state, Work::zero());
+            *rate = motion.rate(&skeleton.layout, state, &[Work::zero()]);
         })
     }
 

@@ -82,17 +82,24 @@ def check_transforms(message, topic_time_ns):
     names = [t.child_frame_id for t in message.transforms]
     expect(names[0] == "vehicle", f"frames {names}")
     # the report's twelve in its order; other trees have more, a body on a mount may have few
-    own = [name.removeprefix("occupant/") for name in names[1:]]
+    others = [name for name in names if name.startswith("frames/") or name.endswith("/origin")]
+    own = [name.removeprefix("occupant/") for name in names[1:] if name not in others]
     expect(own == list(SEGMENTS) if len(own) == 12 else len(own) == len(set(own)) > 0, f"frames {names}")
     for t in message.transforms:
         q = t.rotation
         norm = math.sqrt(q.x**2 + q.y**2 + q.z**2 + q.w**2)
         expect(abs(norm - 1) < 1e-12, f"{t.child_frame_id}: a quaternion of length {norm}")
-        parent = "space" if t.child_frame_id == "vehicle" else "vehicle"
+        parent = "space" if t.child_frame_id in ("vehicle", *others) else "vehicle"
         expect(t.parent_frame_id == parent, f"{t.child_frame_id} hangs on {t.parent_frame_id}")
         ns = t.timestamp.ToNanoseconds()
         expect(ns == topic_time_ns, f"{t.child_frame_id}: time {ns}, message {topic_time_ns}")
     return own
+
+
+def topic_of(segment):
+    """Of the frame's name without `occupant/`; of one of several bodies that is `occupants/NAME/SEGMENT`."""
+    body, _, part = segment.rpartition("/")
+    return f"/{body or 'occupant'}/segment/{part}"
 
 
 def check_numbers(topic, message):
@@ -144,7 +151,7 @@ def main(path):
             expect(record.log_time == record.publish_time, topic)
             if topic == "/tf":
                 segments = check_transforms(message, record.log_time)
-            if topic.startswith(("/vehicle", "/occupant", "/belt", "/strap", "/energy", "/solver", "/checkpoint")):
+            if topic.startswith(("/vehicle", "/occupant", "/belt", "/strap", "/bag", "/energy", "/solver", "/checkpoint")):
                 check_numbers(topic, message)
                 t_s = message.time_s - float(run["start_s"])
                 expect(abs(t_s * 1e9 - record.log_time) <= 1, f"{topic}: time {message.time_s}")
@@ -167,7 +174,7 @@ def main(path):
             if result["status"] == "completed":
                 expect(times[topic][-1] == times["/energy"][-1], f"{topic} does not reach the end")
         for segment in segments:
-            expect(f"/occupant/segment/{segment}" in times, f"no topic of {segment}")
+            expect(topic_of(segment) in times, f"no topic of {segment}")
     head = largest["/occupant/segment/head"] / 9.80665
     print(
         f"{path}: {result['status']} at {result['time_s']} s, {len(times)} topics, "

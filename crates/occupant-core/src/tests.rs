@@ -73,6 +73,7 @@ pub(crate) fn three_point(body: &Body, due_s: f64) -> Chain {
     let pull = Pull { cue: cue(due_s + 5e-3), table: way, by_force: None, stall_n: 2e3 };
     let reel = Reel { on_spool_m: 0.8, tension_n: 6.0, lock: cue(due_s), lock_after: [0.0; 2], pull: Some(pull) };
     Chain {
+        frame: Frame::Vehicle,
         belt: "driver".to_owned(),
         nodes: vec![
             node("reel", vehicle([-18.0, -23.0, 4.0]), 0.0),

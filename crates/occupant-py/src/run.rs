@@ -65,11 +65,15 @@ impl Run {
         Ok(pythonize(py, &self.summary)?.unbind())
     }
 
-    /// Injury measures by name, in the units of the summary; None where there is no value.
+    /// Injury measures by name, in the units of the summary; None where there is no value. Of several occupants the name of each
+    /// and a dot stand before those of its measures.
     #[getter]
     fn measures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let dict = PyDict::new(py);
-        self.summary.measures.iter().try_for_each(|measure| dict.set_item(measure.name, measure.value))?;
+        for (prefix, person) in self.summary.people() {
+            let name = |measure: &str| format!("{prefix}{measure}");
+            person.measures.iter().try_for_each(|measure| dict.set_item(name(measure.name), measure.value))?;
+        }
         Ok(dict)
     }
 

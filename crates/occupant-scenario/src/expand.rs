@@ -47,16 +47,26 @@ pub(super) fn written(title: &str, text: &str) -> Option<Document> {
 /// The explicit form of a scenario tree that has passed the check.
 pub(super) fn expand(sources: &mut Sources, root: &Node) -> Node {
     let mut explicit = root.clone();
-    let body = section(sources, root, "body", |layers| body(&layers));
-    let rows = body.as_ref().map_or_else(report_joints, |body| joint_rows(&body.node));
     let sets = root.get("joint_sets").cloned();
-    let joints = section(sources, root, "joints", |layers| joints(&layers, &rows, sets.as_ref()));
     if let Some(table) = explicit.as_table_mut() {
-        table
-            .extend([("body", body), ("joints", joints)].into_iter().filter_map(|(key, e)| Some((key.to_owned(), e?))));
+        expand_occupant(sources, root, sets.as_ref(), table);
+        for (_, occupant) in table.get_mut("occupants").and_then(|all| all.node.as_table_mut()).into_iter().flatten() {
+            let written = occupant.node.clone();
+            if let Some(own) = occupant.node.as_table_mut() {
+                expand_occupant(sources, &written, sets.as_ref(), own);
+            }
+        }
         from_library(sources, table);
     }
     explicit
+}
+
+/// Writes body and joints of the occupant out whose keys stand in `written`.
+fn expand_occupant(sources: &mut Sources, written: &Node, sets: Option<&Node>, own: &mut Table) {
+    let body = section(sources, written, "body", |layers| body(&layers));
+    let rows = body.as_ref().map_or_else(report_joints, |body| joint_rows(&body.node));
+    let joints = section(sources, written, "joints", |layers| joints(&layers, &rows, sets));
+    own.extend([("body", body), ("joints", joints)].into_iter().filter_map(|(key, e)| Some((key.to_owned(), e?))));
 }
 
 /// Lays what the library has of a name under what refers to it by `library`, and tells its source where nothing is told.

@@ -2,7 +2,7 @@
 
 use super::draft::Draft;
 use super::expand::expand;
-use super::sections::{Scenario, setup};
+use super::sections::{Scenario, setup, together};
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
 use placed_text::{Diagnostics, Document, Format, Problem, Problems, SourceId, text_of};
@@ -51,7 +51,8 @@ impl Loaded {
         document.root = expand(&mut document.sources, &document.root);
         let mut explicit: Scenario = document.sections("scenario")?;
         // result files hold the explicit form, and what it leaves out was false in version 0.1.0
-        if let Some(posture) = &mut explicit.posture {
+        let others = explicit.occupants.values_mut().filter_map(|occupant| occupant.posture.as_mut());
+        for posture in explicit.posture.iter_mut().chain(others) {
             posture.settle.get_or_insert(true);
         }
         let path_table = read_path_table(&mut document, &scenario, resolver)?;
@@ -63,7 +64,8 @@ impl Loaded {
     /// # Errors
     /// Everything that does not fit together: names that lead nowhere, keys that are missing or have no meaning here.
     pub fn build(&self) -> Result<(Setup, Diagnostics), Diagnostics> {
-        setup(&self.scenario, &self.explicit, &self.document, self.path_table)
+        let build = if self.explicit.has_several() { together } else { setup };
+        build(&self.scenario, &self.explicit, &self.document, self.path_table)
     }
 
     /// The model of the scenario, ready to be run, with warnings.
@@ -111,7 +113,7 @@ fn read_path_table(
     scenario: &Scenario,
     resolver: Resolver,
 ) -> Result<Option<SourceId>, Diagnostics> {
-    let Some(file) = scenario.path.file() else { return Ok(None) };
+    let Some(file) = scenario.path.as_ref().and_then(|path| path.file()) else { return Ok(None) };
     let bytes = resolver(file).map_err(|reason| {
         let found = format!("`{file}` cannot be read: {reason}");
         document.place(Problem::error("path.file", found, "a CSV file, its name relative to the scenario"))

@@ -12,7 +12,7 @@ impl Loaded {
     /// Adds to the figures of its body how far people differ, where it makes the body of a person or has a preset that is
     /// one: of lengths that it does not change.
     pub fn compare_with_people(&self, figures: &mut BodyFigures) {
-        let section = &self.scenario.body;
+        let Some(section) = &self.scenario.body else { return };
         let preset = section.preset.as_deref();
         figures.weak = preset.filter(|name| name.starts_with("child")).map(|_| CHILDREN);
         let named = preset.and_then(Person::named);

@@ -25,6 +25,9 @@ use occupant_core::run::batch::{self, Job, Kernel, simulate_many};
 use occupant_scenario::Diagnostics;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
+/// Stack of a thread, bytes: eight runs side by side of many bodies are large to make.
+const STACK: usize = 16 << 20;
+
 use crate::ending::Ending;
 
 /// Where runs come from and what they leave. One is shared by all threads.
@@ -133,7 +136,8 @@ impl Engine {
     /// # Errors
     /// The system gives not even one.
     pub fn new(threads: usize, kernel: Kernel) -> Result<Engine, ThreadPoolBuildError> {
-        let pool = |n| ThreadPoolBuilder::new().num_threads(n).thread_name(|i| format!("runs {i}")).build();
+        let pool =
+            |n| ThreadPoolBuilder::new().num_threads(n).stack_size(STACK).thread_name(|i| format!("runs {i}")).build();
         let mut count = threads.max(1);
         loop {
             match pool(count) {

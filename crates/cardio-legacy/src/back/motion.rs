@@ -45,6 +45,8 @@ pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
             }
         }
         InitialPosture::Mounted(_) => back.misfit("mount: cards have no rig"),
+        InitialPosture::Placed(_) => back.misfit("posture: cards seat a body, and put none anywhere else"),
+        InitialPosture::Together => back.misfit("occupants: cards have one"),
     }
     if let InitialPosture::Continued { passed, .. } = &back.setup.posture {
         passed_on(back, layout, passed);

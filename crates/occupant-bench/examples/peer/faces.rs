@@ -34,8 +34,9 @@ pub fn geom(face: &FlatFace, friction: f64, frames: &Frames<f64>) -> String {
         Outline::Unbounded { .. } => ("plane", vec![0.0, 0.0, 1.0], normal * face.offset_m),
     };
     let frame = &frames[match face.frame {
-        Frame::Vehicle => VEHICLE,
         Frame::Space => SPACE,
+        // the cases have no others
+        _ => VEHICLE,
     }];
     let place = frame.origin + frame.axes.out(V3::of(&centre));
     let axes = frame.axes.to_matrix() * Matrix3::from_columns(&[u, v, normal]);

@@ -1,11 +1,12 @@
 //! `occupant measures`.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crash_measures::injury::{Filtering, Measure, Options};
 use crash_measures::measure::Dummy;
 use crash_measures::signal::CfcFamily;
-use occupant_core::results::summary::{Caveat, Summary};
+use occupant_core::results::summary::{Caveat, Person, Summary};
 use placed_text::shown;
 use serde::Serialize;
 
@@ -72,7 +73,12 @@ struct Answer<'a> {
     title: &'a str,
     complete: bool,
     dummy: &'static str,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    occupant: &'a str,
     measures: &'a [Measure],
+    /// Of the other occupants.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    others: BTreeMap<&'a str, &'a [Measure]>,
     caveats: &'a [Caveat],
     notes: &'a [String],
 }
@@ -112,7 +118,9 @@ impl Judged {
             title: &self.results.model.setup().title,
             complete: self.results.is_complete(),
             dummy: options.dummy.name(),
+            occupant: self.summary.occupant,
             measures: &self.summary.measures,
+            others: self.summary.others.iter().map(|(name, person)| (*name, &person.measures[..])).collect(),
             caveats: &self.summary.caveats,
             notes: &self.notes,
         }
@@ -134,7 +142,8 @@ pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
         all.iter().for_each(|one| one.notes.iter().for_each(|text| note(&format!("{}: {text}", one.file))));
         print(&texts(&all, &options))?;
     }
-    let exceeded = all.iter().flat_map(|one| &one.summary.measures).any(Measure::is_exceeded);
+    let others = all.iter().flat_map(|one| one.summary.others.values()).flat_map(|person| &person.measures);
+    let exceeded = all.iter().flat_map(|one| &one.summary.measures).chain(others).any(Measure::is_exceeded);
     Ok(if exceeded && args.strict { Done::Unwell } else { Done::Well })
 }
 
@@ -171,18 +180,21 @@ fn filter(options: &Options) -> String {
 const JUDGEMENT: &str =
     "Limits and curves were read where others quote them, not in the rules: check the rule before a legal statement.\n";
 
-fn text(results: &Results, interval_ms: f64, options: &Options, Summary { measures, caveats, .. }: &Summary) -> String {
-    let marks = Marks::of(caveats);
+fn text(results: &Results, interval_ms: f64, options: &Options, summary: &Summary) -> String {
+    let (people, all) = (summary.people(), Marks::of(&summary.caveats));
     let filter = filter(options);
     let title = shown(&results.model.setup().title);
     let dummy = options.dummy.name();
-    [
-        format!("{title}\nreadings every {interval_ms} ms, {filter}; limits and risks of a {dummy}\n"),
-        table(measures, &marks),
-        marks.explained().unwrap_or_default(),
-        risks(measures, &marks),
-        remarks(measures),
-        JUDGEMENT.to_owned(),
-    ]
-    .join("\n")
+    let mut parts =
+        vec![format!("{title}\nreadings every {interval_ms} ms, {filter}; limits and risks of a {dummy}\n")];
+    for (prefix, Person { measures, .. }) in &people {
+        let marks = all.of_occupant(prefix);
+        let name = shown(prefix.trim_end_matches('.'));
+        parts.extend((!prefix.is_empty()).then(|| format!("{name}\n")));
+        parts.extend([table(measures, &marks), risks(measures, &marks), remarks(measures)]);
+    }
+    // what the marks mean stands behind the first table
+    parts.insert(if people.len() > 1 { parts.len() } else { 2 }, all.explained().unwrap_or_default());
+    parts.push(JUDGEMENT.to_owned());
+    parts.join("\n")
 }

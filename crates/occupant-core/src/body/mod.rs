@@ -7,12 +7,14 @@ mod mounted;
 pub mod named;
 pub mod people;
 pub mod shape;
+mod together;
 pub(crate) mod tree;
 pub mod tti12;
 
 use nalgebra::{Point3, UnitQuaternion, Vector2, Vector3};
 
 pub use people::Sex;
+pub(crate) use together::called;
 pub use tree::{
     End, Joint, JointKind, JointRow, Landmarks, Limb, Pair, Place, Segment, SegmentRow, Side, SphereRow, Tree, Width,
     both_sides,
@@ -162,7 +164,7 @@ impl Body {
     }
 
     /// Centres of the spheres of a body that stands upright with hanging arms; from T1 ahead, to the left and up, m.
-    pub(crate) fn standing_m(&self) -> Vec<Point3<f64>> {
+    pub fn standing_m(&self) -> Vec<Point3<f64>> {
         let mut placed = vec![(UnitQuaternion::identity(), Vector3::zeros()); self.segments.len()];
         for segment in self.tree.segments() {
             if let Some(bearer) = self.tree.bearer(segment) {

@@ -1,6 +1,6 @@
 //! A body that hangs on any of its segments, with parts left out: what a rig holds.
 
-use super::tree::{JointRow, Landmarks, Limb, Pair, Place, SphereRow};
+use super::tree::{JointRow, Place, SphereRow};
 use super::{Body, ContactSphere, Joint, Segment, Tree};
 
 impl Body {
@@ -17,23 +17,13 @@ impl Body {
         });
         let (old, joints): (Vec<Joint>, Vec<JointRow>) = rows.unzip();
         let marks = self.tree.landmarks();
-        let limb =
-            |limb: Limb| Some(Limb { upper: now(limb.upper)?, lower: now(limb.lower)?, end: limb.end.and_then(now) });
-        let limbs = |of: Pair<Option<Limb>>| Pair { left: of.left.and_then(limb), right: of.right.and_then(limb) };
-        let landmarks = Landmarks {
-            head: marks.head.and_then(now),
-            chest: marks.chest.and_then(now),
-            pelvis: marks.pelvis.and_then(now),
-            neck: marks.neck.and_then(|neck| old.iter().position(|joint| *joint == neck)).map(Joint),
-            arms: limbs(marks.arms),
-            legs: limbs(marks.legs),
-        };
+        let landmarks = marks.map(now, |joint| old.iter().position(|old| *old == joint).map(Joint));
         let segments: Vec<_> = kept.iter().map(|segment| self.tree[*segment]).collect();
         let spheres =
             self.tree.spheres().iter().filter_map(|row| Some(SphereRow { segment: now(row.segment)?, ..*row }));
         let own = self.spheres.iter().filter_map(|s| Some(ContactSphere { segment: now(s.segment)?, ..s.clone() }));
         Body {
-            tree: Tree::interned(&segments, &joints, &spheres.collect::<Vec<_>>(), landmarks),
+            tree: Tree::interned(&segments, &joints, &spheres.collect::<Vec<_>>(), landmarks, &[]),
             segments: kept.iter().map(|segment| *self.segment(*segment)).collect(),
             places: old.iter().map(|joint| self.place(*joint)).collect(),
             spheres: own.collect(),

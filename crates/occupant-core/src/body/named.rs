@@ -61,7 +61,13 @@ pub fn tree(joints: &[NamedJoint<'_>], marks: &NamedLandmarks<'_>) -> Result<&'s
     });
     let joint_rows: Vec<JointRow> = joint_rows.collect();
     let landmarks = landmarks(&joint_rows, marks, &named)?;
-    Ok(Tree::interned(&segments, &joint_rows, &spheres(&named), landmarks))
+    Ok(Tree::interned(&segments, &joint_rows, &spheres(&named), landmarks, &[]))
+}
+
+/// A single segment, which hangs on nothing and carries nothing.
+pub(crate) fn lone(name: &str) -> &'static Tree {
+    let segment = SegmentRow { name: kept(name), joint_end: End::Lower };
+    Tree::interned(&[segment], &[], &[], Landmarks::NONE, &[])
 }
 
 fn landmarks(

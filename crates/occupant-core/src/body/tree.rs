@@ -22,6 +22,11 @@ impl Segment {
     pub const fn number(self) -> usize {
         self.0 + 1
     }
+
+    /// The same behind `first` others.
+    pub(crate) const fn behind(self, first: usize) -> Self {
+        Segment(first + self.0)
+    }
 }
 
 /// A joint of a tree: its place in the table.
@@ -131,8 +136,12 @@ impl JointRow {
     pub fn side(&self) -> Option<Side> {
         match self.place {
             Place::Beside(_, side) => Some(side),
-            Place::Given if self.name.starts_with("left_") => Some(Side::Left),
-            Place::Given if self.name.starts_with("right_") => Some(Side::Right),
+            Place::Given => {
+                // behind the name of one of several bodies
+                let own = self.name.rsplit('.').next().unwrap_or_default();
+                let sides = [("left_", Side::Left), ("right_", Side::Right)];
+                sides.into_iter().find_map(|(word, side)| own.starts_with(word).then_some(side))
+            }
             _ => None,
         }
     }
@@ -214,6 +223,36 @@ pub struct Landmarks {
 }
 
 impl Landmarks {
+    /// Of what has no parts with names.
+    pub(crate) const NONE: Landmarks = Landmarks {
+        head: None,
+        chest: None,
+        pelvis: None,
+        neck: None,
+        arms: Pair { left: None, right: None },
+        legs: Pair { left: None, right: None },
+    };
+
+    /// The same among other segments and joints, where they are there.
+    pub(crate) fn map(
+        &self,
+        segment: impl Fn(Segment) -> Option<Segment>,
+        joint: impl Fn(Joint) -> Option<Joint>,
+    ) -> Landmarks {
+        let limb = |limb: Limb| {
+            Some(Limb { upper: segment(limb.upper)?, lower: segment(limb.lower)?, end: limb.end.and_then(&segment) })
+        };
+        let limbs = |of: Pair<Option<Limb>>| Pair { left: of.left.and_then(limb), right: of.right.and_then(limb) };
+        Landmarks {
+            head: self.head.and_then(&segment),
+            chest: self.chest.and_then(&segment),
+            pelvis: self.pelvis.and_then(&segment),
+            neck: self.neck.and_then(joint),
+            arms: limbs(self.arms),
+            legs: limbs(self.legs),
+        }
+    }
+
     /// Segments that carry the accelerometers of head, chest and pelvis.
     pub fn instruments(&self) -> [Option<Segment>; 3] {
         [self.head, self.chest, self.pelvis]
@@ -237,6 +276,19 @@ pub struct Tree {
     pub(super) joints: &'static [JointRow],
     pub(super) spheres: &'static [SphereRow],
     pub(super) landmarks: Landmarks,
+    /// Where each of several bodies begins; empty for one alone.
+    pub(super) bodies: &'static [BodyRow],
+}
+
+/// A body among others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyRow {
+    /// Its name in scenarios and results; of one alone empty.
+    pub name: &'static str,
+    /// Its first segment.
+    pub first: Segment,
+    /// Its landmarks.
+    pub landmarks: Landmarks,
 }
 
 /// A landmark for which a body has no segment, by its key in a scenario.
@@ -263,10 +315,12 @@ impl Tree {
         joints: &[JointRow],
         spheres: &[SphereRow],
         landmarks: Landmarks,
+        bodies: &[BodyRow],
     ) -> &'static Tree {
         static TREES: Mutex<Vec<&'static Tree>> = Mutex::new(Vec::new());
         let is_it = |tree: &Tree| {
-            (tree.segments, tree.joints, tree.spheres, tree.landmarks) == (segments, joints, spheres, landmarks)
+            (tree.segments, tree.joints, tree.spheres) == (segments, joints, spheres)
+                && (tree.landmarks, tree.bodies) == (landmarks, bodies)
         };
         let mut trees = TREES.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(known) = trees.iter().find(|tree| is_it(tree)) {
@@ -277,6 +331,7 @@ impl Tree {
             joints: joints.to_vec().leak(),
             spheres: spheres.to_vec().leak(),
             landmarks,
+            bodies: bodies.to_vec().leak(),
         }));
         trees.push(kept);
         kept
@@ -297,7 +352,7 @@ impl Tree {
         self.spheres
     }
 
-    /// 6 of the first segment and those of the joints.
+    /// 6 of each first segment and those of the joints.
     pub(crate) fn degrees_of_freedom(&self) -> usize {
         let free = |row: &JointRow| match row.kind {
             JointKind::Ball => 3,
@@ -305,7 +360,7 @@ impl Tree {
             JointKind::Universal => 2,
             JointKind::Fixed => 0,
         };
-        6 + self.joints.iter().map(free).sum::<usize>()
+        6 * self.bodies.len().max(1) + self.joints.iter().map(free).sum::<usize>()
     }
 
     /// Names of the standard spheres, in the table's order.
@@ -313,9 +368,26 @@ impl Tree {
         self.spheres.iter().map(|row| row.name).collect()
     }
 
-    /// The parts that instruments and seating ask for.
+    /// The parts of the first body that instruments and seating ask for.
     pub const fn landmarks(&self) -> &Landmarks {
         &self.landmarks
+    }
+
+    /// The landmarks of the body of a segment.
+    pub fn landmarks_at(&self, segment: Segment) -> &Landmarks {
+        let body = self.bodies.iter().rfind(|body| body.first <= segment);
+        body.map_or(&self.landmarks, |body| &body.landmarks)
+    }
+
+    /// All bodies, of one alone that one without a name.
+    pub fn bodies(&self) -> Vec<BodyRow> {
+        let alone = BodyRow { name: "", first: Segment(0), landmarks: self.landmarks };
+        if self.bodies.is_empty() { vec![alone] } else { self.bodies.to_vec() }
+    }
+
+    /// The body (index) that a segment belongs to.
+    pub fn body_of(&self, segment: Segment) -> usize {
+        self.bodies.iter().rposition(|body| body.first <= segment).unwrap_or(0)
     }
 
     /// The segment at a place in the table.
@@ -389,13 +461,15 @@ impl Tree {
 
     /// Whether a segment belongs to an arm or a leg.
     pub fn is_limb(&self, segment: Segment) -> bool {
-        self.landmarks.arms().chain(self.landmarks.legs()).any(|limb| self.is_of(segment, &limb))
+        let marks = self.landmarks_at(segment);
+        marks.arms().chain(marks.legs()).any(|limb| self.is_of(segment, &limb))
     }
 
     /// Whether a segment lies between chest and pelvis or is one of them.
     pub fn is_trunk(&self, segment: Segment) -> bool {
-        let (Some(chest), Some(pelvis)) = (self.landmarks.chest, self.landmarks.pelvis) else {
-            return [self.landmarks.chest, self.landmarks.pelvis].contains(&Some(segment));
+        let marks = self.landmarks_at(segment);
+        let (Some(chest), Some(pelvis)) = (marks.chest, marks.pelvis) else {
+            return [marks.chest, marks.pelvis].contains(&Some(segment));
         };
         let [from_chest, from_pelvis] = [chest, pelvis].map(|n| self.inwards(n));
         let meet = from_chest.clone().find(|n| from_pelvis.clone().any(|m| m == *n));

@@ -56,6 +56,7 @@ pub const TTI12: Tree = Tree {
         sphere("right_foot", RIGHT_LOWER_LEG, 0.0, 1.0),
         sphere("left_foot", LEFT_LOWER_LEG, 0.0, 1.0),
     ],
+    bodies: &[],
     landmarks: Landmarks {
         head: Some(HEAD),
         chest: Some(UPPER_TORSO),

@@ -13,6 +13,7 @@ use crate::forces::contact::surface::Frame;
 use crate::forces::rate::Rate;
 use crate::model::Model;
 use crate::model::setup::Setup;
+use crate::motion::kinematics::Kinematics;
 use crate::motion::mobility::{Mobility, across, greatest};
 use crate::motion::vector::V3;
 use crate::vehicle::{FrameMotion, PathCursor};
@@ -92,23 +93,28 @@ fn tangential(model: &Model, mobility: &Mobility<'_>, sphere: usize, surface: us
 
 /// N̂ of a surface, or of a solid as seen from `centre`, space axes.
 fn normal_in_space(model: &Model, centre: V3<f64>, surface: usize) -> Vector3<f64> {
-    let vehicle = vehicle_at_start(model);
     let (frame, normal) = match model.faces().get(surface) {
         Some(face) => (face.frame, face.normal),
         None => {
             let solid = surface - model.faces().len();
             let frame = model.setup().solids[solid].frame;
-            let place = match frame {
-                Frame::Space => centre,
-                Frame::Vehicle => V3::of(&vehicle.point_to_frame(centre.to_vector())),
-            };
+            let place = V3::of(&frame_at_start(model, frame).point_to_frame(centre.to_vector()));
             let shape = &model.system().forces.contacts.solids.shapes[solid];
             (frame, shape.distance(place, OPEN).normal.to_vector())
         }
     };
+    frame_at_start(model, frame).vector_to_space(normal)
+}
+
+/// Motion of a frame at the start.
+pub(super) fn frame_at_start(model: &Model, frame: Frame) -> FrameMotion {
+    let (start_s, vehicle) = (model.setup().time.start_s, vehicle_at_start(model));
+    let all = model.frames_with(start_s, start_s, &vehicle);
     match frame {
-        Frame::Space => normal,
-        Frame::Vehicle => vehicle.vector_to_space(normal),
+        Frame::Vehicle => vehicle,
+        Frame::Space => FrameMotion::space(),
+        Frame::Other(_) => all[frame.index(&[])].motion(),
+        Frame::Segment(n) => Kinematics::new(&model.system().skeleton, &model.start().state).moving(n).motion(),
     }
 }
 

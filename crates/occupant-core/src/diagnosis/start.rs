@@ -3,11 +3,11 @@
 use indexmap::IndexMap;
 use serde::Serialize;
 
-use super::rates::vehicle_at_start;
+use super::rates::frame_at_start;
 use crate::forces::Instant;
 use crate::forces::contact::PASSED;
 use crate::forces::contact::flat_face::FlatFace;
-use crate::forces::contact::surface::{Frame, Outline};
+use crate::forces::contact::surface::Outline;
 use crate::forces::rate::Rate;
 use crate::forces::table::Tables;
 use crate::model::Model;
@@ -80,7 +80,8 @@ pub(super) fn look(model: &Model, mobility: &Mobility<'_>) -> Look {
     let mut look = Look::default();
     let mut first = Watch(|sample: &Sample<'_>| {
         let (k, spheres) = (&sample.evaluation.kinematics, &model.system().spheres);
-        let at = Instant { k, state: sample.state, frames: sample.frames, spheres, accepted: true };
+        let carried: Vec<_> = model.system().carriers.iter().map(|n| k.moving(*n)).collect();
+        let at = Instant { k, state: sample.state, frames: sample.frames, carried: &carried, spheres, accepted: true };
         let data = model.setup().forces(model.faces());
         look = Look {
             contacts: sample.contacts().map(|c| contact(sample, &c)).collect(),
@@ -126,7 +127,6 @@ pub(super) fn seat(model: &Model) -> Option<SeatStart> {
 /// Passed pairs whose sphere overlaps the face itself, not only its plane.
 pub(super) fn behind(model: &Model, mobility: &Mobility<'_>) -> Vec<SphereBehind> {
     let (setup, contacts) = (model.setup(), &model.system().forces.contacts);
-    let vehicle = vehicle_at_start(model);
     let mut behind = Vec::new();
     for group in &contacts.groups {
         let (_, centre, _) = model.system().sphere(&mobility.kinematics, group.sphere);
@@ -135,10 +135,7 @@ pub(super) fn behind(model: &Model, mobility: &Mobility<'_>) -> Vec<SphereBehind
         let pairs = passed.map(|i| &contacts.pairs[i]);
         for (pair, part) in pairs.flat_map(|pair| pair.parts.iter().map(move |part| (pair, part))) {
             let plane = &model.faces()[part.surface];
-            let place = match plane.frame {
-                Frame::Space => centre.to_vector(),
-                Frame::Vehicle => vehicle.point_to_frame(centre.to_vector()),
-            };
+            let place = frame_at_start(model, plane.frame).point_to_frame(centre.to_vector());
             let behind_m = plane.offset_m - plane.normal.dot(&place);
             let overlaps = behind_m > 0.0 && behind_m < radius_m;
             if overlaps && pair.beside(part, V3::of(&place)) < radius_m {
@@ -159,9 +156,8 @@ pub(super) fn corners(model: &Model) -> Vec<[String; 2]> {
     let t1_m = model.start().state.t1().to_vector();
     let spheres = setup.body.spheres.iter().zip(setup.body.standing_m());
     let reach_m = spheres.map(|(sphere, place)| place.coords.norm() + sphere.radius_m).fold(0.0, f64::max);
-    let vehicle = vehicle_at_start(model);
     let is_near = |face: &FlatFace| {
-        let from = if face.frame == Frame::Space { t1_m } else { vehicle.point_to_frame(t1_m) };
+        let from = frame_at_start(model, face.frame).point_to_frame(t1_m);
         matches!(&face.outline, Outline::Polygon(corners) if corners.iter().any(|p| (p.coords - from).norm() < reach_m))
     };
     let near: Vec<usize> = (0..faces.len()).filter(|i| is_near(&faces[*i])).collect();

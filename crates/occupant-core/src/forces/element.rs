@@ -7,9 +7,9 @@ use crate::forces::list::STORES;
 use crate::forces::rate::Rate;
 use crate::forces::sphere::Site;
 use crate::motion::dynamics::Wrench;
-use crate::motion::frame::Frames;
+use crate::motion::frame::{Frames, MOST_FRAMES, Moving};
 use crate::motion::kinematics::Kinematics;
-use crate::motion::layout::MOST_SEGMENTS;
+use crate::motion::layout::{Layout, MOST_BODIES, MOST_SEGMENTS};
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::motion::state::{MOST_OWN, State, Work};
@@ -143,6 +143,9 @@ pub trait Element: Copy + Debug {
         Vec::new()
     }
 
+    /// The segment in whose body's books an action (number) stands.
+    fn segment(law: &Self::Law<f64>, spheres: &[Site<f64>], number: usize, action: &Self::Action<f64>) -> usize;
+
     /// Writes the energies of [`Element::STORED`], from all that they do at one instant, to their places, J.
     fn stored_j(actions: &[Self::Action<f64>], stored_j: &mut [f64; STORES]);
 }
@@ -207,16 +210,24 @@ pub struct Instant<'a, S> {
     pub state: &'a State<S>,
     /// Frames.
     pub frames: &'a Frames<S>,
-    /// Spheres of the body.
+    /// Motion of the segments that carry faces.
+    pub carried: &'a [Moving<S>],
+    /// Spheres of the bodies.
     pub spheres: &'a [Site<S>],
     /// Whether this is an accepted step, which what elements remember takes over.
     pub accepted: bool,
 }
 
-impl<S: Scalar> Instant<'_, S> {
+impl<'a, S: Scalar> Instant<'a, S> {
+    /// Motion of a frame, or of a segment that carries faces, which stand behind all frames.
+    #[inline(always)]
+    pub(crate) fn frame(&self, index: usize) -> &'a Moving<S> {
+        if index < MOST_FRAMES { &self.frames[index] } else { &self.carried[index - MOST_FRAMES] }
+    }
+
     /// A sphere's centre in the axes of a frame, m.
     pub(crate) fn centre_in(&self, sphere: usize, frame: usize) -> V3<S> {
-        let frame = &self.frames[frame];
+        let frame = self.frame(frame);
         let (_, centre, _) = self.spheres[sphere].place(self.k);
         frame.axes.into_frame(centre - frame.origin)
     }
@@ -227,8 +238,10 @@ impl<S: Scalar> Instant<'_, S> {
 pub struct Load<S> {
     /// By segment.
     pub wrench: [Wrench<S>; MOST_SEGMENTS],
-    /// W.
-    pub power: Work<S>,
+    /// By body, W.
+    pub power: [Work<S>; MOST_BODIES],
+    body_of: [u8; MOST_SEGMENTS],
+    bodies: usize,
     /// Rates of the numbers of the state that force elements own, which each writes anew, 1/s.
     pub own: [S; MOST_OWN],
 }
@@ -236,15 +249,38 @@ pub struct Load<S> {
 impl<S: Scalar> Load<S> {
     /// None yet.
     #[inline(always)]
-    pub(crate) fn zero() -> Self {
-        Load { wrench: [Wrench::zero(); MOST_SEGMENTS], power: Work::zero(), own: [S::zero(); MOST_OWN] }
+    pub(crate) fn zero(layout: &Layout) -> Self {
+        let mut body_of = [0; MOST_SEGMENTS];
+        for (to, row) in body_of.iter_mut().zip(layout.rows()) {
+            *to = row.body as u8;
+        }
+        let (wrench, power) = ([Wrench::zero(); MOST_SEGMENTS], [Work::zero(); MOST_BODIES]);
+        Load { wrench, power, body_of, bodies: layout.trunks().len(), own: [S::zero(); MOST_OWN] }
     }
 
     /// None of as many segments.
     #[inline(always)]
     pub(crate) fn clear(&mut self, segments: usize) {
         self.wrench[..segments].fill(Wrench::zero());
-        self.power = Work::zero();
+        self.power[..self.bodies].fill(Work::zero());
+    }
+
+    /// Books the power that the body of one segment gives to that of another, if they are two, where they are `live`, W.
+    #[inline(always)]
+    pub(crate) fn hand_over(&mut self, [from, to]: [usize; 2], power: S, live: S::Mask) {
+        if self.body_of[from] != self.body_of[to] {
+            for (segment, work) in [(to, power), (from, -power)] {
+                let others = &mut self.power_at(segment).others;
+                *others = S::select(live, *others + work, *others);
+            }
+        }
+    }
+
+    /// The powers of the body of a segment.
+    #[inline(always)]
+    pub(crate) fn power_at(&mut self, segment: usize) -> &mut Work<S> {
+        // no more bodies than powers
+        &mut self.power[self.body_of[segment] as usize % MOST_BODIES]
     }
 }
 

@@ -12,6 +12,8 @@ use super::rate::Rate;
 use super::shown::Reported;
 use super::stored::Archive;
 use crate::body::Body;
+use crate::forces::sphere::Site;
+use crate::motion::layout::Layout;
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::motion::state::WORK_SUMS;
@@ -145,6 +147,29 @@ macro_rules! kinds {
                 let mut list = [0.0; STORES];
                 $($Kind::stored_j(&self.$kind, &mut list);)+
                 list
+            }
+
+            /// Stored energies of what acts on one of several bodies, J.
+            pub(crate) fn stored_of(
+                &self,
+                forces: &Forces<f64>,
+                spheres: &[Site<f64>],
+                layout: &Layout,
+                body: usize,
+            ) -> [f64; STORES] {
+                let rows = layout.rows();
+                if layout.trunks().len() == 1 {
+                    return self.stored_j();
+                }
+                let mut own = Actions { $($kind: Vec::new()),+ };
+                $(
+                    let law = &forces.$kind;
+                    let is_own = |(i, action): &(usize, &<$Kind as Element>::Action<f64>)| {
+                        rows[$Kind::segment(law, spheres, *i, action)].body == body
+                    };
+                    own.$kind.extend(self.$kind.iter().enumerate().filter(is_own).map(|(_, action)| *action));
+                )+
+                own.stored_j()
             }
         }
 

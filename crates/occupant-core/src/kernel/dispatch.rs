@@ -30,7 +30,7 @@ impl System<f64> {
         observer: &mut dyn Observer<f64>,
     ) -> State<f64> {
         let mut rate = State::zero(situation.state.shape());
-        self.rate_once(&mut Scratch::blank(&self.skeleton), situation, history, observer, &mut rate);
+        self.rate_once(&mut Scratch::blank(self), situation, history, observer, &mut rate);
         rate
     }
 
@@ -41,9 +41,9 @@ impl System<f64> {
         history: &mut History<f64>,
         observer: &mut dyn Observer<f64>,
     ) -> Evaluation<f64> {
-        let mut scratch = Scratch::blank(&self.skeleton);
+        let mut scratch = Scratch::blank(self);
         self.derive_once(&mut scratch, situation, history, observer);
-        let Scratch { kinematics, load: Load { wrench, power, .. }, sweep } = scratch;
+        let Scratch { kinematics, load: Load { wrench, power, .. }, sweep, .. } = scratch;
         Evaluation { kinematics, wrench, accelerations: sweep.accelerations, power }
     }
 

@@ -11,9 +11,9 @@ mod dispatch;
 use crate::forces::sphere::Site;
 use crate::forces::{Forces, History, Instant, Load, Observer, Unlike};
 use crate::motion::dynamics::{Accelerations, Sweep, Wrench};
-use crate::motion::frame::Frames;
+use crate::motion::frame::{Frames, Moving};
 use crate::motion::kinematics::Kinematics;
-use crate::motion::layout::MOST_SEGMENTS;
+use crate::motion::layout::{MOST_BODIES, MOST_SEGMENTS};
 use crate::motion::scalar::Scalar;
 use crate::motion::skeleton::Skeleton;
 use crate::motion::state::{State, Work};
@@ -31,8 +31,17 @@ pub struct System<S> {
     pub skeleton: Skeleton<S>,
     /// Spheres, in the body's order.
     pub spheres: Vec<Site<S>>,
+    /// Segments that carry faces; their frames stand behind all others.
+    pub carriers: Vec<usize>,
     /// Force elements.
     pub forces: Forces<S>,
+}
+
+impl<S> System<S> {
+    /// Of these parts; the segments that carry faces are those of contacts.
+    pub fn new(skeleton: Skeleton<S>, spheres: Vec<Site<S>>, forces: Forces<S>) -> Self {
+        System { skeleton, spheres, carriers: forces.contacts.carriers.clone(), forces }
+    }
 }
 
 impl<S: Copy> System<S> {
@@ -47,12 +56,13 @@ impl<S: Copy> System<S> {
         if self.spheres.len() != other.spheres.len() || spheres.clone().any(|(a, b)| a.segment != b.segment) {
             return Err(OTHER_SPHERES);
         }
-        if !self.skeleton.is_like(&other.skeleton) {
+        if !self.skeleton.is_like(&other.skeleton) || self.carriers != other.carriers {
             return Err(OTHER_TREE);
         }
         Ok(System {
             skeleton: self.skeleton.zip(&other.skeleton, &f),
             spheres: spheres.map(|(a, b)| a.zip(b, &f)).collect(),
+            carriers: self.carriers.clone(),
             forces: self.forces.zip(&other.forces, &f)?,
         })
     }
@@ -90,30 +100,37 @@ pub struct Evaluation<S> {
     pub wrench: [Wrench<S>; MOST_SEGMENTS],
     /// Accelerations.
     pub accelerations: Accelerations<S>,
-    /// Powers for the energy ledger, W.
-    pub power: Work<S>,
+    /// Powers for the energy ledger by body, W.
+    pub power: [Work<S>; MOST_BODIES],
 }
 
 /// What an evaluation writes on its way: a place that the next one uses again.
 #[derive(Clone, Debug)]
 pub struct Scratch<S> {
     kinematics: Kinematics<S>,
+    /// By [`System::carriers`].
+    carried: Vec<Moving<S>>,
     load: Load<S>,
     sweep: Sweep<S>,
 }
 
 impl<S: Scalar> Scratch<S> {
-    /// Nothing written yet of a body like `body`.
+    /// Nothing written yet of a system like this.
     #[inline(always)]
-    pub fn blank(body: &Skeleton<S>) -> Self {
-        Scratch { kinematics: Kinematics::blank(), load: Load::zero(), sweep: Sweep::blank(body) }
+    pub fn blank(system: &System<S>) -> Self {
+        Scratch {
+            kinematics: Kinematics::blank(),
+            carried: vec![Moving::space(); system.carriers.len()],
+            load: Load::zero(&system.skeleton.layout),
+            sweep: Sweep::blank(&system.skeleton),
+        }
     }
 
     /// The rate that the last evaluation found.
     #[inline(always)]
     fn write_rate(&self, body: &Skeleton<S>, state: &State<S>, rate: &mut State<S>) {
         let Load { power, own, .. } = &self.load;
-        self.sweep.accelerations.write_rate(&body.layout, state, *power, rate);
+        self.sweep.accelerations.write_rate(&body.layout, state, power, rate);
         let numbers = rate.own_mut();
         numbers.copy_from_slice(&own[..numbers.len()]);
     }
@@ -144,19 +161,18 @@ impl<S: Scalar> System<S> {
         history: &mut History<S>,
         observer: &mut (impl Observer<S> + ?Sized),
     ) {
-        let Scratch { kinematics: k, load, sweep } = scratch;
+        let Scratch { kinematics: k, carried, load, sweep } = scratch;
         let Situation { state, frames, accepted } = situation;
-        let root = self.skeleton.mount.as_ref().map(|mount| mount.of(frames));
-        k.follow(&self.skeleton, state, root.as_ref());
-        let at = Instant { k, state, frames, spheres: &self.spheres, accepted };
+        k.follow(&self.skeleton, state, Some(frames));
+        for (moving, &segment) in carried.iter_mut().zip(&self.carriers) {
+            *moving = k.moving(segment);
+        }
+        let at = Instant { k, state, frames, carried, spheres: &self.spheres, accepted };
         load.clear(self.skeleton.layout.len());
         self.forces.apply(&at, history, observer, load); // Q_f + R (48), and F_s
         // q̈ from q̇ and q (114)
-        let by_mount = sweep.solve(&self.skeleton, k, state.hinge_rate(), &load.wrench, root.as_ref());
-        if root.is_some() {
-            // of a mount in space, which stands still, it is 0
-            load.power.vehicle += by_mount;
-        }
+        let motion = Some((frames, &mut load.power[..]));
+        sweep.solve(&self.skeleton, k, state.hinge_rate(), &load.wrench, motion);
     }
 
     /// Resultants of what accelerometers of head, chest and pelvis read at the evaluation that has just been made, m/s²; 0 of

@@ -57,7 +57,8 @@ pub(super) fn sink(
     vehicle: &FrameMotion,
     seated: State<f64>,
 ) -> (State<f64>, Settled, Rest) {
-    let still = frames(setup.time.start_s, &vehicle.held());
+    let mut still = frames(setup.time.start_s, &vehicle.held());
+    setup.place_frames(&mut still, setup.time.start_s);
     let rest = Rest::of(setup, data, system, &still, &seated);
     let history = History::new(&system.forces, Memory::none());
     let mut limp = Limp { system: system.clone(), still, rest, history, looks: 0 };
@@ -100,7 +101,8 @@ impl Rest {
         let skeleton = Skeleton::new(&setup.body, 0.0);
         let k = Kinematics::new(&skeleton, seated);
         let law = JointSystem::new(data.joints, &skeleton, |_| 0.0);
-        let at = Instant { k: &k, state: seated, frames: still, spheres: &system.spheres, accepted: false };
+        let at =
+            Instant { k: &k, state: seated, frames: still, carried: &[], spheres: &system.spheres, accepted: false };
         let mut belts = system.forces.belts.clone();
         Belts::lay(&mut belts, data.belts, &setup.body, &at);
         Rest {
@@ -126,7 +128,8 @@ impl Limp {
     /// ∂V/∂x at a place, in the order of [`moved`]: N, and N·m over the lever.
     fn gradient(&mut self, state: &State<f64>) -> DVector<f64> {
         let k = Kinematics::new(&self.system.skeleton, state);
-        let at = Instant { k: &k, state, frames: &self.still, spheres: &self.system.spheres, accepted: false };
+        let at =
+            Instant { k: &k, state, frames: &self.still, carried: &[], spheres: &self.system.spheres, accepted: false };
         self.looks += self.system.forces.restart(&at, &mut self.history);
         self.rest.hold(&mut self.history);
         let e = at_rest(&self.system, state, &self.still, &mut self.history);

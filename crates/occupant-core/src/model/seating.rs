@@ -93,7 +93,7 @@ impl Mounting {
 }
 
 /// F: axes of an upright body that faces forward (X ahead, Y left, Z up) in those of a vehicle, and the other way round.
-fn upright() -> Matrix3<f64> {
+pub(crate) fn upright() -> Matrix3<f64> {
     Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0))
 }
 
@@ -103,6 +103,17 @@ pub(crate) fn angle_of(angles_rad: &[(String, f64)], name: &str) -> Option<f64> 
     said(name).or_else(|| said(&both_sides(name)?))
 }
 
+/// A body that is put somewhere and let go.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Placing {
+    /// Where, and how it holds itself.
+    pub at: Mounting,
+    /// Whether it is lowered, or raised, until what it stands on carries its weight.
+    pub stands: bool,
+    /// Angular velocity of all of it about the point that it is put by, axes of the frame, rad/s.
+    pub spin_rad_s: Vector3<f64>,
+}
+
 /// Position of the body at the start.
 #[derive(Clone, Debug, PartialEq)]
 pub enum InitialPosture {
@@ -110,6 +121,10 @@ pub enum InitialPosture {
     Seated(Seating),
     /// Held by a rig.
     Mounted(Box<Mounting>),
+    /// Put somewhere as a rig would hold it, and let go; [`InitialVelocity::Given`] is then the velocity beside its vehicle's.
+    Placed(Box<Placing>),
+    /// Each of several bodies as [`Setup::members`](crate::model::setup::Setup::members) say.
+    Together,
     /// Given in the report's generalized coordinates; their rates replace [`InitialVelocity`].
     Coordinates(Box<ReportCoordinates>),
     /// Where an earlier run ended, as far as cards tell it (series 6 and 14). They carry no greatest deformation.

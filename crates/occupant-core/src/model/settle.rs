@@ -14,7 +14,7 @@ use crate::kernel::{Evaluation, Situation, System};
 use crate::model::frames;
 use crate::model::setup::Setup;
 use crate::motion::dynamics::Wrench;
-use crate::motion::frame::{Frames, VEHICLE};
+use crate::motion::frame::Frames;
 use crate::motion::kinematics::Kinematics;
 use crate::motion::layout::{Freedom, MOST_SEGMENTS};
 use crate::motion::report_coordinates::quaternion;
@@ -101,6 +101,43 @@ fn settled(setup: &Setup, x: &Vector6<f64>, r: &Vector6<f64>) -> Settled {
     }
 }
 
+/// A standing body is looked for this far above and below where it was put, m.
+const STAND_M: f64 = 0.5;
+/// It is first sought in steps of this, m: less than a foot sinks in before it is behind a surface.
+const STAND_STEP_M: f64 = 0.005;
+
+/// Raises or lowers `state` to where what is below carries its weight: both feet share it where they reach down as far.
+pub(crate) fn stand(
+    setup: &Setup,
+    data: &Data<'_>,
+    system: &System<f64>,
+    vehicle: &FrameMotion,
+    state: State<f64>,
+    problems: &mut Problems,
+) -> State<f64> {
+    let mut body = Resting::new(setup, *data, system, vehicle);
+    let raised = |by_m: f64| {
+        let mut raised = state;
+        raised.set_t1(state.t1() + v3(0.0, 0.0, by_m));
+        raised
+    };
+    let mut lift = |by_m: f64| body.load(&raised(by_m))[2];
+    // from above: far behind a surface nothing carries
+    let steps = (2.0 * STAND_M / STAND_STEP_M) as i32;
+    let carried = (0..=steps).map(|i| STAND_M - STAND_STEP_M * f64::from(i)).find(|by_m| lift(*by_m) > 0.0);
+    let (mut low, mut high) = (carried.unwrap_or(0.0), carried.unwrap_or(0.0) + STAND_STEP_M);
+    if setup.gravity_m_s2 == 0.0 || carried.is_none() {
+        let found = format!("nothing within {STAND_M} m below or above the feet that carries the body");
+        problems.error("posture.stance", found, "`[ground]`, or surfaces under the feet");
+        return state;
+    }
+    while high - low > 1e-12 {
+        let middle = 0.5 * (low + high);
+        if lift(middle) > 0.0 { low = middle } else { high = middle }
+    }
+    raised(0.5 * (low + high))
+}
+
 /// Moves `state` as one piece to where contacts and belts balance its weight.
 pub(crate) fn settle(
     setup: &Setup,
@@ -181,9 +218,12 @@ struct Resting<'s, 'd> {
 impl<'s, 'd> Resting<'s, 'd> {
     fn new(setup: &'s Setup, data: Data<'d>, system: &System<f64>, vehicle: &FrameMotion) -> Self {
         // at rest: no friction, no damping
-        let mut still = frames(setup.time.start_s, vehicle);
-        still[VEHICLE].velocity = V3::zero();
-        still[VEHICLE].omega = V3::zero();
+        let start_s = setup.time.start_s;
+        let mut still = frames(start_s, vehicle);
+        setup.place_frames(&mut still, start_s);
+        for frame in &mut still.moving {
+            (frame.velocity, frame.omega) = (V3::zero(), V3::zero());
+        }
         let history = History::new(&system.forces, Memory::none());
         Resting { setup, data, system: system.clone(), still, history, looks: 0 }
     }
@@ -192,7 +232,7 @@ impl<'s, 'd> Resting<'s, 'd> {
     fn load(&mut self, state: &State<f64>) -> Vector6<f64> {
         let Resting { setup, data, system, still, history, looks } = self;
         let k = Kinematics::new(&system.skeleton, state);
-        let at = Instant { k: &k, state, frames: still, spheres: &system.spheres, accepted: false };
+        let at = Instant { k: &k, state, frames: still, carried: &[], spheres: &system.spheres, accepted: false };
         system.forces.lay(data, &setup.body, &at);
         *looks += system.forces.restart(&at, history);
         let e = at_rest(system, state, still, history);

@@ -6,7 +6,7 @@ use nalgebra::Point3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::body::{Body, ContactSphere, Segment};
+use crate::body::{Body, ContactSphere, Segment, called};
 use crate::forces::Data;
 use crate::forces::bag::Bag;
 use crate::forces::belt::Belt;
@@ -15,13 +15,15 @@ use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::material::Material;
 use crate::forces::contact::self_contact::SelfContact;
 use crate::forces::contact::solid::Solid;
-use crate::forces::contact::surface::Surface;
+use crate::forces::contact::surface::{Frame, Surface};
 use crate::forces::contact::{ContactData, EdgeForce};
 use crate::forces::joint::Joints;
 use crate::forces::sphere::Site;
-use crate::model::seating::{InitialPosture, InitialVelocity, Mounting};
+use crate::model::seating::{InitialPosture, InitialVelocity, Mounting, upright};
+use crate::motion::frame::{Frames, MOST_FRAMES, Moving, VEHICLE};
 use crate::motion::report_coordinates::{DOF, ReportCoordinates};
-use crate::vehicle::VehiclePath;
+use crate::motion::vector::{M3, V3};
+use crate::vehicle::{PathCursor, VehiclePath};
 
 /// Standard gravity, 9.80665 m/s².
 pub const STANDARD_GRAVITY_M_S2: f64 = 9.80665;
@@ -38,6 +40,8 @@ pub struct TimeSpan {
     pub end_s: f64,
     /// Results are recorded at `start_s + k·output_s` exactly, and at the end.
     pub output_s: f64,
+    /// Whether the run ends before its end once all bodies have come to rest in space.
+    pub stops_at_rest: bool,
 }
 
 impl TimeSpan {
@@ -124,6 +128,12 @@ pub struct Marker {
 }
 
 impl Marker {
+    /// The same among several bodies, of a member with this name whose segments begin at `first`.
+    pub(crate) fn of_member(&self, name: &str, first: usize) -> Self {
+        let segment = self.segment.behind(first);
+        Marker { name: called(name, &self.name), segment, ..self.clone() }
+    }
+
     /// As the kernel sees it: a sphere without a radius.
     pub(crate) fn site(&self, body: &Body) -> Site<f64> {
         let (segment, centre_from_lower_end_m) = (self.segment, self.place_from_lower_end_m);
@@ -142,6 +152,45 @@ pub enum MarkerFrame {
     Space,
     /// An accelerometer on the segment.
     Segment,
+}
+
+/// A frame besides the first vehicle: another vehicle, the ground, a panel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OtherFrame {
+    /// Unique name.
+    pub name: String,
+    /// How it moves in space; of a panel, where its parent takes the place of vehicle-space: how it is moved from where its
+    /// geometry is given.
+    pub path: VehiclePath,
+    /// What a panel moves against, one of the frames before it, and the point of it about which the panel turns, m.
+    pub parent: Option<(Frame, Point3<f64>)>,
+}
+
+impl OtherFrame {
+    /// Its motion, where those of the frames before it are known.
+    fn moving(&self, frames: &Frames<f64>, t_s: f64, step_middle_s: f64) -> Moving<f64> {
+        let motion = Moving::of(&self.path.motion_within(t_s, step_middle_s, &mut PathCursor::default()));
+        let Some((parent, origin_m)) = &self.parent else { return motion };
+        // as seen in vehicle-space, then about the origin
+        let upright = Moving { axes: M3::of(&upright()), ..Moving::space() };
+        let origin = V3::of(&origin_m.coords);
+        let mut seen = upright.carrying(&motion).carried(-origin, &M3::identity());
+        seen.origin += origin;
+        frames[parent.index(&[])].carrying(&seen)
+    }
+}
+
+/// One of several bodies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Member {
+    /// Its name.
+    pub name: String,
+    /// The frame in whose axes it begins and its places are told.
+    pub home: Frame,
+    /// The spheres (indices) that can touch each surface, then each solid; all of them where there is no list.
+    pub meets: Vec<Option<Vec<usize>>>,
+    /// The body alone: its home is the vehicle there.
+    pub alone: Setup,
 }
 
 /// Everything a run needs.
@@ -173,6 +222,10 @@ pub struct Setup {
     pub bags: Vec<Bag>,
     /// Motion of the vehicle.
     pub path: VehiclePath,
+    /// Frames besides the vehicle's and space.
+    pub frames: Vec<OtherFrame>,
+    /// The bodies, where there are several.
+    pub members: Vec<Member>,
     /// Position at the start.
     pub posture: InitialPosture,
     /// Velocity at the start.
@@ -193,6 +246,18 @@ impl Setup {
             Integrator::Rk4 { step_s } => Some(step_s.min(longest_s)),
             Integrator::Adaptive { .. } => None,
         }
+    }
+
+    /// Adds the motions of all frames but space and the vehicle.
+    pub(crate) fn place_frames(&self, frames: &mut Frames<f64>, step_middle_s: f64) {
+        for (i, other) in self.frames.iter().take(MOST_FRAMES - VEHICLE - 1).enumerate() {
+            frames[VEHICLE + 1 + i] = other.moving(frames, frames.time, step_middle_s);
+        }
+    }
+
+    /// Homes of the bodies.
+    pub(crate) fn homes(&self) -> Vec<Frame> {
+        if self.members.is_empty() { vec![Frame::Vehicle] } else { self.members.iter().map(|m| m.home).collect() }
     }
 
     /// What holds the body's first segment; none of a body that is free.
@@ -267,9 +332,11 @@ impl SetupBuilder {
             chains: Vec::new(),
             bags: Vec::new(),
             path: VehiclePath::parked(),
+            frames: Vec::new(),
+            members: Vec::new(),
             posture: InitialPosture::Coordinates(Box::new(ReportCoordinates { q: [0.0; DOF], rates: [0.0; DOF] })),
             velocity: InitialVelocity::default(),
-            time: TimeSpan { start_s: 0.0, end_s: 0.0, output_s: DEFAULT_OUTPUT_S },
+            time: TimeSpan { start_s: 0.0, end_s: 0.0, output_s: DEFAULT_OUTPUT_S, stops_at_rest: false },
             integrator: Integrator::default(),
             output: OutputOptions::default(),
         };

@@ -170,22 +170,23 @@ impl<S: Scalar> Sweep<S> {
         }
     }
 
-    /// Accelerations without gravity; a guided root has those of `root`, of its joint and angular.
+    /// Accelerations of a body (index) without gravity; a guided root has those of `root`, of its joint and angular.
     #[inline(always)]
     pub(crate) fn solve(
         &mut self,
-        body: &Skeleton<S>,
+        (bodies, body): (&Skeleton<S>, usize),
         k: &Kinematics<S>,
         hinge_rate: &[S],
         wrench: &[Wrench<S>; MOST_SEGMENTS],
         root: [V3<S>; 2],
         out: &mut Accelerations<S>,
     ) {
-        let rows = body.layout.rows();
-        for (n, link) in body.links.iter().enumerate() {
+        let segments = bodies.layout.trunks()[body].segments();
+        let (first, rows) = (segments.start, &bodies.layout.rows()[segments.clone()]);
+        for (n, link) in segments.clone().zip(&bodies.links[segments.clone()]) {
             self.needs[n] = Need::of(link, &k.axes[n], k.omega[n], &wrench[n]);
         }
-        for (n, row) in rows.iter().enumerate().rev() {
+        for (n, row) in segments.clone().zip(rows).rev() {
             self.reduce(n, row, k, hinge_rate);
             if let Some(parent) = row.parent {
                 let need = self.needs[n];
@@ -193,10 +194,11 @@ impl<S: Scalar> Sweep<S> {
             }
         }
         // no force acts on the joint of a free root
-        let free = &self.needs[0];
-        out.joint[0] = if body.layout.is_guided() { root[0] } else { -free.mass.inverse().mul(free.force) };
-        out.alpha[0] = root[1];
-        for (n, row) in rows.iter().enumerate() {
+        let free = &self.needs[first];
+        let is_guided = bodies.layout.is_guided(body);
+        out.joint[first] = if is_guided { root[0] } else { -free.mass.inverse().mul(free.force) };
+        out.alpha[first] = root[1];
+        for (n, row) in segments.zip(rows) {
             if let Some(parent) = row.parent {
                 out.carry(k, n, parent);
                 out.alpha[n] = out.alpha[parent];
@@ -213,10 +215,10 @@ impl<S: Scalar> Sweep<S> {
         }
     }
 
-    /// Force and moment that the first segment needs at its joint of the last tree solved, where a frame carries it.
+    /// Force and moment that a root (index) needs at its joint once its tree is solved, where a frame carries it.
     #[inline(always)]
-    pub(crate) fn at_root(&self, a: V3<S>, alpha: V3<S>) -> Wrench<S> {
-        let Need { mass, coupling, inertia, force, moment } = &self.needs[0];
+    pub(crate) fn at_root(&self, root: usize, a: V3<S>, alpha: V3<S>) -> Wrench<S> {
+        let Need { mass, coupling, inertia, force, moment } = &self.needs[root];
         // f = A a − B α + β_f, τ = J α − Bᵀ a + β_τ
         Wrench {
             force: mass.mul(a) - coupling.into_frame(alpha) + *force,

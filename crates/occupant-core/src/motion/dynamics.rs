@@ -4,11 +4,11 @@
 //! acceleration of the joint. `articulated` finds them for any tree, `closed` for that of the report. Gravity
 //! is uniform: it only shifts every acceleration, and is added at the end. The result is the report's.
 
-use crate::motion::frame::Moving;
+use crate::motion::frame::{Frames, Moving};
 use crate::motion::kinematics::Kinematics;
 use crate::motion::layout::{Layout, MOST_HINGES, MOST_SEGMENTS};
 use crate::motion::scalar::Scalar;
-use crate::motion::skeleton::Skeleton;
+use crate::motion::skeleton::{Root, Skeleton};
 use crate::motion::state::{State, Work};
 use crate::motion::vector::{M3, V3, v3};
 use crate::motion::{articulated, closed};
@@ -60,63 +60,64 @@ pub fn solve<S: Scalar>(
     sweep.accelerations
 }
 
-/// Both sweeps through the tree.
+/// Both sweeps through the trees.
 #[derive(Clone, Debug)]
 pub(crate) struct Sweep<S> {
-    by: By<S>,
+    closed: Option<closed::Sweep<S>>,
+    any: Option<articulated::Sweep<S>>,
     /// Of the last call of [`Sweep::solve`].
     pub accelerations: Accelerations<S>,
 }
 
-/// How a tree is swept.
-#[derive(Clone, Debug)]
-enum By<S> {
-    ClosedForms(closed::Sweep<S>),
-    Any(articulated::Sweep<S>),
-}
-
 impl<S: Scalar> Sweep<S> {
-    /// Nothing solved yet of a body like `body`.
+    /// Nothing solved yet of bodies like these.
     #[inline(always)]
-    pub(crate) fn blank(body: &Skeleton<S>) -> Self {
-        let by =
-            if body.is_closed { By::ClosedForms(closed::Sweep::blank()) } else { By::Any(articulated::Sweep::blank()) };
+    pub(crate) fn blank(bodies: &Skeleton<S>) -> Self {
+        let is_there = |closed: bool| bodies.roots.iter().any(|root| root.is_closed == closed);
         let o = V3::zero();
         let accelerations =
             Accelerations { joint: [o; MOST_SEGMENTS], alpha: [o; MOST_SEGMENTS], hinge: [S::zero(); MOST_HINGES] };
-        Sweep { by, accelerations }
+        Sweep {
+            closed: is_there(true).then(closed::Sweep::blank),
+            any: is_there(false).then(articulated::Sweep::blank),
+            accelerations,
+        }
     }
 
-    /// As [`solve`]; a guided root accelerates as `root` does, which gives the power that comes back, W.
+    /// As [`solve`]; among `frames` a guided root accelerates as what carries it, which adds the power that comes back to that
+    /// of vehicles, W.
     #[inline(always)]
     pub(crate) fn solve(
         &mut self,
-        body: &Skeleton<S>,
+        bodies: &Skeleton<S>,
         k: &Kinematics<S>,
         hinge_rate: &[S],
         wrench: &[Wrench<S>; MOST_SEGMENTS],
-        root: Option<&Moving<S>>,
-    ) -> S {
-        let (out, mut power) = (&mut self.accelerations, S::zero());
-        let gravity = v3(S::zero(), S::zero(), -body.gravity);
-        match &mut self.by {
-            By::ClosedForms(sweep) => sweep.solve(body, k, hinge_rate, wrench, out),
-            By::Any(sweep) => {
+        frames: Option<(&Frames<S>, &mut [Work<S>])>,
+    ) {
+        let (out, gravity) = (&mut self.accelerations, v3(S::zero(), S::zero(), -bodies.gravity));
+        let (frames, mut power) = frames.unzip();
+        for (body, Root { mount, is_closed }) in bodies.roots.iter().enumerate() {
+            if let (true, Some(sweep)) = (is_closed, &mut self.closed) {
+                sweep.solve(bodies, body, k, hinge_rate, wrench, out);
+            } else if let Some(sweep) = &mut self.any {
+                let root = mount.as_ref().zip(frames).map(|(mount, frames)| mount.of(frames));
                 let still = Moving::space();
-                let carrier = root.unwrap_or(&still);
+                let carrier = root.as_ref().unwrap_or(&still);
                 let a = carrier.acceleration - gravity;
-                sweep.solve(body, k, hinge_rate, wrench, [a, carrier.alpha], out);
-                if let Some(root) = root {
-                    let Wrench { force, moment } = sweep.at_root(a, root.alpha);
-                    power = force.dot(root.velocity) + moment.dot(root.omega);
+                sweep.solve((bodies, body), k, hinge_rate, wrench, [a, carrier.alpha], out);
+                if let (Some(root), Some(power)) = (&root, &mut power) {
+                    // of a mount in space, which stands still, it is 0
+                    let first = bodies.layout.trunks()[body].first;
+                    let Wrench { force, moment } = sweep.at_root(first, a, root.alpha);
+                    power[body].vehicle += force.dot(root.velocity) + moment.dot(root.omega);
                 }
             }
         }
         // F_p (51a), (56): a uniform acceleration of all joints
-        for a in &mut out.joint[..body.links.len()] {
+        for a in &mut out.joint[..bodies.links.len()] {
             *a += gravity;
         }
-        power
     }
 }
 
@@ -137,9 +138,9 @@ impl<S: Scalar> Accelerations<S> {
         self.joint[n] + self.alpha[n].cross(r) + w.cross(w.cross(r))
     }
 
-    /// The rate of change of `state`, in which force elements do work at the rate `power`.
+    /// The rate of change of `state`, in which force elements do work at the rate `power`, by body.
     #[inline(always)]
-    pub fn rate(&self, layout: &Layout, state: &State<S>, power: Work<S>) -> State<S> {
+    pub fn rate(&self, layout: &Layout, state: &State<S>, power: &[Work<S>]) -> State<S> {
         let mut rate = State::zero(state.shape());
         self.write_rate(layout, state, power, &mut rate);
         rate
@@ -147,9 +148,12 @@ impl<S: Scalar> Accelerations<S> {
 
     /// [`Accelerations::rate`] to a state of the same shape, of which no own number of a force element is touched.
     #[inline(always)]
-    pub(crate) fn write_rate(&self, layout: &Layout, state: &State<S>, power: Work<S>, rate: &mut State<S>) {
-        rate.set_t1(state.velocity());
-        rate.set_velocity(self.joint[0]);
+    pub(crate) fn write_rate(&self, layout: &Layout, state: &State<S>, power: &[Work<S>], rate: &mut State<S>) {
+        for (body, (trunk, power)) in layout.trunks().iter().zip(power).enumerate() {
+            rate.set_t1_of(body, state.velocity_of(body));
+            rate.set_velocity_of(body, self.joint[trunk.first]);
+            rate.set_work(body, power);
+        }
         for (slot, &n) in layout.free().iter().enumerate() {
             rate.set_orientation(slot, state.orientation(slot).rate(state.omega(slot)));
             rate.set_omega(slot, self.alpha[n]);
@@ -158,6 +162,5 @@ impl<S: Scalar> Accelerations<S> {
         for (rate, acceleration) in rate.hinge_rate_mut().iter_mut().zip(&self.hinge) {
             *rate = *acceleration;
         }
-        rate.set_work(power);
     }
 }

@@ -1,6 +1,7 @@
 //! Motion of the frames that surfaces and anchors are fixed to, as the kernel uses it.
 //!
-//! Report: Eqs 82, 83 and 94. Space is frame 0 and the vehicle frame 1; more frames are more entries.
+//! Report: Eqs 82, 83 and 94. Space is frame 0 and the first vehicle frame 1; others follow. Behind all of them stand the
+//! segments that carry faces.
 
 use std::ops::{Index, IndexMut};
 
@@ -27,8 +28,10 @@ pub struct Moving<S> {
 
 /// Index of space among the frames.
 pub const SPACE: usize = 0;
-/// Index of the vehicle among the frames.
+/// Index of the first vehicle among the frames.
 pub const VEHICLE: usize = 1;
+/// Most frames: space, vehicles, the ground, panels.
+pub const MOST_FRAMES: usize = 10;
 
 impl<S: Copy> Moving<S> {
     /// f applied to every number and the one in the same place of `other`.
@@ -67,6 +70,20 @@ impl<S> Moving<S> {
     }
 }
 
+impl Moving<f64> {
+    /// The same as plain data.
+    pub(crate) fn motion(&self) -> FrameMotion {
+        FrameMotion {
+            origin_m: self.origin.to_vector(),
+            rotation: self.axes.to_matrix(),
+            velocity_m_s: self.velocity.to_vector(),
+            angular_velocity_rad_s: self.omega.to_vector(),
+            acceleration_m_s2: self.acceleration.to_vector(),
+            angular_acceleration_rad_s2: self.alpha.to_vector(),
+        }
+    }
+}
+
 impl<S: Scalar> Moving<S> {
     /// Space itself.
     pub fn space() -> Self {
@@ -84,6 +101,26 @@ impl<S: Scalar> Moving<S> {
             omega: V3::of(&motion.angular_velocity_rad_s),
             acceleration: V3::of(&motion.acceleration_m_s2),
             alpha: V3::of(&motion.angular_acceleration_rad_s2),
+        }
+    }
+
+    /// Motion of a frame that moves as `other` says within this one.
+    pub(crate) fn carrying(&self, other: &Moving<S>) -> Self {
+        let arm = self.axes.out(other.origin);
+        let (turning, drift) = (self.omega.cross(arm), self.axes.out(other.velocity));
+        let spin = self.axes.out(other.omega);
+        let coriolis = self.omega.cross(drift) * S::of(2.0);
+        Moving {
+            origin: self.origin + arm,
+            axes: self.axes.times(&other.axes),
+            velocity: self.velocity + turning + drift,
+            omega: self.omega + spin,
+            acceleration: self.acceleration
+                + self.alpha.cross(arm)
+                + self.omega.cross(turning)
+                + coriolis
+                + self.axes.out(other.acceleration),
+            alpha: self.alpha + self.omega.cross(spin) + self.axes.out(other.alpha),
         }
     }
 
@@ -108,13 +145,13 @@ impl<S: Scalar> Moving<S> {
     }
 }
 
-/// Motions of the frames at one instant, by [`SPACE`] and [`VEHICLE`].
+/// Motions of the frames at one instant, [`SPACE`], [`VEHICLE`] and the others in a setup's order.
 #[derive(Clone, Copy, Debug)]
 pub struct Frames<S> {
     /// Time of the scenario, s.
     pub time: S,
     /// The frames.
-    pub moving: [Moving<S>; 2],
+    pub moving: [Moving<S>; MOST_FRAMES],
 }
 
 impl<S: Copy> Frames<S> {
@@ -122,6 +159,13 @@ impl<S: Copy> Frames<S> {
     pub fn zip<A: Copy, T>(&self, other: &Frames<A>, f: &impl Fn(S, A) -> T) -> Frames<T> {
         let moving = std::array::from_fn(|i| self.moving[i].zip(&other.moving[i], f));
         Frames { time: f(self.time, other.time), moving }
+    }
+}
+
+impl<S: Scalar> Frames<S> {
+    /// All of them where space is.
+    pub fn still(time: S) -> Self {
+        Frames { time, moving: [Moving::space(); MOST_FRAMES] }
     }
 }
 

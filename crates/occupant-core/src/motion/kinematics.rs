@@ -4,7 +4,7 @@
 //! report's body multiples of Y and Z; all vectors are in space axes.
 
 use crate::motion::closed;
-use crate::motion::frame::Moving;
+use crate::motion::frame::{Frames, Moving};
 use crate::motion::layout::{Axis, Freedom, MOST_HINGES, MOST_SEGMENTS, Row};
 use crate::motion::scalar::Scalar;
 use crate::motion::skeleton::{Link, Skeleton};
@@ -50,17 +50,30 @@ impl<S: Scalar> Kinematics<S> {
         }
     }
 
-    /// Becomes the kinematics of `state`; a guided root moves as `root` does, not as the state says.
+    /// Becomes the kinematics of `state`; among `frames` a guided root moves as what carries it, not as the state says.
     #[inline(always)]
-    pub(crate) fn follow(&mut self, body: &Skeleton<S>, state: &State<S>, root: Option<&Moving<S>>) {
+    pub(crate) fn follow(&mut self, body: &Skeleton<S>, state: &State<S>, frames: Option<&Frames<S>>) {
         for (i, angle) in state.hinge().iter().enumerate() {
             self.hinge_sin_cos[i] = angle.sin_cos();
         }
-        if body.is_closed {
-            return closed::place(self, body, state);
+        for (i, root) in body.roots.iter().enumerate() {
+            if root.is_closed {
+                closed::place(self, body, state, i);
+            } else {
+                self.place(body, state, i, frames);
+            }
         }
-        let root = root.filter(|_| body.layout.is_guided());
-        for (n, (row, link)) in body.layout.rows().iter().zip(&body.links).enumerate() {
+    }
+
+    /// Places any tree.
+    #[inline(always)]
+    fn place(&mut self, body: &Skeleton<S>, state: &State<S>, tree: usize, frames: Option<&Frames<S>>) {
+        let mount = body.roots[tree].mount.as_ref();
+        let root = mount.zip(frames).map(|(mount, frames)| mount.of(frames));
+        let root = root.as_ref();
+        let segments = body.layout.trunks()[tree].segments();
+        let parts = body.layout.rows()[segments.clone()].iter().zip(&body.links[segments.clone()]);
+        for (n, (row, link)) in segments.zip(parts) {
             match (row.parent, root) {
                 (Some(parent), _) => {
                     let arm = self.axes[parent].out(link.joint);
@@ -68,13 +81,27 @@ impl<S: Scalar> Kinematics<S> {
                     self.joint_velocity[n] = self.joint_velocity[parent] + self.omega[parent].cross(arm);
                 }
                 (None, Some(root)) => (self.joint[n], self.joint_velocity[n]) = (root.origin, root.velocity),
-                (None, None) => (self.joint[n], self.joint_velocity[n]) = (state.t1(), state.velocity()),
+                (None, None) => {
+                    (self.joint[n], self.joint_velocity[n]) = (state.t1_of(tree), state.velocity_of(tree));
+                }
             }
             (self.axes[n], self.omega[n]) = match (row.freedom, root) {
                 (Freedom::Hinges(_), _) => self.turned(row, link, state.hinge_rate()),
                 (Freedom::Guided, Some(root)) => (root.axes, root.omega),
                 _ => (axes(&state.orientation(row.slot)), state.omega(row.slot)),
             };
+        }
+    }
+
+    /// How a segment moves, as far as contact asks; its origin is its joint.
+    #[inline(always)]
+    pub(crate) fn moving(&self, segment: usize) -> Moving<S> {
+        Moving {
+            origin: self.joint[segment],
+            axes: self.axes[segment],
+            velocity: self.joint_velocity[segment],
+            omega: self.omega[segment],
+            ..Moving::space()
         }
     }
 

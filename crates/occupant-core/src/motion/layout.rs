@@ -4,10 +4,14 @@
 
 use crate::body::tree::{JointKind, JointRow, Tree};
 
-/// Most segments of a tree.
-pub const MOST_SEGMENTS: usize = 20;
-/// Most axes of hinges in a tree.
-pub const MOST_HINGES: usize = 20;
+/// Most segments of all bodies together.
+pub const MOST_SEGMENTS: usize = 48;
+/// Most axes of hinges of all bodies together.
+pub const MOST_HINGES: usize = 48;
+/// Most bodies.
+pub const MOST_BODIES: usize = 8;
+/// Most segments, and most axes of hinges, of one tree.
+pub const MOST_OF_TREE: usize = 20;
 
 /// An axis of a joint's triads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,6 +44,27 @@ pub(crate) struct Row {
     pub freedom: Freedom,
     /// Place of its orientation in a state, or of its first hinge.
     pub slot: usize,
+    /// The body that it belongs to.
+    pub body: usize,
+}
+
+/// A tree among others: where its segments begin, and its orientations and hinges in a state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Trunk {
+    /// The root.
+    pub first: usize,
+    /// Number of segments.
+    pub count: usize,
+    pub free: usize,
+    pub hinge: usize,
+}
+
+impl Trunk {
+    /// Its segments.
+    #[inline(always)]
+    pub(crate) fn segments(&self) -> std::ops::Range<usize> {
+        self.first..self.first + self.count
+    }
 }
 
 impl Row {
@@ -68,9 +93,10 @@ pub struct TreeError {
     pub expected: &'static str,
 }
 
-/// The tree as the kernel sees it.
+/// The trees of all bodies as the kernel sees them, one behind the other.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
+    trunks: Vec<Trunk>,
     rows: Vec<Row>,
     free: Vec<usize>,
     hinged: Vec<usize>,
@@ -101,7 +127,7 @@ impl Layout {
                 Freedom::Guided if n > 0 => return error("a mount beyond the root", "a joint"),
                 _ => {}
             }
-            if n >= MOST_SEGMENTS || turns > MOST_HINGES {
+            if n >= MOST_OF_TREE || turns > MOST_OF_TREE {
                 return error("too many segments or hinges", "20 segments and 20 axes of hinges at most");
             }
         }
@@ -126,8 +152,15 @@ impl Layout {
     }
 
     fn of_rows(segments: impl Iterator<Item = (Option<usize>, Freedom)>) -> Self {
-        let mut layout = Layout { rows: Vec::new(), free: Vec::new(), hinged: Vec::new() };
+        let mut layout = Layout { trunks: Vec::new(), rows: Vec::new(), free: Vec::new(), hinged: Vec::new() };
         for (n, (parent, freedom)) in segments.enumerate() {
+            if parent.is_none() {
+                let (free, hinge) = (layout.free.len(), layout.hinged.len());
+                layout.trunks.push(Trunk { first: n, count: 0, free, hinge });
+            }
+            // a segment stands behind the one that carries it, and so in the last tree
+            let body = layout.trunks.len() - 1;
+            layout.trunks[body].count += 1;
             let slot = if let Freedom::Hinges(axes) = freedom {
                 layout.hinged.extend(axes.iter().map(|_| n));
                 layout.hinged.len() - axes.len()
@@ -135,15 +168,31 @@ impl Layout {
                 layout.free.push(n);
                 layout.free.len() - 1
             };
-            layout.rows.push(Row { parent, freedom, slot });
+            layout.rows.push(Row { parent, freedom, slot, body });
         }
         layout
     }
 
-    /// The same with a root that follows a given path.
+    /// The trees of all of these, in their order.
+    pub(crate) fn together<'a>(all: impl IntoIterator<Item = &'a Layout>) -> Self {
+        let mut segments = Vec::new();
+        for layout in all {
+            let first = segments.len();
+            segments.extend(layout.rows.iter().map(|row| (row.parent.map(|n| first + n), row.freedom)));
+        }
+        Layout::of_rows(segments.into_iter())
+    }
+
+    /// The same with a first root that follows a given path.
     pub(crate) fn guided(mut self) -> Self {
         self.rows[0].freedom = Freedom::Guided;
         self
+    }
+
+    /// By body.
+    #[inline(always)]
+    pub(crate) fn trunks(&self) -> &[Trunk] {
+        &self.trunks
     }
 
     /// By segment.
@@ -152,10 +201,10 @@ impl Layout {
         &self.rows
     }
 
-    /// Whether the root follows a given path.
+    /// Whether the root of a body follows a given path.
     #[inline(always)]
-    pub(crate) fn is_guided(&self) -> bool {
-        matches!(self.rows[0].freedom, Freedom::Guided)
+    pub(crate) fn is_guided(&self, body: usize) -> bool {
+        matches!(self.rows[self.trunks[body].first].freedom, Freedom::Guided)
     }
 
     /// Number of segments.
@@ -226,8 +275,8 @@ mod tests {
         assert_eq!(Layout::new(&[(None, Hinges(&[]))]).map_err(|e| e.segment), Err(0));
         assert_eq!(Layout::new(&[]).map_err(|e| e.segment), Err(0));
         let chain = |count| std::iter::once((None, Guided)).chain((1..count).map(|n| (Some(n - 1), Ball)));
-        assert!(Layout::new(&chain(MOST_SEGMENTS).collect::<Vec<_>>()).is_ok());
-        let many = Layout::new(&chain(MOST_SEGMENTS + 1).collect::<Vec<_>>());
-        assert_eq!(many.map_err(|e| e.segment), Err(MOST_SEGMENTS));
+        assert!(Layout::new(&chain(MOST_OF_TREE).collect::<Vec<_>>()).is_ok());
+        let many = Layout::new(&chain(MOST_OF_TREE + 1).collect::<Vec<_>>());
+        assert_eq!(many.map_err(|e| e.segment), Err(MOST_OF_TREE));
     }
 }

@@ -70,12 +70,19 @@ pub struct Skeleton<S> {
     pub links: Vec<Link<S>>,
     /// g along −Z′, m/s².
     pub gravity: S,
+    /// By body.
+    pub(crate) roots: Vec<Root<S>>,
+    /// Segments that carry the accelerometers of head, chest and pelvis of the first body.
+    pub(crate) instruments: [Option<usize>; 3],
+}
+
+/// How a body is carried and computed.
+#[derive(Clone, Debug)]
+pub(crate) struct Root<S> {
     /// What carries a guided root.
     pub mount: Option<Mount<S>>,
     /// Whether the closed forms of the report's body hold.
-    pub(crate) is_closed: bool,
-    /// Segments that carry the accelerometers of head, chest and pelvis.
-    pub(crate) instruments: [Option<usize>; 3],
+    pub is_closed: bool,
 }
 
 impl Part {
@@ -145,13 +152,12 @@ impl<S: Scalar> Mount<S> {
 }
 
 impl<S: Copy> Skeleton<S> {
-    /// Whether another has the same tree, carried by the same frame, and is computed in the same way.
+    /// Whether another has the same trees, carried by the same frames, and is computed in the same way.
     pub(crate) fn is_like<A>(&self, other: &Skeleton<A>) -> bool {
-        let frames = (self.mount.as_ref().map(|m| m.frame), other.mount.as_ref().map(|m| m.frame));
+        let roots = self.roots.iter().map(Root::structure);
         self.layout == other.layout
-            && self.is_closed == other.is_closed
-            && frames.0 == frames.1
             && self.instruments == other.instruments
+            && roots.eq(other.roots.iter().map(Root::structure))
     }
 
     /// f applied to every number and the one in the same place of `other`, which [is like](Skeleton::is_like) it.
@@ -161,14 +167,24 @@ impl<S: Copy> Skeleton<S> {
             place: a.place.zip(&b.place, f),
             axes: a.axes.zip(&b.axes, f),
         };
+        let root = |(a, b): (&Root<S>, &Root<A>)| Root {
+            mount: a.mount.as_ref().zip(b.mount.as_ref()).map(mount),
+            is_closed: a.is_closed,
+        };
         Skeleton {
             layout: self.layout.clone(),
             links: self.links.iter().zip(&other.links).map(|(a, b)| a.zip(b, f)).collect(),
             gravity: f(self.gravity, other.gravity),
-            mount: self.mount.as_ref().zip(other.mount.as_ref()).map(mount),
-            is_closed: self.is_closed,
+            roots: self.roots.iter().zip(&other.roots).map(root).collect(),
             instruments: self.instruments,
         }
+    }
+}
+
+impl<S> Root<S> {
+    /// The frame of its mount, and whether closed forms hold.
+    fn structure(&self) -> (Option<usize>, bool) {
+        (self.mount.as_ref().map(|mount| mount.frame), self.is_closed)
     }
 }
 
@@ -187,17 +203,35 @@ impl Skeleton<f64> {
         debug_assert_eq!(layout.len(), parts.len());
         let is_closed = closed::holds(&layout) && parts.iter().all(Part::is_plain);
         let links = parts.iter().map(Link::new).collect();
-        Skeleton { layout, links, gravity: gravity_m_s2, mount: None, is_closed, instruments: [None; 3] }
+        Skeleton {
+            layout,
+            links,
+            gravity: gravity_m_s2,
+            instruments: [None; 3],
+            roots: vec![Root { mount: None, is_closed }],
+        }
+    }
+
+    /// Several bodies under the gravity of the first.
+    pub(crate) fn together(all: &[&Skeleton<f64>]) -> Self {
+        Skeleton {
+            layout: Layout::together(all.iter().map(|one| &one.layout)),
+            links: all.iter().flat_map(|one| one.links.iter().copied()).collect(),
+            gravity: all.first().map_or(0.0, |one| one.gravity),
+            instruments: all.first().map_or([None; 3], |one| one.instruments),
+            roots: all.iter().flat_map(|one| one.roots.iter().cloned()).collect(),
+        }
     }
 
     /// The same, carried by a frame.
     pub fn mounted(self, mount: Mount<f64>) -> Self {
-        Skeleton { layout: self.layout.guided(), mount: Some(mount), is_closed: false, ..self }
+        Skeleton { layout: self.layout.guided(), roots: vec![Root { mount: Some(mount), is_closed: false }], ..self }
     }
 
     /// The same, computed as any tree is: to the rounding what the closed forms give.
-    pub fn without_closed_forms(self) -> Self {
-        Skeleton { is_closed: false, ..self }
+    pub fn without_closed_forms(mut self) -> Self {
+        self.roots.iter_mut().for_each(|root| root.is_closed = false);
+        self
     }
 }
 

@@ -6,7 +6,7 @@
 
 use std::array::from_fn;
 
-use crate::motion::layout::{Layout, MOST_SEGMENTS};
+use crate::motion::layout::{Layout, MOST_BODIES, MOST_SEGMENTS};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{V3, v3};
 
@@ -37,13 +37,15 @@ impl<S: Scalar> Quat<S> {
 /// Work sums of the force elements.
 pub(crate) const WORK_SUMS: usize = 6;
 
-/// Work done since the start, for the energy ledger, J.
+/// Work that concerns a body since the start, for the energy ledger, J.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Work<S> {
     /// Done on force elements, as each of them says (`forces::SUMS`).
     pub sums: [S; WORK_SUMS],
-    /// Done on the occupant by the motion of the vehicle through force elements.
+    /// Done on the body by the motion of vehicles and panels through force elements.
     pub vehicle: S,
+    /// Done on the body by others that touch it; what one gets another gives.
+    pub others: S,
 }
 
 impl<S: Scalar> Work<S> {
@@ -51,19 +53,21 @@ impl<S: Scalar> Work<S> {
     #[inline(always)]
     pub fn zero() -> Self {
         let o = S::zero();
-        Work { sums: [o; WORK_SUMS], vehicle: o }
+        Work { sums: [o; WORK_SUMS], vehicle: o, others: o }
     }
 }
 
 /// Most numbers that force elements own in a state.
 pub(crate) const MOST_OWN: usize = 24;
 /// Most numbers of a state.
-const MOST_NUMBERS: usize = 6 + 7 * MOST_SEGMENTS + WORK_SUMS + 1 + MOST_OWN;
+const MOST_NUMBERS: usize = (6 + WORK_SUMS + 2) * MOST_BODIES + 7 * MOST_SEGMENTS + MOST_OWN;
 
-/// How many numbers of each kind a state has. In a row: T1, orientations (w, x, y, z), hinges; velocity of T1, angular
-/// velocities, hinge rates; work sums; numbers that force elements own.
+/// How many numbers of each kind a state has. In a row: T1 of each body, orientations (w, x, y, z), hinges; velocities of T1,
+/// angular velocities, hinge rates; work sums of each body; numbers that force elements own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shape {
+    /// Bodies.
+    bodies: usize,
     /// Orientations.
     free: usize,
     /// Angles of hinges.
@@ -75,12 +79,14 @@ pub struct Shape {
 impl Shape {
     /// That of a body whose force elements own no numbers.
     pub fn of(layout: &Layout) -> Self {
-        Shape::new(layout.free().len(), layout.hinged().len())
+        let (free, hinges) = (layout.free().len(), layout.hinged().len());
+        Shape { bodies: layout.trunks().len(), free, hinges, own: 0 }
     }
 
-    /// That of a body with as many orientations and angles of hinges, whose force elements own no numbers.
+    #[cfg(test)]
+    /// That of one body with as many orientations and angles of hinges, whose force elements own no numbers.
     pub(crate) const fn new(free: usize, hinges: usize) -> Self {
-        Shape { free, hinges, own: 0 }
+        Shape { bodies: 1, free, hinges, own: 0 }
     }
 
     /// The same with `own` numbers that force elements own.
@@ -88,9 +94,33 @@ impl Shape {
         Shape { own, ..self }
     }
 
+    /// Bodies.
+    #[inline(always)]
+    pub fn bodies(&self) -> std::ops::Range<usize> {
+        0..self.bodies
+    }
+
+    /// Work sums of a body; one alone gets no work from others.
+    #[inline(always)]
+    fn works(&self) -> usize {
+        WORK_SUMS + 1 + usize::from(self.bodies > 1)
+    }
+
+    /// Place of an orientation among the numbers.
+    #[inline(always)]
+    pub(crate) fn turn(&self, slot: usize) -> usize {
+        3 * self.bodies + 4 * slot
+    }
+
+    /// Place of an angular velocity among the numbers.
+    #[inline(always)]
+    pub(crate) fn spin(&self, slot: usize) -> usize {
+        self.places() + 3 * self.bodies + 3 * slot
+    }
+
     #[inline(always)]
     fn hinge(&self) -> usize {
-        3 + 4 * self.free
+        self.turn(self.free)
     }
 
     /// How many numbers say where the body is; as many of the next, less one for each orientation, say how it moves.
@@ -101,7 +131,7 @@ impl Shape {
 
     #[inline(always)]
     fn hinge_rate(&self) -> usize {
-        self.places() + 3 + 3 * self.free
+        self.spin(self.free)
     }
 
     /// Numbers before the work sums.
@@ -114,7 +144,7 @@ impl Shape {
     #[expect(clippy::len_without_is_empty, reason = "no state is without T1")]
     #[inline(always)]
     pub fn len(&self) -> usize {
-        self.moving() + WORK_SUMS + 1 + self.own
+        self.moving() + self.bodies * self.works() + self.own
     }
 }
 
@@ -162,29 +192,47 @@ impl<S: Copy> State<S> {
         self.numbers[at..at + 3].copy_from_slice(&[v.x, v.y, v.z]);
     }
 
-    /// T1, the place of the root's joint, space axes, m.
+    /// As many numbers from a place on, of which the bounds are looked at once.
+    #[inline(always)]
+    pub(crate) fn block<const N: usize>(&self, at: usize) -> &[S; N] {
+        self.numbers[at..][..N].try_into().expect("as many")
+    }
+
+    /// T1, the place of the root's joint of the first body, space axes, m.
     #[inline(always)]
     pub fn t1(&self) -> V3<S> {
-        self.vector(0)
+        self.t1_of(0)
+    }
+
+    /// T1 of a body, space axes, m.
+    #[inline(always)]
+    pub fn t1_of(&self, body: usize) -> V3<S> {
+        self.vector(3 * body)
     }
 
     /// Gives it another [`State::t1`].
     #[inline(always)]
     pub fn set_t1(&mut self, place: V3<S>) {
-        self.set_vector(0, place);
+        self.set_t1_of(0, place);
+    }
+
+    /// Gives it another [`State::t1_of`].
+    #[inline(always)]
+    pub fn set_t1_of(&mut self, body: usize, place: V3<S>) {
+        self.set_vector(3 * body, place);
     }
 
     /// Orientation of a segment by its place in [`Layout::free`].
     #[inline(always)]
     pub fn orientation(&self, slot: usize) -> Quat<S> {
-        let at = 3 + 4 * slot;
+        let at = self.shape.turn(slot);
         Quat { w: self.numbers[at], v: self.vector(at + 1) }
     }
 
     /// Gives it another [`State::orientation`].
     #[inline(always)]
     pub fn set_orientation(&mut self, slot: usize, q: Quat<S>) {
-        let at = 3 + 4 * slot;
+        let at = self.shape.turn(slot);
         self.numbers[at] = q.w;
         self.set_vector(at + 1, q.v);
     }
@@ -201,28 +249,40 @@ impl<S: Copy> State<S> {
         &mut self.numbers[self.shape.hinge()..self.shape.places()]
     }
 
-    /// Velocity of T1, space axes, m/s.
+    /// Velocity of T1 of the first body, space axes, m/s.
     #[inline(always)]
     pub fn velocity(&self) -> V3<S> {
-        self.vector(self.shape.places())
+        self.velocity_of(0)
+    }
+
+    /// Velocity of T1 of a body, space axes, m/s.
+    #[inline(always)]
+    pub fn velocity_of(&self, body: usize) -> V3<S> {
+        self.vector(self.shape.places() + 3 * body)
     }
 
     /// Gives it another [`State::velocity`].
     #[inline(always)]
     pub fn set_velocity(&mut self, velocity: V3<S>) {
-        self.set_vector(self.shape.places(), velocity);
+        self.set_velocity_of(0, velocity);
+    }
+
+    /// Gives it another [`State::velocity_of`].
+    #[inline(always)]
+    pub fn set_velocity_of(&mut self, body: usize, velocity: V3<S>) {
+        self.set_vector(self.shape.places() + 3 * body, velocity);
     }
 
     /// Absolute angular velocity of a segment by its place in [`Layout::free`], space axes, rad/s.
     #[inline(always)]
     pub fn omega(&self, slot: usize) -> V3<S> {
-        self.vector(self.shape.places() + 3 + 3 * slot)
+        self.vector(self.shape.spin(slot))
     }
 
     /// Gives it another [`State::omega`].
     #[inline(always)]
     pub fn set_omega(&mut self, slot: usize, omega: V3<S>) {
-        self.set_vector(self.shape.places() + 3 + 3 * slot, omega);
+        self.set_vector(self.shape.spin(slot), omega);
     }
 
     /// Rates of the hinges, rad/s.
@@ -237,19 +297,16 @@ impl<S: Copy> State<S> {
         &mut self.numbers[self.shape.hinge_rate()..self.shape.moving()]
     }
 
-    /// Work sums.
+    /// Gives it other [`State::work`] sums of a body.
     #[inline(always)]
-    pub fn work(&self) -> Work<S> {
-        let w = &self.numbers[self.shape.moving()..][..WORK_SUMS + 1];
-        Work { sums: from_fn(|i| w[i]), vehicle: w[WORK_SUMS] }
-    }
-
-    /// Gives it other [`State::work`] sums.
-    #[inline(always)]
-    pub fn set_work(&mut self, work: Work<S>) {
-        let w = &mut self.numbers[self.shape.moving()..][..WORK_SUMS + 1];
+    pub fn set_work(&mut self, body: usize, work: &Work<S>) {
+        let works = self.shape.works();
+        let w = &mut self.numbers[self.shape.moving() + body * works..][..works];
         w[..WORK_SUMS].copy_from_slice(&work.sums);
         w[WORK_SUMS] = work.vehicle;
+        if let Some(others) = w.get_mut(WORK_SUMS + 1) {
+            *others = work.others;
+        }
     }
 
     /// Numbers that force elements own, each scaled by its element to the order of 1.
@@ -272,6 +329,15 @@ impl<S: Copy> State<S> {
 }
 
 impl<S: Scalar> State<S> {
+    /// Work sums of a body.
+    #[inline(always)]
+    pub fn work(&self, body: usize) -> Work<S> {
+        let works = self.shape.works();
+        let w = &self.numbers[self.shape.moving() + body * works..][..works];
+        let others = w.get(WORK_SUMS + 1).copied().unwrap_or(S::zero());
+        Work { sums: from_fn(|i| w[i]), vehicle: w[WORK_SUMS], others }
+    }
+
     /// All zero: the neutral element of sums, not a posture.
     #[inline(always)]
     pub fn zero(shape: Shape) -> Self {
@@ -352,6 +418,27 @@ impl State<f64> {
         Some(state)
     }
 
+    /// The states of several bodies as one, in their order; their force elements own no numbers.
+    pub(crate) fn together(all: &[State<f64>]) -> Self {
+        let sum = |part: fn(&Shape) -> usize| all.iter().map(|state| part(&state.shape)).sum();
+        let shape = Shape { bodies: all.len(), free: sum(|s| s.free), hinges: sum(|s| s.hinges), own: 0 };
+        let (mut state, mut free, mut hinge) = (State::zero(shape), 0, 0);
+        for (body, one) in all.iter().enumerate() {
+            state.set_t1_of(body, one.t1());
+            state.set_velocity_of(body, one.velocity());
+            for slot in one.turns() {
+                state.set_orientation(free + slot, one.orientation(slot));
+                state.set_omega(free + slot, one.omega(slot));
+            }
+            let hinges = hinge..hinge + one.hinge().len();
+            state.hinge_mut()[hinges.clone()].copy_from_slice(one.hinge());
+            state.hinge_rate_mut()[hinges.clone()].copy_from_slice(one.hinge_rate());
+            state.set_work(body, &one.work(0));
+            (free, hinge) = (free + one.shape.free, hinges.end);
+        }
+        state
+    }
+
     /// True if every component but the work sums is a finite number.
     pub(crate) fn is_finite(&self) -> bool {
         self.finite()
@@ -371,9 +458,9 @@ mod tests {
         assert_eq!(state.numbers(), numbers);
         assert_eq!((state.orientation(7).v.z, state.hinge()[0]), (34.5, 35.5));
         assert_eq!((state.velocity().x, state.omega(7).z, state.hinge_rate()), (39.5, 65.5, &numbers[66..70]));
-        assert_eq!((state.work().sums[0], state.work().vehicle), (70.5, 76.5));
+        assert_eq!((state.work(0).sums[0], state.work(0).vehicle), (70.5, 76.5));
         assert_eq!(State::from_numbers(shape, &numbers[1..]), None);
         let owning = state.with_own(&[1.0, 2.0]);
-        assert_eq!((owning.own(), owning.work(), owning.numbers().len()), (&[1.0, 2.0][..], state.work(), 79));
+        assert_eq!((owning.own(), owning.work(0), owning.numbers().len()), (&[1.0, 2.0][..], state.work(0), 79));
     }
 }

@@ -8,7 +8,7 @@ use crate::forces::{Forces, History, Memory, Misfit, STORED};
 use crate::model::Model;
 use crate::motion::state::State;
 use crate::quantity::FieldWords;
-use crate::results::energy::{EnergyStart, Greatest};
+use crate::results::energy::{EnergyStart, Greatest, Rest};
 use crate::results::outcome::{FirstTouch, Outcome, Status};
 use crate::results::sample::Effort;
 
@@ -116,6 +116,8 @@ pub struct Progress {
     pub energy_start: EnergyStart,
     /// Greatest energies so far.
     pub greatest: Greatest,
+    /// How still the bodies are of a run that ends when they rest.
+    pub rest: Rest,
 }
 
 impl Progress {
@@ -136,6 +138,8 @@ impl Progress {
         file.number(words(23, "greatest_kinetic_j", "greatest kinetic energy relative to the vehicle so far"), &mut self.greatest.kinetic_j);
         file.number(words(24, "greatest_imbalance_j", "greatest energy imbalance so far"), &mut self.greatest.imbalance_j);
         file.number(words(46, "greatest_work_j", "greatest work of gravity and force elements so far"), &mut self.greatest.work_j);
+        file.number(words(56, "most_kinetic_j", "greatest kinetic energy in space so far, of a run that ends at rest"), &mut self.rest.most_j);
+        file.number(words(57, "still_since_s", "time since which the bodies are still, of a run that ends at rest; 1e30 while they are not"), &mut self.rest.since_s);
         file.number(words(25, "step_error", "error of the last accepted step in units of the tolerance"), &mut self.step_error);
     }
 }
@@ -329,7 +333,7 @@ impl Checkpoint {
         let mut numbers = numbers.to_vec();
         // older files have no work of bags, those of 0.1.0 none of muscles; both stand before that of the vehicle
         let missing = shape.len().saturating_sub(numbers.len());
-        if model.setup().bags.is_empty() && (1..=2).contains(&missing) {
+        if model.setup().bags.is_empty() && model.alone().is_empty() && (1..=2).contains(&missing) {
             let vehicle = numbers.len() - 1;
             numbers.splice(vehicle..vehicle, vec![0.0; missing]);
         }

@@ -4,18 +4,21 @@ use crate::forces::shown::{Line, Named, Pull, Section, Shown};
 use crate::forces::table::Tables;
 use crate::forces::{Listed, Visitor, visit_kinds};
 use crate::model::Model;
+use crate::model::setup::Member;
 use crate::results::sample::Sample;
+use crate::vehicle::FrameMotion;
+use nalgebra::Vector3;
 
 impl Sample<'_> {
     /// The elements of one kind.
     fn show<E: Listed, T>(&self, of: impl FnOnce(&Shown<'_, E>) -> T) -> T {
-        let model = self.model;
+        let (model, at_home) = (self.model, Sample { watcher: None, ..*self });
         of(&Shown {
             data: E::data(&model.setup().forces(model.faces())),
             law: E::law(&model.system().forces),
             actions: E::actions(self.actions),
             body: model.body(),
-            centre_m: &|sphere| self.sphere_centre_m(sphere),
+            centre_m: &|sphere| at_home.sphere_centre_m(sphere),
         })
     }
 
@@ -23,6 +26,16 @@ impl Sample<'_> {
     pub fn lines(&self) -> Vec<Line> {
         let mut list = Lines(self, Vec::new());
         visit_kinds(&mut list);
+        for line in &mut list.1 {
+            // what belongs to one of several bodies bears its name
+            let is_own = |member: &Member| line.name.split_once('.').is_some_and(|(of, _)| of == member.name);
+            let own = self.model.setup().members.iter().position(is_own);
+            for point in &mut line.points_m {
+                *point = self
+                    .watched(own.unwrap_or(0), point.coords, FrameMotion::point_to_space, FrameMotion::point_to_frame)
+                    .into();
+            }
+        }
         list.1
     }
 
@@ -35,7 +48,25 @@ impl Sample<'_> {
 
     /// Shows every force on a sphere but those of contacts.
     pub fn pulls(&self, show: &mut dyn FnMut(&Pull<'_>)) {
-        visit_kinds(&mut Pulls(self, show));
+        let tree = self.model.body().tree;
+        visit_kinds(&mut Pulls(self, &mut |pull: &Pull<'_>| {
+            let of = tree.body_of(self.model.body().spheres[pull.sphere].segment);
+            let point = self.watched(of, pull.point_m.coords, FrameMotion::point_to_space, FrameMotion::point_to_frame);
+            let force_n = self.watched(of, pull.force_n, FrameMotion::vector_to_space, FrameMotion::vector_to_frame);
+            show(&Pull { point_m: point.into(), force_n, ..*pull });
+        }));
+    }
+
+    /// What is told in the axes of a body's home in those of the watcher, where there is one.
+    fn watched(
+        &self,
+        of: usize,
+        told: Vector3<f64>,
+        out: fn(&FrameMotion, Vector3<f64>) -> Vector3<f64>,
+        into: fn(&FrameMotion, Vector3<f64>) -> Vector3<f64>,
+    ) -> Vector3<f64> {
+        let is_there = |watcher: &&FrameMotion| **watcher != self.homes[of];
+        self.watcher.filter(is_there).map_or(told, |watcher| into(watcher, out(&self.homes[of], told)))
     }
 
     /// What there is to know of force elements at the start of a run.

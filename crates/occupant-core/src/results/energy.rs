@@ -4,6 +4,8 @@
 //! weights. With W_v the work of the moving vehicle on the occupant, kinetic + gravity + what is stored without a work
 //! sum + Σ work sums − W_v stays what it was at the start.
 
+use std::ops::Range;
+
 use serde::Serialize;
 
 use crate::forces::contact::FASTEST_M_S;
@@ -26,8 +28,10 @@ pub struct EnergyLedger {
     pub stored_j: [f64; STORES],
     /// Dissipated since the start, in the order of `SUMS`: work put in less what is stored.
     pub lost_j: [f64; WORK_SUMS],
-    /// Work done on the occupant by the moving vehicle since the start.
+    /// Work done on the occupant by moving vehicles and panels since the start.
     pub vehicle_work_j: f64,
+    /// Work done on it by other bodies since the start; 0 in sum.
+    pub others_work_j: f64,
     /// Present sum less the sum at the start; 0 for an exact integration.
     pub balance_j: f64,
 }
@@ -42,22 +46,24 @@ pub struct EnergyStart {
 }
 
 impl EnergyLedger {
-    /// The ledger of one instant; `vehicle` is the vehicle's motion, `stored_j` what force elements store.
+    /// The ledger of a body (index) at one instant; `home` is the motion of its vehicle, `stored_j` what force elements store.
     pub(crate) fn new(
-        body: &Skeleton<f64>,
+        (bodies, body): (&Skeleton<f64>, usize),
         k: &Kinematics<f64>,
-        vehicle: &Moving<f64>,
+        home: &Moving<f64>,
         stored_j: [f64; STORES],
         work: &Work<f64>,
         start: &EnergyStart,
     ) -> Self {
+        let segments = bodies.layout.trunks()[body].segments();
         let mut ledger = EnergyLedger {
-            kinetic_j: kinetic(body, k, &Moving::space()),
-            kinetic_relative_j: kinetic(body, k, vehicle),
-            gravity_j: gravity(body, k),
+            kinetic_j: kinetic_of(bodies, segments.clone(), k, &Moving::space()),
+            kinetic_relative_j: kinetic_of(bodies, segments.clone(), k, home),
+            gravity_j: gravity_of(bodies, segments, k),
             stored_j,
             lost_j: work.sums,
             vehicle_work_j: work.vehicle,
+            others_work_j: work.others,
             balance_j: 0.0,
         };
         for energy in STORED {
@@ -66,8 +72,23 @@ impl EnergyLedger {
             }
         }
         let spent: f64 = work.sums.iter().sum();
-        ledger.balance_j = ledger.mechanical_j() + spent - work.vehicle - start.mechanical_j;
+        ledger.balance_j = ledger.mechanical_j() + spent - work.vehicle - work.others - start.mechanical_j;
         ledger
+    }
+
+    /// That of several bodies together.
+    pub(crate) fn sum(all: &[EnergyLedger]) -> Self {
+        let [first, others @ ..] = all else { return EnergyLedger::default() };
+        others.iter().fold(*first, |sum, own| EnergyLedger {
+            kinetic_j: sum.kinetic_j + own.kinetic_j,
+            kinetic_relative_j: sum.kinetic_relative_j + own.kinetic_relative_j,
+            gravity_j: sum.gravity_j + own.gravity_j,
+            stored_j: std::array::from_fn(|i| sum.stored_j[i] + own.stored_j[i]),
+            lost_j: std::array::from_fn(|i| sum.lost_j[i] + own.lost_j[i]),
+            vehicle_work_j: sum.vehicle_work_j + own.vehicle_work_j,
+            others_work_j: sum.others_work_j + own.others_work_j,
+            balance_j: sum.balance_j + own.balance_j,
+        })
     }
 
     /// What this instant contributes to the start of a balance.
@@ -125,6 +146,43 @@ impl Greatest {
             error => Balance::of(error),
         };
         EnergyCheck { balance_error, reference, reference_j, greatest_kinetic_j: self.kinetic_j, balance }
+    }
+}
+
+/// How still the bodies of a run are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rest {
+    /// Greatest kinetic energy in space so far, J.
+    pub most_j: f64,
+    /// Since when all of them have had next to none of it, s; 1e30 while they have.
+    pub since_s: f64,
+}
+
+/// A body with less than this part of the greatest kinetic energy of all is still.
+const STILL: f64 = 1e-4;
+/// Bodies that have been still for so long rest, s.
+const REST_S: f64 = 0.2;
+/// A time after every run, s.
+const NEVER: f64 = 1e30;
+
+impl Default for Rest {
+    fn default() -> Self {
+        Rest { most_j: 0.0, since_s: NEVER }
+    }
+}
+
+impl Rest {
+    /// Looks at an output with these kinetic energies in space by body, J.
+    pub(crate) fn see(&mut self, time_s: f64, kinetic_j: &[f64]) {
+        let total_j: f64 = kinetic_j.iter().sum();
+        self.most_j = self.most_j.max(total_j);
+        let is_still = kinetic_j.iter().all(|own_j| *own_j < STILL * self.most_j);
+        self.since_s = if is_still { self.since_s.min(time_s) } else { NEVER };
+    }
+
+    /// Whether they rest.
+    pub(crate) fn is_over(&self, time_s: f64) -> bool {
+        time_s - self.since_s >= REST_S
     }
 }
 
@@ -188,21 +246,31 @@ impl Balance {
 }
 
 /// ½ Σ (M v·v + ω·Iω) of the motion relative to a frame (Eq. 54), J.
-pub fn kinetic(body: &Skeleton<f64>, k: &Kinematics<f64>, frame: &Moving<f64>) -> f64 {
+pub fn kinetic(bodies: &Skeleton<f64>, k: &Kinematics<f64>, frame: &Moving<f64>) -> f64 {
+    kinetic_of(bodies, 0..bodies.links.len(), k, frame)
+}
+
+/// That of some segments.
+fn kinetic_of(bodies: &Skeleton<f64>, segments: Range<usize>, k: &Kinematics<f64>, frame: &Moving<f64>) -> f64 {
     let segment = |n: usize| {
-        let link = &body.links[n];
-        let v = k.cg_velocity(body, n) - frame.velocity_at(k.cg(body, n));
+        let link = &bodies.links[n];
+        let v = k.cg_velocity(bodies, n) - frame.velocity_at(k.cg(bodies, n));
         let w = k.axes[n].into_frame(k.omega[n] - frame.omega);
         let spin = link.by_inertia(w);
         link.mass * v.norm_squared() + spin.x * w.x + spin.y * w.y + spin.z * w.z
     };
-    0.5 * (0..body.links.len()).map(segment).sum::<f64>()
+    0.5 * segments.map(segment).sum::<f64>()
 }
 
 /// Σ M g Z′ (Eq. 55 with Z′₀ = 0), J.
-pub fn gravity(body: &Skeleton<f64>, k: &Kinematics<f64>) -> f64 {
-    let height = |n: usize| body.links[n].mass * k.cg(body, n).z;
-    body.gravity * (0..body.links.len()).map(height).sum::<f64>()
+pub fn gravity(bodies: &Skeleton<f64>, k: &Kinematics<f64>) -> f64 {
+    gravity_of(bodies, 0..bodies.links.len(), k)
+}
+
+/// That of some segments.
+fn gravity_of(bodies: &Skeleton<f64>, segments: Range<usize>, k: &Kinematics<f64>) -> f64 {
+    let height = |n: usize| bodies.links[n].mass * k.cg(bodies, n).z;
+    bodies.gravity * segments.map(height).sum::<f64>()
 }
 
 #[cfg(test)]

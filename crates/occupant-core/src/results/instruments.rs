@@ -46,7 +46,7 @@ impl Recorder for Signals {
         if self.is_empty() {
             self.start_s = s.time_s;
         }
-        let marks = s.model.body().tree.landmarks();
+        let marks = s.landmarks();
         push(&mut self.head_m_s2, reading(s, marks.head, Sample::specific_force_m_s2));
         push(&mut self.chest_m_s2, reading(s, marks.chest, Sample::specific_force_m_s2));
         push(&mut self.pelvis_m_s2, reading(s, marks.pelvis, Sample::specific_force_m_s2));

@@ -44,9 +44,8 @@ pub(super) struct Loads<'s, 'a> {
 
 impl<'s, 'a> Loads<'s, 'a> {
     pub(super) fn new(sample: &'s Sample<'a>) -> Self {
-        let mut passive = [Wrench::zero(); MOST_SEGMENTS];
-        let k = &sample.evaluation.kinematics;
-        sample.model.system().forces.joints.apply(k, sample.state, &mut passive, &mut |_| {});
+        let (k, system) = (&sample.evaluation.kinematics, sample.model.system());
+        let mut passive = system.forces.joints.loads(k, sample.state, &system.skeleton.layout).wrench;
         let limits = sample.actions.limits.iter().map(|action| (action.joint, action.moment));
         let muscles = sample.actions.muscles.iter().map(|action| (action.joint, action.moment));
         for (joint, moment) in limits.chain(muscles) {
@@ -118,11 +117,15 @@ impl<'s, 'a> Loads<'s, 'a> {
     /// [`upper_neck`].
     pub(super) fn upper_neck(&self) -> Reaction {
         let body = self.sample.model.body();
-        let Some(neck) = body.tree.landmarks().neck else {
+        let Some(neck) = self.sample.landmarks().neck else {
             return Reaction { force_n: Vector3::repeat(f64::NAN), moment_n_m: Vector3::repeat(f64::NAN) };
         };
         let at_joint = self.reaction(neck);
-        let Some(condyles_m) = body.condyles_m else { return at_joint };
+        let condyles_m = match self.sample.model.setup().members.get(self.sample.of) {
+            Some(member) => member.alone.body.condyles_m,
+            None => body.condyles_m,
+        };
+        let Some(condyles_m) = condyles_m else { return at_joint };
         Reaction { moment_n_m: at_joint.moment_n_m - condyles_m.cross(&at_joint.force_n), ..at_joint }
     }
 
@@ -140,7 +143,7 @@ impl<'s, 'a> Loads<'s, 'a> {
         };
         let of_sphere = |s| sample.sphere_force_n(s) + sample.sphere_pull_n(s, None);
         let pushed: Vector3<f64> = (0..body.spheres.len()).filter(at_knee).map(of_sphere).sum();
-        let pushed = V3::of(&sample.vehicle.vector_to_space(pushed));
+        let pushed = V3::of(&sample.seen_from(thigh.index()).vector_to_space(pushed));
         // Z of a thigh points from the knee to the hip: a force at the knee against it pulls
         -(pushed - carried).dot(k.axes[thigh.index()].z)
     }

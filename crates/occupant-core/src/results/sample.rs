@@ -3,17 +3,17 @@
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 
 use crate::body::Joint;
-use crate::body::Segment;
 use crate::body::tti12::TTI12;
+use crate::body::{Landmarks, Segment};
 use crate::forces::contact::Touch;
+use crate::forces::contact::surface::Frame;
 use crate::forces::{Actions, History};
 use crate::kernel::Evaluation;
 use crate::model::Model;
-use crate::motion::frame::Frames;
-use crate::motion::frame::VEHICLE;
+use crate::motion::frame::{Frames, MOST_FRAMES, VEHICLE};
 use crate::motion::report_coordinates::ReportCoordinates;
 use crate::motion::state::State;
-use crate::motion::vector::V3;
+use crate::motion::vector::{M3, V3};
 use crate::results::checkpoint::{Checkpoint, Progress, StepPeaks, StepUnderWay};
 use crate::results::energy::EnergyLedger;
 use crate::results::outcome::FirstTouch;
@@ -47,8 +47,16 @@ pub struct Sample<'a> {
     pub history: &'a History<f64>,
     /// Frames.
     pub frames: &'a Frames<f64>,
-    /// Motion of the vehicle, space axes.
+    /// Motion of the first vehicle, space axes.
     pub vehicle: &'a FrameMotion,
+    /// Motions of the homes of the bodies.
+    pub homes: &'a [FrameMotion],
+    /// Energies by body.
+    pub ledgers: &'a [EnergyLedger],
+    /// The body (index) whose instruments and summary are asked for: [`Sample::of_body`].
+    pub of: usize,
+    /// In whose axes places are told; those of each body's home if none: [`Sample::seen_by_vehicle`].
+    pub watcher: Option<&'a FrameMotion>,
     /// Place and attitude of the vehicle in vehicle-space, as the path gives them.
     pub vehicle_pose: VehiclePose,
     /// Derived motion, loads and accelerations.
@@ -97,6 +105,45 @@ pub struct Contact {
 }
 
 impl<'a> Sample<'a> {
+    /// The same with the instruments and the summary of a body (index).
+    #[must_use]
+    pub fn of_body(self, of: usize) -> Self {
+        Sample { of, ..self }
+    }
+
+    /// The same with all places in the axes of the first vehicle, as pictures show them.
+    #[must_use]
+    pub fn seen_by_vehicle(self) -> Self {
+        Sample { watcher: Some(self.vehicle), ..self }
+    }
+
+    /// Landmarks of the body that is asked for.
+    pub(crate) fn landmarks(&self) -> Landmarks {
+        let tree = self.model.body().tree;
+        if self.of == 0 { *tree.landmarks() } else { tree.bodies()[self.of].landmarks }
+    }
+
+    /// Whether no output follows: the end of the run's time, or all bodies at rest in a run that ends then.
+    pub fn is_last(&self) -> bool {
+        self.index + 1 == self.model.output_count() || self.progress.rest.is_over(self.time_s)
+    }
+
+    /// Motion of a frame.
+    pub fn frame(&self, frame: Frame) -> FrameMotion {
+        match frame {
+            Frame::Vehicle => *self.vehicle,
+            Frame::Space => FrameMotion::space(),
+            Frame::Other(_) => self.frames[frame.index(&[])].motion(),
+            Frame::Segment(n) => self.evaluation.kinematics.moving(n).motion(),
+        }
+    }
+
+    /// In whose axes places and forces on a segment are told.
+    pub(crate) fn seen_from(&self, segment: usize) -> &'a FrameMotion {
+        let of = |segment| self.model.body().tree.body_of(self.model.body().tree.segment(segment));
+        self.watcher.unwrap_or_else(|| &self.homes[of(segment)])
+    }
+
     /// All that the run carries on from here.
     pub fn checkpoint(&self) -> Checkpoint {
         Checkpoint {
@@ -118,20 +165,33 @@ impl<'a> Sample<'a> {
         let body = self.model.body();
         let ends = [Vector3::z() * body.segment(segment).length_m, Vector3::zeros()];
         let seen = ends.map(|end| k.axes[n].out(V3::of(&(end - body.joint_m(segment)))));
-        seen.map(|end| self.place_m(k.joint[n] + end))
+        seen.map(|end| self.place_m(n, k.joint[n] + end))
     }
 
     /// Centre of gravity of a segment, vehicle axes, m.
     pub fn cg_m(&self, segment: Segment) -> Point3<f64> {
         let k = &self.evaluation.kinematics;
-        self.place_m(k.cg(&self.model.system().skeleton, segment.index()))
+        self.place_m(segment.index(), k.cg(&self.model.system().skeleton, segment.index()))
     }
 
     /// Orientation of a segment relative to the vehicle: turns segment axes into vehicle axes.
     pub fn orientation(&self, segment: Segment) -> UnitQuaternion<f64> {
         let axes = self.evaluation.kinematics.axes[segment.index()].to_matrix();
-        let relative = self.vehicle.rotation.tr_mul(&axes);
+        let relative = self.seen_from(segment.index()).rotation.tr_mul(&axes);
         UnitQuaternion::from_rotation_matrix(&nalgebra::Rotation3::from_matrix_unchecked(relative))
+    }
+
+    /// Centre of gravity of a whole body (index) and its velocity, space axes, m and m/s.
+    pub fn centre_of_body(&self, body: usize) -> (Vector3<f64>, Vector3<f64>) {
+        let (k, skeleton) = (&self.evaluation.kinematics, &self.model.system().skeleton);
+        let (mut mass, mut place, mut moving) = (0.0, Vector3::zeros(), Vector3::zeros());
+        for n in skeleton.layout.trunks()[body].segments() {
+            let own = skeleton.links[n].mass;
+            mass += own;
+            place += own * k.cg(skeleton, n).to_vector();
+            moving += own * k.cg_velocity(skeleton, n).to_vector();
+        }
+        (place / mass, moving / mass)
     }
 
     /// Kinematic acceleration of the centre of gravity, segment axes, m/s² (item 2).
@@ -197,7 +257,8 @@ impl<'a> Sample<'a> {
 
     /// Centre of a sphere, vehicle axes, m.
     pub fn sphere_centre_m(&self, sphere: usize) -> Point3<f64> {
-        self.place_m(self.model.system().sphere(&self.evaluation.kinematics, sphere).1)
+        let system = self.model.system();
+        self.place_m(system.spheres[sphere].segment, system.sphere(&self.evaluation.kinematics, sphere).1)
     }
 
     /// Point of application of a sphere's contact force relative to its centre, segment axes, m: the mean over the faces
@@ -206,7 +267,7 @@ impl<'a> Sample<'a> {
         let site = &self.model.system().spheres[sphere];
         let (mut sum, mut total) = (Vector3::zeros(), 0.0);
         for t in self.touches().filter(|t| t.sphere == sphere) {
-            let normal = self.frames[t.frame].axes.out(t.normal);
+            let normal = self.axes_of(t.frame).out(t.normal);
             let lever = self.model.system().forces.contacts.lever(&t, site.radius);
             sum -= normal.to_vector() * (lever * t.normal_force);
             total += t.normal_force;
@@ -236,11 +297,11 @@ impl<'a> Sample<'a> {
         let system = self.model.system();
         let site = &system.spheres[t.sphere];
         let to_vehicle = |v: V3<f64>| {
-            if t.frame == VEHICLE {
+            if t.frame == self.seen_frame(site.segment) {
                 v.to_vector()
             } else {
-                let space = self.frames[t.frame].axes.out(v);
-                self.frames[VEHICLE].axes.into_frame(space).to_vector()
+                let space = self.axes_of(t.frame).out(v).to_vector();
+                self.seen_from(site.segment).vector_to_frame(space)
             }
         };
         let contacts = &system.forces.contacts;
@@ -261,6 +322,19 @@ impl<'a> Sample<'a> {
         }
     }
 
+    /// The frame in whose axes what touches a segment is told.
+    fn seen_frame(&self, segment: usize) -> usize {
+        let tree = self.model.body().tree;
+        let member = self.model.setup().members.get(tree.body_of(tree.segment(segment)));
+        member.filter(|_| self.watcher.is_none()).map_or(VEHICLE, |member| member.home.index(&[]))
+    }
+
+    /// Axes of a frame, or of a segment that carries faces.
+    fn axes_of(&self, frame: usize) -> M3<f64> {
+        let carrier = frame.checked_sub(MOST_FRAMES).map(|i| self.model.system().carriers[i]);
+        carrier.map_or_else(|| self.frames[frame].axes, |segment| self.evaluation.kinematics.axes[segment])
+    }
+
     fn cg_acceleration_space(&self, segment: Segment) -> V3<f64> {
         let e = self.evaluation;
         e.accelerations.cg(&self.model.system().skeleton, &e.kinematics, segment.index())
@@ -270,7 +344,7 @@ impl<'a> Sample<'a> {
         self.evaluation.kinematics.axes[segment.index()].into_frame(v).to_vector()
     }
 
-    fn place_m(&self, space: V3<f64>) -> Point3<f64> {
-        self.vehicle.point_to_frame(space.to_vector()).into()
+    fn place_m(&self, segment: usize, space: V3<f64>) -> Point3<f64> {
+        self.seen_from(segment).point_to_frame(space.to_vector()).into()
     }
 }

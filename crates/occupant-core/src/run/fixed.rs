@@ -75,9 +75,11 @@ impl Step {
 
     /// Frames at its start, middle and end.
     #[inline]
-    pub fn frames(self, model: &Model, cursor: &mut PathCursor) -> [Frames<f64>; 3] {
+    pub fn move_frames(self, frames: &mut [Frames<f64>; 3], model: &Model, cursor: &mut PathCursor) {
         let times_s = self.times_s();
-        times_s.map(|t| model.frames(t, times_s[1], cursor))
+        for (frames, t_s) in frames.iter_mut().zip(times_s) {
+            model.move_frames(frames, t_s, times_s[1], cursor);
+        }
     }
 }
 
@@ -85,9 +87,10 @@ impl Run {
     /// All steps of `stretch`.
     pub(crate) fn advance_rk4(&mut self, model: &Model, stretch: Stretch) -> Result<(), StepError> {
         let system = model.system();
-        let (scratch, stages) = (&mut Scratch::blank(&system.skeleton), &mut Stages::new(self.state.shape()));
+        let (scratch, stages) = (&mut Scratch::blank(system), &mut Stages::new(self.state.shape()));
+        let mut frames = [Frames::still(self.time_s); 3];
         for step in stretch {
-            let frames = step.frames(model, &mut self.cursor);
+            step.move_frames(&mut frames, model, &mut self.cursor);
             self.met.clear();
             let (history, mut met) = (&mut self.history, Met(&mut self.met));
             let peaks = &mut self.seen.peaks;

@@ -10,6 +10,7 @@ use super::corner::{Crossing, Touching};
 use crate::forces::History;
 use crate::kernel::{Scratch, Situation};
 use crate::model::Model;
+use crate::motion::frame::Frames;
 use crate::motion::integrate::bogacki_shampine::{Stage, Tolerance, Trial, attempt, within};
 use crate::motion::state::State;
 use crate::results::checkpoint::{StepStart, StepUnderWay};
@@ -38,6 +39,7 @@ pub(super) struct Front {
     /// What touches at the end of a trial.
     met_in_trial: Vec<Touching>,
     scratch: Scratch<f64>,
+    frames: Frames<f64>,
 }
 
 impl Front {
@@ -55,7 +57,8 @@ impl Front {
             trial: history.clone(),
             met: Vec::with_capacity(history.memory.contacts.len()),
             met_in_trial: Vec::with_capacity(history.memory.contacts.len()),
-            scratch: Scratch::blank(&model.system().skeleton),
+            scratch: Scratch::blank(model.system()),
+            frames: Frames::still(time_s),
         }
     }
 
@@ -86,10 +89,10 @@ impl Front {
         }
         self.rate_is_known = true;
         let middle_s = 0.5 * (step.start_s + step.end_s);
-        let frames = model.frames(step.start_s, middle_s, cursor);
+        model.move_frames(&mut self.frames, step.start_s, middle_s, cursor);
         let system = model.system();
         self.met.clear();
-        let situation = Situation::accepted(&self.to, &frames);
+        let situation = Situation::accepted(&self.to, &self.frames);
         let mut met = Met(&mut self.met);
         system.rate_alone(&mut self.scratch, situation, &mut self.after, &mut Some(&mut met), &mut self.rates[1]);
     }
@@ -107,13 +110,14 @@ impl Front {
         self.trial.take_over(&self.after);
         self.met_in_trial.clear();
         let (history, mut met) = (&mut self.trial, Met(&mut self.met_in_trial));
-        let scratch = &mut self.scratch;
+        let (scratch, frames) = (&mut self.scratch, &mut self.frames);
         attempt(&self.to, &self.rates[1], h, tolerance, |stage, state, rate| {
             let (time_s, accepted) = match stage {
                 Stage::Within(s) => (step.start_s + s * h, false),
                 Stage::End => (step.end_s, true),
             };
-            let situation = Situation { state, frames: &model.frames(time_s, middle_s, cursor), accepted };
+            model.move_frames(frames, time_s, middle_s, cursor);
+            let situation = Situation { state, frames, accepted };
             system.rate_alone(scratch, situation, history, &mut accepted.then_some(&mut met), rate);
         })
     }

@@ -17,16 +17,17 @@ use front::Front;
 
 use crate::forces::{Actions, History, Memory};
 use crate::kernel::Situation;
+use crate::model::Model;
 use crate::model::setup::Integrator;
-use crate::model::{Model, frames};
-use crate::motion::frame::VEHICLE;
+use crate::motion::frame::Moving;
 use crate::motion::integrate::bogacki_shampine::Tolerance;
 use crate::motion::kinematics::Kinematics;
+use crate::motion::layout::MOST_BODIES;
 use crate::motion::state::State;
 use crate::results::checkpoint::{Checkpoint, CheckpointError, Progress};
-use crate::results::energy::{self, EnergyLedger, EnergyStart, Greatest};
+use crate::results::energy::{self, EnergyLedger, EnergyStart, Greatest, Rest};
 use crate::results::outcome::{Outcome, RecordingFailed, Status, StepError};
-use crate::results::recorder::{Flow, Recorder, RecorderError};
+use crate::results::recorder::{Flow, Recorder, RecorderError, Watch};
 use crate::results::sample::{Effort, Sample};
 use crate::run::corner::Touching;
 use crate::run::observers::Seen;
@@ -50,9 +51,11 @@ pub struct Run {
     /// The integration under error control; none at a fixed step.
     front: Option<Box<Front>>,
     control: Wanted,
-    energy_start: Option<EnergyStart>,
+    /// By body, from the first output on.
+    energy_starts: Vec<EnergyStart>,
     start_gravity_j: f64,
     greatest: Greatest,
+    rest: Rest,
     mass_kg: f64,
     actions: Actions<f64>,
     /// Times at which the motion of the vehicle or an activation jumps, s.
@@ -82,9 +85,10 @@ impl Run {
                 }
             },
             control: Wanted::new(first_step(integrator)),
-            energy_start: None,
+            energy_starts: Vec::with_capacity(MOST_BODIES),
             start_gravity_j: energy::gravity(skeleton, &Kinematics::new(skeleton, &start.state)),
             greatest: Greatest::default(),
+            rest: Rest::default(),
             mass_kg: model.body().mass_kg(),
             actions: Actions::with_room(&model.system().forces),
             seen: Seen::new(model),
@@ -113,8 +117,12 @@ impl Run {
                 None => Front::new(model, run.time_s, &run.state, &run.history),
             }));
         }
-        run.energy_start = Some(progress.energy_start);
+        run.energy_starts = match model.alone().len() {
+            0 => vec![progress.energy_start],
+            _ => starts_of(model),
+        };
         run.greatest = progress.greatest;
+        run.rest = progress.rest;
         run.seen.know(&from.first_touches, &from.step_peaks);
         Ok(run)
     }
@@ -130,7 +138,8 @@ impl Run {
         let path = &model.setup().path;
         let vehicle = path.motion(t, t, &mut self.cursor);
         let vehicle_pose = path.attitude(t, &mut self.cursor);
-        let frames = frames(t, &vehicle);
+        let frames = model.frames_with(t, t, &vehicle);
+        let homes = model.homes(&frames, &vehicle);
         let system = model.system();
         self.actions.clear();
         let evaluation =
@@ -138,21 +147,27 @@ impl Run {
         for touch in &self.actions.contacts {
             self.seen.note(model, t, touch.into());
         }
-        let stored_j = self.actions.stored_j();
-        let ledger = |start: &EnergyStart| {
-            EnergyLedger::new(
-                &system.skeleton,
-                &evaluation.kinematics,
-                &frames[VEHICLE],
-                stored_j,
-                &self.state.work(),
-                start,
-            )
-        };
-        let energy_start = *self.energy_start.get_or_insert_with(|| ledger(&EnergyStart::default()).as_start());
-        let energy = ledger(&energy_start);
-        let by_elements = self.state.work().sums.iter().map(|work| work.abs()).sum::<f64>();
+        let bodies = 0..system.skeleton.layout.trunks().len();
+        let mut ledgers = [EnergyLedger::default(); MOST_BODIES];
+        for body in bodies.clone() {
+            let stored_j = self.actions.stored_of(&system.forces, &system.spheres, &system.skeleton.layout, body);
+            let work = self.state.work(body);
+            let home = Moving::of(&homes[body]);
+            let of = (&system.skeleton, body);
+            let ledger =
+                |start: &EnergyStart| EnergyLedger::new(of, &evaluation.kinematics, &home, stored_j, &work, start);
+            if self.energy_starts.len() == body {
+                self.energy_starts.push(ledger(&EnergyStart::default()).as_start());
+            }
+            ledgers[body] = ledger(&self.energy_starts[body]);
+        }
+        let energy = EnergyLedger::sum(&ledgers[bodies.clone()]);
+        let by_elements = bodies.clone().flat_map(|body| self.state.work(body).sums).map(f64::abs).sum::<f64>();
         self.greatest.see(&energy, (energy.gravity_j - self.start_gravity_j).abs() + by_elements);
+        if model.setup().time.stops_at_rest {
+            let kinetic_j: Vec<f64> = ledgers[bodies.clone()].iter().map(|ledger| ledger.kinetic_j).collect();
+            self.rest.see(t, &kinetic_j);
+        }
         let index = self.index;
         self.index += 1;
         let recorded = recorder.record(&Sample {
@@ -163,6 +178,10 @@ impl Run {
             history: &self.history,
             frames: &frames,
             vehicle: &vehicle,
+            homes: &homes[bodies.clone()],
+            ledgers: &ledgers[bodies],
+            of: 0,
+            watcher: None,
             vehicle_pose,
             evaluation: &evaluation,
             actions: &self.actions,
@@ -172,8 +191,9 @@ impl Run {
                 effort: self.effort,
                 wanted_s: self.control.wanted_s,
                 step_error: self.control.error,
-                energy_start,
+                energy_start: self.energy_starts[0],
                 greatest: self.greatest,
+                rest: self.rest,
             },
             first_touches: &self.seen.touches,
             step_peaks: &self.seen.peaks,
@@ -182,9 +202,9 @@ impl Run {
         recorded.map_err(|e| self.unrecorded(e))
     }
 
-    /// Time of the next output, s; none after the last.
+    /// Time of the next output, s; none after the last, and none once all bodies rest of a run that ends then.
     pub fn next_output_s(&self, model: &Model) -> Option<f64> {
-        model.output_time_s(self.index)
+        model.output_time_s(self.index).filter(|_| !self.rest.is_over(self.time_s))
     }
 
     /// Steps until `target_s`.
@@ -251,6 +271,14 @@ impl Run {
         let time_s = self.time_s;
         RecordingFailed { time_s, source }
     }
+}
+
+/// Energies at the start of a run from which the balances of several bodies count.
+fn starts_of(model: &Model) -> Vec<EnergyStart> {
+    let mut run = Run::new(model);
+    // what only watches never fails
+    let _recorded = run.record(model, &mut Watch(|_: &Sample<'_>| ()));
+    run.energy_starts
 }
 
 fn first_step(integrator: &Integrator) -> f64 {

@@ -49,7 +49,7 @@ impl FrameMotion {
     }
 
     /// Components along the space axes of a vector given along the frame's axes (Eq. 94).
-    pub(crate) fn vector_to_space(&self, vector_frame: Vector3<f64>) -> Vector3<f64> {
+    pub fn vector_to_space(&self, vector_frame: Vector3<f64>) -> Vector3<f64> {
         self.rotation * vector_frame
     }
 

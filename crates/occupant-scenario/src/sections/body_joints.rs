@@ -7,7 +7,7 @@ use super::builder::Builder;
 use super::quantity::{all_si, point};
 use occupant_core::body::named::{NamedJoint, NamedLandmarks, tree};
 use occupant_core::body::{JointKind, JointPlace, JointSite, Tree};
-use occupant_core::motion::layout::{MOST_HINGES, MOST_SEGMENTS};
+use occupant_core::motion::layout::MOST_OF_TREE;
 use placed_text::with_key;
 
 /// A joint with the names of its segments.
@@ -80,9 +80,9 @@ fn fits(b: &mut Builder, rest: &[Hung<'_>]) -> bool {
         JointKind::Ball | JointKind::Fixed => 0,
     };
     let (segments, axes) = (rest.len() + 1, rest.iter().map(axes).sum::<usize>());
-    if segments > MOST_SEGMENTS || axes > MOST_HINGES {
+    if segments > MOST_OF_TREE || axes > MOST_OF_TREE {
         let found = format!("{segments} segments with {axes} axes of pins and universal joints");
-        b.error("body.joints", found, format!("{MOST_SEGMENTS} segments and {MOST_HINGES} axes at most"));
+        b.error("body.joints", found, format!("{MOST_OF_TREE} segments and {MOST_OF_TREE} axes at most"));
         return false;
     }
     true

@@ -8,6 +8,7 @@ use super::triggers::Triggers;
 use super::{Scenario, three_point};
 use occupant_core::body::Body;
 use occupant_core::forces::chain::{Chain, Cue, Device, NEVER, Node, Rest};
+use occupant_core::forces::contact::surface::Frame;
 use occupant_core::forces::function::Function;
 use placed_text::with_key;
 
@@ -74,6 +75,7 @@ impl Parts<'_> {
             let device = std::mem::replace(&mut device, fixed);
             list.push(Chain {
                 belt: name.to_owned(),
+                frame: Frame::Vehicle,
                 nodes,
                 straps,
                 webbing,

@@ -9,10 +9,12 @@ mod body;
 mod body_joints;
 mod builder;
 mod chains;
+mod frames;
 mod functions;
 mod heading;
 mod joints;
 mod limits;
+mod many;
 mod markers;
 mod materials;
 mod mount;
@@ -31,6 +33,7 @@ mod self_contact;
 mod sensors;
 mod setup;
 mod solids;
+mod stance;
 mod surfaces;
 mod three_point;
 mod triggers;
@@ -41,6 +44,7 @@ use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub(super) use many::together;
 pub use quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, Quantity};
 pub use record_file::{RecordFile, read_record};
 pub(super) use setup::{occupant, setup};
@@ -48,8 +52,10 @@ pub(super) use setup::{occupant, setup};
 use self::bags::{BagSection, GasSection};
 use self::belts::BeltSection;
 pub(super) use self::body::BodySection;
+use self::frames::{FrameSection, GroundSection, VehicleSection};
 use self::functions::{LimiterSection, WebbingSection};
 use self::joints::{JointSection, JointsSection};
+use self::many::{LooseSection, OccupantSection};
 use self::markers::MarkerSection;
 use self::materials::MaterialSection;
 use self::mount::MountSection;
@@ -61,6 +67,7 @@ use self::retractors::RetractorSection;
 use self::run::{IntegratorSection, OutputSection, TimeSection};
 use self::self_contact::SelfContactSection;
 use self::solids::SolidSection;
+use self::stance::StanceSection;
 use self::surfaces::{ContactSection, SurfaceSection};
 use self::triggers::TriggerSection;
 use super::check::schema::schema_of;
@@ -102,13 +109,17 @@ type SpecificHeat<const RANGE: usize = ANY> = Quantity<{ kind::SPECIFIC_HEAT }, 
 type SpecificHeatSlope<const RANGE: usize = ANY> = Quantity<{ kind::SPECIFIC_HEAT_SLOPE }, RANGE>;
 type HeatTransfer<const RANGE: usize = ANY> = Quantity<{ kind::HEAT_TRANSFER }, RANGE>;
 
-/// A crash or a violent manoeuvre with one occupant.
+/// A crash or a violent manoeuvre with one occupant, or several.
 ///
 /// A bare number is in SI units with angles in degrees, or in the units named by `units`; a text carries its own unit,
 /// such as "20 mph", "48 lbf/in", "5.73 in·lbf·s/rad".
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("x-exactly-one" = [["posture", "initial_state", "mount"]]))]
+#[schemars(extend(
+    "x-exactly-one" = [["body", "occupants"]],
+    "x-at-most-one" = [["posture", "initial_state", "mount", "stance"]],
+    "x-together" = [["body", "joints"]],
+))]
 pub struct Scenario {
     /// One line that names the case.
     pub title: String,
@@ -129,21 +140,37 @@ pub struct Scenario {
     pub(crate) output: Option<OutputSection>,
     /// How the equations of motion are integrated; "adaptive" with its own defaults if absent.
     pub(crate) integrator: Option<IntegratorSection>,
-    /// Motion of the vehicle.
-    pub(crate) path: PathSection,
+    /// Motion of the vehicle; of several, of that which is called "vehicle". Absent, the first of `vehicles` is called so too.
+    pub(crate) path: Option<PathSection>,
+    /// Other vehicles by name.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) vehicles: IndexMap<String, VehicleSection>,
+    /// The ground.
+    pub(crate) ground: Option<GroundSection>,
+    /// Frames that move within a vehicle, such as intruding panels, by name. A surface or solid says `frame` = that name.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) frames: IndexMap<String, FrameSection>,
+    /// Several occupants by name, instead of `body`, `joints` and what else is one occupant's own.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) occupants: IndexMap<String, OccupantSection>,
+    /// Rigid bodies that move freely, by name.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) loose: IndexMap<String, LooseSection>,
     /// The occupant.
-    pub(crate) body: BodySection,
+    pub(crate) body: Option<BodySection>,
     /// How the occupant sits.
     pub(crate) posture: Option<PostureSection>,
     /// Exact position and velocity at the start, instead of a posture.
     pub(crate) initial_state: Option<InitialStateSection>,
     /// A rig that holds a segment of the occupant, or of a part of one.
     pub(crate) mount: Option<MountSection>,
+    /// How the occupant stands, instead of a posture.
+    pub(crate) stance: Option<StanceSection>,
     /// Seats by name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) seats: IndexMap<String, SeatSection>,
     /// The occupant's joints.
-    pub(crate) joints: JointsSection,
+    pub(crate) joints: Option<JointsSection>,
     /// Joint properties named once, for joints to refer to.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) joint_sets: IndexMap<String, JointSection>,

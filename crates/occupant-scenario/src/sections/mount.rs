@@ -27,7 +27,7 @@ pub(crate) struct MountSection {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) without: Vec<String>,
     /// What it is fixed to; "vehicle", whose path `path` is, if absent.
-    pub(crate) frame: Option<Frame>,
+    pub(crate) frame: Option<MountFrame>,
     /// The point of the segment that it is held by and for which its load is given, from the segment's lower end in segment axes
     /// (X ahead, Y left, Z up when standing); [0, 0, 0] if absent.
     pub(crate) point: Option<[Length; 3]>,
@@ -43,6 +43,16 @@ pub(crate) struct MountSection {
     /// said stands as the one that it hangs on.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) posture: IndexMap<String, Angle>,
+}
+
+/// What a mount is fixed to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum MountFrame {
+    /// The vehicle: x forward, y right, z down from its centre of gravity.
+    Vehicle,
+    /// Space: x forward, y left, z up.
+    Space,
 }
 
 /// The body as it hangs on the mount, without what is left out; none where a name leads nowhere.
@@ -88,7 +98,7 @@ pub(super) fn mounting(b: &mut Builder, section: &MountSection, body: &Body) -> 
     }
     let triple = |of: &Option<[Length; 3]>| of.as_ref().map_or_else(Vector3::zeros, |of| point(of).coords);
     Mounting {
-        frame: section.frame.unwrap_or_default(),
+        frame: if section.frame == Some(MountFrame::Space) { Frame::Space } else { Frame::Vehicle },
         point_m: triple(&section.point),
         place_m: triple(&section.place),
         attitude: pose(&None, [&section.roll, &section.pitch, &section.yaw]).attitude,

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::builder::{Builder, index_of};
 use super::mount::mounting;
 use super::quantity::{all_si, si_or};
+use super::stance::stance;
 use super::{Angle, Length, Scenario, Speed};
 use crate::check::units_of;
 use occupant_core::body::{Body, Segment, Tree, both_sides};
@@ -108,16 +109,24 @@ pub(super) fn posture(b: &mut Builder, s: &Scenario, body: &Body) -> (Option<Ini
         let mounting = Box::new(mounting(b, mount, body));
         return (Some(InitialPosture::Mounted(mounting)), InitialVelocity::default());
     }
+    if let Some(section) = &s.stance {
+        let (posture, velocity) = stance(b, s, section, body);
+        return (Some(posture), velocity);
+    }
     match (&s.posture, &s.initial_state) {
         (Some(posture), _) => (seating(b, s, posture, body.tree).map(InitialPosture::Seated), velocity(posture)),
         (None, Some(state)) => (state_of(b, s, state, body), InitialVelocity::default()),
-        (None, None) => (None, InitialVelocity::default()),
+        (None, None) => {
+            let expected = "one of `posture`, `initial_state`, `mount`, `stance`";
+            b.error("", "nothing says how the body begins", expected);
+            (None, InitialVelocity::default())
+        }
     }
 }
 
 fn seating(b: &mut Builder, s: &Scenario, p: &PostureSection, tree: &Tree) -> Option<Seating> {
     let seat = s.seats.get(&p.seat)?;
-    let solid = |name: &str| Some(s.surfaces.len() + s.solids.get_index_of(name)?);
+    let solid = |name: &str| Some(s.surfaces.len() + usize::from(s.ground.is_some()) + s.solids.get_index_of(name)?);
     let part = |name: &str| s.surfaces.get_index_of(name).or_else(|| solid(name));
     check_angles(b, p, tree);
     if p.heels.is_none() && tree.landmarks().legs().next().is_some() {

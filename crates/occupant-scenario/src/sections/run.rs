@@ -19,6 +19,9 @@ pub(crate) struct TimeSection {
     pub(crate) start: Option<Time>,
     /// End.
     pub(crate) end: Time,
+    /// True: the run ends before that once every body has had less than 1e-4 of the greatest kinetic energy, in space, for 0.2 s.
+    /// False if absent.
+    pub(crate) stop_at_rest: Option<bool>,
 }
 
 /// What is recorded.
@@ -66,6 +69,7 @@ pub(super) fn time(b: &mut Builder, s: &Scenario) -> TimeSpan {
         start_s: si_or(&s.time.start, 0.0),
         end_s: s.time.end.si(),
         output_s: s.output.as_ref().map_or(DEFAULT_OUTPUT_S, |o| si_or(&o.interval, DEFAULT_OUTPUT_S)),
+        stops_at_rest: s.time.stop_at_rest.unwrap_or(false),
     };
     if span.end_s <= span.start_s {
         let found = format!("a run from {} s to {} s", span.start_s, span.end_s);

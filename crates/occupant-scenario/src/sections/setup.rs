@@ -8,13 +8,14 @@ use serde::Deserialize;
 use super::builder::Builder;
 use super::quantity::si_or;
 use super::{
-    BodySection, JointsSection, Scenario, bags, belts, body, chains, joints, materials, mount, muscles, path,
+    BodySection, JointsSection, Scenario, bags, belts, body, chains, frames, joints, materials, mount, muscles, path,
     plausible, posture, run, self_contact, solids, surfaces, triggers,
 };
 use crate::check::references;
 use occupant_core::body::Body;
 use occupant_core::forces::joint::Joints;
 use occupant_core::model::setup::{STANDARD_GRAVITY_M_S2, Setup};
+use occupant_core::vehicle::VehiclePath;
 use placed_text::{Diagnostics, Document, Problem, SourceId, locate, with_key};
 
 /// Builds the plain data; `written` is the scenario as it was written, `explicit` the one with presets written out, and
@@ -27,9 +28,11 @@ pub(crate) fn setup(
 ) -> Result<(Setup, Diagnostics), Diagnostics> {
     let b = &mut Builder { document, problems: Diagnostics::new() };
     let is_part = explicit.mount.is_some();
-    let whole = body::body(b, written.body.preset.as_deref(), &explicit.body, is_part);
+    let preset = written.body.as_ref().and_then(|body| body.preset.as_deref());
+    let whole = explicit.body.as_ref().and_then(|own| body::body(b, preset, own, is_part));
     // what is said of joints that are left out is as good as what is said of all
-    let joints = whole.as_ref().map(|whole| joints::joints(b, &explicit.joints, whole.tree));
+    let joints = whole.as_ref().zip(explicit.joints.as_ref());
+    let joints = joints.map(|(whole, own)| joints::joints(b, own, whole.tree));
     let held = |whole: Body| match &explicit.mount {
         Some(section) => mount::held(b, section, &whole),
         None => Some(whole),
@@ -49,7 +52,8 @@ pub(crate) fn setup(
     let integrator = run::integrator(b, explicit);
     let output = run::output(b, explicit, &body);
     let gravity_m_s2 = si_or(&explicit.gravity, STANDARD_GRAVITY_M_S2);
-    let path = path::path(b, &explicit.path, path_table, gravity_m_s2);
+    let path = first_path(b, explicit, path_table, gravity_m_s2);
+    let frames = frames::frames(b, explicit, gravity_m_s2);
     let (mut chains, mut bags) = (Vec::new(), Vec::new());
     if let Some(path) = &path {
         let triggers = triggers::triggers(b, explicit, path, &time);
@@ -75,6 +79,8 @@ pub(crate) fn setup(
         chains,
         bags,
         path,
+        frames,
+        members: Vec::new(),
         posture,
         velocity,
         time,
@@ -83,6 +89,18 @@ pub(crate) fn setup(
     };
     plausible::check(b, &setup, explicit);
     Ok((setup, std::mem::take(&mut b.problems)))
+}
+
+/// The path of the first vehicle.
+fn first_path(b: &mut Builder, s: &Scenario, table: Option<SourceId>, gravity_m_s2: f64) -> Option<VehiclePath> {
+    match s.first_path() {
+        Some((at, section)) if at.len() == 1 => path::path(b, section, table, gravity_m_s2),
+        Some((at, section)) => frames::moving(b, &at, section, gravity_m_s2),
+        None => {
+            b.error("", "no path", "path = { kind = … }, the motion of the vehicle, or `vehicles`");
+            None
+        }
+    }
 }
 
 /// Builds the occupant alone; `document` is the tree of an explicit scenario that came from `preset`.

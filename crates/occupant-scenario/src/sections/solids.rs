@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::builder::{Builder, index_of};
+use super::frames::Meets;
 use super::path::pose;
 use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, point, si_or};
 use super::surfaces::{FacingChoice, SurfaceSection, report_undecided, surface};
@@ -34,7 +35,9 @@ macro_rules! kinds {
                 /// Name of its material in `materials`.
                 pub(crate) material: String,
                 /// What it is fixed to; "vehicle" if absent.
-                pub(crate) frame: Option<Frame>,
+                pub(crate) frame: Option<String>,
+                /// Of several bodies, who can touch it, as of a surface.
+                pub(crate) meets: Option<Meets>,
                 /// Solids of one group are met as one body without seams; they have one frame and one material.
                 pub(crate) group: Option<String>,
                 /// Names of the parts or spheres of the body that can touch it; all if absent.
@@ -49,11 +52,23 @@ macro_rules! kinds {
                 if let SolidSection::Prism(prism) = self { prism.profile.as_deref() } else { None }
             }
 
+            /// Who meets it.
+            pub(super) fn meets(&self) -> Option<Meets> {
+                match self {
+                    $(SolidSection::$Kind(s) => s.meets,)*
+                }
+            }
+
+            /// Its frame by name.
+            pub(super) fn frame(&self) -> Option<&str> {
+                self.common().frame
+            }
+
             fn common(&self) -> Common<'_> {
                 match self {
                     $(SolidSection::$Kind(s) => Common {
                         material: &s.material,
-                        frame: s.frame.unwrap_or_default(),
+                        frame: s.frame.as_deref(),
                         group: &s.group,
                         spheres: &s.spheres,
                     },)*
@@ -66,7 +81,7 @@ macro_rules! kinds {
 /// What every solid says.
 struct Common<'a> {
     material: &'a str,
-    frame: Frame,
+    frame: Option<&'a str>,
     group: &'a Option<String>,
     spheres: &'a Option<Vec<String>>,
 }
@@ -169,15 +184,16 @@ pub(super) fn solids(b: &mut Builder, scenario: &Scenario, body: &Body) -> Vec<S
     let mut solids = Vec::with_capacity(scenario.solids.len());
     for (name, section) in &scenario.solids {
         let common = section.common();
+        let frame = b.frame(scenario, &format!("{}.frame", with_key("solids", name)), common.frame);
         let shape = match section {
             SolidSection::Plate(s) => plate(b, scenario, body, (name, s), &mut undecided),
-            _ => shape(section),
+            _ => shape(section, frame),
         };
         let Some(shape) = shape else { continue };
         let spheres = format!("{}.spheres", with_key("solids", name));
         solids.push(Solid {
             name: name.to_owned(),
-            frame: common.frame,
+            frame,
             shape,
             material: index_of(common.material, scenario.materials.keys().map(String::as_str)),
             group: common.group.clone(),
@@ -189,8 +205,7 @@ pub(super) fn solids(b: &mut Builder, scenario: &Scenario, body: &Body) -> Vec<S
 }
 
 /// The shape of all but a plate.
-fn shape(section: &SolidSection) -> Option<Shape> {
-    let frame = section.common().frame;
+fn shape(section: &SolidSection, frame: Frame) -> Option<Shape> {
     let axis = |tilt: &Option<Angle>, axis: &Option<[Ratio; 3]>| match (tilt, axis) {
         (Some(tilt), _) => wheel_axis(frame, tilt.si()),
         (None, axis) => axis.as_ref().map_or(Vector3::zeros(), |axis| Vector3::from(all_si(axis))),
@@ -247,7 +262,8 @@ fn plate(
 fn front(s: &PlateSection) -> SurfaceSection {
     SurfaceSection {
         material: s.material.clone(),
-        frame: s.frame,
+        frame: s.frame.clone(),
+        meets: None,
         points: s.points.clone(),
         edge: s.edge.clone(),
         half_width: s.half_width.clone(),

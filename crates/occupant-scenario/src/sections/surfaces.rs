@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::builder::{Builder, index_of};
+use super::frames::{Meets, ground};
 use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, point, si_or};
 use super::{Angle, Length, Ratio, Scenario};
 use occupant_core::body::Body;
@@ -22,8 +23,12 @@ use placed_text::{Problem, with_key};
 pub(crate) struct SurfaceSection {
     /// Name of its material in `materials`.
     pub(crate) material: String,
-    /// What it is fixed to; "vehicle" if absent.
-    pub(crate) frame: Option<Frame>,
+    /// What it is fixed to: "vehicle", "space", "ground", or the name of another vehicle, a frame or a loose body; "vehicle" if
+    /// absent.
+    pub(crate) frame: Option<String>,
+    /// Of several bodies, who can touch it: "own", those that begin in its vehicle; "others", all but those; "all". "own" if
+    /// absent; what belongs to no vehicle all can touch.
+    pub(crate) meets: Option<Meets>,
     /// Corners [x, y, z] in order round a convex plane polygon.
     #[schemars(extend("minItems" = 3))]
     pub(crate) points: Option<Vec<[Length; 3]>>,
@@ -86,6 +91,11 @@ pub(crate) enum FacingChoice {
 pub(crate) struct ContactSection {
     /// Where the in-plane force of a surface's edge acts on a sphere; "contact_point" if absent.
     pub(crate) edge_force: Option<EdgeForce>,
+    /// Name of the material of which the skins of several bodies are, where they have no other: spheres of two bodies that touch
+    /// deform both skins in series.
+    pub(crate) skin: Option<String>,
+    /// Pairs of bodies that can touch each other, by their names; all if absent.
+    pub(crate) bodies: Option<Vec<[String; 2]>>,
 }
 
 /// Where the edge force acts.
@@ -97,11 +107,11 @@ pub(super) fn edge_force(s: &Scenario) -> EdgeForce {
 pub(super) fn surfaces(b: &mut Builder, scenario: &Scenario, body: &Body) -> Vec<Surface> {
     let mut undecided = Vec::new();
     let each = scenario.surfaces.iter();
-    let surfaces = each
+    let surfaces: Vec<Surface> = each
         .map(|(name, section)| surface(b, scenario, body, (&with_key("surfaces", name), name, section), &mut undecided))
         .collect();
     report_undecided(b, &undecided);
-    surfaces
+    surfaces.into_iter().chain(ground(scenario)).collect()
 }
 
 /// The surface that the section at `path` says.
@@ -112,7 +122,7 @@ pub(super) fn surface(
     (path, name, section): (&str, &str, &SurfaceSection),
     undecided: &mut Vec<String>,
 ) -> Surface {
-    let frame = section.frame.unwrap_or_default();
+    let frame = b.frame(scenario, &with_key(path, "frame"), section.frame.as_deref());
     let spheres = format!("{path}.spheres");
     Surface {
         name: name.to_owned(),

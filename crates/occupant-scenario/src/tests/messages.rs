@@ -15,7 +15,7 @@ fn each_kind_of_mistake_is_explained() {
 3 | time.ende = \"150 ms\"
   |      ^^^^
   = in: time
-  = expected: `start` or `end`
+  = expected: `start`, `end` or `stop_at_rest`
   = help: did you mean `end`?
 
 error: `time` has no key `end`

@@ -12,12 +12,11 @@ use super::parameter::{Family, Parameter};
 use super::trouble::Trouble;
 use occupant_core::forces::{History, Memory};
 use occupant_core::kernel::System;
-use occupant_core::model::{Model, frames};
+use occupant_core::model::Model;
 use occupant_core::motion::dual::Dual;
-use occupant_core::motion::frame::Frames;
-use occupant_core::motion::frame::{Moving, VEHICLE};
+use occupant_core::motion::frame::{Frames, Moving, VEHICLE};
 use occupant_core::motion::state::State;
-use occupant_core::vehicle::{PathCursor, VehiclePath};
+use occupant_core::vehicle::PathCursor;
 
 /// Step of the differences as a part of the parameter's size.
 const STEP: f64 = 1e-3;
@@ -43,11 +42,11 @@ pub struct Built {
     pub notes: Vec<String>,
 }
 
-/// The vehicle's paths on the points of a ladder.
+/// The frames of models on the points of a ladder.
 #[derive(Clone, Debug)]
 struct Path {
     ladder: Ladder,
-    paths: Vec<VehiclePath>,
+    models: Vec<Model>,
     cursors: Vec<PathCursor>,
     size: f64,
     /// Greatest distance of two extrapolations, and when.
@@ -109,28 +108,33 @@ fn relative(slope: &Slope, value: f64, size: f64) -> f64 {
 
 impl Path {
     fn new(base: &Model, family: Family, size: f64) -> Option<Self> {
-        let base = &base.setup().path;
-        let paths: Vec<VehiclePath> = family.models.iter().map(|m| m.setup().path.clone()).collect();
-        if paths.iter().all(|path| path == base) {
+        let base = base.setup();
+        let is_same = |m: &Model| (&m.setup().path, &m.setup().frames) == (&base.path, &base.frames);
+        if family.models.iter().all(is_same) {
             return None;
         }
         Some(Path {
             ladder: family.ladder,
-            cursors: vec![PathCursor::default(); paths.len()],
-            paths,
+            cursors: vec![PathCursor::default(); family.models.len()],
+            models: family.models,
             size,
             doubt: (0.0, 0.0),
         })
     }
 
-    /// Slopes of the vehicle's motion, whose numbers are `at_base`.
-    fn slopes(&mut self, at_base: &[f64; MOTION], t_s: f64, middle_s: f64) -> [f64; MOTION] {
+    /// Frames of all models at a time.
+    fn frames(&mut self, t_s: f64, middle_s: f64) -> Vec<Frames<f64>> {
+        let models = self.models.iter().zip(&mut self.cursors);
+        models.map(|(model, cursor)| model.frames(t_s, middle_s, cursor)).collect()
+    }
+
+    /// Slopes of the motion of a frame, whose numbers are `at_base`.
+    fn slopes(&mut self, at_base: &[f64; MOTION], all: &[Frames<f64>], frame: usize, t_s: f64) -> [f64; MOTION] {
         let mut values = [[0.0; MOTION]; POINTS];
-        let paths = self.paths.iter().zip(&mut self.cursors);
-        for (values, (path, cursor)) in values.iter_mut().zip(paths) {
-            *values = motion_numbers(&frames(t_s, &path.motion_within(t_s, middle_s, cursor))[VEHICLE]);
+        for (values, frames) in values.iter_mut().zip(all) {
+            *values = motion_numbers(&frames[frame]);
         }
-        let count = self.paths.len();
+        let count = all.len();
         from_fn(|i| {
             let column: [f64; POINTS] = from_fn(|point| values[point][i]);
             let slope = self.ladder.slope(at_base[i], &column[..count]);
@@ -222,15 +226,17 @@ pub(super) fn dual_frames<const N: usize>(
 ) -> Frames<Dual<N>> {
     let still = |x: f64, _: f64| Dual::new(x, [0.0; N]);
     let mut dual = plain.zip(plain, &still);
-    let numbers = motion_numbers(&plain[VEHICLE]);
     for (k, built) in built.iter_mut().enumerate().take(N) {
         let Some(path) = &mut built.path else { continue };
-        let slopes = path.slopes(&numbers, t_s, middle_s);
-        let mut places = slopes.iter();
-        let vehicle = plain[VEHICLE];
-        dual[VEHICLE].each(&vehicle, &mut |x: &mut Dual<N>, _| {
-            x.slopes[k] = places.next().copied().unwrap_or(0.0);
-        });
+        let all = path.frames(t_s, middle_s);
+        let others = path.models.first().map_or(0, |model| model.setup().frames.len());
+        for frame in VEHICLE..=VEHICLE + others {
+            let slopes = path.slopes(&motion_numbers(&plain[frame]), &all, frame, t_s);
+            let mut places = slopes.iter();
+            dual[frame].each(&plain[frame], &mut |x: &mut Dual<N>, _| {
+                x.slopes[k] = places.next().copied().unwrap_or(0.0);
+            });
+        }
     }
     dual
 }

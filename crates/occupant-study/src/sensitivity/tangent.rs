@@ -65,7 +65,7 @@ impl<'a, const N: usize> Tangent<'a, N> {
         Ok(Tangent {
             state,
             history,
-            scratch: Scratch::blank(&system.skeleton),
+            scratch: Scratch::blank(&system),
             system,
             model,
             built,

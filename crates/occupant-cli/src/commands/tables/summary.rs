@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 
 use occupant_core::results::energy::EnergyCheck;
 use occupant_core::results::summary::{
-    Acceleration, Caveat, ContactBegin, Event, FirstContact, Level, Peak, RunStatus, Summary, word,
+    Acceleration, Caveat, ContactBegin, Event, FirstContact, Landing, Level, Peak, Person, RunStatus, Summary, Throw,
+    word,
 };
 use placed_text::shown;
 
@@ -18,22 +19,30 @@ use crate::jobs::run::recording::Written;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Marks<'a> {
     caveats: &'a [Caveat],
+    /// What stands before the names of figures of one of several occupants.
+    prefix: &'a str,
     /// None if no ensemble was run.
     unstable: Option<BTreeSet<&'a str>>,
 }
 
 impl<'a> Marks<'a> {
     pub(crate) fn of(caveats: &'a [Caveat]) -> Self {
-        Marks { caveats, unstable: None }
+        Marks { caveats, prefix: "", unstable: None }
     }
 
     pub(crate) fn and_unstable(self, unstable: impl IntoIterator<Item = &'a str>) -> Self {
         Marks { unstable: Some(unstable.into_iter().collect()), ..self }
     }
 
+    /// The same for figures of an occupant, before whose names this stands.
+    pub(crate) fn of_occupant(&self, prefix: &'a str) -> Self {
+        Marks { prefix, ..self.clone() }
+    }
+
     /// Whether a caveat touches the figure.
     pub(crate) fn spoils(&self, figure: &str) -> bool {
-        self.caveats.iter().any(|caveat| caveat.touches(figure))
+        let figure = format!("{}{figure}", self.prefix);
+        self.caveats.iter().any(|caveat| caveat.touches(&figure))
     }
 
     /// The text of a figure with its marks, or with the room for them, so that columns stay in line.
@@ -42,7 +51,7 @@ impl<'a> Marks<'a> {
             text.push(if self.spoils(figure) { '!' } else { ' ' });
         }
         if let Some(unstable) = &self.unstable {
-            text.push(if unstable.contains(figure) { '*' } else { ' ' });
+            text.push(if unstable.contains(format!("{}{figure}", self.prefix).as_str()) { '*' } else { ' ' });
         }
         text
     }
@@ -64,7 +73,11 @@ pub(crate) fn summary_table(summary: &Summary, written: &Written, marks: &Marks)
     if !summary.first_contacts.is_empty() {
         parts.push(first_contacts(summary, marks));
     }
-    parts.push(measures::table(summary.measures.iter().filter(|m| m.brief), marks));
+    for (prefix, person) in summary.people() {
+        let own = measures::table(person.measures.iter().filter(|m| m.brief), &marks.of_occupant(&prefix));
+        parts.push(if prefix.is_empty() { own } else { format!("{}\n{own}", shown(prefix.trim_end_matches('.'))) });
+    }
+    parts.extend(throws(summary));
     parts.extend(marks.explained());
     parts.push(trust(summary, written, marks));
     parts.join("\n")
@@ -84,11 +97,14 @@ fn title(summary: &Summary) -> String {
 
 fn accelerations(summary: &Summary, marks: &Marks) -> String {
     let heads = ["peak, g", "at, ms", "3 ms held, g", "from–to, ms", "3 ms in total, g"];
-    let a = &summary.accelerations;
-    let parts = [("head", &a.head), ("chest", &a.chest), ("pelvis", &a.pelvis)];
+    let people = summary.people();
+    let parts = people.iter().flat_map(|(prefix, Person { accelerations: a, .. })| {
+        let parts = [("head", &a.head), ("chest", &a.chest), ("pelvis", &a.pelvis)];
+        parts.map(|(name, part)| (format!("{prefix}{name}"), part))
+    });
     // a part of a body on a mount lacks some
-    let there = parts.into_iter().filter(|(_, part)| !part.peak_g.is_nan());
-    let rows = there.map(|(name, part)| acceleration(name, part, marks));
+    let there = parts.filter(|(_, part)| !part.peak_g.is_nan());
+    let rows = there.map(|(name, part)| acceleration(&name, part, marks));
     table(&[(Left, &["acceleration"]), (Right, &heads)], rows)
 }
 
@@ -105,6 +121,35 @@ fn acceleration(name: &str, part: &Acceleration, marks: &Marks) -> [String; 6] {
         mark("three_ms_contiguous", held.map_or(NONE.to_owned(), |l| format!("{}–{}", ms(l.from_s), ms(l.to_s)))),
         mark("three_ms_cumulative", level(total)),
     ]
+}
+
+/// Where bodies went that were struck; none where nothing was.
+fn throws(summary: &Summary) -> Option<String> {
+    let heads = [
+        "struck at, ms",
+        "airborne from–to, ms",
+        "lands at, ms",
+        "at, m",
+        "speed, m/s",
+        "distance, m",
+        "end speed, m/s",
+    ];
+    let row = |(name, throw): (&&str, &Throw)| {
+        let landing = |of: fn(&Landing) -> String| throw.landing.as_ref().map_or(NONE.to_owned(), of);
+        let flights = throw.airborne_s.iter().map(|[from, to]| format!("{}–{}", ms(*from), ms(*to)));
+        [
+            if name.is_empty() { "occupant".to_owned() } else { shown(name).to_string() },
+            ms(throw.struck_s),
+            flights.take(1).next().unwrap_or(NONE.to_owned()),
+            landing(|l| ms(l.time_s)),
+            landing(|l| number(l.distance_m, 2)),
+            landing(|l| number(l.speed_m_s, 2)),
+            number(throw.distance_m, 2),
+            number(throw.end_speed_m_s, 2),
+        ]
+    };
+    let rows = summary.throws.iter().map(row);
+    (!summary.throws.is_empty()).then(|| table(&[(Left, &["throw"]), (Right, &heads)], rows))
 }
 
 /// What happened to belts, in order; none where nothing did.
@@ -174,8 +219,10 @@ fn touch(contact: &ContactBegin) -> [String; 4] {
 
 fn trust(summary: &Summary, written: &Written, marks: &Marks) -> String {
     let mut lines = Vec::new();
-    if let Some(e) = &summary.head_excursion {
-        let mark = |figure: &str, text| marks.put(&format!("head_excursion.{figure}"), text).trim_end().to_owned();
+    for (prefix, Person { head_excursion, .. }) in summary.people() {
+        let Some(e) = &head_excursion else { continue };
+        let mark =
+            |figure: &str, text| marks.put(&format!("{prefix}head_excursion.{figure}"), text).trim_end().to_owned();
         let mm = |way: &str, peak: Peak| mark(way, format!("{way} {} mm", number(peak.value * 1e3, 0)));
         let ways = [
             format!("{} at {}", mm("forward", e.forward), mark("forward_time", format!("{} ms", ms(e.forward.time_s)))),
@@ -184,7 +231,8 @@ fn trust(summary: &Summary, written: &Written, marks: &Marks) -> String {
             mm("left", e.left),
             mm("right", e.right),
         ];
-        lines.push(("head excursion", ways.join(", ")));
+        let of = if prefix.is_empty() { String::new() } else { format!("{}: ", shown(prefix.trim_end_matches('.'))) };
+        lines.push(("head excursion", format!("{of}{}", ways.join(", "))));
     }
     let EnergyCheck { balance_error, reference, reference_j, .. } = summary.energy;
     let error = if balance_error.is_finite() { format!("error {balance_error:.1e}") } else { "not known".to_owned() };

@@ -61,8 +61,6 @@ struct Tracks {
     start_s: f64,
     /// A frame of the scene every so many outputs.
     stride: usize,
-    /// Number of the last output.
-    last: usize,
     frames: FrameNames,
     names: Names,
     messages: Vec<(Message, Channel)>,
@@ -159,7 +157,6 @@ impl Tracks {
         Ok(Tracks {
             start_s: time.start_s,
             stride: stride(time.output_s, options.frames_per_s.get()),
-            last: model.output_count() - 1,
             frames: FrameNames::new(model.body()),
             names: Names::of(model),
             messages: with_channels,
@@ -229,7 +226,7 @@ impl<W: Write + Seek + Send + 'static> Recorder for McapRecorder<W> {
         let press = &mut self.press;
         let tracks = self.tracks.as_mut().ok_or("an output before the run began")?;
         tracks.write_messages(press, sample);
-        let (first, last) = (self.outputs == 0, sample.index == tracks.last);
+        let (first, last) = (self.outputs == 0, sample.is_last());
         if first || last || sample.index.is_multiple_of(tracks.stride) {
             tracks.write_frame(press, sample, self.options.force_scale_m_per_n);
         }

@@ -23,5 +23,18 @@ pub(crate) const LOG: &str = "/log";
 
 /// The frame of a segment: its axes, at its centre of gravity.
 pub(crate) fn segment_frame(name: &str) -> String {
-    format!("occupant/{name}")
+    match name.split_once('.') {
+        Some((occupant, segment)) => format!("occupants/{occupant}/{segment}"),
+        None => format!("occupant/{name}"),
+    }
+}
+
+/// The frame of a segment that carries surfaces or solids: its axes, at its lower end.
+pub(crate) fn origin_frame(name: &str) -> String {
+    format!("{}/origin", segment_frame(name))
+}
+
+/// The frame of another vehicle, the ground or a panel.
+pub(crate) fn other_frame(name: &str) -> String {
+    format!("frames/{name}")
 }

@@ -3,8 +3,10 @@
 
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 use occupant_core::body::{Body, Segment};
+use occupant_core::forces::contact::surface::Frame;
 use occupant_core::results::sample::Sample;
 
+use super::scene::compartment::frame_name;
 use super::topics::{SPACE_FRAME, VEHICLE_FRAME, segment_frame};
 use super::wire::Wire;
 
@@ -26,6 +28,7 @@ impl FrameNames {
 
 /// A `foxglove.FrameTransforms`.
 pub(crate) fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>, names: &FrameNames) {
+    let sample = &sample.seen_by_vehicle();
     let vehicle = sample.vehicle;
     let turned = Rotation3::from_matrix_unchecked(vehicle.rotation);
     let rotation = UnitQuaternion::from_rotation_matrix(&turned);
@@ -39,6 +42,14 @@ pub(crate) fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>, names: &Frame
         });
     };
     transform(SPACE_FRAME, VEHICLE_FRAME, &vehicle.origin_m, &rotation);
+    let mut of = |frame: Frame| {
+        let motion = sample.frame(frame);
+        let turned = Rotation3::from_matrix_unchecked(motion.rotation);
+        let rotation = UnitQuaternion::from_rotation_matrix(&turned);
+        transform(SPACE_FRAME, &frame_name(sample.model, frame), &motion.origin_m, &rotation);
+    };
+    (0..sample.model.setup().frames.len()).for_each(|i| of(Frame::Other(i)));
+    sample.model.system().carriers.iter().for_each(|segment| of(Frame::Segment(*segment)));
     for segment in sample.model.body().tree.segments() {
         let (place, turn) = (sample.cg_m(segment), sample.orientation(segment));
         transform(VEHICLE_FRAME, names.of(segment), &place.coords, &turn);

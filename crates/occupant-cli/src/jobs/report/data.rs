@@ -3,6 +3,7 @@
 use nalgebra::Point3;
 use occupant_core::forces::contact::solid::Solid;
 use occupant_core::forces::contact::surface::{Frame, Outline};
+use occupant_core::vehicle::VehiclePath;
 use serde::Serialize;
 
 use super::array::Array;
@@ -146,29 +147,30 @@ fn spheres(results: &Results) -> Vec<SphereData> {
 fn surfaces(results: &Results) -> Vec<SurfaceData> {
     let model = &results.model;
     let all = model.setup().surfaces.iter().zip(model.faces());
-    all.map(|(surface, face)| {
-        let bounded = !matches!(face.outline, Outline::Unbounded { .. });
-        let (frame, turned) = shown_in(face.frame);
-        let follows = !bounded && face.frame == Frame::Space;
-        let foot = face.normal * face.offset_m;
-        // a patch that follows the vehicle moves along the plane from its foot below the origin
-        let corners = if follows { square_m(face, foot.into(), PATCH_M) } else { corners_m(face) };
-        SurfaceData {
-            name: surface.name.clone(),
-            frame,
-            bounded,
-            material: surface.material,
-            corners: corners.into_iter().map(|p| turned(p.into())).collect(),
-            normal: turned(face.normal.into()),
-        }
-    })
-    .collect()
+    all.filter(|(_, face)| is_shown(results, face.frame))
+        .map(|(surface, face)| {
+            let bounded = !matches!(face.outline, Outline::Unbounded { .. });
+            let (frame, turned) = shown_in(face.frame);
+            let follows = !bounded && face.frame != Frame::Vehicle;
+            let foot = face.normal * face.offset_m;
+            // a patch that follows the vehicle moves along the plane from its foot below the origin
+            let corners = if follows { square_m(face, foot.into(), PATCH_M) } else { corners_m(face) };
+            SurfaceData {
+                name: surface.name.clone(),
+                frame,
+                bounded,
+                material: surface.material,
+                corners: corners.into_iter().map(|p| turned(p.into())).collect(),
+                normal: turned(face.normal.into()),
+            }
+        })
+        .collect()
 }
 
 /// The first sides of all solids, then the others.
 fn sides(results: &Results) -> Vec<SurfaceData> {
     let (mut first, mut others) = (Vec::new(), Vec::new());
-    for solid in &results.model.setup().solids {
+    for solid in results.model.setup().solids.iter().filter(|solid| is_shown(results, solid.frame)) {
         let mut sides = solid.outline().into_iter();
         first.extend(sides.next().map(|side| SurfaceData::side(solid, &solid.name, &side)));
         others.extend(sides.map(|side| SurfaceData::side(solid, "", &side)));
@@ -192,11 +194,21 @@ impl SurfaceData {
     }
 }
 
+/// Whether the page can show what is fixed to a frame: it knows the vehicle, space, and the ground.
+fn is_shown(results: &Results, frame: Frame) -> bool {
+    match frame {
+        Frame::Vehicle | Frame::Space => true,
+        Frame::Other(i) => matches!(results.model.setup().frames[i].path, VehiclePath::Fixed(_)),
+        Frame::Segment(_) => false,
+    }
+}
+
 /// The page's name of a frame, and what turns its vectors: space is Y left, Z up; vehicle-space Y right, Z down.
 fn shown_in(frame: Frame) -> (&'static str, impl Fn([f64; 3]) -> [f64; 3]) {
     let (name, turn) = match frame {
-        Frame::Vehicle => ("vehicle", [1.0, 1.0, 1.0]),
         Frame::Space => ("space", [1.0, -1.0, -1.0]),
+        Frame::Other(_) => ("space", [1.0, 1.0, 1.0]),
+        _ => ("vehicle", [1.0, 1.0, 1.0]),
     };
     (name, move |v| [0, 1, 2].map(|i| turn[i] * v[i]))
 }

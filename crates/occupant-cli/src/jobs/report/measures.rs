@@ -3,7 +3,7 @@
 use crash_measures::injury;
 use crash_measures::unit::{Shown, Unit};
 use occupant_core::forces::table::{Holds, Table};
-use occupant_core::results::summary::{Caveat, Peak, Summary, word};
+use occupant_core::results::summary::{Caveat, Peak, Person, Summary, word};
 use serde::Serialize;
 
 /// A row of the table.
@@ -48,7 +48,15 @@ impl Measure {
 
 /// All rows, group by group.
 pub(crate) fn measures(summary: &Summary) -> Vec<Measure> {
-    let mut rows: Vec<_> = summary.measures.iter().flat_map(injury_rows).collect();
+    let own = |(prefix, person): (String, Person)| {
+        let rows: Vec<_> = person.measures.iter().flat_map(injury_rows).collect();
+        rows.into_iter().map(move |row| Measure {
+            name: format!("{prefix}{}", row.name),
+            figure: format!("{prefix}{}", row.figure),
+            ..row
+        })
+    };
+    let mut rows: Vec<_> = summary.people().into_iter().flat_map(own).collect();
     add_loads(&mut rows, summary);
     add_excursion(&mut rows, summary);
     let energy = &summary.energy;
@@ -131,13 +139,12 @@ fn element_rows(list: &str, table: &Table) -> impl Iterator<Item = Measure> {
 }
 
 fn add_excursion(rows: &mut Vec<Measure>, summary: &Summary) {
-    let Some(e) = &summary.head_excursion else {
-        return;
-    };
-    for (way, Peak { value, time_s }) in e.ways() {
-        let (group, unit) = ("Head excursion in the vehicle", Unit::Metre.shown_in("mm"));
-        let figure = format!("head_excursion.{way}");
-        let (value, time_s) = (Some(value * unit.per_si()), Some(time_s));
-        rows.push(Measure { value, time_s, ..Measure::new(group, way, figure, unit) });
+    for (prefix, Person { head_excursion, .. }) in summary.people() {
+        for (way, Peak { value, time_s }) in head_excursion.iter().flat_map(|e| e.ways()) {
+            let (group, unit) = ("Head excursion in the vehicle", Unit::Metre.shown_in("mm"));
+            let figure = format!("{prefix}head_excursion.{way}");
+            let (value, time_s) = (Some(value * unit.per_si()), Some(time_s));
+            rows.push(Measure { value, time_s, ..Measure::new(group, format!("{prefix}{way}"), figure, unit) });
+        }
     }
 }

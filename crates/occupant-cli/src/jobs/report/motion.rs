@@ -53,6 +53,7 @@ impl Recorder for Motion {
     }
 
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        let sample = &sample.seen_by_vehicle();
         for segment in sample.model.body().tree.segments() {
             add_pose(&mut self.poses, sample.cg_m(segment).coords, &sample.orientation(segment));
         }

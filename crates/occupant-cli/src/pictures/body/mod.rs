@@ -47,7 +47,7 @@ pub(crate) struct Part {
 /// All parts of a body, in the order of the segments.
 pub(crate) fn parts(body: &Body) -> Vec<Part> {
     let of_segment = |segment| {
-        let marks = body.tree.landmarks();
+        let marks = body.tree.landmarks_at(segment);
         let ends = match segment {
             _ if Some(segment) == marks.head => head(body, segment),
             _ if Some(segment) == marks.chest => upper_torso(body, segment),
@@ -86,7 +86,7 @@ fn head(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
 /// The chest, the bar that carries the shoulders, and as much of the neck as does not turn with the head.
 fn upper_torso(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
     let p = body.segment(segment);
-    let marks = body.tree.landmarks();
+    let marks = body.tree.landmarks_at(segment);
     let arms = &marks.arms;
     let neck = || marks.head.map_or(0.0, |head| NECK * limb_radius(body, head));
     let shoulder = arms.left.or(arms.right).map_or_else(neck, |arm| limb_radius(body, arm.upper));
@@ -101,7 +101,7 @@ fn upper_torso(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
 
 /// The pelvis and the bar that carries the hips.
 fn lower_torso(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
-    let legs = &body.tree.landmarks().legs;
+    let legs = &body.tree.landmarks_at(segment).legs;
     let hip = 0.9 * limb_radius(body, legs.left.or(legs.right).map_or(segment, |leg| leg.upper));
     [trunk(body, segment)].into_iter().chain(bar(body, segment, legs, hip)).collect()
 }

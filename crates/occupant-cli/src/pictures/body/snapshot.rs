@@ -29,10 +29,13 @@ pub(crate) struct Snapshot {
     pub(crate) contacts: Vec<Contact>,
     /// Motion of the vehicle in space.
     pub(crate) vehicle: FrameMotion,
+    /// Motions of the other frames that anything to touch is fixed to.
+    frames: Vec<(Frame, FrameMotion)>,
 }
 
 impl Snapshot {
     pub(crate) fn of(sample: &Sample<'_>) -> Self {
+        let sample = &sample.seen_by_vehicle();
         let pose = |segment| {
             let at = Translation3::from(sample.cg_m(segment));
             Isometry3::from_parts(at, sample.orientation(segment))
@@ -46,6 +49,7 @@ impl Snapshot {
             sections: sample.sections(),
             contacts: sample.contacts().collect(),
             vehicle: *sample.vehicle,
+            frames: frames(sample),
         }
     }
 
@@ -68,22 +72,38 @@ impl Snapshot {
 
     /// Points of a frame in vehicle axes.
     fn placed(&self, frame: Frame, corners: Vec<Point3<f64>>) -> Vec<Point3<f64>> {
+        let to_space = |p: &Point3<f64>| match self.frames.iter().find(|(known, _)| *known == frame) {
+            Some((_, motion)) => motion.point_to_space(p.coords),
+            None => p.coords,
+        };
         match frame {
             Frame::Vehicle => corners,
-            Frame::Space => {
-                let place = |p: &Point3<f64>| self.vehicle.point_to_frame(p.coords).into();
-                corners.iter().map(place).collect()
-            }
+            _ => corners.iter().map(|p| self.vehicle.point_to_frame(to_space(p)).into()).collect(),
         }
     }
 
     fn patch_m(&self, face: &FlatFace) -> Vec<Point3<f64>> {
         let origin = match face.frame {
             Frame::Vehicle => Vector3::zeros(),
-            Frame::Space => self.vehicle.origin_m,
+            frame => {
+                let motion = self.frames.iter().find(|(known, _)| *known == frame);
+                motion.map_or(self.vehicle.origin_m, |(_, motion)| motion.point_to_frame(self.vehicle.origin_m))
+            }
         };
         let height = face.normal.dot(&origin) - face.offset_m;
         let foot = origin - face.normal * height;
         square_m(face, foot.into(), PATCH_M)
     }
+}
+
+/// Motions of the frames of surfaces and solids besides those of the vehicle and of space.
+fn frames(sample: &Sample<'_>) -> Vec<(Frame, FrameMotion)> {
+    let setup = sample.model.setup();
+    let mut all: Vec<(Frame, FrameMotion)> = Vec::new();
+    for frame in setup.surfaces.iter().map(|s| s.frame).chain(setup.solids.iter().map(|s| s.frame)) {
+        if !matches!(frame, Frame::Vehicle | Frame::Space) && all.iter().all(|(known, _)| *known != frame) {
+            all.push((frame, sample.frame(frame)));
+        }
+    }
+    all
 }

@@ -19,6 +19,7 @@ mod unfold;
 use crate::body::Body;
 use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkSum};
 use crate::forces::list::STORES;
+use crate::forces::sphere::Site;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 use crate::quantity::Quantity;
@@ -119,6 +120,11 @@ impl Element for Bags {
         }
     }
 
+    /// It stores nothing, and so stands in no body's books.
+    fn segment(_: &Vec<BagLaw<f64>>, _: &[Site<f64>], _: usize, _: &BagAction<f64>) -> usize {
+        0
+    }
+
     fn stored_j(_actions: &[BagAction<f64>], _stored_j: &mut [f64; STORES]) {}
 }
 
@@ -181,11 +187,13 @@ fn bear<S: Scalar>(law: &BagLaw<S>, at: &Instant<'_, S>, now: &Now<S>, load: &mu
         let wrench = &mut load.wrench[site.segment];
         wrench.force += normal + friction;
         wrench.moment += arm.cross(normal) + (arm + lever).cross(friction);
-        pushes.power -= normal.dot(velocity - carried) + friction.dot(relative);
-        load.power.vehicle += normal.dot(carried) + friction.dot(place);
+        let taken = -(normal.dot(velocity - carried) + friction.dot(relative));
+        pushes.power += taken;
+        let power = load.power_at(site.segment);
+        power.sums[WORK] += taken;
+        power.vehicle += normal.dot(carried) + friction.dot(place);
         pushes.forces[i] = normal + friction;
     }
-    load.power.sums[WORK] += pushes.power;
     pushes
 }
 

@@ -18,6 +18,8 @@ use crate::motion::vector::V3;
 pub struct BeltLaw<S> {
     /// Index of the sphere.
     pub sphere: usize,
+    /// What the anchors are fixed to, among the frames.
+    pub frame: usize,
     anchors: [V3<S>; 2],
     radius: S,
     /// L₀, m.
@@ -60,6 +62,7 @@ impl<S: Copy> BeltLaw<S> {
     pub(crate) fn zip<A: Copy, T>(&self, other: &BeltLaw<A>, f: &impl Fn(S, A) -> T) -> BeltLaw<T> {
         BeltLaw {
             sphere: self.sphere,
+            frame: self.frame,
             anchors: from_fn(|i| self.anchors[i].zip(&other.anchors[i], f)),
             radius: f(self.radius, other.radius),
             rest_length: f(self.rest_length, other.rest_length),
@@ -73,6 +76,7 @@ impl<S: Scalar> BeltLaw<S> {
     pub(crate) fn new(belt: &Belt, radius_m: f64, rest_length_m: f64) -> Self {
         BeltLaw {
             sphere: belt.sphere,
+            frame: belt.frame.index(&[]),
             anchors: [V3::of(&belt.anchors_m[0].coords), V3::of(&belt.anchors_m[1].coords)],
             radius: S::of(radius_m),
             rest_length: S::of(rest_length_m),

@@ -10,11 +10,12 @@ mod results;
 use nalgebra::Point3;
 
 use crate::body::Body;
+use crate::forces::contact::surface::Frame;
 use crate::forces::element::{Element, HeldBy, Instant, Load, StoredEnergy, Unlike, WorkSum};
 use crate::forces::list::STORES;
 use crate::forces::rate::Rate;
+use crate::forces::sphere::Site;
 use crate::forces::spring::BilinearSpring;
-use crate::motion::frame::VEHICLE;
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::v3;
@@ -57,7 +58,9 @@ pub struct Belt {
     pub name: String,
     /// Index of the sphere that it loops round: pelvis for a lap belt, chest for a torso belt.
     pub sphere: usize,
-    /// Anchor points, vehicle axes.
+    /// What the anchors are fixed to.
+    pub frame: Frame,
+    /// Anchor points, axes of the frame.
     pub anchors_m: [Point3<f64>; 2],
     /// Loop force over elongation. Fractions of 1 load and unload along one curve as in Fig. 18.
     pub webbing: BilinearSpring,
@@ -68,7 +71,7 @@ pub struct Belt {
 impl Belt {
     /// A belt without slack round the sphere `sphere` (index), from anchor to anchor (vehicle axes).
     pub fn new(name: impl Into<String>, sphere: usize, anchors_m: [Point3<f64>; 2], webbing: BilinearSpring) -> Self {
-        Belt { name: name.into(), sphere, anchors_m, webbing, rest: RestLength::default() }
+        Belt { name: name.into(), sphere, frame: Frame::Vehicle, anchors_m, webbing, rest: RestLength::default() }
     }
 }
 
@@ -104,19 +107,19 @@ impl Element for Belts {
 
     fn lay(law: &mut Vec<BeltLaw<f64>>, data: &[Belt], body: &Body, at: &Instant<'_, f64>) {
         for (law, belt) in law.iter_mut().zip(data) {
-            *law = BeltLaw::laid(belt, body.spheres[belt.sphere].radius_m, at.centre_in(belt.sphere, VEHICLE));
+            *law = BeltLaw::laid(belt, body.spheres[belt.sphere].radius_m, at.centre_in(belt.sphere, law.frame));
         }
     }
 
     fn begin(law: &mut Vec<BeltLaw<f64>>, data: &[Belt], body: &Body, at: &Instant<'_, f64>, problems: &mut Problems) {
-        let spheres: Vec<_> = (0..body.spheres.len()).map(|sphere| at.centre_in(sphere, VEHICLE)).collect();
         for (law, belt) in law.iter().zip(data) {
+            let spheres: Vec<_> = (0..body.spheres.len()).map(|sphere| at.centre_in(sphere, law.frame)).collect();
             check::laid(law, belt, body, &spheres, problems);
         }
     }
 
     fn start(law: &Vec<BeltLaw<f64>>, at: &Instant<'_, f64>) -> Vec<BeltHistory<f64>> {
-        law.iter().map(|belt| belt.initial_history(at.centre_in(belt.sphere, VEHICLE))).collect()
+        law.iter().map(|belt| belt.initial_history(at.centre_in(belt.sphere, belt.frame))).collect()
     }
 
     fn hints<S: Scalar>(_law: &Vec<BeltLaw<S>>) {}
@@ -158,8 +161,8 @@ impl Element for Belts {
         load: &mut Load<S>,
         show: &mut impl FnMut(&BeltAction<S>),
     ) {
-        let frame = &at.frames[VEHICLE];
         for (belt, past) in law.iter().zip(past) {
+            let frame = &at.frames[belt.frame];
             let site = &at.spheres[belt.sphere];
             let (arm, centre, velocity) = site.place(at.k);
             let centre_v = frame.axes.into_frame(centre - frame.origin);
@@ -172,7 +175,7 @@ impl Element for Belts {
             let wrench = &mut load.wrench[site.segment];
             wrench.force += force;
             wrench.moment += arm.cross(force);
-            let power = &mut load.power;
+            let power = load.power_at(site.segment);
             power.sums[STRETCH] -= force.dot(velocity - carried);
             power.vehicle += force.dot(carried);
             show(&action);
@@ -189,7 +192,7 @@ impl Element for Belts {
     ) -> Vec<Rate> {
         let one = |(belt, action): (&Belt, &BeltAction<f64>)| {
             // −gradient of the length with respect to the centre
-            let gradient = at.frames[VEHICLE].axes.out(action.free[0] + action.free[1]).to_vector();
+            let gradient = at.frames[belt.frame.index(&[])].axes.out(action.free[0] + action.free[1]).to_vector();
             let site = &at.spheres[belt.sphere];
             let (_, centre, _) = site.place(&mobility.kinematics);
             let give = gradient.dot(&(mobility.of_point(site.segment, centre) * gradient));
@@ -197,6 +200,10 @@ impl Element for Belts {
             Rate::of_spring(belt.name.clone(), by, 1.0 / give, belt.webbing.steepest_n_per_m())
         };
         data.iter().zip(actions).map(one).collect()
+    }
+
+    fn segment(law: &Vec<BeltLaw<f64>>, spheres: &[Site<f64>], number: usize, _action: &BeltAction<f64>) -> usize {
+        spheres[law[number].sphere].segment
     }
 
     fn stored_j(actions: &[BeltAction<f64>], stored_j: &mut [f64; STORES]) {

@@ -2,6 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
+use crate::forces::contact::surface::Frame;
 use crate::forces::function::Function;
 
 /// A time after every run, s; a force that no belt reaches, N.
@@ -12,6 +13,8 @@ pub const NEVER: f64 = 1e30;
 pub struct Chain {
     /// Its name, which other parts of the belt share where it is sewn fast to something.
     pub belt: String,
+    /// What its nodes off the body are fixed to.
+    pub frame: Frame,
     /// What the webbing passes, in order; at least two, the ends points.
     pub nodes: Vec<Node>,
     /// Names of its straps: from one place where the webbing is held or rubs to the next.
@@ -57,7 +60,7 @@ pub struct Node {
 /// Where a node is.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Site {
-    /// A point of the vehicle, m, and what pulls it.
+    /// A point of the belt's frame, m, and what pulls it.
     Vehicle(Point3<f64>, Option<Stroke>),
     /// A point of a segment (index), from its lower end, m, and the direction away from the body: webbing that pulls that way
     /// comes off.

@@ -19,6 +19,8 @@ pub struct ChainLaw<S> {
     pub(super) straps: Straps<S>,
     /// Number of the belt that it is a part of.
     pub(super) belt: usize,
+    /// What its nodes off the body are fixed to, among the frames.
+    pub(super) frame: usize,
 }
 
 /// Where a chain lies.
@@ -63,7 +65,7 @@ impl ChainLaw<f64> {
         let new = |(i, node)| NodeLaw::new(node, body, i == 0 || i == last);
         let nodes: Vec<NodeLaw<f64>> = chain.nodes.iter().take(MOST_NODES).enumerate().map(new).collect();
         let starts = (0..last.min(MOST_NODES)).filter(|i| *i == 0 || nodes[*i].rubs).collect();
-        ChainLaw { straps: Straps::new(chain, starts), nodes, belt }
+        ChainLaw { straps: Straps::new(chain, starts), nodes, belt, frame: chain.frame.index(&[]) }
     }
 
     /// Length of the webbing where the body is, m, and what is remembered of its way there.
@@ -109,7 +111,7 @@ impl ChainLaw<f64> {
         for (k, node) in self.nodes.iter().enumerate() {
             let bend = &lies.bends[k];
             let mut give = |strap: usize, pull: V3<f64>, arm: V3<f64>| {
-                let Some(segment) = node.segment(at) else { return };
+                let Some(segment) = node.segment(at.spheres) else { return };
                 let point = lies.places[k].centre + arm * lies.places[k].radius;
                 let pull = pull.to_vector();
                 list[strap][0] += pull.dot(&(mobility.of_point(segment, point) * pull));
@@ -145,6 +147,7 @@ impl<S: Copy> ChainLaw<S> {
             nodes: self.nodes.iter().zip(&other.nodes).map(|(a, b)| a.zip(b, f)).collect(),
             straps: self.straps.zip(&other.straps, f),
             belt: self.belt,
+            frame: self.frame,
         }
     }
 }
@@ -157,7 +160,7 @@ impl<S: Scalar> ChainLaw<S> {
         let Lies { ways, places, bends, course } = lies;
         for (k, node) in self.nodes.iter().enumerate() {
             ways[k] = node.way(at.frames.time, &past.nodes[k], &past.device);
-            places[k] = node.place(at, ways[k], &past.nodes[k]);
+            places[k] = node.place(at, &at.frames[self.frame], ways[k], &past.nodes[k]);
         }
         path::bends(&places[..count], &past.nodes, bends);
         *course = Course::none();
@@ -316,7 +319,8 @@ impl<S: Scalar> ChainLaw<S> {
                 own.on = S::select(changes, S::one() - own.on, own.on);
                 most = S::select(changes, o, most);
             } else {
-                let work = self.nodes[k].commit(at, now.lies.ways[k], force, &mut next.nodes[k]);
+                let work =
+                    self.nodes[k].commit(at, &at.frames[self.frame], now.lies.ways[k], force, &mut next.nodes[k]);
                 next.device.driven += work;
             }
         }

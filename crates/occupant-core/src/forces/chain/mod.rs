@@ -24,7 +24,7 @@ use crate::forces::belt::STRETCH;
 use crate::forces::element::{Element, HeldBy, Instant, Load, StoredEnergy, Unlike, WorkSum};
 use crate::forces::list::STORES;
 use crate::forces::rate::Rate;
-use crate::motion::frame::VEHICLE;
+use crate::forces::sphere::Site as Sphere;
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::quantity::Quantity;
@@ -175,6 +175,13 @@ impl Element for Chains {
         all.filter(|rate| rate.effective.is_finite()).collect()
     }
 
+    /// A strap is of the body that its belt lies on.
+    fn segment(law: &Vec<ChainLaw<f64>>, spheres: &[Sphere<f64>], number: usize, _action: &StrapAction<f64>) -> usize {
+        let mut straps = law.iter().flat_map(|chain| chain.straps.starts.iter().map(move |_| chain));
+        let nodes = straps.nth(number).into_iter().flat_map(|chain| &chain.nodes);
+        nodes.filter_map(|node| node.segment(spheres)).next().unwrap_or(0)
+    }
+
     fn stored_j(actions: &[StrapAction<f64>], stored_j: &mut [f64; STORES]) {
         stored_j[STORED_AT] += actions.iter().map(|strap| strap.stored).sum::<f64>();
         stored_j[DRIVEN_AT] = -actions.iter().map(|strap| strap.driven).sum::<f64>();
@@ -223,11 +230,11 @@ fn act<S: Scalar>(
 /// Loads of the webbing on the body, and their powers.
 #[inline(always)]
 fn bear<S: Scalar>(chain: &ChainLaw<S>, at: &Instant<'_, S>, now: &Now<'_, S>, load: &mut Load<S>) {
-    let (frame, mut strap) = (&at.frames[VEHICLE], 0);
+    let (frame, mut strap) = (&at.frames[chain.frame], 0);
     for (k, force) in chain.forces(now).into_iter().enumerate().take(chain.nodes.len()) {
         let node = &chain.nodes[k];
         strap += usize::from(node.rubs);
-        let Some(segment) = node.segment(at) else { continue };
+        let Some(segment) = node.segment(at.spheres) else { continue };
         let centre = now.lies.places[k].centre;
         let arm = centre - at.k.joint[segment];
         let velocity = at.k.joint_velocity[segment] + at.k.omega[segment].cross(arm);
@@ -235,13 +242,16 @@ fn bear<S: Scalar>(chain: &ChainLaw<S>, at: &Instant<'_, S>, now: &Now<'_, S>, l
         let wrench = &mut load.wrench[segment];
         wrench.force += force;
         wrench.moment += arm.cross(force);
-        load.power.sums[STRETCH] -= force.dot(velocity - carried);
-        load.power.vehicle += force.dot(carried);
-        if node.is_rough() {
-            let couple = chain.couple(now, k, strap);
+        let couple = node.is_rough().then(|| chain.couple(now, k, strap));
+        if let Some(couple) = couple {
             wrench.moment += couple;
-            load.power.sums[STRETCH] -= couple.dot(at.k.omega[segment] - frame.omega);
-            load.power.vehicle += couple.dot(frame.omega);
+        }
+        let power = load.power_at(segment);
+        power.sums[STRETCH] -= force.dot(velocity - carried);
+        power.vehicle += force.dot(carried);
+        if let Some(couple) = couple {
+            power.sums[STRETCH] -= couple.dot(at.k.omega[segment] - frame.omega);
+            power.vehicle += couple.dot(frame.omega);
         }
     }
 }

@@ -13,7 +13,6 @@ use crate::forces::element::{Element, Instant};
 use crate::forces::shown::{Line, Named, OneOf, Pull, Reported, Shown, Tracked};
 use crate::forces::stored::Archive;
 use crate::forces::table::{Cell, Column, Table};
-use crate::motion::frame::VEHICLE;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 use crate::quantity::{Axes, FieldWords, Quantity};
@@ -84,7 +83,7 @@ impl<S: Scalar> StrapAction<S> {
         let (straps, lies) = (&chain.straps, &now.lies);
         let (tense, node) = (&now.taut.solved.straps[strap], straps.starts[strap]);
         let end = straps.starts.get(strap + 1).copied().unwrap_or(chain.nodes.len() - 1);
-        let frame = &at.frames[VEHICLE];
+        let frame = &at.frames[chain.frame];
         let (own, device) = (&past.nodes[node], &past.device);
         let forces = chain.forces(now);
         let of_first = |number: S| if strap == 0 { number } else { o };
@@ -121,7 +120,7 @@ fn arcs<S: Scalar>(
     forces: &[V3<S>; MOST_NODES],
     nodes: std::ops::Range<usize>,
 ) -> [Arc<S>; MOST_ARCS] {
-    let frame = &at.frames[VEHICLE];
+    let frame = &at.frames[chain.frame];
     let mut spheres = nodes.filter(|k| chain.nodes[*k].is_sphere());
     from_fn(|_| {
         let none = V3::zero();

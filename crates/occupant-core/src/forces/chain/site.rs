@@ -6,7 +6,8 @@ use super::path::Place;
 use crate::body::Body;
 use crate::forces::element::Instant;
 use crate::forces::function::steps::Steps;
-use crate::motion::frame::VEHICLE;
+use crate::forces::sphere::Site as Sphere;
+use crate::motion::frame::Moving;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 use nalgebra::{Point3, Vector3};
@@ -188,11 +189,11 @@ impl<S: Copy> NodeLaw<S> {
 impl<S: Scalar> NodeLaw<S> {
     /// The segment that it is on.
     #[inline(always)]
-    pub(super) fn segment(&self, at: &Instant<'_, S>) -> Option<usize> {
+    pub(super) fn segment(&self, spheres: &[Sphere<S>]) -> Option<usize> {
         match &self.site {
             SiteLaw::Vehicle(..) => None,
             SiteLaw::Segment(segment, ..) | SiteLaw::Track(segment, _) => Some(*segment),
-            SiteLaw::Sphere(sphere) => Some(at.spheres[*sphere].segment),
+            SiteLaw::Sphere(sphere) => Some(spheres[*sphere].segment),
         }
     }
 
@@ -217,10 +218,9 @@ impl<S: Scalar> NodeLaw<S> {
         }
     }
 
-    /// Where it is, space axes.
+    /// Where it is in or on the body or in `frame`, space axes.
     #[inline(always)]
-    pub(super) fn place(&self, at: &Instant<'_, S>, way: S, past: &NodePast<S>) -> Place<S> {
-        let frame = &at.frames[VEHICLE];
+    pub(super) fn place(&self, at: &Instant<'_, S>, frame: &Moving<S>, way: S, past: &NodePast<S>) -> Place<S> {
         let on_segment = |n: usize, offset: V3<S>| at.k.joint[n] + at.k.axes[n].out(offset);
         let (mut sense, none) = (V3::zero(), S::zero());
         let (centre, radius) = match &self.site {
@@ -242,11 +242,18 @@ impl<S: Scalar> NodeLaw<S> {
     /// How it goes on from an accepted step with this force (space axes) of the webbing on it: its way and speed, whether the
     /// webbing still passes it, and the work of what pulls it. A stroke that has stalled has a speed below 0.
     #[inline(always)]
-    pub(super) fn commit(&self, at: &Instant<'_, S>, way: S, force: V3<S>, past: &mut NodePast<S>) -> S {
+    pub(super) fn commit(
+        &self,
+        at: &Instant<'_, S>,
+        frame: &Moving<S>,
+        way: S,
+        force: V3<S>,
+        past: &mut NodePast<S>,
+    ) -> S {
         let (o, mut work) = (S::zero(), S::zero());
         let leaves = match &self.site {
             SiteLaw::Vehicle(_, Some(stroke)) => {
-                let against = -at.frames[VEHICLE].axes.into_frame(force).dot(stroke.direction);
+                let against = -frame.axes.into_frame(force).dot(stroke.direction);
                 work = against * (way - past.way);
                 let stalls = !against.lt(stroke.stall) & stroke.due.lt(at.frames.time);
                 past.speed = S::select(stalls, -S::one(), past.speed);

@@ -3,7 +3,7 @@
 use nalgebra::Point3;
 
 use super::{ContactData, EdgeForce};
-use crate::body::Body;
+use crate::body::{Body, ContactSphere};
 use crate::forces::contact::face::{Outline, V2};
 use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::material::{Material, Memory};
@@ -11,7 +11,6 @@ use crate::forces::contact::self_contact::SelfPairs;
 use crate::forces::contact::solid::Solids;
 use crate::forces::contact::surface::{Frame, Outline as FaceOutline, Surface};
 use crate::forces::contact::{ContactSystem, Group, MaterialLaw, Pair, Part, Plane};
-use crate::motion::frame::{SPACE, VEHICLE};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
@@ -30,9 +29,14 @@ impl ContactSystem<f64> {
             reach_of_a_step: FASTEST_M_S * longest_step_s,
             ..ContactSystem::default()
         };
+        system.carriers = carriers(data);
+        let frames = frames(surfaces.iter().map(|s| s.frame), &system.carriers);
         let seams = seams(faces);
         for (sphere, data) in body.spheres.iter().enumerate() {
-            for (frame, index) in [(Frame::Vehicle, VEHICLE), (Frame::Space, SPACE)] {
+            for &(frame, index) in &frames {
+                if is_own(body, data, frame) {
+                    continue;
+                }
                 let first = system.pairs.len();
                 for parts in joined(sphere, frame, surfaces, &seams) {
                     system.planes.push(plane(&faces[parts[0]], data.radius_m));
@@ -44,11 +48,37 @@ impl ContactSystem<f64> {
                 }
             }
         }
-        system.solids = Solids::new(body, solids, surfaces.len(), materials, system.pairs.len());
+        system.solids = Solids::new(body, data, &system.carriers, system.pairs.len());
         let (first, names) = (system.pairs.len() + system.solids.count(), surfaces.len() + solids.len());
         system.own = SelfPairs::new(body, self_contact, materials, first, names);
         system
     }
+}
+
+/// Segments that carry surfaces or solids, each once.
+pub(crate) fn carriers(data: &ContactData<'_>) -> Vec<usize> {
+    let frames = data.surfaces.iter().map(|s| s.frame).chain(data.solids.iter().map(|s| s.frame));
+    let mut carriers: Vec<usize> = frames.filter_map(Frame::segment).collect();
+    carriers.sort_unstable();
+    carriers.dedup();
+    carriers
+}
+
+/// The frames that are there with their places among those of an instant, that of the first vehicle first, then space.
+pub(super) fn frames(all: impl Iterator<Item = Frame>, carriers: &[usize]) -> Vec<(Frame, usize)> {
+    let mut frames =
+        vec![(Frame::Vehicle, Frame::Vehicle.index(carriers)), (Frame::Space, Frame::Space.index(carriers))];
+    let mut others: Vec<_> = all.map(|frame| (frame, frame.index(carriers))).collect();
+    others.sort_by_key(|(_, index)| *index);
+    others.dedup();
+    frames.extend(others.into_iter().filter(|(frame, _)| !matches!(frame, Frame::Vehicle | Frame::Space)));
+    frames
+}
+
+/// Whether a frame is a segment of the body that a sphere belongs to.
+pub(super) fn is_own(bodies: &Body, sphere: &ContactSphere, frame: Frame) -> bool {
+    let tree = bodies.tree;
+    frame.segment().is_some_and(|n| tree.body_of(tree.segment(n)) == tree.body_of(sphere.segment))
 }
 
 /// For each face those before it that it joins.

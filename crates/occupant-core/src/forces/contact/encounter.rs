@@ -4,6 +4,7 @@ use crate::forces::contact::solid::lever;
 use crate::forces::contact::{ContactSystem, FRICTION, Group, PASSED, PRESS, PairHistory, Touch};
 use crate::forces::element::{Instant, Load as AllLoads};
 use crate::forces::sphere::Site;
+use crate::motion::dynamics::Wrench;
 use crate::motion::frame::Moving;
 use crate::motion::kinematics::Kinematics;
 use crate::motion::scalar::Scalar;
@@ -51,7 +52,7 @@ impl<'a, S: Scalar> Sphere<'a, S> {
     /// The sphere of `group`, with no load yet.
     #[inline(always)]
     pub(super) fn new(contacts: &'a ContactSystem<S>, group: &'a Group, at: &Instant<'a, S>) -> Self {
-        let (site, frame, k) = (&at.spheres[group.sphere], &at.frames[group.frame], at.k);
+        let (site, frame, k) = (&at.spheres[group.sphere], at.frame(group.frame), at.k);
         let arm = k.axes[site.segment].out(site.offset);
         let centre = k.joint[site.segment] + arm;
         let centre_f = frame.axes.into_frame(centre - frame.origin); // (83)
@@ -174,7 +175,7 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         let on = &mut all.wrench[self.site.segment];
         on.force = V3::select(load.lanes, on.force + force, on.force);
         on.moment = V3::select(load.lanes, on.moment + moment, on.moment);
-        let vehicle = &mut all.power.vehicle;
+        let vehicle = &mut all.power_at(self.site.segment).vehicle;
         *vehicle = S::select(load.lanes, *vehicle + carrying, *vehicle);
     }
 
@@ -195,5 +196,37 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         };
         self.load = Some(Load { approach, force: V3::zero(), twist: V3::zero(), lanes: S::truth(false) });
         approach
+    }
+}
+
+/// What a sphere's segment gets from faces that another segment carries, apart from what it had before.
+pub(super) struct Aside<S> {
+    segments: [usize; 2],
+    wrench: Wrench<S>,
+    vehicle: S,
+}
+
+impl<S: Scalar> Aside<S> {
+    /// Puts aside what the segment of a sphere has.
+    #[cold]
+    pub(super) fn new(segments: [usize; 2], all: &mut AllLoads<S>) -> Self {
+        let [own, _] = segments;
+        let wrench = std::mem::replace(&mut all.wrench[own], Wrench::zero());
+        let vehicle = std::mem::replace(&mut all.power_at(own).vehicle, S::zero());
+        Aside { segments, wrench, vehicle }
+    }
+
+    /// Puts the opposite on the segment that carries the faces; what one body gets the other gives.
+    #[cold]
+    pub(super) fn react(self, k: &Kinematics<S>, all: &mut AllLoads<S>) {
+        let [own, carrier] = self.segments;
+        let Wrench { force, moment } = all.wrench[own];
+        let lever = k.joint[own] - k.joint[carrier];
+        let on = &mut all.wrench[carrier];
+        on.force -= force;
+        on.moment -= moment + lever.cross(force);
+        all.wrench[own] = Wrench { force: self.wrench.force + force, moment: self.wrench.moment + moment };
+        let carrying = std::mem::replace(&mut all.power_at(own).vehicle, self.vehicle);
+        all.hand_over([carrier, own], carrying, S::truth(true));
     }
 }

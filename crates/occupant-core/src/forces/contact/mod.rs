@@ -29,9 +29,11 @@ use crate::forces::contact::solid::Solid;
 use crate::forces::contact::surface::Surface;
 use crate::forces::element::{Element, HeldBy, Instant, Load, StoredEnergy, Unlike, WorkSum};
 use crate::forces::list::STORES;
+use crate::forces::sphere::Site;
+use crate::motion::frame::MOST_FRAMES;
 use crate::motion::scalar::Scalar;
 use crate::quantity::energy;
-use encounter::Sphere;
+use encounter::{Aside, Sphere};
 use hints::{Looking, Nearing};
 use placed_text::Problems;
 use self_contact::SelfContact;
@@ -190,12 +192,24 @@ impl Element for Contacts {
         show: &mut impl FnMut(&Touch<S>),
     ) {
         for (g, group) in law.groups.iter().enumerate() {
+            let aside = law.aside(group, at, load);
             meet_all::<S, false>(law, g, group, at, past, hints, load, show);
+            if let Some(aside) = aside {
+                aside.react(at.k, load);
+            }
         }
         for (g, group) in (law.groups.len()..).zip(&law.solids.groups) {
+            let aside = law.aside(group, at, load);
             meet_all::<S, true>(law, g, group, at, past, hints, load, show);
+            if let Some(aside) = aside {
+                aside.react(at.k, load);
+            }
         }
         law.own.apply(at, past, &mut hints.own, law.reach_of_a_step, load, show);
+    }
+
+    fn segment(_law: &ContactSystem<f64>, spheres: &[Site<f64>], _number: usize, touch: &Touch<f64>) -> usize {
+        spheres[touch.sphere].segment
     }
 
     fn stored_j(actions: &[Touch<f64>], stored_j: &mut [f64; STORES]) {
@@ -221,7 +235,7 @@ fn meet_all<S: Scalar, const SOLID: bool>(
         return;
     }
     let mut sphere = Sphere::new(law, group, at);
-    let power = &mut load.power;
+    let power = load.power_at(at.spheres[group.sphere].segment);
     let looks = at.accepted && hints.must_look(g, sphere.centre_f);
     let places = if looks {
         group.pairs.clone()
@@ -258,6 +272,13 @@ fn meet_all<S: Scalar, const SOLID: bool>(
 }
 
 impl<S: Scalar> ContactSystem<S> {
+    /// Puts aside what the sphere of a group has where a segment carries the faces, and so gets the opposite.
+    #[inline(always)]
+    fn aside(&self, group: &Group, at: &Instant<'_, S>, load: &mut Load<S>) -> Option<Aside<S>> {
+        let carrier = group.frame.checked_sub(MOST_FRAMES)?;
+        Some(Aside::new([at.spheres[group.sphere].segment, self.carriers[carrier]], load))
+    }
+
     /// How far the point A of a touch is from the sphere's centre against N̂, m.
     #[inline(always)]
     pub(crate) fn lever(&self, touch: &Touch<S>, radius: S) -> S {
@@ -285,6 +306,11 @@ impl ContactSystem<f64> {
     pub(crate) fn sides(&self, touch: &Touch<f64>) -> impl Iterator<Item = Touch<f64>> + use<> {
         let other = self.own.get(touch.pair).map(|pair| touch.mirrored(pair.spheres));
         [*touch].into_iter().chain(other)
+    }
+
+    /// Whether a touch is one of two spheres.
+    pub(crate) fn is_of_bodies(&self, touch: &Touch<f64>) -> bool {
+        self.own.get(touch.pair).is_some()
     }
 
     /// The solid of a touch and its place in what is remembered.

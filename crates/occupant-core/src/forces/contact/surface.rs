@@ -8,16 +8,46 @@ use nalgebra::{Point3, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::motion::frame::{MOST_FRAMES, SPACE, VEHICLE};
+
 /// What a surface is fixed to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 #[schemars(rename = "FrameChoice")]
 pub enum Frame {
-    /// The vehicle: x forward, y right, z down from its centre of gravity.
+    /// The first vehicle: x forward, y right, z down from its centre of gravity.
     #[default]
     Vehicle,
     /// Space: x forward, y left, z up.
     Space,
+    /// Another vehicle, the ground or a panel, by its place in [`crate::model::setup::Setup::frames`].
+    #[serde(skip)]
+    Other(usize),
+    /// A segment (index), from its joint and in its own axes: the surface belongs to a body.
+    #[serde(skip)]
+    Segment(usize),
+}
+
+impl Frame {
+    /// Place among the frames of an instant, where `carriers` are the segments that carry faces.
+    pub(crate) fn index(self, carriers: &[usize]) -> usize {
+        match self {
+            Frame::Space => SPACE,
+            Frame::Vehicle => VEHICLE,
+            Frame::Other(i) => VEHICLE + 1 + i,
+            Frame::Segment(segment) => MOST_FRAMES + carriers.iter().position(|n| *n == segment).unwrap_or_default(),
+        }
+    }
+
+    /// The segment that carries it.
+    pub(crate) fn segment(self) -> Option<usize> {
+        if let Frame::Segment(segment) = self { Some(segment) } else { None }
+    }
+
+    /// Whether its Z points up, as that of space does.
+    pub fn is_upright(self) -> bool {
+        matches!(self, Frame::Space | Frame::Segment(_))
+    }
 }
 
 /// Outline of a surface, in the axes of its frame.
@@ -68,8 +98,8 @@ pub fn wheel_axis(frame: Frame, tilt_rad: f64) -> Vector3<f64> {
     // Rearward and up: N̂ = (−cos τ, 0, −sin τ) in vehicle axes, z down; z is up in space.
     let (sin, cos) = trig::sin_cos(tilt_rad);
     match frame {
-        Frame::Vehicle => Vector3::new(-cos, 0.0, -sin),
-        Frame::Space => Vector3::new(-cos, 0.0, sin),
+        _ if frame.is_upright() => Vector3::new(-cos, 0.0, sin),
+        _ => Vector3::new(-cos, 0.0, -sin),
     }
 }
 

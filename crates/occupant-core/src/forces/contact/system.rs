@@ -151,6 +151,8 @@ pub struct ContactSystem<S> {
     pub(crate) solids: Solids<S>,
     /// Pairs of spheres of the body, numbered behind all that is remembered of solids.
     pub(crate) own: SelfPairs<S>,
+    /// Segments that carry faces, whose frames stand behind all others.
+    pub(crate) carriers: Vec<usize>,
     /// A face farther than this, m, cannot be met within one step.
     pub(crate) reach_of_a_step: S,
 }

@@ -28,6 +28,7 @@ impl<S: Copy> ContactSystem<S> {
             edge_lever: f(self.edge_lever, other.edge_lever),
             solids: self.solids.zip(&other.solids, f)?,
             own: self.own.zip(&other.own, f)?,
+            carriers: self.carriers.clone(),
             reach_of_a_step: f(self.reach_of_a_step, other.reach_of_a_step),
         })
     }

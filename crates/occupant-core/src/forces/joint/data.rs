@@ -137,6 +137,22 @@ impl Joints {
         }
     }
 
+    /// Those of several bodies, whose tree is `tree`; ε is that of the first.
+    pub(crate) fn together<'a>(tree: &'static Tree, all: impl Iterator<Item = &'a Joints>) -> Self {
+        let mut sum = Joints { laws: Vec::new(), ..Joints::free(tree) };
+        for (i, joints) in all.enumerate() {
+            let first = sum.laws.len();
+            let moved = |joint: Joint| tree.joint(first + joint.index());
+            sum.laws.extend(&joints.laws);
+            sum.limits.extend(joints.limits.iter().map(|l| Limits { joint: moved(l.joint), ..l.clone() }));
+            sum.muscles.extend(joints.muscles.iter().map(|m| Muscle { joint: moved(m.joint), ..*m }));
+            if i == 0 {
+                sum.epsilon = joints.epsilon;
+            }
+        }
+        sum
+    }
+
     /// With another law in one joint; one of the other kind changes nothing.
     #[must_use]
     pub fn with(mut self, joint: Joint, law: impl Into<JointLaw>) -> Self {

@@ -7,10 +7,10 @@
 use crate::body::{Joint, Segment};
 use nalgebra::Vector3;
 
-use crate::forces::joint::{Joints, Stop};
-use crate::motion::dynamics::Wrench;
+use crate::forces::element::Load;
+use crate::forces::joint::{DAMPING, Joints, Stop};
 use crate::motion::kinematics::Kinematics;
-use crate::motion::layout::MOST_SEGMENTS;
+use crate::motion::layout::Layout;
 use crate::motion::scalar::Scalar;
 use crate::motion::skeleton::Skeleton;
 use crate::motion::state::State;
@@ -163,24 +163,30 @@ impl JointSystem<f64> {
 }
 
 impl<S: Scalar> JointSystem<S> {
-    /// Adds all joint moments to `wrench` and shows what the ball joints do; returns the power that they dissipate, W.
+    /// Their loads alone.
+    pub fn loads(&self, k: &Kinematics<S>, state: &State<S>, layout: &Layout) -> Load<S> {
+        let mut load = Load::zero(layout);
+        self.apply(k, state, &mut load, &mut |_| {});
+        load
+    }
+
+    /// Adds all joint moments and the power that they dissipate to `load` and shows what the ball joints do.
     #[inline(always)]
-    pub fn apply(
+    pub(crate) fn apply(
         &self,
         k: &Kinematics<S>,
         state: &State<S>,
-        wrench: &mut [Wrench<S>; MOST_SEGMENTS],
+        load: &mut Load<S>,
         show: &mut impl FnMut(&BallAction<S>),
-    ) -> S {
-        let mut dissipated = S::zero();
+    ) {
         for ball in &self.balls {
             let action = ball.act(k, self.epsilon_squared);
             let (inner, outer) = ball.segments;
             show(&action);
             // R (76), and F_s
-            wrench[outer].moment += action.moment;
-            wrench[inner].moment -= action.moment;
-            dissipated += action.dissipated;
+            load.wrench[outer].moment += action.moment;
+            load.wrench[inner].moment -= action.moment;
+            load.power_at(outer).sums[DAMPING] += action.dissipated;
         }
         let (angles, rates) = (state.hinge(), state.hinge_rate());
         for (i, hinge) in self.hinges.iter().enumerate() {
@@ -188,11 +194,10 @@ impl<S: Scalar> JointSystem<S> {
             let torque = hinge.torque(angles[i], rates[i]); // β is α (72)
             let moment = k.hinge_axis[i] * torque;
             // R of elbows and knees (77)
-            wrench[lower].moment += moment;
-            wrench[upper].moment -= moment;
-            dissipated -= torque * rates[i];
+            load.wrench[lower].moment += moment;
+            load.wrench[upper].moment -= moment;
+            load.power_at(lower).sums[DAMPING] -= torque * rates[i];
         }
-        dissipated
     }
 
     /// What ball joint `i` of [`JointSystem::balls`] does.

@@ -17,6 +17,7 @@ use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkS
 use crate::forces::list::STORES;
 use crate::forces::rate::Rate;
 use crate::forces::shown::Reported;
+use crate::forces::sphere::Site;
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::motion::skeleton::Skeleton;
@@ -105,7 +106,7 @@ impl Element for JointMoments {
         load: &mut Load<S>,
         show: &mut impl FnMut(&BallAction<S>),
     ) {
-        load.power.sums[DAMPING] = law.apply(at.k, at.state, &mut load.wrench, show);
+        law.apply(at.k, at.state, load, show);
     }
 
     fn rates(
@@ -116,6 +117,10 @@ impl Element for JointMoments {
         mobility: &Mobility<'_>,
     ) -> Vec<Rate> {
         rates::rates(data, mobility)
+    }
+
+    fn segment(law: &JointSystem<f64>, _spheres: &[Site<f64>], number: usize, _action: &BallAction<f64>) -> usize {
+        law.balls[number].segments.1
     }
 
     fn stored_j(actions: &[BallAction<f64>], stored_j: &mut [f64; STORES]) {

@@ -6,14 +6,19 @@ mod time;
 
 use std::f64::consts::PI;
 
+use crate::body::JointKind;
 use crate::body::tti12::TTI12;
-use crate::model::seating::InitialPosture;
-use crate::model::setup::Setup;
+use crate::model::seating::{InitialPosture, Seating, Settling};
+use crate::model::setup::{Member, Setup};
+use crate::motion::layout::{MOST_BODIES, MOST_HINGES, MOST_SEGMENTS};
 pub(super) use path::check_path;
 use placed_text::{Problems, number};
 
 /// Reports every problem of the numbers of `setup`.
 pub(crate) fn check(setup: &Setup, problems: &mut Problems) {
+    if !setup.members.is_empty() {
+        return check_together(setup, problems);
+    }
     if !body::check_count(&setup.body, problems) {
         return;
     }
@@ -31,13 +36,37 @@ pub(crate) fn check(setup: &Setup, problems: &mut Problems) {
     }
 }
 
+/// How much of everything several bodies have together; each is looked at by itself.
+fn check_together(setup: &Setup, problems: &mut Problems) {
+    let hinges = setup.body.tree.joint_rows().iter().map(|row| match row.kind {
+        JointKind::Hinge => 1,
+        JointKind::Universal => 2,
+        JointKind::Ball | JointKind::Fixed => 0,
+    });
+    let counts = [
+        ("bodies", setup.members.len(), MOST_BODIES),
+        ("segments", setup.body.segments.len(), MOST_SEGMENTS),
+        ("axes of hinges", hinges.sum(), MOST_HINGES),
+    ];
+    for (what, found, most) in counts.into_iter().filter(|(_, found, most)| found > most) {
+        problems.error("occupants", format!("{found} {what} in all"), format!("at most {most} {what} together"));
+    }
+    let is_limp = |seating: &Seating| seating.settle == Settling::Limp;
+    for Member { name, alone, .. } in &setup.members {
+        if matches!(&alone.posture, InitialPosture::Seated(seating) if is_limp(seating)) {
+            let expected = "one that settles as one piece: only a body alone can sink limp";
+            problems.error(format!("occupants.{name}.posture.limp"), "a limp body among several", expected);
+        }
+    }
+}
+
 /// The report's coordinates are those of its own body.
 fn check_coordinates(setup: &Setup, problems: &mut Problems) {
-    if *setup.body.tree == TTI12 {
+    if *setup.body.tree == TTI12 || !setup.members.is_empty() {
         return;
     }
     let found = format!("the report's coordinates of a body of {} segments", setup.body.segments.len());
-    if !matches!(setup.posture, InitialPosture::Seated(_) | InitialPosture::Mounted(_)) {
+    if matches!(setup.posture, InitialPosture::Coordinates(_) | InitialPosture::Continued { .. }) {
         problems.error("initial_state", found.clone(), "`posture`, or the report's 12 segments");
     }
     if setup.output.report_coordinates {
@@ -50,7 +79,8 @@ fn check_posture(posture: &InitialPosture, problems: &mut Problems) {
     let (path, angles_rad) = match posture {
         InitialPosture::Seated(seating) => ("posture", &seating.angles_rad),
         InitialPosture::Mounted(mounting) => ("mount.posture", &mounting.angles_rad),
-        InitialPosture::Coordinates(_) | InitialPosture::Continued { .. } => return,
+        InitialPosture::Placed(placing) => ("posture", &placing.at.angles_rad),
+        InitialPosture::Coordinates(_) | InitialPosture::Continued { .. } | InitialPosture::Together => return,
     };
     for (key, angle_rad) in angles_rad.iter().filter(|(_, angle)| angle.is_nan() || angle.abs() > PI) {
         problems.error(

@@ -5,10 +5,8 @@
 //! and Z only. With P, Q, R the inertias of l about the hinge, σ = M·cg of l, c = cos α, s = sin α, X_l = (c, 0, −s):
 //! the hinge takes the moment about Y, α̈ = −(ŷ·n + Q α_y + σ X_l·a_E)/Q, and leaves the matrix m − (σ²/Q) X_l X_lᵀ.
 
-use super::{Demand, LIMBS, Links};
+use super::{Demand, LIMBS, Links, SEGMENTS, Seen};
 use crate::motion::dynamics::Wrench;
-use crate::motion::kinematics::Kinematics;
-use crate::motion::layout::MOST_SEGMENTS;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{M3, Sym3, V3, v3};
 
@@ -53,7 +51,7 @@ impl<S: Scalar> Limb<S> {
 
     /// Angular acceleration of the upper segment, space axes, for an acceleration `a` of its joint.
     #[inline(always)]
-    pub(crate) fn alpha(&self, k: &Kinematics<S>, upper: usize, a: V3<S>) -> V3<S> {
+    pub(crate) fn alpha(&self, k: &Seen<'_, S>, upper: usize, a: V3<S>) -> V3<S> {
         let axes = &k.axes[upper];
         let a = axes.into_frame(a);
         let g = &self.gain;
@@ -63,7 +61,7 @@ impl<S: Scalar> Limb<S> {
 
     /// α̈ for the upper segment's angular acceleration and the hinge's acceleration, both in space axes.
     #[inline(always)]
-    pub(crate) fn hinge_acceleration(&self, k: &Kinematics<S>, upper: usize, alpha: V3<S>, a: V3<S>) -> S {
+    pub(crate) fn hinge_acceleration(&self, k: &Seen<'_, S>, upper: usize, alpha: V3<S>, a: V3<S>) -> S {
         let axes = &k.axes[upper];
         let (s, c) = self.sin_cos;
         let along_x = axes.x.dot(a) * c - axes.z.dot(a) * s;
@@ -75,10 +73,10 @@ impl<S: Scalar> Limb<S> {
 #[inline(always)]
 pub(crate) fn reduce<S: Scalar>(
     links: &Links<S>,
-    k: &Kinematics<S>,
+    k: &Seen<'_, S>,
     i: usize,
     hinge_rate: S,
-    wrench: &[Wrench<S>; MOST_SEGMENTS],
+    wrench: &[Wrench<S>; SEGMENTS],
 ) -> (Demand<S>, Limb<S>) {
     let (upper, lower) = LIMBS[i];
     let (m, l) = (&links[upper], &links[lower]);
@@ -190,7 +188,7 @@ impl<S: Scalar> Leaf<S> {
 
     /// Angular acceleration of segment `n`, space axes, for an acceleration `a` of its joint.
     #[inline(always)]
-    pub(crate) fn alpha(&self, k: &Kinematics<S>, n: usize, a: V3<S>) -> V3<S> {
+    pub(crate) fn alpha(&self, k: &Seen<'_, S>, n: usize, a: V3<S>) -> V3<S> {
         let axes = &k.axes[n];
         let a = axes.into_frame(a);
         axes.out(self.alpha_free + v3(self.gain.yx * a.y, self.gain.xy * a.x, S::zero()))
@@ -201,9 +199,9 @@ impl<S: Scalar> Leaf<S> {
 #[inline(always)]
 pub(crate) fn reduce_leaf<S: Scalar>(
     links: &Links<S>,
-    k: &Kinematics<S>,
+    k: &Seen<'_, S>,
     n: usize,
-    wrench: &[Wrench<S>; MOST_SEGMENTS],
+    wrench: &[Wrench<S>; SEGMENTS],
 ) -> (Demand<S>, Leaf<S>) {
     let (h, axes, wrench) = (&links[n], &k.axes[n], &wrench[n]);
     let w = axes.into_frame(k.omega[n]);

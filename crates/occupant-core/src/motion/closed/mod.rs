@@ -20,10 +20,12 @@ use limb::{Leaf, Limb};
 use crate::body::tti12::TTI12;
 use crate::motion::dynamics::{Accelerations, Wrench};
 use crate::motion::kinematics::{Kinematics, axes};
-use crate::motion::layout::{Layout, MOST_SEGMENTS};
+use crate::motion::layout::{Layout, MOST_SEGMENTS, Trunk as Tree};
 use crate::motion::scalar::Scalar;
 use crate::motion::skeleton::{Link, Skeleton};
-use crate::motion::state::{Shape, State};
+#[cfg(test)]
+use crate::motion::state::Shape;
+use crate::motion::state::{Quat, State};
 use crate::motion::vector::{M3, Sym3, V3, v3};
 
 /// Number of segments.
@@ -36,10 +38,13 @@ pub(crate) const LIMBS: [(usize, usize); 4] = [(4, 6), (5, 7), (8, 10), (9, 11)]
 const LEAVES: [usize; 1] = [2];
 /// Segments on a ball joint that carry others on ball joints, and those: none stands before the one that carries it.
 const TRUNKS: [(usize, &[usize]); 3] = [(0, &[3]), (1, &[2, 4, 5]), (3, &[8, 9])];
+/// Segments that others carry, and those, each behind what carries it: those of trunks, then those of limbs.
+const HUNG: [(usize, usize); 10] = [(3, 0), (2, 1), (4, 1), (5, 1), (8, 3), (9, 3), (6, 4), (7, 5), (10, 8), (11, 9)];
 /// Segments whose joint is T1.
 const ROOTS: [usize; 2] = [0, 1];
 
 /// How many numbers of each kind its state has.
+#[cfg(test)]
 const SHAPE: Shape = Shape::new(FREE.len(), LIMBS.len());
 
 /// Constants of its segments.
@@ -52,49 +57,84 @@ pub(crate) fn holds(layout: &Layout) -> bool {
 
 /// Constants of the segments of such a body.
 #[inline(always)]
-fn links<S>(body: &Skeleton<S>) -> &Links<S> {
-    body.links.as_slice().try_into().expect("is_closed says so")
+fn links<'a, S>(body: &'a Skeleton<S>, trunk: &Tree) -> &'a Links<S> {
+    body.links[trunk.first..][..SEGMENTS].try_into().expect("is_closed says so")
 }
 
-/// Kinematics of `state`.
+/// Kinematics of such a body of `state`.
 #[inline(always)]
-pub(crate) fn place<S: Scalar>(k: &mut Kinematics<S>, body: &Skeleton<S>, state: &State<S>) {
-    let links = links(body);
+pub(crate) fn place<S: Scalar>(all: &mut Kinematics<S>, bodies: &Skeleton<S>, state: &State<S>, body: usize) {
+    let trunk = &bodies.layout.trunks()[body];
+    let links = links(bodies, trunk);
+    let Kinematics { axes: turns, omega, joint, joint_velocity, hinge_axis, hinge_sin_cos } = all;
     // known sizes save checks of indices
-    assert!(state.shape().with_own(0) == SHAPE, "the state is one of another tree");
+    let (first, hinge) = (trunk.first, trunk.hinge);
+    let turned: &mut [M3<S>; SEGMENTS] = of(&mut turns[first..]);
+    let omega: &mut [V3<S>; SEGMENTS] = of(&mut omega[first..]);
+    let joint: &mut [V3<S>; SEGMENTS] = of(&mut joint[first..]);
+    let joint_velocity: &mut [V3<S>; SEGMENTS] = of(&mut joint_velocity[first..]);
+    let hinge_axis: &mut [V3<S>; LIMBS.len()] = of(&mut hinge_axis[hinge..]);
+    let (sin_cos, rates) = (&hinge_sin_cos[hinge..][..LIMBS.len()], &state.hinge_rate()[hinge..][..LIMBS.len()]);
+    let shape = state.shape();
+    let quaternions: &[S; 4 * FREE.len()] = state.block(shape.turn(trunk.free));
+    let spins: &[S; 3 * FREE.len()] = state.block(shape.spin(trunk.free));
     for n in ROOTS {
-        (k.joint[n], k.joint_velocity[n]) = (state.t1(), state.velocity());
+        (joint[n], joint_velocity[n]) = (state.t1_of(body), state.velocity_of(body));
     }
     for (slot, &n) in FREE.iter().enumerate() {
-        k.axes[n] = axes(&state.orientation(slot));
-        k.omega[n] = state.omega(slot);
+        let [w, x, y, z] = [0, 1, 2, 3].map(|i| quaternions[4 * slot + i]);
+        turned[n] = axes(&Quat { w, v: v3(x, y, z) });
+        omega[n] = v3(spins[3 * slot], spins[3 * slot + 1], spins[3 * slot + 2]);
     }
     for (limb, &(upper, lower)) in LIMBS.iter().enumerate() {
         // X_j = R_y(α) X_m (8) for the lower segment m of a limb on its upper segment j
-        let (s, c) = k.hinge_sin_cos[limb];
-        let M3 { x, y, z } = k.axes[upper];
-        k.hinge_axis[limb] = y;
+        let (s, c) = sin_cos[limb];
+        let M3 { x, y, z } = turned[upper];
+        hinge_axis[limb] = y;
         // T^nm = Tⁿ R_y(α) (9), (10) by columns: from those of Tⁿ X_m = c X_j − s Z_j and Z_m = s X_j + c Z_j (11)
-        k.axes[lower] = M3 { x: x * c - z * s, y, z: x * s + z * c };
-        k.omega[lower] = k.omega[upper] + y * state.hinge_rate()[limb]; // (45), in space axes
+        turned[lower] = M3 { x: x * c - z * s, y, z: x * s + z * c };
+        omega[lower] = omega[upper] + y * rates[limb]; // (45), in space axes
     }
-    for &(parent, children) in &TRUNKS {
-        for &child in children {
-            place_joint(k, links, child, parent);
-        }
-    }
-    for &(upper, lower) in &LIMBS {
-        place_joint(k, links, lower, upper);
+    for (child, parent) in HUNG {
+        // a joint at (0, y, z) of the segment that carries it
+        let (axes, link) = (&turned[parent], &links[child]);
+        let offset = axes.y * link.joint.y + axes.z * link.joint.z;
+        joint[child] = joint[parent] + offset;
+        joint_velocity[child] = joint_velocity[parent] + omega[parent].cross(offset);
     }
 }
 
-/// A joint at (0, y, z) of the segment that carries it.
+/// The first of many, as many as are asked for.
 #[inline(always)]
-fn place_joint<S: Scalar>(k: &mut Kinematics<S>, links: &Links<S>, child: usize, parent: usize) {
-    let (axes, link) = (&k.axes[parent], &links[child]);
-    let offset = axes.y * link.joint.y + axes.z * link.joint.z;
-    k.joint[child] = k.joint[parent] + offset;
-    k.joint_velocity[child] = k.joint_velocity[parent] + k.omega[parent].cross(offset);
+fn of<T, const N: usize>(all: &mut [T]) -> &mut [T; N] {
+    (&mut all[..N]).try_into().expect("is_closed says so")
+}
+
+/// The motion of such a body among others.
+pub(crate) struct Seen<'a, S> {
+    axes: &'a [M3<S>; SEGMENTS],
+    omega: &'a [V3<S>; SEGMENTS],
+    joint: &'a [V3<S>; SEGMENTS],
+    hinge_sin_cos: &'a [(S, S); LIMBS.len()],
+}
+
+impl<'a, S> Seen<'a, S> {
+    #[inline(always)]
+    fn new(all: &'a Kinematics<S>, tree: &Tree) -> Self {
+        let (first, hinge) = (tree.first, tree.hinge);
+        Seen {
+            axes: seen(&all.axes[first..]),
+            omega: seen(&all.omega[first..]),
+            joint: seen(&all.joint[first..]),
+            hinge_sin_cos: seen(&all.hinge_sin_cos[hinge..]),
+        }
+    }
+}
+
+/// The first of many, as many as are asked for.
+#[inline(always)]
+fn seen<T, const N: usize>(all: &[T]) -> &[T; N] {
+    all[..N].try_into().expect("is_closed says so")
 }
 
 /// What a subtree asks of the joint that carries it: f = `mass`·a + `bias`, space axes.
@@ -170,13 +210,19 @@ impl<S: Scalar> Sweep<S> {
     #[inline(always)]
     pub(crate) fn solve(
         &mut self,
-        body: &Skeleton<S>,
+        bodies: &Skeleton<S>,
+        body: usize,
         k: &Kinematics<S>,
         hinge_rate: &[S],
         wrench: &[Wrench<S>; MOST_SEGMENTS],
         out: &mut Accelerations<S>,
     ) {
-        let (links, hinge_rate) = (links(body), &hinge_rate[..LIMBS.len()]);
+        let tree = &bodies.layout.trunks()[body];
+        let (links, hinge_rate) = (links(bodies, tree), &hinge_rate[tree.hinge..][..LIMBS.len()]);
+        let (k, wrench) = (&Seen::new(k, tree), seen(&wrench[tree.first..]));
+        let (joint, alpha) = (of(&mut out.joint[tree.first..]), of(&mut out.alpha[tree.first..]));
+        let hinge: &mut [S; LIMBS.len()] = of(&mut out.hinge[tree.hinge..]);
+        let mut out = Outward { joint, alpha, hinge };
         let Sweep { demand, limbs, leaves, trunks } = self;
         // inward: what carries nothing but itself, then the trunk from its ends
         for (i, &(upper, _)) in LIMBS.iter().enumerate() {
@@ -221,14 +267,30 @@ impl<S: Scalar> Sweep<S> {
     }
 }
 
+/// Accelerations of such a body among others.
+struct Outward<'a, S> {
+    joint: &'a mut [V3<S>; SEGMENTS],
+    alpha: &'a mut [V3<S>; SEGMENTS],
+    hinge: &'a mut [S; LIMBS.len()],
+}
+
+impl<S: Scalar> Outward<'_, S> {
+    /// a_child = a_parent + α×c + ω×(ω×c).
+    #[inline(always)]
+    fn carry(&mut self, k: &Seen<'_, S>, child: usize, parent: usize) {
+        let (c, w) = (k.joint[child] - k.joint[parent], k.omega[parent]);
+        self.joint[child] = self.joint[parent] + self.alpha[parent].cross(c) + w.cross(w.cross(c));
+    }
+}
+
 /// Reduces a trunk segment to what it asks of its joint, the first result; `demands` of the segments it carries are known.
 #[inline(always)]
 fn reduce<S: Scalar>(
     links: &Links<S>,
-    k: &Kinematics<S>,
+    k: &Seen<'_, S>,
     n: usize,
     children: &[usize],
-    wrench: &[Wrench<S>; MOST_SEGMENTS],
+    wrench: &[Wrench<S>; SEGMENTS],
     demands: &[Demand<S>; SEGMENTS],
 ) -> (Demand<S>, Trunk<S>) {
     let (link, wrench) = (&links[n], &wrench[n]);
@@ -297,6 +359,9 @@ mod tests {
             assert_eq!(own.collect::<Vec<_>>(), children);
         }
         assert!(LEAVES.iter().all(|&n| layout.children(n).next().is_none()));
+        let of_trunks =
+            TRUNKS.iter().flat_map(|(parent, children)| children.iter().map(move |child| (*child, *parent)));
+        assert!(of_trunks.chain(LIMBS.map(|(upper, lower)| (lower, upper))).eq(HUNG));
         assert_eq!(TRUNKS.len() + LEAVES.len() + 2 * LIMBS.len(), SEGMENTS);
     }
 }

@@ -102,8 +102,10 @@ fn norm(error: &State<f64>, from: &State<f64>, to: &State<f64>, tolerance: &Tole
         let size = a.norm_squared().max(b.norm_squared()).sqrt();
         tolerance.absolute_m_s + tolerance.relative * size
     };
-    sum.add(error.t1(), place);
-    sum.add(error.velocity(), speed(from.velocity(), to.velocity()));
+    for body in error.shape().bodies() {
+        sum.add(error.t1_of(body), place);
+        sum.add(error.velocity_of(body), speed(from.velocity_of(body), to.velocity_of(body)));
+    }
     for i in error.turns() {
         // a small change dq of a unit quaternion turns by 2|dq|
         let q = error.orientation(i);

@@ -5,7 +5,6 @@ use crash_measures::unit::Unit::{
 };
 use nalgebra::Vector3;
 
-use super::Run;
 use crate::body::tree::{Landmarks, Limb, Segment};
 use crate::quantity::{Axes, Owner, Quantity, Take, to_j211};
 use crate::results::reaction::{Reaction, femur_axial_n, mount_load, upper_neck};
@@ -62,10 +61,18 @@ pub(super) const SEGMENT: &[Of] = &[
     ),
 ];
 
-type Instrument = Quantity<Run>;
+/// A body with its instruments.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OfBody;
 
-fn marks<'a>(s: &Sample<'a>) -> &'a Landmarks {
-    s.model.body().tree.landmarks()
+impl Owner for OfBody {
+    type At<'a> = Sample<'a>;
+}
+
+type Instrument = Quantity<OfBody>;
+
+fn marks(s: &Sample<'_>) -> Landmarks {
+    s.landmarks()
 }
 
 /// Message `Instruments`: what the load cells of a dummy would read.

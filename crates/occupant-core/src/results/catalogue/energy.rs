@@ -30,6 +30,17 @@ pub(super) const BALANCE: [Part; 2] = [
     (|e| e.balance_j, energy(13, "balance", "present sum less the sum at the start", "present sum less the sum at the start; 0 for an exact integration")),
 ];
 
+/// Message `EnergyOfBody`: those of one of several bodies.
+#[rustfmt::skip]
+pub(super) const OF_BODY: [Part; 6] = [
+    (|e| e.kinetic_j, energy(2, "kinetic", "kinetic energy of {} in space", "kinetic energy in space")),
+    (|e| e.gravity_j, energy(3, "gravity", "potential energy of {}, zero at Z′ = 0", "M g Z', zero at Z' = 0")),
+    (|e| e.stored_j.iter().sum::<f64>() + e.lost_j.iter().sum::<f64>(), energy(4, "elements", "energy of {} that force elements store and have lost", "stored in and lost by the force elements that are in its books")),
+    (|e| e.vehicle_work_j, energy(5, "vehicle_work", "work of vehicles and panels on {}", "work of moving vehicles and panels since the start")),
+    (|e| e.others_work_j, energy(6, "others_work", "work of other bodies on {}", "work of other bodies since the start: what one gets another gives")),
+    (|e| e.balance_j, energy(7, "balance", "present sum of {} less the sum at the start", "present sum less the sum at the start; 0 for an exact integration")),
+];
+
 type Work = Quantity<Effort>;
 
 /// Message `SolverState`.

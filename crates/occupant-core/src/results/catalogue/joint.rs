@@ -17,9 +17,11 @@ impl Owner for OfJoint {
 
 type Of = Quantity<OfJoint>;
 
-/// A field of the message `JointAngles`, which has one for each joint: its number is the report's joint number + 1.
+/// A field of the message `JointAngles`, which has one for each joint of a body: its number is the report's joint number + 1.
 pub(super) fn angle(tree: &Tree, joint: Joint) -> Of {
     let row = &tree[joint];
+    let body = tree.body_of(row.distal);
+    let of_body = tree.joints().take_while(|j| *j != joint).filter(|j| tree.body_of(tree[*j].distal) == body).count();
     let (history, meaning) = if !row.is_hinge() {
         ("β of the {}", "β, angle between the Z axes of the two segments")
     } else if tree.landmarks().arms().any(|arm| arm.lower == row.distal) {
@@ -28,8 +30,8 @@ pub(super) fn angle(tree: &Tree, joint: Joint) -> Of {
         ("α of the {}", "α about Y; positive brings the heel back")
     };
     Of::number(Radian, |(s, joint)| s.joint_angle_rad(*joint)).channel("angle", history).field(
-        joint.number() as u32 + 1,
-        row.name,
+        of_body as u32 + 2,
+        row.name.rsplit('.').next().unwrap_or(row.name),
         meaning,
     )
 }

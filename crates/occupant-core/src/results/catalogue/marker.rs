@@ -63,7 +63,8 @@ pub(super) fn motion(s: &Sample<'_>, site: &Site<f64>, frame: MarkerFrame) -> Mo
     let (arm, place, velocity) = site.place(k);
     let acceleration = by.joint[n] + by.alpha[n].cross(arm) + k.omega[n].cross(k.omega[n].cross(arm));
     let [place, velocity, acceleration] = [place, velocity, acceleration].map(|v| v.to_vector());
-    let in_vehicle = s.vehicle.point_to_frame(place);
+    let home = s.seen_from(n);
+    let in_vehicle = home.point_to_frame(place);
     match frame {
         MarkerFrame::Space => [place, velocity, acceleration],
         MarkerFrame::Segment => {
@@ -72,7 +73,7 @@ pub(super) fn motion(s: &Sample<'_>, site: &Site<f64>, frame: MarkerFrame) -> Mo
             [in_vehicle, along(velocity), along(acceleration + gravity)]
         }
         MarkerFrame::Vehicle => {
-            let (vehicle, r) = (s.vehicle, place - s.vehicle.origin_m);
+            let (vehicle, r) = (home, place - home.origin_m);
             let omega = vehicle.angular_velocity_rad_s;
             let seen = velocity - vehicle.velocity_at(place);
             let carried = vehicle.acceleration_m_s2

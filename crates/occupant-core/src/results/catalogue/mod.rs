@@ -84,7 +84,7 @@ pub struct Field {
 const ELEMENTS: &str = "";
 
 /// Message types in the order in which a file has them.
-const ORDER: [&str; 12] = [
+const ORDER: [&str; 13] = [
     "VehicleMotion",
     "SegmentState",
     "SphereLoad",
@@ -95,6 +95,7 @@ const ORDER: [&str; 12] = [
     "MountLoad",
     "MarkerMotion",
     "EnergyLedger",
+    "EnergyOfBody",
     "SolverState",
     "ReportCoordinates",
 ];
@@ -154,14 +155,22 @@ impl Catalogue {
         let tree = model.body().tree;
         for segment in tree.segments() {
             let name = tree[segment].name;
-            let topic = format!("/occupant/segment/{name}");
+            let topic = topic_of("segment", name);
             let place = Place { message: "SegmentState", topic, name, words: &name.replace('_', " ") };
             all.add(&place, body::SEGMENT, move |s| (s, segment));
         }
-        let instruments: Vec<_> = body::instruments(tree.landmarks()).collect();
-        all.whole("Instruments", "/occupant/instruments", "", &instruments, |s| s);
+        for (of, row) in tree.bodies().into_iter().enumerate() {
+            let instruments: Vec<_> = body::instruments(&row.landmarks).collect();
+            let topic = if row.name.is_empty() {
+                "/occupant/instruments".to_owned()
+            } else {
+                topic_of("instruments", row.name)
+            };
+            let place = Place { message: "Instruments", topic, name: row.name, words: row.name };
+            all.add(&place, &instruments, move |s| s.of_body(of));
+        }
         if model.setup().mounting().is_some() {
-            all.whole("MountLoad", "/occupant/mount", "", body::MOUNT, |s| s);
+            all.whole("MountLoad", "/occupant/mount", "", body::MOUNT, |s| *s);
         }
         let names = model.body().spheres.iter().map(|s| s.name.as_str());
         for (i, (name, topic)) in named("/occupant/sphere", names).into_iter().enumerate() {
@@ -176,10 +185,13 @@ impl Catalogue {
         for joint in tree.joints() {
             let name = tree[joint].name;
             let (channel, words) = (format!("joint.{name}"), name.replace('_', " "));
-            let topic = "/occupant/joints".to_owned();
+            let topic = match name.rsplit_once('.') {
+                Some((of, _)) => topic_of("joints", of),
+                None => "/occupant/joints".to_owned(),
+            };
             let place = Place { message: "JointAngles", topic, name: &channel, words: &words };
             all.add(&place, &[joint::angle(tree, joint)], move |s| (s, joint));
-            let topic = format!("/occupant/joint/{name}");
+            let topic = topic_of("joint", name);
             let place = Place { message: "JointLoad", topic, name: &channel, words: &words };
             all.add(&place, joint::LOAD, move |s| (s, joint));
         }
@@ -187,7 +199,7 @@ impl Catalogue {
         all.energies(model);
         all.whole("SolverState", "/solver", "", energy::EFFORT, |s| s.effort);
         if model.setup().output.report_coordinates {
-            all.whole("ReportCoordinates", "/occupant/report_coordinates", "", body::REPORT_COORDINATES, |s| s);
+            all.whole("ReportCoordinates", "/occupant/report_coordinates", "", body::REPORT_COORDINATES, |s| *s);
         }
         all
     }
@@ -204,6 +216,18 @@ impl Catalogue {
     }
 
     fn energies(&mut self, model: &Model) {
+        for (of, member) in model.setup().members.iter().enumerate() {
+            let name = member.name.as_str();
+            let place = Place {
+                message: "EnergyOfBody",
+                topic: format!("/occupants/{}/energy", in_small_letters(name)),
+                name: &format!("energy.{name}"),
+                words: name,
+            };
+            for (value, quantity) in energy::OF_BODY {
+                self.add(&place, &[quantity], move |s| value(&s.ledgers[of]));
+            }
+        }
         for (of, quantity) in energy::MOTION {
             self.energy(quantity, of);
         }
@@ -311,6 +335,15 @@ fn time() -> Field {
         meaning: "time of the scenario".into(),
         kind: Kind::Number,
         source: Some(Source::new(|s| Value::Number(s.time_s))),
+    }
+}
+
+/// The topic of what belongs to a body, or to one of several, whose name stands before a dot.
+fn topic_of(of: &str, name: &str) -> String {
+    match name.split_once('.') {
+        Some((occupant, part)) => format!("/occupants/{}/{of}/{part}", in_small_letters(occupant)),
+        None if ["instruments", "joints"].contains(&of) => format!("/occupants/{}/{of}", in_small_letters(name)),
+        None => format!("/occupant/{of}/{name}"),
     }
 }
 

@@ -37,6 +37,15 @@ impl Caveat {
         self.figures.iter().any(|of| of.strip_suffix('*').map_or(of == figure, |stem| figure.starts_with(stem)))
     }
 
+    /// The same of one of several occupants, whose name stands before those of its figures.
+    pub(super) fn of_occupant(self, name: &str) -> Self {
+        if name.is_empty() {
+            return self;
+        }
+        let figures = self.figures.iter().map(|figure| format!("{name}.{figure}")).collect();
+        Caveat { text: format!("{name}: {}", self.text), figures, ..self }
+    }
+
     /// A run that did not complete; none for one that did.
     pub(super) fn of_ending(status: RunStatus, reached_s: f64) -> Option<Self> {
         let (name, ended) = match status {
@@ -61,8 +70,9 @@ impl Caveat {
     /// A joint that turned to `turned` beyond the end of a stop.
     pub(super) fn beyond_stop(body: &Body, joint: Joint, turned: &Turned) -> Self {
         let row = &body.tree[joint];
-        let is_neck = body.tree.landmarks().neck == Some(joint);
-        let figures = if is_neck { owned(&["nij", "neck_*"]) } else { figures_of(body, row.distal) };
+        let is_neck = body.tree.landmarks_at(row.distal).neck == Some(joint);
+        let neck = ["nij", "neck_*"].map(|figure| format!("{}{figure}", prefix(body, row.distal)));
+        let figures = if is_neck { neck.to_vec() } else { figures_of(body, row.distal) };
         let [angle, stop] = [turned.angle_rad, turned.stop_rad].map(f64::to_degrees);
         let (at, name) = (at(turned.beyond), row.name.replace('_', " "));
         let seen = if turned.is_elastic {
@@ -235,9 +245,15 @@ fn owned(names: &[&str]) -> Vec<String> {
     names.iter().map(|name| (*name).to_owned()).collect()
 }
 
+/// What stands before the names of measures of the body of a segment.
+fn prefix(body: &Body, segment: Segment) -> String {
+    let name = body.tree.bodies()[body.tree.body_of(segment)].name;
+    if name.is_empty() { String::new() } else { format!("{name}.") }
+}
+
 /// What is measured of a segment, and of the spheres on it.
 fn figures_of(body: &Body, segment: Segment) -> Vec<String> {
-    let marks = body.tree.landmarks();
+    let marks = body.tree.landmarks_at(segment);
     let is_of = |leg: Option<Limb>| leg.is_some_and(|leg| body.tree.is_of(segment, &leg));
     let measured: &[&str] = if Some(segment) == marks.head {
         &["hic15", "hic36", "gsi", "bric", "damage", "head*", "nij", "neck_*"]
@@ -254,7 +270,8 @@ fn figures_of(body: &Body, segment: Segment) -> Vec<String> {
     };
     let spheres = body.spheres.iter().filter(|sphere| sphere.segment == segment);
     let touched = spheres.map(|sphere| format!("contacts.{}.*", word(&sphere.part)));
-    let mut figures: Vec<String> = owned(measured).into_iter().chain(touched).collect();
+    let measured = measured.iter().map(|figure| format!("{}{figure}", prefix(body, segment)));
+    let mut figures: Vec<String> = measured.chain(touched).collect();
     figures.dedup();
     figures
 }

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use crash_measures::unit::Unit::{self, Joule, Metre, MetrePerSecond, MetrePerSecondSquared, Newton, One, Second};
 
-use super::{Acceleration, Excursion, FirstContact, Level, Summary};
+use super::{Acceleration, Excursion, FirstContact, Level, Person, Summary};
 use crate::forces::table::{Cell, Table};
 use crate::model::Model;
 
@@ -32,21 +32,37 @@ impl Summary {
     /// and spheres the model has, so that they are the same for all runs of a study.
     pub fn figures(&self, model: &Model) -> Vec<Figure> {
         let mut list = List::default();
-        let a = &self.accelerations;
-        for (part, readings) in [("head", &a.head), ("chest", &a.chest), ("pelvis", &a.pelvis)] {
-            list.acceleration(part, readings);
+        let people = self.people();
+        for (prefix, Person { accelerations: a, .. }) in &people {
+            for (part, readings) in [("head", &a.head), ("chest", &a.chest), ("pelvis", &a.pelvis)] {
+                list.acceleration(&format!("{prefix}{part}"), readings);
+            }
         }
         self.list_elements(&mut list);
         self.list_contacts(&mut list, model);
-        if model.body().sphere("head").is_some() {
-            list.excursion(self.head_excursion.as_ref());
-        }
-        for measure in &self.measures {
-            // those of the accelerations stand above
-            let new = measure.figure.filter(|name| !list.has(name));
-            if let Some(name) = new {
-                list.add(name, measure.unit, measure.value);
+        for (prefix, Person { head_excursion, measures, .. }) in &people {
+            if model.body().sphere(&format!("{prefix}head")).is_some() {
+                list.excursion(prefix, head_excursion.as_ref());
             }
+            for measure in measures {
+                // those of the accelerations stand above
+                let new = measure.figure.map(|name| format!("{prefix}{name}")).filter(|name| !list.has(name));
+                if let Some(name) = new {
+                    list.add(name, measure.unit, measure.value);
+                }
+            }
+        }
+        let several = |name: &str| if name.is_empty() { String::new() } else { format!("{name}.") };
+        for body in model.body().tree.bodies().iter().filter(|_| !model.setup().frames.is_empty()) {
+            let (prefix, throw) = (several(body.name), self.throws.get(body.name));
+            let landing = throw.and_then(|throw| throw.landing.as_ref());
+            list.add(format!("{prefix}throw.struck_time"), Second, throw.map(|t| t.struck_s));
+            list.add(format!("{prefix}throw.distance"), Metre, throw.map(|t| t.distance_m));
+            list.add(format!("{prefix}throw.height"), Metre, throw.map(|t| t.height_m));
+            list.add(format!("{prefix}throw.end_speed"), MetrePerSecond, throw.map(|t| t.end_speed_m_s));
+            list.add(format!("{prefix}throw.landing_time"), Second, landing.map(|l| l.time_s));
+            list.add(format!("{prefix}throw.landing_distance"), Metre, landing.map(|l| l.distance_m));
+            list.add(format!("{prefix}throw.landing_speed"), MetrePerSecond, landing.map(|l| l.speed_m_s));
         }
         list.add("run.reached", Second, self.reached_s);
         list.add("energy.balance_error", One, self.energy.balance_error);
@@ -124,10 +140,10 @@ impl List {
         self.add(format!("{part}.three_ms_cumulative"), MetrePerSecondSquared, total);
     }
 
-    fn excursion(&mut self, of: Option<&Excursion>) {
+    fn excursion(&mut self, prefix: &str, of: Option<&Excursion>) {
         for (way, peak) in of.copied().unwrap_or(Excursion::NONE).ways() {
-            self.add(format!("head_excursion.{way}"), Metre, peak.value);
-            self.add(format!("head_excursion.{way}_time"), Second, peak.time_s);
+            self.add(format!("{prefix}head_excursion.{way}"), Metre, peak.value);
+            self.add(format!("{prefix}head_excursion.{way}_time"), Second, peak.time_s);
         }
     }
 }

@@ -9,9 +9,12 @@ mod events;
 mod excursion;
 mod figures;
 mod peak;
+mod person;
 mod signs;
 mod summarizer;
+mod throw;
 
+use indexmap::IndexMap;
 use serde::Serialize;
 
 use crash_measures::injury::Measure;
@@ -25,6 +28,7 @@ pub(crate) use excursion::Excursion;
 pub use figures::{Figure, word};
 pub use peak::Peak;
 pub use summarizer::Summarizer;
+pub use throw::{Landing, Throw};
 
 /// What one run came to. Serialised, it is the answer of `occupant run --json`; every name carries its unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -41,6 +45,9 @@ pub struct Summary {
     pub reached_s: f64,
     /// Time it should have reached.
     pub end_s: f64,
+    /// Name of the occupant that accelerations, head excursion and measures are of; empty of one alone.
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub occupant: &'static str,
     /// Accelerometer readings at the centres of gravity.
     pub accelerations: Accelerations,
     /// Peaks of force elements.
@@ -60,6 +67,12 @@ pub struct Summary {
     pub head_excursion: Option<Excursion>,
     /// Injury measures, unless asked otherwise for a Hybrid III 50M and unfiltered.
     pub measures: Vec<Measure>,
+    /// The same of the other occupants, by their names.
+    #[serde(skip_serializing_if = "IndexMap::is_empty")]
+    pub others: IndexMap<&'static str, Person>,
+    /// How bodies that were struck were thrown, by their names, where there are other frames than one vehicle's and space.
+    #[serde(skip_serializing_if = "IndexMap::is_empty")]
+    pub throws: IndexMap<&'static str, Throw>,
     /// Which figures are not to be quoted as they stand, and why.
     pub caveats: Vec<Caveat>,
     /// Energy balance.
@@ -73,6 +86,31 @@ impl Summary {
     pub fn ended(mut self, status: RunStatus, reason: Option<String>) -> Self {
         self.caveats.splice(..0, Caveat::of_ending(status, self.reached_s));
         Summary { status, reason, ..self }
+    }
+}
+
+/// What the instruments of one of several occupants say.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Person {
+    /// As [`Summary::accelerations`].
+    pub accelerations: Accelerations,
+    /// As [`Summary::head_excursion`].
+    pub head_excursion: Option<Excursion>,
+    /// As [`Summary::measures`].
+    pub measures: Vec<Measure>,
+}
+
+impl Summary {
+    /// All occupants by what stands before the names of their figures: nothing of one alone, else the name and a dot.
+    pub fn people(&self) -> Vec<(String, Person)> {
+        let first = Person {
+            accelerations: self.accelerations,
+            head_excursion: self.head_excursion,
+            measures: self.measures.clone(),
+        };
+        let prefix = |name: &str| if name.is_empty() { String::new() } else { format!("{name}.") };
+        let others = self.others.iter().map(|(name, person)| (prefix(name), person.clone()));
+        std::iter::once((prefix(self.occupant), first)).chain(others).collect()
     }
 }
 

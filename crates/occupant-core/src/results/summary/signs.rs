@@ -9,6 +9,7 @@ use crate::forces::contact::{ContactSystem, Group, PASSED, Part, Plane, Touch};
 use crate::forces::joint::JointLaw;
 use crate::model::Model;
 use crate::model::seating::InitialPosture;
+use crate::motion::frame::MOST_FRAMES;
 use crate::motion::vector::V3;
 use crate::results::sample::{Contact, Sample};
 
@@ -340,7 +341,8 @@ fn limb(sample: &Sample<'_>, segment: Segment) -> Option<[V3<f64>; 2]> {
 }
 
 fn into_frame(sample: &Sample<'_>, frame: usize, point: V3<f64>) -> V3<f64> {
-    let frame = &sample.frames[frame];
+    let carried = |n| sample.evaluation.kinematics.moving(sample.model.system().carriers[n]);
+    let frame = frame.checked_sub(MOST_FRAMES).map_or_else(|| sample.frames[frame], carried);
     frame.axes.into_frame(point - frame.origin)
 }
 

@@ -1,25 +1,23 @@
 //! The recorder that makes a [`Summary`].
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Vector3;
 
 use super::elements::ElementPeaks;
 use super::events::Events;
+use super::person::Watched;
 use super::signs::Signs;
-use super::{
-    Acceleration, Accelerations, Caveat, ContactBegin, Excursion, FirstContact, Level, Peak, RunStatus, Solver,
-    SpherePeak, Summary, word,
-};
+use super::throw::Flight;
+use super::{Caveat, ContactBegin, FirstContact, Peak, Person, RunStatus, Solver, SpherePeak, Summary, word};
 use crate::body::{Body, ContactSphere};
 use crate::forces::bag::Bag;
 use crate::forces::chain::Chain;
 use crate::model::Model;
-use crate::model::setup::{STANDARD_GRAVITY_M_S2, Setup, TimeSpan};
+use crate::model::setup::{Setup, TimeSpan};
 use crate::results::checkpoint::StepPeaks;
 use crate::results::outcome::{Outcome, Status};
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
-use crash_measures::injury::{self, Measure, Options, Readings, Signals};
-use crash_measures::measure::ThreeMs;
+use crash_measures::injury::{self, Options};
 
 /// Measures that change by more of their value without every other output are not quoted to a per cent. The change is about the
 /// error: see `measures.md`.
@@ -32,21 +30,17 @@ const LEAST: f64 = 1.0;
 pub struct Summarizer {
     options: Options,
     case: Option<Case>,
-    head: Option<usize>,
     outputs: usize,
-    /// Of head, chest and pelvis.
-    accelerations: [Option<Peak>; 3],
+    /// By body that has a head, a chest or a pelvis; at least one.
+    pub(super) people: Vec<Watched>,
+    flights: Vec<Flight>,
     elements: ElementPeaks,
     events: Events,
     /// By sphere: which part it belongs to, in the order of [`Body::parts`].
     part_of: Vec<usize>,
     parts: Vec<PartTrack>,
-    pub(super) signals: Signals,
     /// Greatest values at the outputs, and at all accepted steps up to the latest.
     peaks: [StepPeaks; 2],
-    head_start: Option<Point3<f64>>,
-    /// Of the head.
-    excursion: Option<Excursion>,
     outcome: Option<Outcome>,
     signs: Signs,
 }
@@ -97,12 +91,10 @@ impl Summarizer {
     pub fn summary(&self, wall_time_s: Option<f64>) -> Option<Summary> {
         let (outcome, case) = (self.outcome.as_ref()?, self.case.as_ref()?);
         let time = &case.time;
-        let readings = Readings::new(&self.signals, &self.options);
-        let parts = [&readings.head, &readings.chest, &readings.pelvis];
-        let [head, chest, pelvis] = std::array::from_fn(|i| self.acceleration(i, parts[i]));
+        let mut people = self.people.iter().map(|one| (one.name, one.person(&self.options)));
+        let (occupant, Person { accelerations, head_excursion, measures }) = people.next()?;
         let contacts = contacts(outcome, case);
         let (status, reason) = ending(&outcome.status);
-        let measures = readings.measures();
         let summary = Summary {
             title: case.title.clone(),
             status: RunStatus::Completed,
@@ -110,16 +102,19 @@ impl Summarizer {
             start_s: time.start_s,
             reached_s: outcome.time_s,
             end_s: time.end_s,
-            accelerations: Accelerations { head, chest, pelvis },
+            occupant,
+            accelerations,
             elements: self.elements.tables(),
             events: self.events.list(),
             more_events: self.events.more(),
             first_contacts: first_contacts(&contacts, &case.body),
             contacts,
             sphere_forces: self.sphere_forces(case),
-            head_excursion: self.excursion,
-            caveats: Caveat::of_balance(&outcome.energy).into_iter().chain(self.caveats(case, &measures)).collect(),
+            head_excursion,
             measures,
+            others: people.collect(),
+            throws: self.flights.iter().filter_map(|flight| Some((flight.name, flight.throw()?))).collect(),
+            caveats: Caveat::of_balance(&outcome.energy).into_iter().chain(self.caveats(case)).collect(),
             energy: outcome.energy,
             solver: Solver {
                 integrator: case.integrator,
@@ -133,35 +128,22 @@ impl Summarizer {
         Some(summary.ended(status, reason))
     }
 
-    fn acceleration(&self, i: usize, levels: &injury::Acceleration) -> Acceleration {
-        // no numbers of what a part of a body lacks
-        let peak = self.accelerations[i].unwrap_or(Peak { value: f64::NAN, time_s: f64::NAN });
-        let level = |held: &ThreeMs| Level {
-            level_m_s2: held.level_mps2,
-            level_g: in_g(held.level_mps2),
-            from_s: self.signals.start_s + held.start_s,
-            to_s: self.signals.start_s + held.end_s,
-        };
-        Acceleration {
-            peak_m_s2: peak.value,
-            peak_g: in_g(peak.value),
-            peak_time_s: peak.time_s,
-            three_ms_contiguous: levels.three_ms_contiguous.as_ref().ok().map(level),
-            three_ms_cumulative: levels.three_ms_cumulative.as_ref().ok().map(level),
-        }
-    }
-
-    /// What the outputs show of the body, then what is to know of its neck and of measures alone.
-    fn caveats(&self, case: &Case, measures: &[Measure]) -> Vec<Caveat> {
+    /// What the outputs show of the bodies, then what is to know of necks and of measures alone.
+    fn caveats(&self, case: &Case) -> Vec<Caveat> {
         let mut caveats = self.signs.caveats(&case.body, &case.surfaces, &case.chains, &case.bags);
-        let off = injury::coarseness(&self.signals, &self.options, measures);
-        let off: Vec<_> = measures.iter().zip(off).filter(|(_, off)| *off > COARSE).collect();
-        let others = [
-            case.is_half_a_neck.then(Caveat::half_a_neck),
-            Caveat::too_coarse(self.signals.interval_s, &off, &self.passed(case)),
-            if case.is_mounted { None } else { Caveat::other_dummy(self.options.dummy, case.body.mass_kg(), measures) },
-        ];
-        caveats.extend(others.into_iter().flatten());
+        caveats.extend(case.is_half_a_neck.then(Caveat::half_a_neck));
+        let passed = self.passed(case);
+        for (i, one) in self.people.iter().enumerate() {
+            let passed = if i == 0 { &passed[..] } else { &[] };
+            let measures = one.person(&self.options).measures;
+            let off = injury::coarseness(&one.signals, &self.options, &measures);
+            let off: Vec<_> = measures.iter().zip(off).filter(|(_, off)| *off > COARSE).collect();
+            let own = [
+                Caveat::too_coarse(one.signals.interval_s, &off, passed),
+                if case.is_mounted { None } else { Caveat::other_dummy(self.options.dummy, one.mass_kg, &measures) },
+            ];
+            caveats.extend(own.into_iter().flatten().map(|caveat| caveat.of_occupant(one.name)));
+        }
         caveats
     }
 
@@ -169,7 +151,8 @@ impl Summarizer {
     /// figures, each with that part: infinite where no output has seen anything.
     fn passed(&self, case: &Case) -> Vec<(String, f64)> {
         let [outputs, steps] = &self.peaks;
-        let felt = ["head", "chest", "pelvis"].into_iter().zip(&self.accelerations).zip(steps.readings_m_s2);
+        let first = self.people.iter().take(1).flat_map(|one| &one.accelerations);
+        let felt = ["head", "chest", "pelvis"].into_iter().zip(first).zip(steps.readings_m_s2);
         let felt = felt.filter_map(|((part, peak), steps)| Some((format!("{part}.peak"), peak.as_ref()?.value, steps)));
         let greatest_n = |of: &StepPeaks, part: usize| {
             let own = self.part_of.iter().zip(&of.contacts_n).filter(|(of, _)| **of == part);
@@ -198,15 +181,6 @@ impl Summarizer {
             .collect()
     }
 
-    fn see_accelerations(&mut self, sample: &Sample<'_>) {
-        let instruments = sample.model.body().tree.landmarks().instruments();
-        for (peak, segment) in self.accelerations.iter_mut().zip(instruments) {
-            if let Some(segment) = segment {
-                peak.get_or_insert(Peak::NONE).see(sample.specific_force_m_s2(segment).norm(), sample.time_s);
-            }
-        }
-    }
-
     fn see_contacts(&mut self, sample: &Sample<'_>) {
         // touches come sphere by sphere or frame by frame: add up first, then compare
         for track in &mut self.parts {
@@ -233,21 +207,8 @@ impl Summarizer {
         for touch in &sample.actions.contacts {
             outputs.touch(touch.sphere, touch.normal_force);
         }
-        steps.clone_from(sample.step_peaks);
-    }
-
-    fn see_head(&mut self, sample: &Sample<'_>) {
-        let Some(head) = self.head else {
-            return;
-        };
-        let place = sample.sphere_centre_m(head);
-        let moved = place - *self.head_start.get_or_insert(place);
-        let Excursion { forward, rearward, left, right, up, down } = self.excursion.get_or_insert(Excursion::NONE);
-        let axes = [[forward, rearward], [right, left], [down, up]];
-        for ([along, against], moved) in axes.into_iter().zip([moved.x, moved.y, moved.z]) {
-            along.see(moved, sample.time_s);
-            against.see(-moved, sample.time_s);
-        }
+        steps.readings_m_s2 = sample.step_peaks.readings_m_s2;
+        steps.contacts_n.clone_from(&sample.step_peaks.contacts_n);
     }
 }
 
@@ -271,9 +232,9 @@ impl Recorder for Summarizer {
         let parts: Vec<&str> = setup.body.parts().collect();
         let part_of = |sphere: &ContactSphere| parts.iter().position(|part| *part == sphere.part).unwrap_or(0);
         *self = Summarizer {
-            signals: begun(model)?,
+            people: Watched::all(model)?,
+            flights: Flight::all(model),
             options: self.options,
-            head: setup.body.sphere("head"),
             elements: ElementPeaks::new(model),
             events: Events::new(model),
             part_of: setup.body.spheres.iter().map(part_of).collect(),
@@ -288,14 +249,15 @@ impl Recorder for Summarizer {
 
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
         self.outputs += 1;
-        self.see_accelerations(sample);
         self.see_contacts(sample);
         self.see_peaks(sample);
         self.elements.see(sample);
         self.events.see(sample);
-        self.see_head(sample);
         self.signs.see(sample);
-        self.signals.record(sample)?;
+        self.flights.iter_mut().for_each(|flight| flight.see(sample));
+        for one in &mut self.people {
+            one.see(sample)?;
+        }
         Ok(Flow::Continue)
     }
 
@@ -352,15 +314,4 @@ fn ending(status: &Status) -> (RunStatus, Option<String>) {
         Status::Stopped => (RunStatus::Interrupted, Some("stopped before its end time".to_owned())),
         Status::Failed(error) => (RunStatus::Failed, Some(error.to_string())),
     }
-}
-
-/// Instruments with room for a whole run.
-fn begun(model: &Model) -> Result<Signals, RecorderError> {
-    let mut signals = Signals::new();
-    signals.begin(model)?;
-    Ok(signals)
-}
-
-fn in_g(acceleration_m_s2: f64) -> f64 {
-    acceleration_m_s2 / STANDARD_GRAVITY_M_S2
 }

@@ -224,7 +224,7 @@ fn the_list_of_figures_holds_the_summary_under_the_same_names_for_every_run() {
 
 /// Room for outputs.
 fn room(summarizer: &mut Summarizer) -> Vec<usize> {
-    summarizer.signals.all_mut().map(|values| values.capacity()).collect()
+    summarizer.people[0].signals.all_mut().map(|values| values.capacity()).collect()
 }
 
 #[test]

@@ -12,7 +12,7 @@ use crate::forces::History;
 use crate::kernel::Scratch;
 use crate::model::Model;
 use crate::model::setup::Integrator;
-use crate::motion::frame::{Moving, VEHICLE};
+use crate::motion::frame::VEHICLE;
 use crate::motion::integrate::rk4::Stages;
 use crate::motion::state::State;
 use crate::results::outcome::{RecordingFailed, Status};
@@ -22,7 +22,7 @@ use crate::run::{Run, broken};
 pub(super) struct Group<L: Machine> {
     kernel: Kernel,
     /// None before the first run.
-    bench: Option<Bench<L>>,
+    bench: Option<Box<Bench<L>>>,
     /// Boxed, as they change hands at every step.
     places: Vec<Option<Box<Place>>>,
 }
@@ -101,9 +101,12 @@ impl<L: Machine> Group<L> {
             let times_s = step.times_s();
             for (lanes, t_s) in bench.around.frames.iter_mut().zip(times_s) {
                 // space stands still
-                let vehicle = place.model.vehicle(t_s, times_s[1], &mut place.run.cursor);
+                let frames = &mut place.frames;
+                place.model.move_frames(frames, t_s, times_s[1], &mut place.run.cursor);
                 lanes.time.set_lane(i, t_s);
-                lanes[VEHICLE].each(&Moving::of(&vehicle), &mut |lanes: &mut L, x: f64| lanes.set_lane(i, x));
+                for frame in VEHICLE..=VEHICLE + place.model.setup().frames.len() {
+                    lanes[frame].each(&frames[frame], &mut |lanes: &mut L, x: f64| lanes.set_lane(i, x));
+                }
             }
         }
         let mut witness = Witness(&mut self.places);
@@ -197,7 +200,7 @@ impl<L: Machine> Group<L> {
 }
 
 /// A bench on which every lane is that of `model`.
-fn new_bench<L: Machine>(model: &Model) -> Option<Bench<L>> {
+fn new_bench<L: Machine>(model: &Model) -> Option<Box<Bench<L>>> {
     let system = model.system();
     let system = system.zip(system, |x, _| L::of(x)).ok()?;
     let history = History::new(&system.forces, model.start().history.memory.map(&mut L::of));
@@ -206,7 +209,7 @@ fn new_bench<L: Machine>(model: &Model) -> Option<Bench<L>> {
     let frames = model.frames(start_s, start_s, &mut cursor);
     let frames = frames.zip(&frames, &|x, _| L::of(x));
     let start = &model.start().state;
-    let (scratch, stages) = (Scratch::blank(&system.skeleton), Stages::new(start.shape()));
+    let (scratch, stages) = (Scratch::blank(&system), Stages::new(start.shape()));
     let around = Around { system, history, frames: [frames; 3], scratch };
-    Some(Bench { state: start.zip(start, |x, _| L::of(x)), stages, around })
+    Some(Box::new(Bench { state: start.zip(start, |x, _| L::of(x)), stages, around }))
 }

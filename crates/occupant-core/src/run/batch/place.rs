@@ -3,6 +3,7 @@
 use crate::forces::Observer;
 use crate::forces::contact::Touch;
 use crate::model::Model;
+use crate::motion::frame::Frames;
 use crate::motion::lanes::Lanes;
 use crate::motion::vector::v3;
 use crate::results::outcome::{Outcome, RecordingFailed, Status};
@@ -20,6 +21,8 @@ pub(super) struct Place {
     step_s: f64,
     /// The step under way.
     pub step: Step,
+    /// Room for the frames of one instant.
+    pub frames: Frames<f64>,
 }
 
 /// What becomes of a run after a step or an output.
@@ -39,7 +42,7 @@ impl Place {
     pub(super) fn new(model: Model, step_s: f64) -> Self {
         let run = Run::new(&model);
         let stretch = Stretch::new(run.time_s, run.time_s, step_s);
-        Place { model, stretch, run, step_s, step: Step::default() }
+        Place { frames: Frames::still(run.time_s), model, stretch, run, step_s, step: Step::default() }
     }
 
     /// The first output.

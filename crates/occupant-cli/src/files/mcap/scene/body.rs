@@ -48,7 +48,7 @@ pub(crate) fn write_spheres(wire: &mut Wire, body: &Body, frames: &FrameNames) {
 
 fn write_segment(wire: &mut Wire, body: &Body, segment: Segment) {
     let p = body.segment(segment);
-    let marks = body.tree.landmarks();
+    let marks = body.tree.landmarks_at(segment);
     let color = Tone::of(body.tree, segment).color();
     let length = if Some(segment) == marks.head { NECK_LENGTH * p.length_m } else { p.length_m };
     let [lower, upper] = [0.0, length].map(|z| Vector3::z() * z - p.cg_m());
@@ -92,7 +92,7 @@ fn girdle(wire: &mut Wire, body: &Body, segment: Segment, limbs: Pair<Option<Lim
 
 /// a and b as drawn.
 fn half_axes_m(body: &Body, segment: Segment) -> (f64, f64) {
-    let width = if Some(segment) == body.tree.landmarks().head { SLIM * NECK } else { SLIM };
+    let width = if Some(segment) == body.tree.landmarks_at(segment).head { SLIM * NECK } else { SLIM };
     slim_axes_m(body.segment(segment), width)
 }
 
@@ -121,7 +121,7 @@ pub(crate) enum Tone {
 
 impl Tone {
     pub(crate) fn of(tree: &Tree, segment: Segment) -> Self {
-        let marks = tree.landmarks();
+        let marks = tree.landmarks_at(segment);
         if Some(segment) == marks.pelvis || marks.legs().any(|leg| tree.is_of(segment, &leg)) {
             Tone::Trousers
         } else if tree.is_trunk(segment) || marks.arms().any(|arm| segment == arm.upper) {

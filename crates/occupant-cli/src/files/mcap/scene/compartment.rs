@@ -9,7 +9,7 @@ use occupant_core::model::Model;
 
 use super::primitive::{Closing, line, polygon};
 use super::{Color, entity};
-use crate::files::mcap::topics::{SPACE_FRAME, VEHICLE_FRAME};
+use crate::files::mcap::topics::{SPACE_FRAME, VEHICLE_FRAME, origin_frame, other_frame};
 use crate::files::mcap::wire::Wire;
 
 /// Opacity of the plates.
@@ -39,7 +39,7 @@ pub(crate) fn write(wire: &mut Wire, model: &Model) {
     let solids = setup.solids.iter().map(|s| (&s.name, s.frame, s.material, s.outline()));
     for (name, frame, material, polygons) in surfaces.chain(solids) {
         let color = PALETTE[material % PALETTE.len()];
-        entity(wire, 0, frame_name(frame), name, |w| {
+        entity(wire, 0, &frame_name(model, frame), name, |w| {
             for corners in &polygons {
                 polygon(w, corners, color);
                 line(w, Closing::Closed, corners, EDGE_M, color.with_opacity(0.9));
@@ -49,10 +49,12 @@ pub(crate) fn write(wire: &mut Wire, model: &Model) {
 }
 
 /// The viewer's name of a surface's frame.
-pub(crate) fn frame_name(frame: Frame) -> &'static str {
+pub(crate) fn frame_name(model: &Model, frame: Frame) -> String {
     match frame {
-        Frame::Vehicle => VEHICLE_FRAME,
-        Frame::Space => SPACE_FRAME,
+        Frame::Vehicle => VEHICLE_FRAME.to_owned(),
+        Frame::Space => SPACE_FRAME.to_owned(),
+        Frame::Other(i) => model.setup().frames.get(i).map_or_else(String::new, |frame| other_frame(&frame.name)),
+        Frame::Segment(n) => origin_frame(model.body().tree.segment_rows()[n].name),
     }
 }
 

@@ -16,7 +16,7 @@ const OTHER: Color = Color(0.95, 0.55, 0.10, 1.0);
 
 /// A message with one entity for each force, vehicle axes, drawn with `m_per_n`.
 pub(crate) fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>, m_per_n: f64) {
-    let setup = sample.model.setup();
+    let (sample, setup) = (&sample.seen_by_vehicle(), sample.model.setup());
     let show = |w: &mut Wire, id: &dyn Fn() -> String, point_m: Point3<f64>, force_n: Vector3<f64>, color| {
         let drawn = force_n * m_per_n;
         if drawn.norm() >= SHORTEST_M {

@@ -17,14 +17,14 @@ pub(crate) fn write(wire: &mut Wire, model: &Model) {
     for (surface, face) in model.setup().surfaces.iter().zip(model.faces()) {
         let middle = middle_m(&corners_m(face));
         let tip = face.normal * ARROW_M;
-        entity(wire, 0, frame_name(face.frame), &surface.name, |w| {
+        entity(wire, 0, &frame_name(model, face.frame), &surface.name, |w| {
             arrow(w, middle, tip, 0.008, INK);
             text(w, middle + tip * 1.3, HEIGHT_M, INK, &surface.name);
         });
     }
     for solid in &model.setup().solids {
         let middle = middle_m(&solid.outline().concat());
-        entity(wire, 0, frame_name(solid.frame), &solid.name, |w| text(w, middle, HEIGHT_M, INK, &solid.name));
+        entity(wire, 0, &frame_name(model, solid.frame), &solid.name, |w| text(w, middle, HEIGHT_M, INK, &solid.name));
     }
 }
 

@@ -16,7 +16,7 @@ const SLACK: Color = Color(0.45, 0.45, 0.45, 1.0);
 /// A message with one entity for each line and each section, vehicle axes.
 pub(crate) fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>) {
     replace(wire, ns, |w| {
-        for drawn in sample.lines() {
+        for drawn in sample.seen_by_vehicle().lines() {
             let color = if drawn.force_n > 0.0 { TAUT } else { SLACK };
             entity(w, ns, VEHICLE_FRAME, &drawn.name, |w| {
                 line(w, Closing::Open, &drawn.points_m, WIDTH_M, color);

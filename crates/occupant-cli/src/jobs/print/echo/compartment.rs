@@ -62,6 +62,8 @@ fn first_cells(case: &Case, index: usize, frame: Frame) -> [String; 3] {
     let frame = match frame {
         Frame::Vehicle => "VEHICLE",
         Frame::Space => "SPACE",
+        Frame::Other(_) => "ANOTHER FRAME",
+        Frame::Segment(_) => "A BODY",
     };
     let setup = case.model.setup();
     let material = setup.materials.get(setup.surface_material(index)).map(|m| m.name.clone());

@@ -16,6 +16,8 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
     match &setup.posture {
         InitialPosture::Seated(seating) => read(pages, case, units, seating),
         InitialPosture::Mounted(_) => pages.say("THE FIRST SEGMENT IS HELD BY A MOUNT; NOBODY WAS SEATED"),
+        InitialPosture::Placed(_) => pages.say("THE BODY WAS PUT WHERE IT BEGINS; NOBODY WAS SEATED"),
+        InitialPosture::Together => pages.say("SEVERAL BODIES, EACH AS THE SCENARIO SAYS"),
         InitialPosture::Coordinates(_) => {
             pages.say("THE START IS GIVEN BY GENERALIZED COORDINATES; NOBODY WAS SEATED");
         }
@@ -35,9 +37,12 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
     }
     ELEMENTS.iter().for_each(|element| (element.start)(pages, case, units));
     let q = match &setup.posture {
-        InitialPosture::Seated(_) | InitialPosture::Mounted(_) => ReportCoordinates::from_state(&start.state),
+        InitialPosture::Seated(_) | InitialPosture::Mounted(_) | InitialPosture::Placed(_) => {
+            ReportCoordinates::from_state(&start.state)
+        }
         // as read: the angles of a state are normalised
         InitialPosture::Coordinates(q) | InitialPosture::Continued { coordinates: q, .. } => Some(**q),
+        InitialPosture::Together => None,
     };
     if let Some(q) = &q {
         coordinates(pages, units, "GENERALIZED COORDINATES AT THE START", q);

@@ -7,10 +7,12 @@ mod vessel;
 use nalgebra::{Point3, Vector3};
 
 use super::*;
+use crate::body::tti12::TTI12;
 use crate::forces::element::Load;
 use crate::forces::sphere::Site;
-use crate::motion::frame::{Frames, Moving};
+use crate::motion::frame::Frames;
 use crate::motion::kinematics::Kinematics;
+use crate::motion::layout::Layout;
 use crate::motion::state::{Shape as StateShape, State};
 
 /// Standard gravity, m/s².
@@ -85,9 +87,9 @@ impl Rig {
         k.axes[0] = crate::motion::vector::M3::identity();
         let spheres = [Site { segment: 0, offset: V3::zero(), radius: self.radius }];
         let state = State::zero(StateShape::new(0, 0)).with_own(own);
-        let frames = Frames { time, moving: [Moving::space(); 2] };
-        let at = Instant { k: &k, state: &state, frames: &frames, spheres: &spheres, accepted };
-        let (mut load, actions) = (Load::zero(), &mut self.actions);
+        let frames = Frames::still(time);
+        let at = Instant { k: &k, state: &state, frames: &frames, carried: &[], spheres: &spheres, accepted };
+        let (mut load, actions) = (Load::zero(&Layout::of(&TTI12)), &mut self.actions);
         actions.clear();
         Bags::apply(&self.law, &at, &mut self.past, &mut (), &mut load, &mut |action| actions.push(*action));
         let acceleration = self.mass.map_or(0.0, |mass| load.wrench[0].force.z / mass - self.gravity);

@@ -8,12 +8,14 @@ use super::super::past::ChainPast;
 use super::super::{ChainLaw, Chains};
 use super::{chain, fixed};
 use crate::body::Body;
+use crate::body::tti12::TTI12;
 use crate::forces::element::{Element, Instant, Load};
 use crate::forces::function::Function;
 use crate::forces::sphere::Site as Sphere;
 use crate::motion::dual::Dual;
-use crate::motion::frame::{Frames, Moving};
+use crate::motion::frame::Frames;
 use crate::motion::kinematics::Kinematics;
+use crate::motion::layout::Layout;
 use crate::motion::scalar::Scalar;
 use crate::motion::state::{Shape, State};
 use crate::motion::vector::{M3, V3, v3};
@@ -81,7 +83,7 @@ impl Drum {
 
 /// An accepted step.
 fn commit(law: &ChainLaw<f64>, at: &Instant<'_, f64>, past: &mut ChainPast<f64>) {
-    let (at, mut load) = (Instant { accepted: true, ..*at }, Load::zero());
+    let (at, mut load) = (Instant { accepted: true, ..*at }, Load::zero(&Layout::of(&TTI12)));
     Chains::apply(&vec![law.clone()], &at, std::slice::from_mut(past), &mut (), &mut load, &mut |_| {});
 }
 
@@ -93,8 +95,8 @@ fn at<T>(time: f64, posture: Posture, f: impl FnOnce(&Instant<'_, f64>) -> T) ->
 fn among<T>(radii: &[f64], time: f64, k: &Kinematics<f64>, f: impl FnOnce(&Instant<'_, f64>) -> T) -> T {
     let sphere = |(segment, &radius): (usize, &f64)| Sphere { segment, offset: V3::zero(), radius };
     let spheres: Vec<_> = radii.iter().enumerate().map(sphere).collect();
-    let (state, frames) = (State::zero(Shape::new(0, 0)), Frames { time, moving: [Moving::space(); 2] });
-    f(&Instant { k, state: &state, frames: &frames, spheres: &spheres, accepted: false })
+    let (state, frames) = (State::zero(Shape::new(0, 0)), Frames::still(time));
+    f(&Instant { k, state: &state, frames: &frames, carried: &[], spheres: &spheres, accepted: false })
 }
 
 const START: Vector3<f64> = Vector3::new(0.5, 0.0, 0.2);
@@ -209,8 +211,8 @@ fn tensions<S: Scalar>(law: &ChainLaw<S>, past: &ChainPast<S>, turned: S) -> [S;
     let k = kinematics(turned, END);
     let spheres = [Sphere { segment: 0, offset: V3::zero(), radius: S::of(RADIUS) }];
     let state = State::zero(Shape::new(0, 0));
-    let frames = Frames { time: S::of(1.0), moving: [Moving::space(); 2] };
-    let at = Instant { k: &k, state: &state, frames: &frames, spheres: &spheres, accepted: false };
+    let frames = Frames::still(S::of(1.0));
+    let at = Instant { k: &k, state: &state, frames: &frames, carried: &[], spheres: &spheres, accepted: false };
     let [a, b, ..] = law.now(&at, past, &mut Lies::nowhere(), false).taut.solved.straps;
     [a.tension, b.tension]
 }

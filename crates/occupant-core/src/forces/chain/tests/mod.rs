@@ -11,6 +11,7 @@ use super::MOST_NODES;
 use super::data::*;
 use super::past::ChainPast;
 use super::tension::{Course, Straps};
+use crate::forces::contact::surface::Frame;
 use crate::forces::function::Function;
 
 fn random(seed: &mut u64) -> f64 {
@@ -43,6 +44,7 @@ fn chain(frictions: &[f64], webbing: Function, device: Device, rest: Rest) -> Ch
     nodes.push(node(0.0));
     let straps = (0..=frictions.len()).map(|i| i.to_string()).collect();
     Chain {
+        frame: Frame::Vehicle,
         belt: "belt".to_owned(),
         nodes,
         straps,

@@ -208,7 +208,10 @@ impl<S: Scalar> SelfPair<S> {
             on.force = V3::select(live, on.force + force, on.force);
             on.moment = V3::select(live, on.moment + arm.cross(force), on.moment);
         }
-        let sums = &mut load.power.sums;
+        let carried =
+            at.k.joint_velocity[other.segment] + at.k.omega[other.segment].cross(point - at.k.joint[other.segment]);
+        load.hand_over([other.segment, one.segment], force.dot(carried), live);
+        let sums = &mut load.power_at(one.segment).sums;
         let (pressing, rubbing) = (touch.normal_force * touch.closing, touch.friction.dot(touch.slip));
         sums[PRESS] = S::select(live, sums[PRESS] + pressing, sums[PRESS]);
         sums[FRICTION] = S::select(live, sums[FRICTION] - rubbing, sums[FRICTION]);

@@ -8,13 +8,12 @@ use std::collections::HashMap;
 
 use super::{Faced, Solid, build};
 use crate::body::Body;
+use crate::forces::contact::assembly::{frames, is_own};
 use crate::forces::contact::encounter::Approach;
 use crate::forces::contact::material::{Material, Memory};
-use crate::forces::contact::surface::Frame;
 use crate::forces::contact::zip::{OTHER_OUTLINES, OTHER_PAIRS};
-use crate::forces::contact::{Group, MaterialLaw, OPEN, PairHistory, TOUCHING, Touch};
+use crate::forces::contact::{ContactData, Group, MaterialLaw, OPEN, PairHistory, TOUCHING, Touch};
 use crate::forces::element::Unlike;
-use crate::motion::frame::{SPACE, VEHICLE};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
@@ -62,17 +61,17 @@ pub(crate) struct Nearest<S> {
 
 impl Solids<f64> {
     /// Those that the spheres of `body` can touch; faces have `surfaces` names and `pairs` pairs.
-    pub(crate) fn new(
-        body: &Body,
-        solids: &[Solid],
-        surfaces: usize,
-        materials: &[Material],
-        pairs: usize,
-    ) -> Solids<f64> {
+    pub(crate) fn new(body: &Body, data: &ContactData<'_>, carriers: &[usize], pairs: usize) -> Solids<f64> {
+        let &ContactData { solids, materials, .. } = data;
+        let surfaces = data.surfaces.len();
+        let frames = frames(solids.iter().map(|s| s.frame), carriers);
         let mut all = Solids { shapes: solids.iter().flat_map(|s| build(&s.shape)).collect(), ..Solids::default() };
         let mut unions: HashMap<&str, usize> = HashMap::new();
         for (sphere, data) in body.spheres.iter().enumerate() {
-            for (frame, index) in [(Frame::Vehicle, VEHICLE), (Frame::Space, SPACE)] {
+            for &(frame, index) in &frames {
+                if is_own(body, data, frame) {
+                    continue;
+                }
                 let first = all.pairs.len();
                 unions.clear();
                 let meets = |s: &Solid| s.frame == frame && s.spheres.as_ref().is_none_or(|s| s.contains(&sphere));

@@ -14,6 +14,7 @@ use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkS
 use crate::forces::joint::{DAMPING, Joints};
 use crate::forces::list::STORES;
 use crate::forces::rate::Rate;
+use crate::forces::sphere::Site as Sphere;
 use crate::motion::layout::Layout;
 use crate::motion::mobility::{Mobility, across, greatest};
 use crate::motion::scalar::Scalar;
@@ -196,7 +197,7 @@ impl Element for JointLimits {
                 let [k, l] = [load.wrench[inner].moment, load.wrench[outer].moment];
                 load.wrench[outer].moment = V3::select(acts, l + action.moment, l);
                 load.wrench[inner].moment = V3::select(acts, k - action.moment, k);
-                load.power.sums[DAMPING] += action.dissipated;
+                load.power_at(outer).sums[DAMPING] += action.dissipated;
             }
             show(&action);
         }
@@ -215,6 +216,10 @@ impl Element for JointLimits {
         mobility: &Mobility<'_>,
     ) -> Vec<Rate> {
         data.limits.iter().flat_map(|limits| rates(data, limits, mobility)).collect()
+    }
+
+    fn segment(law: &Vec<LimitLaw<f64>>, _spheres: &[Sphere<f64>], number: usize, _action: &LimitAction<f64>) -> usize {
+        law[number].segments.1
     }
 
     fn stored_j(actions: &[LimitAction<f64>], stored_j: &mut [f64; STORES]) {

@@ -10,6 +10,7 @@ use crate::forces::joint::Joints;
 use crate::forces::joint::posture::Posture;
 use crate::forces::list::STORES;
 use crate::forces::rate::Rate;
+use crate::forces::sphere::Site as Sphere;
 use crate::motion::mobility::{Mobility, greatest};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
@@ -103,7 +104,7 @@ impl Element for Muscles {
             let (inner, outer) = muscle.segments;
             load.wrench[outer].moment += action.moment;
             load.wrench[inner].moment -= action.moment;
-            load.power.sums[WORK] -= action.power;
+            load.power_at(outer).sums[WORK] -= action.power;
             show(&action);
         }
     }
@@ -117,6 +118,15 @@ impl Element for Muscles {
         mobility: &Mobility<'_>,
     ) -> Vec<Rate> {
         data.muscles.iter().flat_map(|muscle| rates(data, muscle, mobility)).collect()
+    }
+
+    fn segment(
+        law: &Vec<MuscleLaw<f64>>,
+        _spheres: &[Sphere<f64>],
+        number: usize,
+        _action: &MuscleAction<f64>,
+    ) -> usize {
+        law[number].segments.1
     }
 
     fn stored_j(_actions: &[MuscleAction<f64>], _stored_j: &mut [f64; STORES]) {}

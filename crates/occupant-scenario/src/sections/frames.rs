@@ -1,0 +1,242 @@
+//! `[vehicles]`, `[ground]` and `[frames]`: frames besides the first vehicle and space, and who meets what is fixed to them.
+
+use nalgebra::{Point3, Vector3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::builder::{Builder, index_of};
+use super::path::{self, PathSection};
+use super::quantity::{point, si_or};
+use super::solids::SolidSection;
+use super::{Length, Scenario};
+use occupant_core::forces::contact::surface::{Facing, Frame, Outline, Surface};
+use occupant_core::model::setup::OtherFrame;
+use occupant_core::motion::frame::MOST_FRAMES;
+use occupant_core::vehicle::VehiclePath;
+use placed_text::{Diagnostics, Document, Entry, Node, with_key};
+
+/// Another vehicle.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct VehicleSection {
+    /// Its motion; all vehicles share one vehicle-space and one clock.
+    pub(crate) path: PathSection,
+}
+
+/// The ground: a level plane in vehicle-space that every body can touch.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct GroundSection {
+    /// Name of its material in `materials`.
+    pub(crate) material: String,
+    /// How far it lies below the origin of vehicle-space, which is at the height of a vehicle's centre of gravity where its
+    /// path says z = 0; 0 if absent.
+    pub(crate) below: Option<Length>,
+}
+
+/// A frame that moves within another, such as an intruding panel. Geometry on it is given in the axes of its parent, where it is
+/// before it moves.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct FrameSection {
+    /// What it moves against: a vehicle, or a frame above it; "vehicle" if absent.
+    pub(crate) parent: Option<String>,
+    /// The point of the parent about which it turns; [0, 0, 0] if absent.
+    pub(crate) origin: Option<[Length; 3]>,
+    /// How it is moved from where its geometry is given, along the parent's axes.
+    pub(crate) path: PathSection,
+}
+
+/// Who meets a surface or solid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Meets {
+    /// Bodies that began in the vehicle that it belongs to.
+    Own,
+    /// All but those.
+    Others,
+    /// All.
+    All,
+}
+
+/// What the ground is called as a frame and as a surface.
+pub(super) const GROUND: &str = "ground";
+/// The first vehicle.
+pub(super) const VEHICLE: &str = "vehicle";
+
+impl Scenario {
+    /// Vehicles besides the first, which is that of `path`, or of all the first.
+    fn other_vehicles(&self) -> impl Iterator<Item = (&String, &VehicleSection)> {
+        self.vehicles.iter().skip(usize::from(self.path.is_none()))
+    }
+
+    /// The path of the first vehicle and where it stands; none where nothing moves.
+    pub(super) fn first_path(&self) -> Option<(Vec<&str>, &PathSection)> {
+        let named = || self.vehicles.first().map(|(name, vehicle)| (vec!["vehicles", name, "path"], &vehicle.path));
+        self.path.as_ref().map(|path| (vec!["path"], path)).or_else(named)
+    }
+
+    /// Names of the frames besides space and the first vehicle, in the order of the core's: vehicles, the ground, panels.
+    pub(super) fn frame_names(&self) -> Vec<&str> {
+        let vehicles = self.other_vehicles().map(|(name, _)| name.as_str());
+        vehicles.chain([GROUND]).chain(self.frames.keys().map(String::as_str)).collect()
+    }
+
+    /// The frame of this name; a loose body's is that of its place among them, until its segment is known.
+    pub(super) fn frame_named(&self, name: &str) -> Option<Frame> {
+        let is_first = self.path.is_none() && self.vehicles.get_index_of(name) == Some(0);
+        match name {
+            VEHICLE => Some(Frame::Vehicle),
+            _ if is_first => Some(Frame::Vehicle),
+            "space" => Some(Frame::Space),
+            name => {
+                let other = self.frame_names().iter().position(|own| *own == name).map(Frame::Other);
+                other.or_else(|| self.loose.get_index_of(name).map(Frame::Segment))
+            }
+        }
+    }
+
+    /// The vehicle that a frame belongs to; none of the ground, of space and of loose bodies.
+    pub(super) fn vehicle_of(&self, frame: Frame) -> Option<Frame> {
+        let vehicles = self.other_vehicles().count();
+        match frame {
+            Frame::Vehicle => Some(Frame::Vehicle),
+            Frame::Other(i) if i < vehicles => Some(frame),
+            Frame::Other(i) => {
+                let at = i.checked_sub(vehicles + 1)?;
+                let (_, panel) = self.frames.get_index(at)?;
+                let parent = self.frame_named(panel.parent.as_deref().unwrap_or(VEHICLE))?;
+                // one of those before it, as the frames are checked to be
+                if matches!(parent, Frame::Other(j) if j >= i) { None } else { self.vehicle_of(parent) }
+            }
+            Frame::Space | Frame::Segment(_) => None,
+        }
+    }
+
+    /// The home of a body that says this of its vehicle; none of one that there is not.
+    pub(super) fn home(&self, vehicle: Option<&str>) -> Option<Frame> {
+        let frame = self.frame_named(vehicle.unwrap_or(GROUND))?;
+        (vehicle.is_none() || self.vehicle_of(frame) == Some(frame)).then_some(frame)
+    }
+
+    /// Whether a body at home meets what is fixed to a frame.
+    pub(super) fn is_met(&self, meets: Option<Meets>, frame: Frame, home: Frame) -> bool {
+        let of = self.vehicle_of(frame);
+        match meets {
+            None | Some(Meets::Own) => of.is_none_or(|vehicle| vehicle == home),
+            Some(Meets::Others) => of != Some(home),
+            Some(Meets::All) => true,
+        }
+    }
+
+    /// Whether it has several bodies.
+    pub(crate) fn has_several(&self) -> bool {
+        !self.occupants.is_empty() || !self.loose.is_empty()
+    }
+}
+
+impl Builder<'_> {
+    /// The frame that is named at `path`; "vehicle" if absent.
+    pub(super) fn frame(&mut self, scenario: &Scenario, path: &str, name: Option<&str>) -> Frame {
+        let Some(name) = name else { return Frame::Vehicle };
+        scenario.frame_named(name).unwrap_or_else(|| {
+            let mut names = vec![VEHICLE, "space"];
+            names.extend(scenario.frame_names());
+            names.extend(scenario.loose.keys().map(String::as_str));
+            self.unknown(path, "frame", name, &names);
+            Frame::Vehicle
+        })
+    }
+}
+
+/// The frames besides space and the first vehicle; none where nothing is fixed to any.
+pub(super) fn frames(b: &mut Builder, s: &Scenario, gravity_m_s2: f64) -> Vec<OtherFrame> {
+    let is_needed = !s.vehicles.is_empty() || !s.frames.is_empty() || s.ground.is_some() || s.has_several();
+    let names = s.surfaces.values().map(|own| own.frame.as_deref()).chain(s.solids.values().map(SolidSection::frame));
+    if !is_needed && !names.flatten().any(|name| name == GROUND) {
+        return Vec::new();
+    }
+    let known = s.frame_names();
+    for (i, name) in known.iter().enumerate() {
+        let is_taken = known[..i].contains(name) || [VEHICLE, "space"].contains(name) || s.loose.contains_key(*name);
+        let at = ["vehicles", "frames"]
+            .into_iter()
+            .find(|key| b.document.root.get(key).is_some_and(|t| t.get(name).is_some()));
+        if let (true, Some(at)) = (is_taken, at) {
+            b.error(
+                &with_key(at, name),
+                format!("a second frame named {name}"),
+                "unique names of vehicles, frames and loose bodies, none of them vehicle, space or ground",
+            );
+        }
+    }
+    let mut list = Vec::new();
+    for (name, section) in s.other_vehicles() {
+        let path = moving(b, &["vehicles", name, "path"], &section.path, gravity_m_s2);
+        list.extend(path.map(|path| OtherFrame { name: name.clone(), path, parent: None }));
+    }
+    list.push(OtherFrame { name: GROUND.to_owned(), path: VehiclePath::parked(), parent: None });
+    for (name, section) in &s.frames {
+        let at = with_key("frames", name);
+        let parent = b.frame(s, &with_key(&at, "parent"), section.parent.as_deref());
+        let own = list.len();
+        if matches!(parent, Frame::Other(i) if i >= own) || matches!(parent, Frame::Segment(_)) {
+            let expected = "a vehicle, or a frame that stands above it: no frame moves against itself";
+            b.error(&with_key(&at, "parent"), format!("`{name}` hangs on one that does not stand before it"), expected);
+        }
+        let origin_m = section.origin.as_ref().map_or_else(Point3::origin, point);
+        let path = moving(b, &["frames", name, "path"], &section.path, gravity_m_s2);
+        list.extend(path.map(|path| OtherFrame { name: name.clone(), path, parent: Some((parent, origin_m)) }));
+    }
+    let most = MOST_FRAMES - 2;
+    if list.len() > most {
+        b.error(
+            "frames",
+            format!("{} frames beside space and the first vehicle", list.len()),
+            format!("at most {most}, the ground among them"),
+        );
+    }
+    list
+}
+
+/// The path that stands at `at`.
+pub(super) fn moving(b: &mut Builder, at: &[&str], section: &PathSection, gravity_m_s2: f64) -> Option<VehiclePath> {
+    if section.file().is_some() {
+        let found = "a table in a file of its own";
+        b.error(
+            &with_key(&at.join("."), "file"),
+            found,
+            "`columns` and `rows` here: one file belongs to a scenario, that of `path`",
+        );
+        return None;
+    }
+    let root = with_path(&b.document.root, at)?;
+    let document = Document { root, ..b.document.clone() };
+    let own = &mut Builder { document: &document, problems: Diagnostics::new() };
+    let path = path::path(own, section, None, gravity_m_s2);
+    let problems = std::mem::take(&mut own.problems);
+    b.problems.extend(problems);
+    path
+}
+
+/// The ground as a surface, behind all others.
+pub(super) fn ground(s: &Scenario) -> Option<Surface> {
+    let section = s.ground.as_ref()?;
+    let below_m = si_or(&section.below, 0.0);
+    Some(Surface {
+        name: GROUND.to_owned(),
+        frame: s.frame_named(GROUND)?,
+        outline: Outline::Unbounded { point_m: Point3::new(0.0, 0.0, below_m), axis: -Vector3::z() },
+        facing: Facing::Order,
+        material: index_of(&section.material, s.materials.keys().map(String::as_str)),
+        spheres: None,
+    })
+}
+
+/// The same tree with the path that stands at `of`.
+pub(super) fn with_path(root: &Node, of: &[&str]) -> Option<Node> {
+    let mut whole = root.clone();
+    let path = of.iter().try_fold(root, |node, key| node.get(key))?.clone();
+    whole.as_table_mut()?.insert("path".to_owned(), Entry { key_span: path.span, node: path });
+    Some(whole)
+}

@@ -1,0 +1,87 @@
+//! `[stance]`: its keys, and the posture that it comes to.
+
+use indexmap::IndexMap;
+use nalgebra::{Point3, Vector3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::builder::Builder;
+use super::path::pose;
+use super::posture::{angle_words, unknown_angles};
+use super::quantity::{NOT_NEGATIVE, Quantity, all_si, si_or};
+use super::{Angle, Length, Scenario, Speed};
+use occupant_core::body::{Body, ContactSphere, both_sides};
+use occupant_core::forces::contact::surface::Frame;
+use occupant_core::model::seating::{InitialPosture, InitialVelocity, Mounting, Placing};
+
+/// How a body stands. It is raised or lowered until the feet carry it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StanceSection {
+    /// Angles to begin with: "standing", arms hanging; "walking", the left leg ahead, arms opposite; "none", every segment as
+    /// the one that carries it. "standing" if absent.
+    #[schemars(extend("enum" = ["standing", "walking", "none"]))]
+    pub(crate) preset: Option<String>,
+    /// [x, y] of the body's reference point T1, vehicle-space, or the axes of its vehicle.
+    pub(crate) at: [Length; 2],
+    /// Where it faces, to the right of x; 0 if absent.
+    pub(crate) yaw: Option<Angle>,
+    /// Speed ahead, as it faces, beside that of its vehicle; 0 if absent.
+    pub(crate) speed: Option<Speed<NOT_NEGATIVE>>,
+    /// Angles by the names of segments and of pins as in `posture`: a segment leans its top back, in the plane that the body
+    /// faces.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) posture: IndexMap<String, Angle>,
+}
+
+/// Angles to begin a stance with, degrees, by names of segments and pins and by both divisions of the body.
+#[rustfmt::skip]
+const STANCES: [(&str, &[(&str, f64)]); 3] = [
+    ("standing", &[("left_upper_arm", -3.0), ("right_upper_arm", -3.0), ("left_elbow", -10.0), ("right_elbow", -10.0)]),
+    ("walking", &[
+        ("left_thigh", 25.0), ("right_thigh", -25.0), ("left_knee", 5.0), ("right_knee", 30.0),
+        ("left_upper_arm", -20.0), ("right_upper_arm", 20.0), ("left_elbow", -20.0), ("right_elbow", -20.0),
+    ]),
+    ("none", &[]),
+];
+
+/// How a body stands that has a `stance`.
+pub(super) fn stance(
+    b: &mut Builder,
+    s: &Scenario,
+    section: &StanceSection,
+    body: &Body,
+) -> (InitialPosture, InitialVelocity) {
+    let root = body.tree.segment(0);
+    let words = angle_words(body.tree, |_| true);
+    unknown_angles(b, "stance.posture", section.posture.keys().map(String::as_str), &words);
+    let own: Vec<(String, f64)> = section.posture.iter().map(|(name, angle)| (name.clone(), angle.si())).collect();
+    let preset = section.preset.as_deref().unwrap_or("standing");
+    let usual = STANCES.iter().filter(|(name, _)| *name == preset).flat_map(|(_, angles)| angles.iter());
+    // what is said of one or of both sides replaces the preset
+    let is_said = |name: &str| own.iter().any(|(said, _)| said == name || both_sides(name).as_ref() == Some(said));
+    let usual = usual.filter(|(name, _)| words.iter().any(|word| word == name) && !is_said(name));
+    let angles_rad =
+        usual.map(|(name, degrees)| ((*name).to_owned(), degrees.to_radians())).chain(own.clone()).collect();
+    let [x, y] = all_si(&section.at);
+    let below_m = s.ground.as_ref().map_or(0.0, |ground| si_or(&ground.below, 0.0));
+    let yaw = section.yaw.as_ref();
+    let at = Mounting {
+        frame: Frame::Vehicle,
+        point_m: body.joint_m(root),
+        place_m: Vector3::new(x, y, below_m - leg_m(body)),
+        attitude: pose(&None, [&None, &None, &section.yaw]).attitude,
+        angles_rad,
+    };
+    let heading = yaw.map_or(0.0, Quantity::si);
+    let (sin, cos) = crash_measures::trig::sin_cos(heading);
+    let velocity = Vector3::new(cos, sin, 0.0) * si_or(&section.speed, 0.0);
+    let placing = Placing { at, stands: true, spin_rad_s: Vector3::zeros() };
+    (InitialPosture::Placed(Box::new(placing)), InitialVelocity::Given(velocity))
+}
+
+/// From T1 down to the ground under a body that stands, m.
+fn leg_m(body: &Body) -> f64 {
+    let lowest = |sphere: (&ContactSphere, Point3<f64>)| sphere.0.radius_m - sphere.1.z;
+    body.spheres.iter().zip(body.standing_m()).map(lowest).fold(0.0, f64::max)
+}
