@@ -154,6 +154,23 @@ inside = [-1, 0, 0]
     assert!(seen.caveats.iter().all(|caveat| !caveat.name.ends_with("_cut")), "{:?}", seen.caveats);
 }
 
+/// A wall that heads alone can touch is none for a ball, which has none.
+#[test]
+fn a_surface_for_named_parts_lets_loose_bodies_through() {
+    let at_end = |spheres: &str| {
+        let wall = format!(
+            "[surfaces.wall]\nmaterial = 'steel'\npoints = [[0.3, -1, -1], [0.3, 1, -1], [0.3, 1, 1], [0.3, -1, 1]]\ninside = [0, 0, 0]\n{spheres}\n"
+        );
+        let ball = "[loose.ball]\nvehicle = 'vehicle'\nmass = 2\ninertia = [0.008, 0.008, 0.008]\nat = [0.15, 0, 0]\nvelocity = [3, 0, 0]\nspheres = { all = { centre = [0, 0, 0], radius = 0.1 } }\n";
+        let mut last = 0.0;
+        let see = Watch(|s: &Sample<'_>| last = s.centre_of_body(1).1.x);
+        run(space(&format!("{wall}{ball}"), &["contact.bodies=[]"]), see);
+        last
+    };
+    assert!((at_end("spheres = ['head']") - 3.0).abs() < 1e-12);
+    assert!(at_end("") < 0.0);
+}
+
 /// Everything that moves the driver, as text.
 fn driver(setup: Setup) -> Vec<String> {
     let mut seen = Vec::new();

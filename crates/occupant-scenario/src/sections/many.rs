@@ -200,7 +200,7 @@ fn loose(b: &mut Builder, name: &str, section: &LooseSection, world: &Setup) -> 
     let at = Mounting { frame: Frame::Vehicle, point_m: Vector3::zeros(), place_m, attitude, angles_rad: Vec::new() };
     let spin_rad_s = section.spin.as_ref().map_or_else(Vector3::zeros, |spin| Vector3::from(all_si(spin)));
     let given = section.velocity.as_ref().map(|v| InitialVelocity::Given(Vector3::from(all_si(v))));
-    Setup {
+    let mut setup = Setup {
         joints: Joints::free(body.tree),
         body,
         self_contact: None,
@@ -210,7 +210,13 @@ fn loose(b: &mut Builder, name: &str, section: &LooseSection, world: &Setup) -> 
         velocity: given.unwrap_or_default(),
         output: Default::default(),
         ..world.clone()
+    };
+    // who may touch a surface is said of the parts of an occupant
+    let lists = setup.surfaces.iter_mut().map(|own| &mut own.spheres);
+    for list in lists.chain(setup.solids.iter_mut().map(|own| &mut own.spheres)).flatten() {
+        list.clear();
     }
+    setup
 }
 
 /// All members in their world.
