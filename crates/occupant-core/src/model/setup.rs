@@ -3,6 +3,7 @@
 //! [`SetupBuilder`] puts one together in code. A `Setup` may still be wrong; [`crate::model::Model::new`] checks it and reports every problem at once.
 
 use nalgebra::Point3;
+use placed_text::with_key;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -183,7 +184,7 @@ impl OtherFrame {
 /// One of several bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Member {
-    /// Its name.
+    /// Its name: small letters, digits and `_`; none of a first one that stands at the top of a scenario.
     pub name: String,
     /// The frame in whose axes it begins and its places are told.
     pub home: Frame,
@@ -191,6 +192,18 @@ pub struct Member {
     pub meets: Vec<Option<Vec<usize>>>,
     /// The body alone: its home is the vehicle there.
     pub alone: Setup,
+}
+
+impl Member {
+    /// Whether it is a rigid body that moves freely, not an occupant.
+    pub(crate) fn is_loose(&self) -> bool {
+        matches!(&self.alone.posture, InitialPosture::Placed(placing) if !placing.stands)
+    }
+
+    /// Where a scenario tells of it.
+    pub(crate) fn path(&self) -> String {
+        with_key(if self.is_loose() { "loose" } else { "occupants" }, &self.name)
+    }
 }
 
 /// Everything a run needs.

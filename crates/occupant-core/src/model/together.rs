@@ -130,14 +130,14 @@ fn moved(node: &Node, segment: usize, sphere: usize) -> Node {
 /// The members as models of their own; none where there is one body.
 pub(super) fn alone(setup: &Setup, problems: &mut Problems) -> Option<Vec<Model>> {
     let mut models = Vec::new();
-    for Member { name, alone, .. } in &setup.members {
-        let model = match Model::new(alone.clone()) {
+    for member in &setup.members {
+        let model = match Model::new(member.alone.clone()) {
             Ok(model) => {
-                absorb(name, model.warnings(), problems);
+                absorb(member, model.warnings(), problems);
                 Some(model)
             }
             Err(found) => {
-                absorb(name, &found, problems);
+                absorb(member, &found, problems);
                 None
             }
         };
@@ -147,11 +147,14 @@ pub(super) fn alone(setup: &Setup, problems: &mut Problems) -> Option<Vec<Model>
 }
 
 /// Takes over what was found of a member; what is wrong with the world is said once.
-fn absorb(name: &str, found: &Problems, problems: &mut Problems) {
+fn absorb(member: &Member, found: &Problems, problems: &mut Problems) {
     for problem in found.iter() {
         let first = problem.path.split(['.', '[']).next().unwrap_or_default();
-        let is_own = OWN.contains(&first) && !name.is_empty();
-        let path = if is_own { format!("occupants.{name}.{}", problem.path) } else { problem.path.clone() };
+        let is_own = OWN.contains(&first) && !member.name.is_empty();
+        // a loose body has no keys but its own
+        let own = if member.is_loose() { problem.path.rsplit('.').next() } else { None };
+        let own = own.unwrap_or(&problem.path);
+        let path = if is_own { format!("{}.{own}", member.path()) } else { problem.path.clone() };
         let problem = Problem { path, ..problem.clone() };
         if problems.iter().all(|known| *known != problem) {
             problems.push(problem);

@@ -150,10 +150,10 @@ pub struct Scenario {
     /// Frames that move within a vehicle, such as intruding panels, by name. A surface or solid says `frame` = that name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) frames: IndexMap<String, FrameSection>,
-    /// Several occupants by name, instead of `body`, `joints` and what else is one occupant's own.
+    /// Several occupants by name (small letters, digits, `_`), instead of `body`, `joints` and what else is one occupant's own.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) occupants: IndexMap<String, OccupantSection>,
-    /// Rigid bodies that move freely, by name.
+    /// Rigid bodies that move freely, by name, which no occupant has.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) loose: IndexMap<String, LooseSection>,
     /// The occupant.

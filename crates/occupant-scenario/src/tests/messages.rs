@@ -252,6 +252,24 @@ fn problems_of_the_model_point_into_the_text() {
 }
 
 #[test]
+fn names_and_numbers_of_several_bodies_are_looked_at_where_they_stand() {
+    let abreast = include_str!("../../../../scenarios/side-by-side.toml");
+    let ball = "[loose.ball]\nmass = 2\ninertia = [0.1, 0.01, 0.01]\nat = [9, 0, 0]\n";
+    let refused = |text: &str| load(text).unwrap().model().err().unwrap().to_string();
+    for name in ["a.b", "../x", "Driver", "fährer"] {
+        let found = refused(&abreast.replace("[occupants.driver]", &format!("[occupants.\"{name}\"]")));
+        assert!(found.contains(&format!("error: a body named {name:?}")) && found.contains("small letters"), "{found}");
+    }
+    let twice = refused(&(abreast.to_owned() + &ball.replace("ball", "driver").replace("0.1,", "0.01,")));
+    assert!(twice.contains("a second body named \"driver\"") && twice.contains("in: loose.driver"), "{twice}");
+    let heavy = refused(&(abreast.to_owned() + ball));
+    assert!(heavy.contains("in: loose.ball.inertia"), "{heavy}");
+    let fast = abreast.to_owned() + &ball.replace("0.1,", "0.01,") + "velocity = [-150, 0, 0]\n";
+    let (_, warnings) = load(&fast).unwrap().model().unwrap();
+    assert!(warnings.to_string().contains("150 m/s at the start"), "{warnings}");
+}
+
+#[test]
 fn a_mistake_of_a_pair_is_reported_once() {
     let text = short_with(
         "[joints]\npreset = \"male50\"",

@@ -8,8 +8,9 @@ use std::f64::consts::PI;
 
 use crate::body::JointKind;
 use crate::body::tti12::TTI12;
-use crate::model::seating::{InitialPosture, Seating, Settling};
-use crate::model::setup::{Member, Setup};
+use crate::forces::contact::FASTEST_M_S;
+use crate::model::seating::{InitialPosture, InitialVelocity, Seating, Settling};
+use crate::model::setup::Setup;
 use crate::motion::layout::{MOST_BODIES, MOST_HINGES, MOST_SEGMENTS};
 pub(super) use path::check_path;
 use placed_text::{Problems, number};
@@ -51,11 +52,31 @@ fn check_together(setup: &Setup, problems: &mut Problems) {
     for (what, found, most) in counts.into_iter().filter(|(_, found, most)| found > most) {
         problems.error("occupants", format!("{found} {what} in all"), format!("at most {most} {what} together"));
     }
+    let is_letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+    for (i, member) in setup.members.iter().enumerate() {
+        let name = member.name.as_str();
+        let is_plain = name.starts_with(|c: char| c.is_ascii_lowercase()) && name.chars().all(is_letter);
+        let is_first = !setup.members[..i].iter().any(|other| other.name == name);
+        // a body that stands at the top of a scenario has no name
+        if !is_first || !(is_plain || i == 0 && name.is_empty()) {
+            let found = format!("{} body named {name:?}", if is_first { "a" } else { "a second" });
+            let expected =
+                "a small letter, then small letters, digits and `_`; each name once, as results are told by it";
+            problems.error(member.path(), found, expected);
+        }
+        if let InitialVelocity::Given(velocity) = &member.alone.velocity
+            && velocity.norm() > FASTEST_M_S
+        {
+            let expected =
+                format!("at most {FASTEST_M_S} m/s: what goes faster is felt from the step after it touches");
+            problems.warning(member.path(), format!("{:.0} m/s at the start", velocity.norm()), expected);
+        }
+    }
     let is_limp = |seating: &Seating| seating.settle == Settling::Limp;
-    for Member { name, alone, .. } in &setup.members {
-        if matches!(&alone.posture, InitialPosture::Seated(seating) if is_limp(seating)) {
+    for member in &setup.members {
+        if matches!(&member.alone.posture, InitialPosture::Seated(seating) if is_limp(seating)) {
             let expected = "one that settles as one piece: only a body alone can sink limp";
-            problems.error(format!("occupants.{name}.posture.limp"), "a limp body among several", expected);
+            problems.error(format!("{}.posture.limp", member.path()), "a limp body among several", expected);
         }
     }
 }
