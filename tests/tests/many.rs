@@ -364,21 +364,10 @@ velocity = [3, 0, 0]
 spheres = { a = { centre = [1, 1, 0], radius = 0.1 }, b = { centre = [1, -1, 0], radius = 0.1 }, c = { centre = [-1, 1, 0], radius = 0.1 }, d = { centre = [-1, -1, 0], radius = 0.1 } }
 "#;
     let (mut far, mut speed) = (0.0, 0.0);
-    let set = [
-        "gravity=9.81",
-        "time.end=3 s",
-        "contact.bodies=[]",
-        "integrator.kind=adaptive",
-        "initial_state.q[2]=5000",
-        "output.interval=10 ms",
-    ];
-    let set: Vec<&str> = set.into_iter().collect();
-    let text = SPACE.replace("integrator = { kind = \"rk4\", step = \"20 us\" }", "");
-    let (_, _) = run(
-        setup(
-            &format!("{text}{block}"),
-            &set.iter().copied().filter(|s| !s.starts_with("integrator")).collect::<Vec<_>>(),
-        ),
+    let set = ["gravity=9.81", "time.end=3 s", "contact.bodies=[]", "initial_state.q[2]=5000", "output.interval=10 ms"];
+    let adaptive = SPACE.replace("integrator = { kind = \"rk4\", step = \"20 us\" }", "");
+    run(
+        setup(&format!("{adaptive}{block}"), &set),
         Watch(|s: &Sample<'_>| {
             (far, speed) = (s.centre_of_body(1).0.x, s.centre_of_body(1).1.xy().norm());
         }),
@@ -420,7 +409,8 @@ fn a_pedestrian_is_thrown_as_far_as_the_speed_allows_and_comes_to_rest() {
     // a projectile that slides on: 2 f g s/(1 + f²) ≤ v² ≤ 2 f g s
     let (v, f, g) = (40.0 / 3.6, 0.7_f64, 9.80665);
     let (least, most) = (v * v / (2.0 * f * g), v * v * (1.0 + f * f) / (2.0 * f * g));
-    assert!(throw.distance_m > 0.8 * least && throw.distance_m < 1.1 * most, "{throw:?} {least} {most}");
+    // he goes 1 % farther than one who slides: he rolls, and the ground slows him by 0.44 g, not by 0.7 g
+    assert!(throw.distance_m > least && throw.distance_m < 1.02 * most, "{throw:?} {least} {most}");
     assert!(throw.landing.is_some() && !throw.airborne_s.is_empty());
     assert_below("energy balance", done.energy.balance_error, 1e-4);
 }
