@@ -78,8 +78,10 @@ pub(super) fn from_library<T: DeserializeOwned>(section: &str, name: &str) -> Op
 }
 
 /// Joints with elastic limits, by name.
-const ELASTIC: [(&str, &str); 4] = [
+const ELASTIC: [(&str, &str); 6] = [
+    ("person", include_str!("presets/person.toml")),
     ("gebod", include_str!("presets/gebod.toml")),
+    ("dummy50-1973-like", include_str!("presets/dummy50-1973-like.toml")),
     ("dummy50-like", include_str!("presets/dummy50-like.toml")),
     ("dummy05f-like", include_str!("presets/dummy05f-like.toml")),
     ("dummy06c-like", include_str!("presets/dummy06c-like.toml")),

@@ -109,11 +109,12 @@ fn landmarks(
     })
 }
 
-/// The report's spheres on the segments that there are: on one of the sphere's own name, such as `left_foot`, else on one
-/// of the name of the report's.
+/// The report's spheres on the segments that there are: on one of the sphere's own name, such as `left_foot`, of a shoulder on its
+/// clavicle, else on one of the name of the report's.
 fn spheres(named: &impl Fn(&str) -> Option<Segment>) -> Vec<SphereRow> {
     let row = |row: &SphereRow| {
-        let segment = named(row.name).or_else(|| named(TTI12[row.segment].name))?;
+        let clavicle = row.name.strip_suffix("shoulder").and_then(|side| named(&format!("{side}clavicle")));
+        let segment = named(row.name).or(clavicle).or_else(|| named(TTI12[row.segment].name))?;
         let ends_at_ankle = row.name.strip_suffix("shin").is_some_and(|side| named(&format!("{side}foot")).is_some());
         let lengths = if ends_at_ankle { SHIN_ABOVE_ANKLE } else { row.lengths };
         Some(SphereRow { segment, lengths, ..*row })

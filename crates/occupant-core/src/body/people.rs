@@ -63,6 +63,8 @@ pub enum Division {
     Fifteen,
     /// With hands too.
     Seventeen,
+    /// With clavicles too.
+    Nineteen,
 }
 
 impl Division {
@@ -72,8 +74,17 @@ impl Division {
             12 => Some(Division::Twelve),
             15 => Some(Division::Fifteen),
             17 => Some(Division::Seventeen),
+            19 => Some(Division::Nineteen),
             _ => None,
         }
+    }
+
+    const fn has_hands(self) -> bool {
+        matches!(self, Division::Seventeen | Division::Nineteen)
+    }
+
+    const fn has_clavicles(self) -> bool {
+        matches!(self, Division::Nineteen)
     }
 }
 
@@ -318,8 +329,7 @@ impl Stretch {
     fn body(&self, division: Division) -> Body {
         let mut body = match division {
             Division::Twelve => self.merged(),
-            Division::Fifteen => self.divided(false),
-            Division::Seventeen => self.divided(true),
+            Division::Fifteen | Division::Seventeen | Division::Nineteen => self.divided(division),
         };
         let radii_m = REFERENCE_SPHERES.map(|(inches, part, axis)| self.along(part, axis, inches));
         body.spheres = body.standard_spheres(&radii_m);
@@ -341,7 +351,7 @@ impl Stretch {
 mod tests {
     use approx::{assert_abs_diff_eq, assert_relative_eq};
 
-    use nalgebra::Vector3;
+    use nalgebra::{Matrix3, Vector3};
 
     use super::*;
     use crate::body::SegmentProperties;
@@ -526,6 +536,43 @@ mod tests {
             for (got, expected) in p.inertia_kg_m2.iter().zip([ix, iy, iz]) {
                 assert_abs_diff_eq!(*got, expected, epsilon = 1.5e-5 + 1e-3 * expected);
             }
+        }
+    }
+
+    /// Upper torso and clavicles together are the upper torso of 17 segments, and the shoulders stay where they are.
+    #[test]
+    fn a_clavicle_takes_nothing_away() {
+        for name in ["male50", "female05", "child06"] {
+            let made = [Division::Seventeen, Division::Nineteen].map(|division| {
+                child(name, division).unwrap_or_else(|| Person::named(name).expect("a preset").body(division).0)
+            });
+            let sums = made.each_ref().map(|body| {
+                let of = |name: &str| body.tree.segment_named(name).map(|s| (*body.segment(s), s));
+                let parts = ["upper_torso", "left_clavicle", "right_clavicle"].into_iter().filter_map(of);
+                let (mut mass_kg, mut moment, mut tensor) = (0.0, Vector3::zeros(), Matrix3::zeros());
+                for (p, segment) in parts {
+                    let own = body.tree.carrier(segment).filter(|_| segment != body.tree.landmarks().chest.unwrap());
+                    let lower_m = own.map_or(Vector3::zeros(), |_| body.socket_m(segment) - body.joint_m(segment));
+                    let (at, turn) = (p.cg_m() + lower_m, p.principal.to_rotation_matrix());
+                    mass_kg += p.mass_kg;
+                    moment += at * p.mass_kg;
+                    let steiner = Matrix3::from_diagonal_element(at.norm_squared()) - at * at.transpose();
+                    tensor += turn * Matrix3::from_diagonal(&p.inertia_kg_m2) * turn.transpose() + steiner * p.mass_kg;
+                }
+                let shoulder = body.spheres[body.sphere("left_shoulder").unwrap()].clone();
+                (mass_kg, moment, tensor, shoulder, body.mass_kg())
+            });
+            let [whole, split] = sums;
+            assert_relative_eq!(split.0, whole.0, max_relative = 1e-12);
+            assert_relative_eq!(split.4, whole.4, max_relative = 1e-12);
+            assert_abs_diff_eq!(split.1, whole.1, epsilon = 1e-12);
+            assert_abs_diff_eq!(split.2, whole.2, epsilon = 1e-12);
+            assert_eq!(split.3.radius_m, whole.3.radius_m);
+            assert_eq!(made[1].tree[split.3.segment].name, "left_clavicle");
+            let chest = made[1].tree.segment_named("left_clavicle").unwrap();
+            let lower_m = made[1].socket_m(chest) - made[1].joint_m(chest);
+            let at = split.3.centre_from_lower_end_m + lower_m;
+            assert_abs_diff_eq!(at, whole.3.centre_from_lower_end_m, epsilon = 1e-12);
         }
     }
 

@@ -465,6 +465,11 @@ impl Tree {
         marks.arms().chain(marks.legs()).any(|limb| self.is_of(segment, &limb))
     }
 
+    /// Whether a joint hangs the second segment on the first.
+    pub fn carries(&self, proximal: Segment, distal: Segment) -> bool {
+        self.joints.iter().any(|row| (row.proximal, row.distal) == (proximal, distal))
+    }
+
     /// Whether a segment lies between chest and pelvis or is one of them.
     pub fn is_trunk(&self, segment: Segment) -> bool {
         let marks = self.landmarks_at(segment);

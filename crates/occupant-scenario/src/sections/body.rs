@@ -47,7 +47,7 @@ pub(crate) struct BodySection {
     /// Gravity by which a `weight` is divided to give a mass; standard gravity if absent.
     pub(crate) weighed_at: Option<Acceleration<POSITIVE>>,
     /// Into how many segments a preset or a person is divided: 12, the report's; 15, with a neck on two joints and feet;
-    /// 17, with hands too. 12 if absent.
+    /// 17, with hands too; 19, with clavicles too, which carry the arms. 12 if absent.
     pub(crate) segment_count: Option<i64>,
     /// Segments that carry instruments, of a body whose segments have other names.
     pub(crate) landmarks: Option<LandmarksSection>,
@@ -256,7 +256,7 @@ pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection,
 fn check_division(b: &mut Builder, preset: Option<&str>, section: &BodySection) {
     let Some(count) = section.segment_count else { return };
     if section.division().is_none() {
-        b.error("body.segment_count", format!("{count} segments"), "12, 15 or 17");
+        b.error("body.segment_count", format!("{count} segments"), "12, 15, 17 or 19");
     } else if count != 12 && preset.is_none() && !section.describes_a_person() && section.joints.is_empty() {
         let expected = "a preset or a person to divide, or `[body.joints]` of one's own";
         b.error("body.segment_count", "`segment_count` of a body of one's own", expected);

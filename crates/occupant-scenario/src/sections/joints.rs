@@ -17,16 +17,16 @@ use placed_text::{Problem, with_key};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub(crate) struct JointsSection {
     /// Joints to start from: "male50", the viscous stops of the report; "gebod", elastic limits of the GEBOD generator;
-    /// "dummy50-like", "dummy05f-like", "dummy06c-like", what the calibration of dummies asks of neck, trunk and hips.
-    #[schemars(extend("enum" = ["male50", "gebod", "dummy50-like", "dummy05f-like", "dummy06c-like"]))]
+    /// "person", with the spine and the clavicles of one whose muscles do nothing; "dummy50-like", "dummy50-1973-like", "dummy05f-like", "dummy06c-like", what the calibration of dummies asks of neck, trunk and hips.
+    #[schemars(extend("enum" = ["male50", "gebod", "person", "dummy50-like", "dummy50-1973-like", "dummy05f-like", "dummy06c-like"]))]
     pub(crate) preset: Option<String>,
     /// ε that keeps joint angles smooth where two segments are in line; 0.001 if absent, 0 is the report's formula.
     pub(crate) epsilon: Option<Ratio<NOT_NEGATIVE>>,
     /// All joints.
     pub(crate) all: Option<JointSection>,
     /// Joints by name: `neck`, `upper_back`, `lower_back`, `left_shoulder`, `left_elbow`, `left_hip`, `left_knee` and those
-    /// of the right; bodies with more segments have others. `shoulders`, `elbows`, `wrists`, `hips`, `knees`, `ankles` stand
-    /// for both sides.
+    /// of the right; bodies with more segments have others. `sternoclaviculars`, `shoulders`, `elbows`, `wrists`, `hips`, `knees`,
+    /// `ankles` stand for both sides.
     #[serde(flatten)]
     pub(crate) named: IndexMap<String, JointSection>,
 }

@@ -52,8 +52,11 @@ pub(crate) fn parts(body: &Body) -> Vec<Part> {
             _ if Some(segment) == marks.head => head(body, segment),
             _ if Some(segment) == marks.chest => upper_torso(body, segment),
             _ if Some(segment) == marks.pelvis => lower_torso(body, segment),
-            _ if body.tree.is_trunk(segment) => vec![trunk(body, segment)],
-            _ => limb(body, segment),
+            _ => match marks.arms().find(|arm| body.tree.carries(segment, arm.upper)) {
+                Some(arm) => vec![clavicle(body, segment, &arm)],
+                None if body.tree.is_trunk(segment) => vec![trunk(body, segment)],
+                None => limb(body, segment),
+            },
         };
         let tone = Tone::of(body.tree, segment);
         ends.into_iter().map(move |ends| Part { segment, tone, ends })
@@ -106,10 +109,18 @@ fn lower_torso(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
     [trunk(body, segment)].into_iter().chain(bar(body, segment, legs, hip)).collect()
 }
 
-/// A capsule from the joint of the left limb to that of the right one.
+/// A capsule from the joint of the left limb to that of the right one, if the segment carries both.
 fn bar(body: &Body, segment: Segment, limbs: &Pair<Option<Limb>>, radius_m: f64) -> Option<[Lump; 2]> {
     let cg_m = body.segment(segment).cg_m();
-    Some([limbs.left?, limbs.right?].map(|limb| ball(body.socket_m(limb.upper) - cg_m, radius_m)))
+    let limbs = [limbs.left?, limbs.right?];
+    let ends = limbs.map(|limb| ball(body.socket_m(limb.upper) - cg_m, radius_m));
+    limbs.iter().all(|limb| body.tree.carries(segment, limb.upper)).then_some(ends)
+}
+
+/// A capsule from a segment's own joint to that of the arm that it carries.
+fn clavicle(body: &Body, segment: Segment, arm: &Limb) -> [Lump; 2] {
+    let (cg_m, radius_m) = (body.segment(segment).cg_m(), limb_radius(body, arm.upper));
+    [ball(body.joint_m(segment) - cg_m, 0.6 * radius_m), ball(body.socket_m(arm.upper) - cg_m, radius_m)]
 }
 
 /// The elliptic column of a segment of the trunk, rounded at its ends.

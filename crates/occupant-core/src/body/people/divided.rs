@@ -1,12 +1,13 @@
-//! The generator's 15 segments as a body of their own, and 17 with hands.
+//! The generator's 15 segments as a body of their own, 17 with hands, and 19 with clavicles.
 //!
 //! Principal axes and joints are as the generator has them, but for what lies beside the middle plane, which is that of the
 //! 12. A hand is a share of the forearm's mass beyond a wrist, so that both together keep mass, centre of gravity and
-//! inertia (the split is ours).
+//! inertia (the splits are ours). So is a clavicle one of the upper torso's mass, with shoulder blade and flesh: it turns about
+//! the sternoclavicular joint and carries the arm, so that a belt on one shoulder holds back that shoulder before the trunk.
 
-use nalgebra::{UnitQuaternion, Vector2, Vector3};
+use nalgebra::{Matrix3, UnitQuaternion, Vector2, Vector3};
 
-use super::{CT, F, H, LA, LL, LT, N, PARTS, REFERENCE, Stretch, UA, UL, UT};
+use super::{CT, Division, F, H, LA, LL, LT, N, PARTS, REFERENCE, Stretch, UA, UL, UT};
 use crate::body::named::{NamedJoint, NamedLandmarks, tree};
 use crate::body::tti12::TTI12;
 use crate::body::{Body, JointKind, JointPlace, JointSite, SegmentProperties, Side};
@@ -40,16 +41,25 @@ const JOINTS: [JointRow; 9] = [
 /// The hand: its share of the mass of forearm and hand (1.08 of 4.05 lb), and how far the wrist and its own centre of
 /// gravity are below that of both, inches. The wrist is where Drillis and Contini's 0.146 and 0.108 of stature meet.
 const HAND: (f64, f64, f64) = (0.267, 2.28, 5.77);
+/// A clavicle: its share of the upper torso's mass; its radii of gyration; and X, Y (of the left one) and Z of its centre of gravity
+/// and of its joint from the upper torso's centre of gravity, inches. Its height is that over which it is drawn.
+const CLAVICLE: (f64, [f64; 3], [[f64; 3]; 2]) = (0.05, [2.0, 1.5, 2.0], [[-0.8, 4.0, 3.9], [2.0, 0.9, 5.9]]);
+const CLAVICLE_HEIGHT: f64 = 2.0;
+
 impl Stretch {
     /// The parts, limbs on both sides, as segments and joints of their own.
-    pub(super) fn divided(&self, has_hands: bool) -> Body {
-        let mut made =
-            Made { stretch: self, has_hands, joints: Vec::new(), segments: vec![self.segment(CT, has_hands)] };
+    pub(super) fn divided(&self, division: Division) -> Body {
+        let mut made = Made { stretch: self, division, joints: Vec::new(), segments: vec![self.segment(CT, division)] };
         for (name, proximal, from, distal, to) in JOINTS {
             let place = self.place(proximal, from, distal, to);
             let sides: &[Option<Side>] = if distal < UL { &[None] } else { &[Some(Side::Left), Some(Side::Right)] };
-            sides.iter().for_each(|side| made.joint(name, [proximal, distal], place, *side));
-            if has_hands && distal == LA {
+            for side in sides {
+                if distal == UA && division.has_clavicles() {
+                    made.clavicle(*side);
+                }
+                made.joint(name, [proximal, distal], place, *side);
+            }
+            if distal == LA && division.has_hands() {
                 sides.iter().for_each(|side| made.wrist(*side));
             }
         }
@@ -67,11 +77,17 @@ impl Stretch {
         Vector3::new(ahead, 0.0, self.along(part, Self::axes(part)[1], ENDS[part].1[1]))
     }
 
-    /// A part as a segment; of forearm and hand the forearm where the hand is another.
-    fn segment(&self, part: usize, has_hands: bool) -> SegmentProperties {
-        if has_hands && part == LA {
+    /// A part as a segment, without what is a segment of its own: of forearm and hand the forearm.
+    fn segment(&self, part: usize, division: Division) -> SegmentProperties {
+        if part == LA && division.has_hands() {
             return self.forearm_and_hand()[0];
         }
+        let whole = self.whole(part);
+        if part == UT && division.has_clavicles() { self.without_clavicles(&whole) } else { whole }
+    }
+
+    /// A part with all that it is.
+    fn whole(&self, part: usize) -> SegmentProperties {
         let [above, below] = ENDS[part].1.map(|inches| self.along(part, Self::axes(part)[1], inches));
         let [ix, iy, iz] = self.principal(part);
         let inertia = if part == F { [iz, iy, ix] } else { [ix, iy, iz] };
@@ -80,6 +96,51 @@ impl Stretch {
             cg_beside_m: Vector2::new(cg_m.x, cg_m.y),
             principal: UnitQuaternion::from_axis_angle(&Vector3::y_axis(), -REFERENCE[part].2.to_radians()),
             ..SegmentProperties::new(above + below, self.mass_kg[part], cg_m.z, Vector3::from(inertia))
+        }
+    }
+
+    /// From X, Y and Z in inches from the upper torso's centre of gravity: from the lower end of the left clavicle, which lies in
+    /// the middle plane, below the shoulders by its height.
+    fn on_clavicle(&self, inches: [f64; 3]) -> Vector3<f64> {
+        let [x, y, z] = [0, 1, 2].map(|axis| self.along(UT, axis, inches[axis]));
+        Vector3::new(x, y, z - self.along(UT, 2, ENDS[UT].1[0] - CLAVICLE_HEIGHT))
+    }
+
+    fn clavicle(&self, side: Option<Side>) -> SegmentProperties {
+        let (share, gyration, [centre, _]) = CLAVICLE;
+        let mass_kg = share * self.mass_kg[UT];
+        let [x, y, z] = [0, 1, 2].map(|axis| mass_kg * self.along(UT, axis, gyration[axis]).powi(2));
+        let cg_m = mirrored(self.on_clavicle(centre), side);
+        let length_m = self.along(UT, 2, CLAVICLE_HEIGHT);
+        SegmentProperties {
+            cg_beside_m: cg_m.xy(),
+            ..SegmentProperties::new(length_m, mass_kg, cg_m.z, Vector3::new(x, y, z))
+        }
+    }
+
+    /// The upper torso that has with both clavicles the mass, centre of gravity and inertia of the whole.
+    fn without_clavicles(&self, whole: &SegmentProperties) -> SegmentProperties {
+        let lower_m = Vector3::z() * (whole.length_m - self.along(UT, 2, CLAVICLE_HEIGHT));
+        let parts = [Side::Left, Side::Right].map(|side| self.clavicle(Some(side)));
+        let at = |p: &SegmentProperties| Vector3::new(p.cg_beside_m.x, p.cg_beside_m.y, p.cg_from_lower_end_m);
+        let mass_kg = whole.mass_kg - parts.iter().map(|p| p.mass_kg).sum::<f64>();
+        let moment = parts.iter().map(|p| (at(p) + lower_m) * p.mass_kg).sum::<Vector3<f64>>();
+        let cg_m = (at(whole) * whole.mass_kg - moment) / mass_kg;
+        let steiner = |arm: Vector3<f64>| Matrix3::from_diagonal_element(arm.norm_squared()) - arm * arm.transpose();
+        let turn = whole.principal.to_rotation_matrix();
+        let mut tensor = turn * Matrix3::from_diagonal(&whole.inertia_kg_m2) * turn.transpose();
+        tensor -= steiner(cg_m - at(whole)) * mass_kg;
+        for p in &parts {
+            tensor -= Matrix3::from_diagonal(&p.inertia_kg_m2) + steiner(at(p) + lower_m - at(whole)) * p.mass_kg;
+        }
+        // of the products of inertia that of X and Z alone is left
+        let angle = 0.5 * libm::atan(2.0 * tensor.m13 / (tensor.m33 - tensor.m11));
+        let principal = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), angle);
+        let turn = principal.to_rotation_matrix();
+        SegmentProperties {
+            cg_beside_m: cg_m.xy(),
+            principal,
+            ..SegmentProperties::new(whole.length_m, mass_kg, cg_m.z, (turn.transpose() * tensor * turn).diagonal())
         }
     }
 
@@ -115,10 +176,16 @@ impl Stretch {
 /// A body of parts under construction.
 struct Made<'a> {
     stretch: &'a Stretch,
-    has_hands: bool,
+    division: Division,
     /// Name, kind, proximal and distal segment, place.
     joints: Vec<(String, JointKind, [String; 2], JointPlace)>,
     segments: Vec<SegmentProperties>,
+}
+
+/// A place of the left side on one.
+fn mirrored(mut place: Vector3<f64>, side: Option<Side>) -> Vector3<f64> {
+    place.y *= if side == Some(Side::Right) { -1.0 } else { 1.0 };
+    place
 }
 
 /// A name of one side.
@@ -133,16 +200,34 @@ fn on(side: Option<Side>, name: &str) -> String {
 impl Made<'_> {
     /// A joint with the segment that it carries.
     fn joint(&mut self, name: &str, [proximal, distal]: [usize; 2], mut place: JointPlace, side: Option<Side>) {
-        let beside_m = self.stretch.half_width_m(distal);
-        place.proximal.point_m.y = if side == Some(Side::Right) { -beside_m } else { beside_m };
+        place.proximal.point_m.y = self.stretch.half_width_m(distal);
+        place.proximal.point_m = mirrored(place.proximal.point_m, side);
         let of = |part: usize| on(side.filter(|_| part >= UL), ENDS[part].0);
         let kind = if [LL, LA].contains(&distal) { JointKind::Hinge } else { JointKind::Ball };
-        if self.has_hands && distal == LA {
+        if self.division.has_hands() && distal == LA {
             // seen from the lower end, which is the wrist
             place.distal.point_m.z = self.stretch.forearm_and_hand()[0].length_m;
         }
-        self.joints.push((on(side, name), kind, [of(proximal), of(distal)], place));
-        self.segments.push(self.stretch.segment(distal, self.has_hands));
+        let mut carrier = of(proximal);
+        if self.division.has_clavicles() && distal == UA {
+            carrier = on(side, "clavicle");
+            place.proximal.point_m.z = self.stretch.along(UT, 2, CLAVICLE_HEIGHT);
+        }
+        self.joints.push((on(side, name), kind, [carrier, of(distal)], place));
+        self.segments.push(self.stretch.segment(distal, self.division));
+    }
+
+    fn clavicle(&mut self, side: Option<Side>) {
+        let (stretch, joint) = (self.stretch, CLAVICLE.2[1]);
+        let distal = mirrored(stretch.on_clavicle(joint), side);
+        let below_shoulders_m = stretch.along(UT, 2, ENDS[UT].1.iter().sum::<f64>() - CLAVICLE_HEIGHT);
+        let place = JointPlace {
+            proximal: JointSite::at(distal + Vector3::z() * below_shoulders_m),
+            distal: JointSite::at(distal),
+        };
+        let names = [ENDS[UT].0.to_owned(), on(side, "clavicle")];
+        self.joints.push((on(side, "sternoclavicular"), JointKind::Ball, names, place));
+        self.segments.push(stretch.clavicle(side));
     }
 
     fn wrist(&mut self, side: Option<Side>) {
@@ -155,7 +240,7 @@ impl Made<'_> {
 
     fn body(self) -> Body {
         let named = self.joints.iter().map(|(name, kind, [proximal, distal], place)| {
-            let hangs = place.distal.point_m.z > 0.0;
+            let hangs = place.distal.point_m.z > 0.0 && !distal.ends_with("clavicle");
             NamedJoint { name, kind: *kind, proximal, distal, hangs }
         });
         let joints: Vec<NamedJoint<'_>> = named.collect();

@@ -22,7 +22,7 @@ const ERRORS_MM: [[[f64; 2]; 2]; PARTS] = {
 };
 
 /// The parts that segments are, by their names without a side. A head with a neck is judged as a head.
-const NAMES: [(&str, usize); 11] = [
+const NAMES: [(&str, usize); 12] = [
     ("lower_torso", LT),
     ("middle_torso", CT),
     ("upper_torso", UT),
@@ -34,6 +34,7 @@ const NAMES: [(&str, usize); 11] = [
     ("upper_arm", UA),
     ("forearm", LA),
     ("hand", LA),
+    ("clavicle", UT),
 ];
 
 /// The normal distribution's 95 % quantile.
@@ -73,7 +74,9 @@ mod tests {
     #[test]
     fn every_segment_of_every_division_has_a_band() {
         use super::super::Division;
-        for (division, segments) in [(Division::Twelve, 12), (Division::Fifteen, 15), (Division::Seventeen, 17)] {
+        for (division, segments) in
+            [(Division::Twelve, 12), (Division::Fifteen, 15), (Division::Seventeen, 17), (Division::Nineteen, 19)]
+        {
             let body = REFERENCE_PERSON.body(division).0;
             let bands = body.tree.segment_rows().iter().filter_map(|row| REFERENCE_PERSON.length_band(row.name));
             let bands: Vec<f64> = bands.collect();

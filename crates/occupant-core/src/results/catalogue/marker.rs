@@ -7,16 +7,19 @@ use crash_measures::unit::Unit::{Metre, MetrePerSecond, MetrePerSecondSquared};
 use nalgebra::Vector3;
 
 use crate::forces::sphere::Site;
+use crate::model::Model;
 use crate::model::setup::MarkerFrame;
+use crate::motion::kinematics::Kinematics;
 use crate::quantity::{Axes, Owner, Quantity, to_j211};
 use crate::results::sample::Sample;
+use crate::vehicle::PathCursor;
 
 /// A marker at one output, in its frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OfMarker;
 
-/// Place, velocity and acceleration.
-type Motion = [Vector3<f64>; 3];
+/// Place, velocity, acceleration, and the way from where it was at the start of the run.
+type Motion = [Vector3<f64>; 4];
 
 impl Owner for OfMarker {
     type At<'a> = Motion;
@@ -25,7 +28,7 @@ impl Owner for OfMarker {
 type Of = Quantity<OfMarker>;
 
 /// Message `MarkerMotion`.
-pub(super) fn quantities(frame: MarkerFrame) -> [Of; 3] {
+pub(super) fn quantities(frame: MarkerFrame) -> [Of; 4] {
     let (place, others, words) = match frame {
         MarkerFrame::Vehicle => (Axes::Vehicle, Axes::Vehicle, VEHICLE),
         MarkerFrame::Space => (Axes::Space, Axes::Space, SPACE),
@@ -38,6 +41,11 @@ pub(super) fn quantities(frame: MarkerFrame) -> [Of; 3] {
             4,
             "acceleration",
             words[3],
+        ),
+        Of::vector(Metre, place, |m| m[3]).channel("displacement", "displacement of the {} since the start").field(
+            5,
+            "displacement",
+            "displacement since the start",
         ),
     ]
 }
@@ -57,8 +65,20 @@ const SEGMENT: [&str; 4] = [
     "what an accelerometer there reads: acceleration less gravity",
 ];
 
-/// The motion of a point as a frame has it.
-pub(super) fn motion(s: &Sample<'_>, site: &Site<f64>, frame: MarkerFrame) -> Motion {
+/// The place of a point at the start of the run, as a frame has it.
+pub(super) fn start_m(model: &Model, site: &Site<f64>, frame: MarkerFrame) -> Vector3<f64> {
+    let place = site.place(&Kinematics::new(&model.system().skeleton, &model.start().state)).1.to_vector();
+    if frame == MarkerFrame::Space {
+        return place;
+    }
+    let (t_s, cursor) = (model.setup().time.start_s, &mut PathCursor::default());
+    let homes = model.homes(&model.frames(t_s, t_s, cursor), &model.vehicle(t_s, t_s, cursor));
+    let tree = model.body().tree;
+    homes[tree.body_of(tree.segment(site.segment))].point_to_frame(place)
+}
+
+/// The motion of a point, that was at `start_m`, as a frame has it.
+pub(super) fn motion(s: &Sample<'_>, site: &Site<f64>, frame: MarkerFrame, start_m: &Vector3<f64>) -> Motion {
     let (k, by, n) = (&s.evaluation.kinematics, &s.evaluation.accelerations, site.segment);
     let (arm, place, velocity) = site.place(k);
     let acceleration = by.joint[n] + by.alpha[n].cross(arm) + k.omega[n].cross(k.omega[n].cross(arm));
@@ -66,11 +86,11 @@ pub(super) fn motion(s: &Sample<'_>, site: &Site<f64>, frame: MarkerFrame) -> Mo
     let home = s.seen_from(n);
     let in_vehicle = home.point_to_frame(place);
     match frame {
-        MarkerFrame::Space => [place, velocity, acceleration],
+        MarkerFrame::Space => [place, velocity, acceleration, place - start_m],
         MarkerFrame::Segment => {
             let along = |v: Vector3<f64>| to_j211(k.axes[n].to_matrix().tr_mul(&v));
             let gravity = Vector3::z() * s.model.setup().gravity_m_s2;
-            [in_vehicle, along(velocity), along(acceleration + gravity)]
+            [in_vehicle, along(velocity), along(acceleration + gravity), in_vehicle - start_m]
         }
         MarkerFrame::Vehicle => {
             let (vehicle, r) = (home, place - home.origin_m);
@@ -79,7 +99,8 @@ pub(super) fn motion(s: &Sample<'_>, site: &Site<f64>, frame: MarkerFrame) -> Mo
             let carried = vehicle.acceleration_m_s2
                 + vehicle.angular_acceleration_rad_s2.cross(&r)
                 + omega.cross(&(omega.cross(&r) + 2.0 * seen));
-            [in_vehicle, vehicle.vector_to_frame(seen), vehicle.vector_to_frame(acceleration - carried)]
+            let [seen, acceleration] = [seen, acceleration - carried].map(|v| vehicle.vector_to_frame(v));
+            [in_vehicle, seen, acceleration, in_vehicle - start_m]
         }
     }
 }

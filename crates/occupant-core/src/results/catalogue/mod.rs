@@ -211,7 +211,8 @@ impl Catalogue {
             let (channel, words) = (format!("marker.{name}"), format!("marker {name}"));
             let place = Place { message: "MarkerMotion", topic, name: &channel, words: &words };
             let (site, frame) = (marker.site(model.body()), marker.frame);
-            self.add(&place, &marker::quantities(frame), move |s| marker::motion(s, &site, frame));
+            let start_m = marker::start_m(model, &site, frame);
+            self.add(&place, &marker::quantities(frame), move |s| marker::motion(s, &site, frame, &start_m));
         }
     }
 

@@ -5,8 +5,6 @@
 //! with half axes a along X and b along Y, I_z = ¼M(a² + b²) and I_x − I_y = ¼M(b² − a²) give
 //! a² = 2(I_z − I_x + I_y)/M and b² = 2(I_z + I_x − I_y)/M.
 
-use std::f64::consts::FRAC_PI_2;
-
 use nalgebra::{UnitQuaternion, Vector3};
 use occupant_core::body::{Body, ContactSphere, Limb, Pair, Segment, SegmentProperties, Tree};
 
@@ -50,6 +48,11 @@ fn write_segment(wire: &mut Wire, body: &Body, segment: Segment) {
     let p = body.segment(segment);
     let marks = body.tree.landmarks_at(segment);
     let color = Tone::of(body.tree, segment).color();
+    let is_carried = |arm: &Limb| body.tree.carries(segment, arm.upper);
+    if let Some(arm) = marks.arms().find(is_carried).filter(|_| Some(segment) != marks.chest) {
+        let ends = [body.joint_m(segment), body.socket_m(arm.upper)].map(|end| end - p.cg_m());
+        return bar(wire, ends, half_axes_m(body, arm.upper).0, color);
+    }
     let length = if Some(segment) == marks.head { NECK_LENGTH * p.length_m } else { p.length_m };
     let [lower, upper] = [0.0, length].map(|z| Vector3::z() * z - p.cg_m());
     let (a, b) = half_axes_m(body, segment);
@@ -77,16 +80,23 @@ fn write_segment(wire: &mut Wire, body: &Body, segment: Segment) {
     }
 }
 
-/// A bar along Y that carries shoulders or hips.
+/// The bar that carries shoulders or hips, if the segment carries both.
 fn girdle(wire: &mut Wire, body: &Body, segment: Segment, limbs: Pair<Option<Limb>>, color: Color) {
     let (Some(left), Some(right)) = (limbs.left, limbs.right) else { return };
-    let radius_m = half_axes_m(body, left.upper).0;
-    let ends = [left, right].map(|limb| body.socket_m(limb.upper) - body.segment(segment).cg_m());
-    let across = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), FRAC_PI_2);
-    let size = Vector3::new(2.0 * radius_m, 2.0 * radius_m, ends[0].y - ends[1].y);
-    cylinder(wire, (ends[0] + ends[1]) * 0.5, across, size, color);
-    for joint in ends {
-        ellipsoid(wire, joint, Vector3::repeat(2.0 * radius_m), color);
+    if [left, right].iter().all(|limb| body.tree.carries(segment, limb.upper)) {
+        let ends = [left, right].map(|limb| body.socket_m(limb.upper) - body.segment(segment).cg_m());
+        bar(wire, ends, half_axes_m(body, left.upper).0, color);
+    }
+}
+
+/// A bar with round ends.
+fn bar(wire: &mut Wire, ends: [Vector3<f64>; 2], radius_m: f64, color: Color) {
+    let along = ends[0] - ends[1];
+    let turn = UnitQuaternion::rotation_between(&Vector3::z(), &along).unwrap_or_default();
+    let size = Vector3::new(2.0 * radius_m, 2.0 * radius_m, along.norm());
+    cylinder(wire, (ends[0] + ends[1]) * 0.5, turn, size, color);
+    for end in ends {
+        ellipsoid(wire, end, Vector3::repeat(2.0 * radius_m), color);
     }
 }
 
@@ -113,7 +123,7 @@ pub(crate) fn sphere_centre_m(body: &Body, sphere: &ContactSphere) -> Vector3<f6
 pub(crate) enum Tone {
     /// Head, neck, forearms, hands.
     Skin,
-    /// Upper trunk, upper arms.
+    /// Upper trunk, clavicles, upper arms.
     Shirt,
     /// Lower trunk, legs.
     Trousers,
@@ -124,7 +134,9 @@ impl Tone {
         let marks = tree.landmarks_at(segment);
         if Some(segment) == marks.pelvis || marks.legs().any(|leg| tree.is_of(segment, &leg)) {
             Tone::Trousers
-        } else if tree.is_trunk(segment) || marks.arms().any(|arm| segment == arm.upper) {
+        } else if tree.is_trunk(segment)
+            || marks.arms().any(|arm| segment == arm.upper || tree.carries(segment, arm.upper))
+        {
             Tone::Shirt
         } else {
             Tone::Skin
