@@ -16,7 +16,9 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units, sample: &Sampl
     forces(case, units, sample).write(pages);
     application_points(units, sample).write(pages);
     ELEMENTS.iter().for_each(|element| (element.output)(pages, units, sample));
-    [("bag", "AIR BAG"), ("column", "COLUMN")].map(|(of, title)| named(pages, units, sample, of, title));
+    for (of, title) in [("bag", "AIR BAG"), ("column", "COLUMN")] {
+        named(pages, units, sample, of, title);
+    }
     joints(pages, sample);
     energy(pages, units, sample);
 }
