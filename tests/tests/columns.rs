@@ -159,7 +159,7 @@ fn without_a_body_a_pulse_moves_the_hub_as_its_closed_form_says() {
     let rest_s = 0.05 - yields_s;
     let (at_end, fastest) = (1e-4 + speed * rest_s + 50.0 * rest_s * rest_s, speed + 100.0 * rest_s);
     assert_below("stroke, m", given("columns.column.stroke_max") - (at_end + fastest * fastest / 200.0), 2e-6);
-    assert_below("its book", given("columns.column.book_error"), 1e-5);
+    assert_below("its book", given("columns.column.book_error"), 1e-4);
 }
 
 /// A half sine that does not make it yield: a spring under a sine, exact and smooth.
