@@ -1,7 +1,7 @@
 //! Steering columns that give way: a frame with a mass, which bodies and bags push along an axis.
 //!
 //! The state owns place and speed of each (`law`), and the work that it takes up. A column carries its frame before anything
-//! acts on it; what pushes that frame is gathered by body ([`Load::push`]) and acts on the column after all others. What it
+//! acts on it; what pushes that frame is gathered by body (`Load::push`) and acts on the column after all others. What it
 //! remembers (`past`) is its greatest stroke, which stays.
 
 mod check;
