@@ -37,6 +37,7 @@ pub fn lap(integrator: Integrator) -> Setup {
         belts: vec![lap_belt()],
         chains: Vec::new(),
         bags: Vec::new(),
+        columns: Vec::new(),
         path: path(),
         posture: InitialPosture::Seated(seating()),
         velocity: InitialVelocity::WithVehicle,

@@ -6,6 +6,7 @@ mod bags;
 mod belts;
 mod bodies;
 mod cart_cases;
+mod columns;
 mod contact_scene;
 mod driver;
 mod edges;

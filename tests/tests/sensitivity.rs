@@ -398,16 +398,20 @@ fn slopes_by_the_shape_and_place_of_a_solid_are_those_of_differences() {
 }
 
 /// The feet fall onto the ground: t = √(2h/g) comes earlier by t/2g a unit of gravity and later by 1/gt a metre of height.
-/// A bag that unfolds before a body in the air and pushes it: by what is in it, what lets it out, and its size.
-#[test]
-fn slopes_by_the_gas_and_size_of_a_bag_are_those_of_differences() {
-    let bag = "bags.ball={ trigger = \"go\", deploy = \"10 ms\", mount = [0.5, 0, -2], volume = \"50 l\", friction = 0.2, \
+/// A bag that unfolds before a body in the air and pushes it.
+const BAG: [&str; 2] = [
+    "triggers.go={ kind = \"time\", at = 0 }",
+    "bags.ball={ trigger = \"go\", deploy = \"10 ms\", mount = [0.5, 0, -2], volume = \"50 l\", friction = 0.2, \
                sphere = { centre = [0.36, 0, -2], radius = 0.23 }, spheres = [\"chest\"], leakage = 0.001, \
                vents = [{ area = \"10 cm^2\", discharge = 0.7 }], inflators = [{ gas = { nitrogen = 0.7, carbon_dioxide = 0.3 }, \
-               times = [0, 0.005, 0.02], flow = [0, 8, 0], temperature = [500, 450, 400] }] }";
-    let set = ["triggers.go={ kind = \"time\", at = 0 }", bag, "time.end=0.03"];
+               times = [0, 0.005, 0.02], flow = [0, 8, 0], temperature = [500, 450, 400] }] }",
+];
+
+/// By what is in it, what lets it out, and its size.
+#[test]
+fn slopes_by_the_gas_and_size_of_a_bag_are_those_of_differences() {
     let mut draft = tumbling();
-    set.iter().for_each(|assignment| draft.set(assignment).unwrap());
+    BAG.iter().chain(&["time.end=0.03"]).for_each(|assignment| draft.set(assignment).unwrap());
     let model = model_of(&draft);
     let touched =
         channels(&model).into_iter().filter(|c| ["bag.ball.area", "bag.ball.pressure"].contains(&c.name.as_str()));
@@ -422,6 +426,23 @@ fn slopes_by_the_gas_and_size_of_a_bag_are_those_of_differences() {
         "joints.neck.damping",
     ];
     // the bag must not be slack in one run of a pair and taut in the other
+    against_runs(&draft, &paths, &[1e-4, 1e-5], 3e-6);
+}
+
+/// The bag on a column that yields from the first: by what holds that and what it weighs.
+#[test]
+fn slopes_by_the_force_and_mass_of_a_column_are_those_of_differences() {
+    let column = "frames.column={ kind = \"column\", axis = [1, 0, 0.2], mass = 2, stroke = [0, 0.1, 1], force = [0, 300, 400], unload_slope = 5000 }";
+    let mut draft = tumbling();
+    let set = [column, "bags.ball.frame=\"column\"", "time.end=0.03"];
+    BAG.iter().chain(&set).for_each(|assignment| draft.set(assignment).unwrap());
+    let model = model_of(&draft);
+    let stroke = channels(&model).into_iter().filter(|c| c.name == "column.column.stroke");
+    let mut seen = Series::new(stroke.collect());
+    simulate(&model, &mut seen).unwrap();
+    assert!(seen.values[0].iter().any(|value| *value > 5e-3), "{:?}", seen.values);
+    let paths =
+        ["frames.column.mass", "frames.column.force[1]", "frames.column.stroke[1]", "bags.ball.volume", "gravity"];
     against_runs(&draft, &paths, &[1e-4, 1e-5], 3e-6);
 }
 

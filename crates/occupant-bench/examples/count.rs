@@ -14,7 +14,7 @@ use occupant_core::run::batch::{Job, Kernel, simulate_many};
 /// A piece of work: calls that are counted.
 type Work = fn(count: usize);
 
-const WORKS: [(&str, Work); 17] = [
+const WORKS: [(&str, Work); 18] = [
     ("evaluation_bare", bare),
     ("evaluation_joints_and_belts", held),
     ("evaluation_full_within_step", |n| rates(n, instant())),
@@ -25,6 +25,7 @@ const WORKS: [(&str, Work); 17] = [
     ("evaluation_air_bag", |n| rates(n, Instant::full(&scene::bagged(), PRESSED_S))),
     ("evaluation_air_bag_step_start", |n| commits(n, Instant::full(&scene::bagged(), PRESSED_S))),
     ("evaluation_air_bag_left_out", |n| rates(n, Instant::full(&scene::bagged(), PRESSED_S).without_bags())),
+    ("evaluation_column", |n| rates(n, Instant::full(&scene::stroking(), PRESSED_S))),
     ("evaluation_solids_12_within_step", |n| rates(n, among_solids(&[]))),
     ("evaluation_solids_12_step_start", |n| commits(n, among_solids(&[]))),
     ("evaluation_solids_17_full_within_step", |n| rates(n, among_solids(&FULL_17))),

@@ -25,7 +25,10 @@ pub const BELTED: &str = include_str!("../../../scenarios/three-point.toml");
 /// A driver with belt and air bag, as shipped.
 pub const BAGGED: &str = include_str!("../../../scenarios/airbag-driver.toml");
 
-/// Instant of that crash that is timed, s: the bag is full, head and chest press it, gas comes in and leaves.
+/// The same on a column that gives way, as shipped.
+pub const STROKING: &str = include_str!("../../../scenarios/column-driver.toml");
+
+/// Instant of the bag's crash that is timed, s: the bag is full, head and chest press it, gas comes in and leaves.
 pub const PRESSED_S: f64 = 0.058;
 
 /// Instant of that crash that is timed, s: on the limiter, webbing slides over the rings.
@@ -78,6 +81,11 @@ pub fn belted() -> Model {
 /// The driver with belt and air bag.
 pub fn bagged() -> Model {
     read(BAGGED).model().expect("the scene is valid").0
+}
+
+/// The same on a column that gives way.
+pub fn stroking() -> Model {
+    read(STROKING).model().expect("the scene is valid").0
 }
 
 /// The driver of `occupant new` among 15 of the solids of his car, with these changes.

@@ -64,9 +64,9 @@ fn male50() -> Option<&'static Document> {
 }
 
 /// Sections of a scenario that the library has entries for.
-pub(super) const IN_LIBRARY: [&str; 3] = ["materials", "webbings", "limiters"];
+pub(super) const IN_LIBRARY: [&str; 4] = ["materials", "webbings", "limiters", "frames"];
 
-/// Materials, webbings and limiters of public texts, with their sources.
+/// Materials, webbings, limiters and columns of public texts, with their sources.
 pub(super) fn library() -> Option<&'static Document> {
     static READ: OnceLock<Option<Document>> = OnceLock::new();
     READ.get_or_init(|| written("library", include_str!("presets/library.toml"))).as_ref()

@@ -233,6 +233,9 @@ impl<'a, S: Scalar> Instant<'a, S> {
     }
 }
 
+/// Most frames that give way.
+pub(crate) const MOST_GIVING: usize = 2;
+
 /// Loads on the segments but gravity, and their powers.
 #[derive(Clone, Copy, Debug)]
 pub struct Load<S> {
@@ -240,6 +243,10 @@ pub struct Load<S> {
     pub wrench: [Wrench<S>; MOST_SEGMENTS],
     /// By body, W.
     pub power: [Work<S>; MOST_BODIES],
+    /// Forces of each body on the frames that give way, space axes, N.
+    pub(crate) onto: [[V3<S>; MOST_GIVING]; MOST_BODIES],
+    /// Behind the place there of each frame that gives way; 0 of others.
+    giving: [u8; MOST_FRAMES],
     body_of: [u8; MOST_SEGMENTS],
     bodies: usize,
     /// Rates of the numbers of the state that force elements own, which each writes anew, 1/s.
@@ -247,15 +254,21 @@ pub struct Load<S> {
 }
 
 impl<S: Scalar> Load<S> {
-    /// None yet.
+    /// None yet, where these frames give way.
     #[inline(always)]
-    pub(crate) fn zero(layout: &Layout) -> Self {
+    pub(crate) fn zero(layout: &Layout, giving: impl IntoIterator<Item = usize>) -> Self {
         let mut body_of = [0; MOST_SEGMENTS];
         for (to, row) in body_of.iter_mut().zip(layout.rows()) {
             *to = row.body as u8;
         }
         let (wrench, power) = ([Wrench::zero(); MOST_SEGMENTS], [Work::zero(); MOST_BODIES]);
-        Load { wrench, power, body_of, bodies: layout.trunks().len(), own: [S::zero(); MOST_OWN] }
+        let (bodies, own) = (layout.trunks().len(), [S::zero(); MOST_OWN]);
+        let onto = [[V3::zero(); MOST_GIVING]; MOST_BODIES];
+        let mut load = Load { wrench, power, onto, giving: [0; MOST_FRAMES], body_of, bodies, own };
+        for (frame, behind) in giving.into_iter().zip(1..=MOST_GIVING as u8) {
+            load.giving[frame % MOST_FRAMES] = behind;
+        }
+        load
     }
 
     /// None of as many segments.
@@ -263,6 +276,22 @@ impl<S: Scalar> Load<S> {
     pub(crate) fn clear(&mut self, segments: usize) {
         self.wrench[..segments].fill(Wrench::zero());
         self.power[..self.bodies].fill(Work::zero());
+        self.onto[..self.bodies].fill([V3::zero(); MOST_GIVING]);
+    }
+
+    /// How many bodies there are.
+    #[inline(always)]
+    pub(crate) fn bodies(&self) -> usize {
+        self.bodies
+    }
+
+    /// Notes that a frame feels the opposite of a force on a segment, in space axes, N, where it is `live`.
+    #[inline(always)]
+    pub(crate) fn push(&mut self, frame: usize, segment: usize, force: V3<S>, live: S::Mask) {
+        let Some(place) = self.giving.get(frame).and_then(|behind| behind.checked_sub(1)) else { return };
+        let body = self.body_of[segment] as usize % MOST_BODIES;
+        let onto = &mut self.onto[body][place as usize % MOST_GIVING];
+        *onto = V3::select(live, *onto - force, *onto);
     }
 
     /// Books the power that the body of one segment gives to that of another, if they are two, where they are `live`, W.

@@ -3,6 +3,7 @@
 use super::bag::Bags;
 use super::belt::Belts;
 use super::chain::Chains;
+use super::column::Columns;
 use super::contact::Contacts;
 use super::element::{Element, Hints as _, Instant, Load, Misfit, StoredEnergy, Unlike, WorkSum};
 use super::joint::JointMoments;
@@ -384,6 +385,7 @@ kinds! {
     belts: Belts,
     chains: Chains,
     bags: Bags,
+    columns: Columns,
     joints: JointMoments,
     limits: JointLimits,
     muscles: Muscles,

@@ -1,4 +1,4 @@
-//! What acts on the body: contact, belts, air bags, joints, each kind of force element in a room of its own.
+//! What acts on the body: contact, belts, air bags, columns, joints, each kind of force element in a room of its own.
 //!
 //! A kind is an [`Element`]. The list of kinds in `list.rs` gives the force laws of everything ([`Forces`]), what they
 //! remember ([`History`]), what they do at one instant ([`Actions`]), their energies (`STORED`, `SUMS`). The kernel, runs
@@ -12,6 +12,7 @@
 pub mod bag;
 pub mod belt;
 pub mod chain;
+pub mod column;
 pub mod contact;
 pub(crate) mod decay;
 mod element;

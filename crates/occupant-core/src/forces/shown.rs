@@ -4,6 +4,7 @@ use std::marker::PhantomData;
 
 use nalgebra::{Point3, Vector3};
 
+use super::contact::surface::Frame;
 use super::element::Element;
 use super::stored::Archive;
 use super::table::{Column, Table};
@@ -79,6 +80,8 @@ pub struct Shown<'a, E: Element> {
     pub body: &'a Body,
     /// Centre of a sphere, vehicle axes, m.
     pub centre_m: &'a dyn Fn(usize) -> Point3<f64>,
+    /// A point of a frame, axes of the first vehicle, m.
+    pub place_m: &'a dyn Fn(Frame, Point3<f64>) -> Point3<f64>,
 }
 
 /// A single element.

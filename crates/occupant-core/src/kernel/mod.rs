@@ -8,6 +8,7 @@
 
 mod dispatch;
 
+use crate::forces::column;
 use crate::forces::sphere::Site;
 use crate::forces::{Forces, History, Instant, Load, Observer, Unlike};
 use crate::motion::dynamics::{Accelerations, Sweep, Wrench};
@@ -112,17 +113,21 @@ pub struct Scratch<S> {
     carried: Vec<Moving<S>>,
     load: Load<S>,
     sweep: Sweep<S>,
+    /// Where columns carry their frames; none where there are none.
+    frames: Option<Box<Frames<S>>>,
 }
 
 impl<S: Scalar> Scratch<S> {
     /// Nothing written yet of a system like this.
     #[inline(always)]
     pub fn blank(system: &System<S>) -> Self {
+        let columns = &system.forces.columns;
         Scratch {
             kinematics: Kinematics::blank(),
             carried: vec![Moving::space(); system.carriers.len()],
-            load: Load::zero(&system.skeleton.layout),
+            load: Load::zero(&system.skeleton.layout, columns.iter().map(|column| column.frame)),
             sweep: Sweep::blank(&system.skeleton),
+            frames: (!columns.is_empty()).then(|| Box::new(Frames::still(S::zero()))),
         }
     }
 
@@ -161,8 +166,13 @@ impl<S: Scalar> System<S> {
         history: &mut History<S>,
         observer: &mut (impl Observer<S> + ?Sized),
     ) {
-        let Scratch { kinematics: k, carried, load, sweep } = scratch;
-        let Situation { state, frames, accepted } = situation;
+        let Scratch { kinematics: k, carried, load, sweep, frames: own } = scratch;
+        let Situation { state, mut frames, accepted } = situation;
+        if let Some(own) = own {
+            **own = *frames;
+            self.carry(state, own);
+            frames = own;
+        }
         k.follow(&self.skeleton, state, Some(frames));
         for (moving, &segment) in carried.iter_mut().zip(&self.carriers) {
             *moving = k.moving(segment);
@@ -173,6 +183,12 @@ impl<S: Scalar> System<S> {
         // q̈ from q̇ and q (114)
         let motion = Some((frames, &mut load.power[..]));
         sweep.solve(&self.skeleton, k, state.hinge_rate(), &load.wrench, motion);
+    }
+
+    /// Moves the frames that columns carry, which stand among `frames` where their parents carry them.
+    #[inline(always)]
+    pub fn carry(&self, state: &State<S>, frames: &mut Frames<S>) {
+        column::carry(&self.forces.columns, state, frames);
     }
 
     /// Resultants of what accelerometers of head, chest and pelvis read at the evaluation that has just been made, m/s²; 0 of

@@ -67,8 +67,10 @@ pub(super) fn begin(
     rest.iter().for_each(|rest| rest.keep(forces));
     let own = forces.own();
     if own.len() > MOST_OWN {
-        let found = format!("bags with {} numbers of gas", own.len());
-        problems.error("bags", found, format!("at most {MOST_OWN}: five for each bag and one more for each inflator"));
+        let found = format!("bags and columns with {} numbers of a state", own.len());
+        let expected =
+            format!("at most {MOST_OWN}: five for each bag, one more for each inflator, three for each column");
+        problems.error("bags", found, expected);
         return None;
     }
     let mut history = forces.start(&at);

@@ -12,6 +12,7 @@ use crate::forces::Data;
 use crate::forces::bag::Bag;
 use crate::forces::belt::Belt;
 use crate::forces::chain::Chain;
+use crate::forces::column::{Column, ColumnData};
 use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::material::Material;
 use crate::forces::contact::self_contact::SelfContact;
@@ -233,6 +234,8 @@ pub struct Setup {
     pub chains: Vec<Chain>,
     /// Air bags.
     pub bags: Vec<Bag>,
+    /// Steering columns that give way, each of which carries one of `frames`.
+    pub columns: Vec<Column>,
     /// Motion of the vehicle.
     pub path: VehiclePath,
     /// Frames besides the vehicle's and space.
@@ -266,6 +269,23 @@ impl Setup {
         for (i, other) in self.frames.iter().take(MOST_FRAMES - VEHICLE - 1).enumerate() {
             frames[VEHICLE + 1 + i] = other.moving(frames, frames.time, step_middle_s);
         }
+    }
+
+    /// The vehicle, or space or the ground, that a frame belongs to: what carries it in the end.
+    pub(crate) fn belongs_to(&self, frame: Frame) -> Frame {
+        let parent = |frame: Frame| match frame {
+            Frame::Other(i) => self.frames.get(i)?.parent.map(|(parent, _)| parent),
+            _ => None,
+        };
+        // no frame carries itself
+        let all = std::iter::successors(Some(frame), |frame| parent(*frame)).take(MOST_FRAMES);
+        all.last().unwrap_or(frame)
+    }
+
+    /// Whether there is more than one body in one vehicle: whether any may be struck.
+    pub(crate) fn is_open(&self) -> bool {
+        let mut frames = self.surfaces.iter().map(|s| s.frame).chain(self.solids.iter().map(|s| s.frame));
+        !self.members.is_empty() || frames.any(|frame| matches!(self.belongs_to(frame), Frame::Other(_)))
     }
 
     /// Homes of the bodies.
@@ -314,6 +334,7 @@ impl Setup {
             belts: &self.belts,
             chains: &self.chains,
             bags: &self.bags,
+            columns: ColumnData { columns: &self.columns, gravity_m_s2: self.gravity_m_s2 },
             joints: &self.joints,
             limits: &self.joints,
             muscles: &self.joints,
@@ -344,6 +365,7 @@ impl SetupBuilder {
             belts: Vec::new(),
             chains: Vec::new(),
             bags: Vec::new(),
+            columns: Vec::new(),
             path: VehiclePath::parked(),
             frames: Vec::new(),
             members: Vec::new(),

@@ -35,7 +35,7 @@ impl<S: Scalar> Quat<S> {
 }
 
 /// Work sums of the force elements.
-pub(crate) const WORK_SUMS: usize = 6;
+pub(crate) const WORK_SUMS: usize = 7;
 
 /// Work that concerns a body since the start, for the energy ledger, J.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -453,14 +453,14 @@ mod tests {
     #[test]
     fn a_state_is_its_numbers() {
         let shape = Shape::of(&Layout::of(&TTI12));
-        let numbers: [f64; 77] = from_fn(|i| i as f64 + 0.5);
+        let numbers: [f64; 78] = from_fn(|i| i as f64 + 0.5);
         let state = State::from_numbers(shape, &numbers).unwrap();
         assert_eq!(state.numbers(), numbers);
         assert_eq!((state.orientation(7).v.z, state.hinge()[0]), (34.5, 35.5));
         assert_eq!((state.velocity().x, state.omega(7).z, state.hinge_rate()), (39.5, 65.5, &numbers[66..70]));
-        assert_eq!((state.work(0).sums[0], state.work(0).vehicle), (70.5, 76.5));
+        assert_eq!((state.work(0).sums[0], state.work(0).vehicle), (70.5, 77.5));
         assert_eq!(State::from_numbers(shape, &numbers[1..]), None);
         let owning = state.with_own(&[1.0, 2.0]);
-        assert_eq!((owning.own(), owning.work(0), owning.numbers().len()), (&[1.0, 2.0][..], state.work(0), 79));
+        assert_eq!((owning.own(), owning.work(0), owning.numbers().len()), (&[1.0, 2.0][..], state.work(0), 80));
     }
 }

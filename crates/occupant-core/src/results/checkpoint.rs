@@ -193,7 +193,7 @@ fn other_time(index: usize, found_s: f64, expected_s: Option<f64>) -> String {
 const STATE: &str = "in space axes, SI: T1; w, x, y, z of the free segments, the first and those on ball joints (of 12: middle_torso, \
 upper_torso, head, lower_torso, left_upper_arm, right_upper_arm, left_thigh, right_thigh); hinges (of 12: left_forearm, right_forearm, \
 left_lower_leg, right_lower_leg); velocity of T1; angular velocities of the free segments; hinge rates; work of contacts, friction, \
-joints, belts, muscles, bags, vehicle: of 12 segments 77 numbers, 75 without the muscles and bags in files of 0.1.0; then the numbers of bags, each scaled to the order of 1";
+joints, belts, muscles, bags, columns, vehicle: of 12 segments 78 numbers, 75 without the muscles, bags and columns in files of 0.1.0; then the numbers of bags and columns, each scaled to the order of 1";
 
 const STEP: &str =
     "start and end of the step in which the output lies, if it goes on beyond it; the columns below tell its start";
@@ -331,9 +331,11 @@ impl Checkpoint {
         let (shape, of) = (model.start().state.shape(), "numbers of the state");
         let misfit = Misfit::Count { of, found: numbers.len(), expected: shape.len() };
         let mut numbers = numbers.to_vec();
-        // older files have no work of bags, those of 0.1.0 none of muscles; both stand before that of the vehicle
+        // older files have no work of columns, before that none of bags, those of 0.1.0 none of muscles; all stand before that of the
+        // vehicle
         let missing = shape.len().saturating_sub(numbers.len());
-        if model.setup().bags.is_empty() && model.alone().is_empty() && (1..=2).contains(&missing) {
+        let owns_none = model.setup().bags.is_empty() && model.setup().columns.is_empty();
+        if owns_none && model.alone().is_empty() && (1..=3).contains(&missing) {
             let vehicle = numbers.len() - 1;
             numbers.splice(vehicle..vehicle, vec![0.0; missing]);
         }

@@ -1,5 +1,6 @@
 //! Force elements in results, kind by kind: what they draw, pull and tell at an output.
 
+use crate::forces::contact::surface::Frame;
 use crate::forces::shown::{Line, Named, Pull, Section, Shown};
 use crate::forces::table::Tables;
 use crate::forces::{Listed, Visitor, visit_kinds};
@@ -7,7 +8,7 @@ use crate::model::Model;
 use crate::model::setup::Member;
 use crate::results::sample::Sample;
 use crate::vehicle::FrameMotion;
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 
 impl Sample<'_> {
     /// The elements of one kind.
@@ -19,7 +20,16 @@ impl Sample<'_> {
             actions: E::actions(self.actions),
             body: model.body(),
             centre_m: &|sphere| at_home.sphere_centre_m(sphere),
+            place_m: &|frame, point_m| self.placed_m(frame, point_m),
         })
+    }
+
+    /// A point of a frame, axes of the first vehicle, m.
+    fn placed_m(&self, frame: Frame, point_m: Point3<f64>) -> Point3<f64> {
+        match frame {
+            Frame::Vehicle => point_m,
+            frame => self.vehicle.point_to_frame(self.frame(frame).point_to_space(point_m.coords)).into(),
+        }
     }
 
     /// Lines that pictures draw for force elements.

@@ -84,10 +84,9 @@ impl Run {
         let start_s = front.step.end_s;
         let mut breaks = self.breaks_s.iter().copied();
         let stop_s = breaks.find(|&b| b > start_s).unwrap_or(f64::INFINITY);
-        if self.effort.steps == 0 || self.breaks_s.contains(&start_s) {
-            // anywhere else the rate is that of the end of the step before
-            self.effort.evaluations += 1;
-        }
+        // the rate is then that of the end of the step before
+        let follows = self.effort.steps > 0 && !self.breaks_s.contains(&start_s);
+        self.effort.evaluations += u64::from(!follows);
         let mut was_rejected = false;
         // the end of the step, where it is to end behind a corner
         let mut behind_s = None;
@@ -101,7 +100,7 @@ impl Run {
                 // the clock no longer tells the step's ends apart
                 return Err(too_small(start_s, wanted_s, control, 0.0));
             }
-            front.look(model, step, &mut self.cursor);
+            front.look(model, step, follows, &mut self.cursor);
             let trial = front.attempt(model, step, &control.tolerance, &mut self.cursor);
             self.effort.evaluations += EVALUATIONS;
             if located.is_none() && trial.error.is_finite() {

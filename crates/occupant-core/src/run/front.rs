@@ -76,19 +76,22 @@ impl Front {
         if self.is_half_known {
             self.is_half_known = false;
             let step = self.step;
-            self.look(model, step, cursor);
+            let follows = step.start_s > model.setup().time.start_s && !breaks_s.contains(&step.start_s);
+            self.look(model, step, follows, cursor);
             let trial = self.attempt(model, step, tolerance, cursor);
             self.take_over(trial, step, breaks_s.contains(&step.end_s));
         }
     }
 
-    /// Evaluates the rate at the start of `step`, which begins where the front stands, unless it is known.
-    pub(super) fn look(&mut self, model: &Model, step: Step, cursor: &mut PathCursor) {
+    /// Evaluates the rate at the start of `step`, which begins where the front stands, unless it is known; `follows`: as the end of
+    /// the step before, at no break.
+    pub(super) fn look(&mut self, model: &Model, step: Step, follows: bool, cursor: &mut PathCursor) {
         if self.rate_is_known {
             return;
         }
         self.rate_is_known = true;
-        let middle_s = 0.5 * (step.start_s + step.end_s);
+        let half_s = 0.5 * step.length_s();
+        let middle_s = step.start_s + if follows { -half_s } else { half_s };
         model.move_frames(&mut self.frames, step.start_s, middle_s, cursor);
         let system = model.system();
         self.met.clear();

@@ -138,12 +138,13 @@ impl Run {
         let path = &model.setup().path;
         let vehicle = path.motion(t, t, &mut self.cursor);
         let vehicle_pose = path.attitude(t, &mut self.cursor);
-        let frames = model.frames_with(t, t, &vehicle);
+        let mut frames = model.frames_with(t, t, &vehicle);
         let homes = model.homes(&frames, &vehicle);
         let system = model.system();
         self.actions.clear();
         let evaluation =
             system.evaluate(Situation::accepted(&self.state, &frames), &mut self.history, &mut self.actions);
+        system.carry(&self.state, &mut frames);
         for touch in &self.actions.contacts {
             self.seen.note(model, t, touch.into());
         }

@@ -81,8 +81,9 @@ pub enum VehiclePath {
 /// are not refused for their last digit. The motion coasts there.
 const TIME_SLACK: f64 = 1e-9;
 
-/// How far within a step, of its half, the accelerations at its ends are taken.
-const WITHIN: f64 = 1e-6;
+/// How far within a step the accelerations at its ends are taken, s: at the end of one step as at the beginning of any other that the
+/// same instant ends.
+const WITHIN_S: f64 = 1e-10;
 
 impl VehiclePath {
     /// A vehicle at rest, level, heading forward, its c.g. at the origin.
@@ -113,7 +114,8 @@ impl VehiclePath {
 
     /// [`VehiclePath::motion`] with accelerations that are those within the step, where they jump at one of its ends.
     pub fn motion_within(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> FrameMotion {
-        let within = self.motion(t_s + WITHIN * (step_middle_s - t_s), step_middle_s, cursor);
+        let inwards_s = (step_middle_s - t_s).clamp(-WITHIN_S, WITHIN_S);
+        let within = self.motion(t_s + inwards_s, step_middle_s, cursor);
         FrameMotion {
             acceleration_m_s2: within.acceleration_m_s2,
             angular_acceleration_rad_s2: within.angular_acceleration_rad_s2,

@@ -16,6 +16,7 @@ use occupant_core::body::Body;
 use occupant_core::forces::bag::{AMBIENT, Bag, GAS_CONSTANT_J_MOL_K, Gas, Inflator, Leakage, Shape, Vent};
 use occupant_core::forces::chain::NEVER;
 use occupant_core::forces::contact::material::DEFAULT_FRICTION_SPEED_M_S;
+use occupant_core::forces::contact::surface::Frame;
 use placed_text::with_key;
 
 /// An ideal gas.
@@ -44,7 +45,9 @@ pub(crate) struct BagSection {
     pub(crate) delay: Option<Time<NOT_NEGATIVE>>,
     /// Time from then until its envelope is unfolded; its volume grows evenly from 2 %.
     pub(crate) deploy: Time<POSITIVE>,
-    /// Where it is fixed and unfolds from, vehicle axes.
+    /// What it is fixed to: "vehicle", or the name of a frame of the first vehicle, such as a column; "vehicle" if absent.
+    pub(crate) frame: Option<String>,
+    /// Where it is fixed and unfolds from, axes of its frame.
     pub(crate) mount: [Length; 3],
     /// A driver's bag: from a plane through its mount to a face of a ball.
     pub(crate) dome: Option<DomeSection>,
@@ -81,7 +84,7 @@ pub(crate) struct BagSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DomeSection {
-    /// Direction towards the occupant, vehicle axes; any length.
+    /// Direction towards the occupant, axes of its frame; any length.
     pub(crate) axis: [Ratio; 3],
     /// From the mount to the middle of the face.
     pub(crate) depth: Length<POSITIVE>,
@@ -97,7 +100,7 @@ pub(crate) struct DomeSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BallSection {
-    /// Its middle, vehicle axes.
+    /// Its middle, axes of its frame.
     pub(crate) centre: [Length; 3],
     /// Its radius.
     pub(crate) radius: Length<POSITIVE>,
@@ -107,7 +110,7 @@ pub(crate) struct BallSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BagCapsuleSection {
-    /// Ends of the line, vehicle axes.
+    /// Ends of the line, axes of its frame.
     pub(crate) ends: [[Length; 3]; 2],
     /// How near.
     pub(crate) radius: Length<POSITIVE>,
@@ -207,6 +210,7 @@ impl Parts<'_> {
         ];
         Some(Bag {
             name: name.to_owned(),
+            frame: self.frame(b, &path, s),
             mount_m: point(&s.mount),
             shape,
             volume_m3: si_or(&s.volume, shape.volume_m3()),
@@ -221,6 +225,17 @@ impl Parts<'_> {
             friction_speed_m_s: si_or(&s.friction_speed, DEFAULT_FRICTION_SPEED_M_S),
             spheres: spheres(b, &path, s, body),
         })
+    }
+
+    /// What it is fixed to.
+    fn frame(&self, b: &mut Builder, path: &str, s: &BagSection) -> Frame {
+        let at = with_key(path, "frame");
+        let frame = b.frame(self.scenario, &at, s.frame.as_deref());
+        if self.scenario.vehicle_of(frame) != Some(Frame::Vehicle) {
+            let found = format!("`{}`, which is no part of the first vehicle", s.frame.as_deref().unwrap_or_default());
+            b.error(&at, found, "\"vehicle\", or a frame that moves with it: other bags there are not");
+        }
+        frame
     }
 
     /// When something is due that waits for a trigger.

@@ -6,10 +6,11 @@ use serde::{Deserialize, Serialize};
 
 use super::builder::{Builder, index_of};
 use super::path::{self, PathSection};
-use super::quantity::{point, si_or};
+use super::quantity::{NOT_NEGATIVE, POSITIVE, point, si_or};
 use super::solids::SolidSection;
-use super::{Length, Scenario};
+use super::{Force, Length, Mass, Ratio, Scenario, Stiffness};
 use occupant_core::forces::contact::surface::{Facing, Frame, Outline, Surface};
+use occupant_core::forces::function::{Beyond, Shape};
 use occupant_core::model::setup::OtherFrame;
 use occupant_core::motion::frame::MOST_FRAMES;
 use occupant_core::vehicle::VehiclePath;
@@ -34,17 +35,47 @@ pub(crate) struct GroundSection {
     pub(crate) below: Option<Length>,
 }
 
-/// A frame that moves within another, such as an intruding panel. Geometry on it is given in the axes of its parent, where it is
-/// before it moves.
+/// A frame that moves within another: an intruding panel, or a steering column that gives way. Geometry on it is given in the axes
+/// of its parent, where it is before it moves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("x-together" = [["stroke", "force"]]))]
 pub(crate) struct FrameSection {
-    /// What it moves against: a vehicle, or a frame above it; "vehicle" if absent.
+    /// A panel, which moves as `path` says, or a column, which goes along `axis` where bodies and bags push it; "panel" if absent.
+    pub(crate) kind: Option<FrameKind>,
+    /// What it moves against: a vehicle, or a panel above it; "vehicle" if absent.
     pub(crate) parent: Option<String>,
-    /// The point of the parent about which it turns; [0, 0, 0] if absent.
+    /// The point of the parent about which a panel turns, or the middle of the mass that strokes; [0, 0, 0] if absent.
     pub(crate) origin: Option<[Length; 3]>,
-    /// How it is moved from where its geometry is given, along the parent's axes.
-    pub(crate) path: PathSection,
+    /// How a panel is moved from where its geometry is given, along the parent's axes.
+    pub(crate) path: Option<PathSection>,
+    /// The way that a column gives, along the parent's axes; any length.
+    pub(crate) axis: Option<[Ratio; 3]>,
+    /// Mass of all that strokes with a column.
+    pub(crate) mass: Option<Mass<POSITIVE>>,
+    /// Strokes of a column, from 0 on.
+    pub(crate) stroke: Option<Vec<Length<NOT_NEGATIVE>>>,
+    /// Force at each that makes it give; may fall. A last interval in which it rises is the end of the stroke.
+    pub(crate) force: Option<Vec<Force<NOT_NEGATIVE>>>,
+    /// What the force is between points; "lines" if absent.
+    pub(crate) shape: Option<Shape>,
+    /// What it is beyond the last; "extends" if absent.
+    pub(crate) beyond: Option<Beyond>,
+    /// Unloads and loads again with this slope, no less than the greatest of the force, which it is if absent.
+    pub(crate) unload_slope: Option<Stiffness<POSITIVE>>,
+    /// Name of a column of the library, which gives all that is not said beside it.
+    #[schemars(extend("enum" = ["column_1969"]))]
+    pub(crate) library: Option<String>,
+}
+
+/// What a frame is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum FrameKind {
+    /// It moves as it is told.
+    Panel,
+    /// It goes where it is pushed, and stays there.
+    Column,
 }
 
 /// Who meets a surface or solid.
@@ -156,6 +187,41 @@ pub(super) fn frames(b: &mut Builder, s: &Scenario, gravity_m_s2: f64) -> Vec<Ot
     if !is_needed && !names.flatten().any(|name| name == GROUND) {
         return Vec::new();
     }
+    check_names(b, s);
+    let mut list = Vec::new();
+    for (name, section) in s.other_vehicles() {
+        let path = moving(b, &["vehicles", name, "path"], &section.path, gravity_m_s2);
+        list.extend(path.map(|path| OtherFrame { name: name.clone(), path, parent: None }));
+    }
+    list.push(OtherFrame { name: GROUND.to_owned(), path: VehiclePath::parked(), parent: None });
+    for (name, section) in &s.frames {
+        let at = with_key("frames", name);
+        section.check_keys(b, &at);
+        let parent = b.frame(s, &with_key(&at, "parent"), section.parent.as_deref());
+        let own = list.len();
+        if matches!(parent, Frame::Other(i) if i >= own) || matches!(parent, Frame::Segment(_)) {
+            let expected = "a vehicle, or a frame that stands above it: no frame moves against itself";
+            b.error(&with_key(&at, "parent"), format!("`{name}` hangs on one that does not stand before it"), expected);
+        }
+        let origin_m = section.origin.as_ref().map_or_else(Point3::origin, point);
+        let own = section.path.as_ref().filter(|_| !section.is_column());
+        let path =
+            own.map_or(Some(VehiclePath::parked()), |own| moving(b, &["frames", name, "path"], own, gravity_m_s2));
+        list.extend(path.map(|path| OtherFrame { name: name.clone(), path, parent: Some((parent, origin_m)) }));
+    }
+    let most = MOST_FRAMES - 2;
+    if list.len() > most {
+        b.error(
+            "frames",
+            format!("{} frames beside space and the first vehicle", list.len()),
+            format!("at most {most}, the ground among them"),
+        );
+    }
+    list
+}
+
+/// Reports names of vehicles, frames and loose bodies that are taken.
+fn check_names(b: &mut Builder, s: &Scenario) {
     let known = s.frame_names();
     for (i, name) in known.iter().enumerate() {
         let is_taken = known[..i].contains(name) || [VEHICLE, "space"].contains(name) || s.loose.contains_key(*name);
@@ -170,33 +236,6 @@ pub(super) fn frames(b: &mut Builder, s: &Scenario, gravity_m_s2: f64) -> Vec<Ot
             );
         }
     }
-    let mut list = Vec::new();
-    for (name, section) in s.other_vehicles() {
-        let path = moving(b, &["vehicles", name, "path"], &section.path, gravity_m_s2);
-        list.extend(path.map(|path| OtherFrame { name: name.clone(), path, parent: None }));
-    }
-    list.push(OtherFrame { name: GROUND.to_owned(), path: VehiclePath::parked(), parent: None });
-    for (name, section) in &s.frames {
-        let at = with_key("frames", name);
-        let parent = b.frame(s, &with_key(&at, "parent"), section.parent.as_deref());
-        let own = list.len();
-        if matches!(parent, Frame::Other(i) if i >= own) || matches!(parent, Frame::Segment(_)) {
-            let expected = "a vehicle, or a frame that stands above it: no frame moves against itself";
-            b.error(&with_key(&at, "parent"), format!("`{name}` hangs on one that does not stand before it"), expected);
-        }
-        let origin_m = section.origin.as_ref().map_or_else(Point3::origin, point);
-        let path = moving(b, &["frames", name, "path"], &section.path, gravity_m_s2);
-        list.extend(path.map(|path| OtherFrame { name: name.clone(), path, parent: Some((parent, origin_m)) }));
-    }
-    let most = MOST_FRAMES - 2;
-    if list.len() > most {
-        b.error(
-            "frames",
-            format!("{} frames beside space and the first vehicle", list.len()),
-            format!("at most {most}, the ground among them"),
-        );
-    }
-    list
 }
 
 /// The path that stands at `at`.

@@ -9,6 +9,7 @@ mod body;
 mod body_joints;
 mod builder;
 mod chains;
+mod columns;
 mod frames;
 mod functions;
 mod heading;
@@ -147,7 +148,7 @@ pub struct Scenario {
     pub(crate) vehicles: IndexMap<String, VehicleSection>,
     /// The ground.
     pub(crate) ground: Option<GroundSection>,
-    /// Frames that move within a vehicle, such as intruding panels, by name. A surface or solid says `frame` = that name.
+    /// Frames that move within a vehicle by name: intruding panels, steering columns that give way. A surface or solid says `frame` = that name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) frames: IndexMap<String, FrameSection>,
     /// Several occupants by name (small letters, digits, `_`), instead of `body`, `joints` and what else is one occupant's own.

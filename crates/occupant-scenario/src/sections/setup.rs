@@ -8,8 +8,8 @@ use serde::Deserialize;
 use super::builder::Builder;
 use super::quantity::si_or;
 use super::{
-    BodySection, JointsSection, Scenario, bags, belts, body, chains, frames, joints, materials, mount, muscles, path,
-    plausible, posture, run, self_contact, solids, surfaces, triggers,
+    BodySection, JointsSection, Scenario, bags, belts, body, chains, columns, frames, joints, materials, mount,
+    muscles, path, plausible, posture, run, self_contact, solids, surfaces, triggers,
 };
 use crate::check::references;
 use occupant_core::body::Body;
@@ -54,6 +54,7 @@ pub(crate) fn setup(
     let gravity_m_s2 = si_or(&explicit.gravity, STANDARD_GRAVITY_M_S2);
     let path = first_path(b, explicit, path_table, gravity_m_s2);
     let frames = frames::frames(b, explicit, gravity_m_s2);
+    let columns = columns::columns(b, explicit, &frames);
     let (mut chains, mut bags) = (Vec::new(), Vec::new());
     if let Some(path) = &path {
         let triggers = triggers::triggers(b, explicit, path, &time);
@@ -78,6 +79,7 @@ pub(crate) fn setup(
         belts,
         chains,
         bags,
+        columns,
         path,
         frames,
         members: Vec::new(),

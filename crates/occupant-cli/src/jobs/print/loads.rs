@@ -16,7 +16,9 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units, sample: &Sampl
     forces(case, units, sample).write(pages);
     application_points(units, sample).write(pages);
     ELEMENTS.iter().for_each(|element| (element.output)(pages, units, sample));
-    bags(pages, units, sample);
+    for (of, title) in [("bag", "AIR BAG"), ("column", "COLUMN")] {
+        named(pages, units, sample, of, title);
+    }
     joints(pages, sample);
     energy(pages, units, sample);
 }
@@ -73,15 +75,15 @@ fn application_points(units: Units, s: &Sample<'_>) -> Table {
     table
 }
 
-/// What every bag does, where there are any.
-fn bags(pages: &mut Pages, units: Units, s: &Sample<'_>) {
-    for bag in s.model.named("bag") {
-        let all = matching(s.model, &format!("bag.{}.*", bag.name));
-        let head = |name: &str| energy_head(name.rsplit(&format!("{}.", bag.name)).next().unwrap_or(name));
+/// What every element of the kind called `of` does, where there are any.
+fn named(pages: &mut Pages, units: Units, s: &Sample<'_>, of: &str, title: &str) {
+    for one in s.model.named(of) {
+        let all = matching(s.model, &format!("{of}.{}.*", one.name));
+        let head = |name: &str| energy_head(name.rsplit(&format!("{}.", one.name)).next().unwrap_or(name));
         let heads: Vec<String> = all.iter().map(|channel| head(&channel.name)).collect();
         let mut names: Vec<String> = all.iter().map(|channel| units.of(channel.unit).name()).collect();
         names.dedup();
-        let mut table = Table::new(format!("AIR BAG {} ({})", bag.name, names.join(", ")), &heads.join("|"));
+        let mut table = Table::new(format!("{title} {} ({})", one.name, names.join(", ")), &heads.join("|"));
         table.row(all.iter().map(|channel| units.of(channel.unit).show(channel.value(s))));
         table.write(pages);
     }

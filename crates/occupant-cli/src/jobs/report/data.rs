@@ -147,30 +147,36 @@ fn spheres(results: &Results) -> Vec<SphereData> {
 fn surfaces(results: &Results) -> Vec<SurfaceData> {
     let model = &results.model;
     let all = model.setup().surfaces.iter().zip(model.faces());
-    all.filter(|(_, face)| is_shown(results, face.frame))
-        .map(|(surface, face)| {
-            let bounded = !matches!(face.outline, Outline::Unbounded { .. });
-            let (frame, turned) = shown_in(face.frame);
-            let follows = !bounded && face.frame != Frame::Vehicle;
-            let foot = face.normal * face.offset_m;
-            // a patch that follows the vehicle moves along the plane from its foot below the origin
-            let corners = if follows { square_m(face, foot.into(), PATCH_M) } else { corners_m(face) };
-            SurfaceData {
-                name: surface.name.clone(),
-                frame,
-                bounded,
-                material: surface.material,
-                corners: corners.into_iter().map(|p| turned(p.into())).collect(),
-                normal: turned(face.normal.into()),
-            }
-        })
-        .collect()
+    all.map(|(surface, face)| {
+        if !is_shown(results, face.frame) {
+            return SurfaceData::hidden(&surface.name, surface.material);
+        }
+        let bounded = !matches!(face.outline, Outline::Unbounded { .. });
+        let (frame, turned) = shown_in(face.frame);
+        let follows = !bounded && face.frame != Frame::Vehicle;
+        let foot = face.normal * face.offset_m;
+        // a patch that follows the vehicle moves along the plane from its foot below the origin
+        let corners = if follows { square_m(face, foot.into(), PATCH_M) } else { corners_m(face) };
+        SurfaceData {
+            name: surface.name.clone(),
+            frame,
+            bounded,
+            material: surface.material,
+            corners: corners.into_iter().map(|p| turned(p.into())).collect(),
+            normal: turned(face.normal.into()),
+        }
+    })
+    .collect()
 }
 
 /// The first sides of all solids, then the others.
 fn sides(results: &Results) -> Vec<SurfaceData> {
     let (mut first, mut others) = (Vec::new(), Vec::new());
-    for solid in results.model.setup().solids.iter().filter(|solid| is_shown(results, solid.frame)) {
+    for solid in &results.model.setup().solids {
+        if !is_shown(results, solid.frame) {
+            first.push(SurfaceData::hidden(&solid.name, solid.material));
+            continue;
+        }
         let mut sides = solid.outline().into_iter();
         first.extend(sides.next().map(|side| SurfaceData::side(solid, &solid.name, &side)));
         others.extend(sides.map(|side| SurfaceData::side(solid, "", &side)));
@@ -180,6 +186,19 @@ fn sides(results: &Results) -> Vec<SurfaceData> {
 }
 
 impl SurfaceData {
+    /// A name that contacts speak of, of what moves within a vehicle or is a loose body's: nothing to see, like a patch of no size.
+    fn hidden(name: &str, material: usize) -> Self {
+        let none = [0.0; 3];
+        SurfaceData {
+            name: name.to_owned(),
+            frame: "space",
+            bounded: false,
+            material,
+            corners: vec![none; 3],
+            normal: none,
+        }
+    }
+
     fn side(solid: &Solid, name: &str, corners: &[Point3<f64>]) -> Self {
         let (frame, turned) = shown_in(solid.frame);
         let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).normalize();
@@ -198,7 +217,10 @@ impl SurfaceData {
 fn is_shown(results: &Results, frame: Frame) -> bool {
     match frame {
         Frame::Vehicle | Frame::Space => true,
-        Frame::Other(i) => matches!(results.model.setup().frames[i].path, VehiclePath::Fixed(_)),
+        Frame::Other(i) => {
+            let frame = &results.model.setup().frames[i];
+            frame.parent.is_none() && matches!(frame.path, VehiclePath::Fixed(_))
+        }
         Frame::Segment(_) => false,
     }
 }

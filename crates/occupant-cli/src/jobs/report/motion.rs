@@ -1,6 +1,7 @@
 //! The motion, output by output: poses, lines of force elements, contacts.
 
 use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
+use occupant_core::forces::contact::surface::Frame;
 use occupant_core::forces::shown::{Line, Section};
 use occupant_core::model::Model;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
@@ -8,6 +9,7 @@ use occupant_core::results::sample::Sample;
 use serde::Serialize;
 
 use super::array::Array;
+use crate::files::mcap::scene::compartment::corners_m;
 
 /// Points of a line at every output.
 const LINE_POINTS: usize = 20;
@@ -63,6 +65,7 @@ impl Recorder for Motion {
         add_pose(&mut self.vehicle, turned * sample.vehicle.origin_m, &turn);
         let mut lines = sample.lines();
         lines.extend(sample.sections().into_iter().map(closed));
+        lines.extend(moving(sample).into_iter().map(closed));
         self.lines.resize_with(lines.len(), MovingLine::default);
         for (moving, line) in self.lines.iter_mut().zip(lines) {
             moving.points.float32(evenly(&line.points_m).iter().flat_map(|p| [p.x, p.y, p.z]));
@@ -72,6 +75,22 @@ impl Recorder for Motion {
         self.contacts.add(sample);
         Ok(Flow::Continue)
     }
+}
+
+/// Edges of the surfaces and solids that move within a vehicle, for which the page has no plates.
+fn moving(sample: &Sample<'_>) -> Vec<Section> {
+    let setup = sample.model.setup();
+    let moves = |frame: Frame| matches!(frame, Frame::Other(i) if setup.frames[i].parent.is_some());
+    let faces = setup.surfaces.iter().zip(sample.model.faces());
+    let faces = faces.map(|(surface, face)| (&surface.name, face.frame, corners_m(face)));
+    let solids = setup.solids.iter().map(|solid| (&solid.name, solid.frame, solid.edge()));
+    let all = faces.chain(solids).filter(|(_, frame, _)| moves(*frame));
+    all.map(|(name, frame, corners_m)| {
+        let motion = sample.frame(frame);
+        let placed = |p: &Point3<f64>| sample.vehicle.point_to_frame(motion.point_to_space(p.coords)).into();
+        Section { name: name.clone(), corners_m: corners_m.iter().map(placed).collect() }
+    })
+    .collect()
 }
 
 /// A section as a line round it.

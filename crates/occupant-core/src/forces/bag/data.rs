@@ -3,6 +3,7 @@
 use nalgebra::{Point3, Vector3};
 
 use crate::forces::chain::NEVER;
+use crate::forces::contact::surface::Frame;
 
 /// R_u, J/(mol·K) (exact, SI of 2019).
 pub const GAS_CONSTANT_J_MOL_K: f64 = 8.314_462_618_153_24;
@@ -69,7 +70,9 @@ impl Gas {
 pub struct Bag {
     /// Its name.
     pub name: String,
-    /// Where it is fixed and unfolds from, vehicle axes, m.
+    /// What it is fixed to.
+    pub frame: Frame,
+    /// Where it is fixed and unfolds from, axes of its frame, m.
     pub mount_m: Point3<f64>,
     /// Shape when it is full.
     pub shape: Shape,

@@ -16,7 +16,6 @@ use super::shape::{ShapeLaw, displaced, size};
 use super::unfold::Unfolded;
 use crate::forces::decay::decay;
 use crate::forces::element::Instant;
-use crate::motion::frame::VEHICLE;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
@@ -85,7 +84,7 @@ impl<S: Scalar> Pressed<S> {
 impl EnvelopeLaw<f64> {
     pub(super) fn new(bag: &Bag) -> Self {
         EnvelopeLaw {
-            frame: VEHICLE,
+            frame: bag.frame.index(&[]),
             mount: V3::of(&bag.mount_m.coords),
             shape: ShapeLaw::new(bag),
             volume: bag.volume_m3,

@@ -12,7 +12,7 @@ use crate::forces::shown::Section;
 /// Steps of a quarter of a circle.
 const QUARTER: usize = 6;
 
-/// Sections of a bag all of whose lengths are `scale` times the full ones, vehicle axes.
+/// Sections of a bag all of whose lengths are `scale` times the full ones, axes of its frame.
 pub(super) fn sections(bag: &Bag, scale: f64) -> Vec<Section> {
     let mount = bag.mount_m;
     let place = |point: Point3<f64>| mount + (point - mount) * scale;

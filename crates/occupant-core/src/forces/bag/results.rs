@@ -219,7 +219,14 @@ impl Reported for Bags {
 
     fn sections(shown: &Shown<'_, Self>) -> Vec<Section> {
         let both = shown.data.iter().zip(shown.actions);
-        both.flat_map(|(bag, action)| outline::sections(bag, action.scale)).collect()
+        let sections = both.flat_map(|(bag, action)| {
+            let own = outline::sections(bag, action.scale).into_iter();
+            own.map(|section| Section {
+                corners_m: section.corners_m.iter().map(|corner| (shown.place_m)(bag.frame, *corner)).collect(),
+                ..section
+            })
+        });
+        sections.collect()
     }
 
     fn pulls(shown: &Shown<'_, Self>, show: &mut dyn FnMut(&Pull<'_>)) {

@@ -149,7 +149,7 @@ impl Function {
     }
 
     /// The greatest slope between its points.
-    pub(super) fn steepest_loading(&self) -> f64 {
+    pub(crate) fn steepest_loading(&self) -> f64 {
         self.slopes().fold(0.0, |most: f64, (slope, _)| most.max(slope))
     }
 

@@ -165,7 +165,7 @@ impl JointSystem<f64> {
 impl<S: Scalar> JointSystem<S> {
     /// Their loads alone.
     pub fn loads(&self, k: &Kinematics<S>, state: &State<S>, layout: &Layout) -> Load<S> {
-        let mut load = Load::zero(layout);
+        let mut load = Load::zero(layout, []);
         self.apply(k, state, &mut load, &mut |_| {});
         load
     }

@@ -1,6 +1,7 @@
 //! Checks of a [`Setup`] that need no geometry: every number finite and in its admissible range, every reference good.
 
 mod body;
+mod columns;
 mod path;
 mod time;
 
@@ -24,6 +25,7 @@ pub(crate) fn check(setup: &Setup, problems: &mut Problems) {
         return;
     }
     body::check_body(&setup.body, problems);
+    columns::check(setup, problems);
     setup.forces(&[]).check(&setup.body, problems);
     time::check_time(&setup.time, &setup.integrator, problems);
     check_posture(&setup.posture, problems);

@@ -134,6 +134,14 @@ impl Caveat {
         Caveat::new(format!("{belt}_limiter_bottomed"), text, vec![format!("straps.{belt}.*")])
     }
 
+    /// A column that stroked farther than its force is known.
+    pub(super) fn stroked(column: &str, beyond: Peak, last_m: f64) -> Self {
+        let (way, last) = (mm(last_m + beyond.value), mm(last_m));
+        let text =
+            format!("{column} stroked {way} {}, its force ends at {last}; {}", at(beyond), not_to_be_quoted("its"));
+        Caveat::new(format!("{column}_beyond_stroke"), text, vec![format!("columns.{column}.*")])
+    }
+
     /// A sphere that was in the way of a bag when it fired, or pressed it in as far as its mount or its middle.
     pub(super) fn of_bag(body: &Body, sphere: usize, sign: &str, bag: &str, time_s: f64) -> Self {
         let at = format!("at {:.1} ms", 1e3 * time_s);

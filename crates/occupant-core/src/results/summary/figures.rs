@@ -53,7 +53,7 @@ impl Summary {
             }
         }
         let several = |name: &str| if name.is_empty() { String::new() } else { format!("{name}.") };
-        for body in model.body().tree.bodies().iter().filter(|_| !model.setup().frames.is_empty()) {
+        for body in model.body().tree.bodies().iter().filter(|_| model.setup().is_open()) {
             let (prefix, throw) = (several(body.name), self.throws.get(body.name));
             let landing = throw.and_then(|throw| throw.landing.as_ref());
             list.add(format!("{prefix}throw.struck_time"), Second, throw.map(|t| t.struck_s));

@@ -11,6 +11,7 @@ mod figures;
 mod peak;
 mod person;
 mod signs;
+mod strokes;
 mod summarizer;
 mod throw;
 

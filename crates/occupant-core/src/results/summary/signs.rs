@@ -2,6 +2,7 @@
 
 use super::caveat::{Caveat, Turned};
 use super::peak::Peak;
+use super::strokes::Strokes;
 use crate::body::{Body, Segment};
 use crate::forces::bag::Bag;
 use crate::forces::chain::Chain;
@@ -47,6 +48,7 @@ pub(super) struct Signs {
     run_out: Vec<Peak>,
     /// By bag and by its spheres: when it fired with the sphere in its way, and when the sphere pressed it in as far as its mount, s.
     bags: Vec<Vec<[Option<f64>; 2]>>,
+    strokes: Strokes,
     /// By what pairs remember, of bars and rims.
     normals: Vec<Option<Bar>>,
     /// By segment: how far from its spheres it went through a surface.
@@ -106,6 +108,7 @@ impl Signs {
             stretched: vec![Peak::NONE; model.setup().chains.iter().map(|chain| chain.straps.len()).sum()],
             run_out: vec![Peak::NONE; model.setup().chains.len()],
             bags: model.setup().bags.iter().map(|bag| vec![[None; 2]; bag.spheres.len()]).collect(),
+            strokes: Strokes::new(model),
             normals: vec![None; model.start().history.memory.contacts.len()],
             deep: spheres,
             cuts: vec![Sunk::NONE; body.tree.segments().len()],
@@ -141,6 +144,7 @@ impl Signs {
         }
         self.see_chains(sample);
         self.see_bags(sample);
+        self.strokes.see(sample);
         if !self.is_begun || time_s - self.seen_s >= LOOK_S {
             for group in &model.system().forces.contacts.groups {
                 self.see_group(sample, group);
@@ -269,7 +273,12 @@ impl Signs {
         let beyond = worst_of_parts(body, beyond).into_iter();
         let beyond = beyond.map(|(s, sunk)| Caveat::beyond_curve(body, s, name(sunk), sunk.most, self.beyond[s].1));
         let of_sphere = passed.chain(deep).chain(bottomed).chain(beyond).chain(through).chain(cuts);
-        joints.chain(of_sphere).chain(self.of_chains(chains)).chain(self.of_bags(body, bags)).collect()
+        joints
+            .chain(of_sphere)
+            .chain(self.of_chains(chains))
+            .chain(self.of_bags(body, bags))
+            .chain(self.strokes.caveats())
+            .collect()
     }
 
     /// What to know of belts over several nodes.

@@ -51,7 +51,8 @@ pub struct Landing {
 pub(super) struct Flight {
     of: usize,
     pub name: &'static str,
-    home: usize,
+    /// Frames that belong to its home.
+    homes: Vec<usize>,
     /// Frames that stand still: space and the ground.
     still: [usize; 2],
     struck: Option<(f64, Vector3<f64>)>,
@@ -64,17 +65,21 @@ pub(super) struct Flight {
 }
 
 impl Flight {
-    /// Those of all bodies of a model that has more frames than the vehicle's and space.
+    /// Those of all bodies of a model in which they may be struck.
     pub(super) fn all(model: &Model) -> Vec<Flight> {
         let setup = model.setup();
-        if setup.frames.is_empty() {
+        if !setup.is_open() {
             return Vec::new();
         }
         let ground = setup.frames.iter().position(|frame| frame.name == "ground").map_or(Frame::Space, Frame::Other);
+        let with_home = |home: Frame| {
+            let others = (0..setup.frames.len()).map(Frame::Other).filter(|frame| setup.belongs_to(*frame) == home);
+            [home].into_iter().chain(others).map(|frame| frame.index(&[])).collect()
+        };
         let body = |((of, row), home): ((usize, crate::body::tree::BodyRow), Frame)| Flight {
             of,
             name: row.name,
-            home: home.index(&[]),
+            homes: with_home(home),
             still: [SPACE, ground.index(&[])],
             struck: None,
             highest_m: 0.0,
@@ -93,7 +98,8 @@ impl Flight {
             sample.actions.contacts.iter().filter(move |touch| own(touch.sphere))
         };
         self.now = sample.centre_of_body(self.of);
-        let is_struck = touches().any(|touch| touch.frame != self.home && !system.forces.contacts.is_of_bodies(touch));
+        let is_struck =
+            touches().any(|touch| !self.homes.contains(&touch.frame) && !system.forces.contacts.is_of_bodies(touch));
         if self.struck.is_none() && is_struck {
             self.struck = Some((time_s, self.now.0));
         }

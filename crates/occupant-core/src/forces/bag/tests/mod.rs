@@ -8,6 +8,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::*;
 use crate::body::tti12::TTI12;
+use crate::forces::contact::surface::Frame;
 use crate::forces::element::Load;
 use crate::forces::sphere::Site;
 use crate::motion::frame::Frames;
@@ -25,6 +26,7 @@ const IDEAL: Gas = Gas { r_j_kg_k: 296.8, a_j_kg_k: 296.8 * 3.5, b_j_kg_k2: 0.0 
 fn closed() -> Bag {
     Bag {
         name: "bag".to_owned(),
+        frame: Frame::Vehicle,
         mount_m: Point3::origin(),
         shape: Shape::Capsule { ends_m: [Point3::new(0.0, -0.3, 0.0), Point3::new(0.0, 0.3, 0.0)], radius_m: 0.16 },
         volume_m3: 0.06,
@@ -89,7 +91,7 @@ impl Rig {
         let state = State::zero(StateShape::new(0, 0)).with_own(own);
         let frames = Frames::still(time);
         let at = Instant { k: &k, state: &state, frames: &frames, carried: &[], spheres: &spheres, accepted };
-        let (mut load, actions) = (Load::zero(&Layout::of(&TTI12)), &mut self.actions);
+        let (mut load, actions) = (Load::zero(&Layout::of(&TTI12), []), &mut self.actions);
         actions.clear();
         Bags::apply(&self.law, &at, &mut self.past, &mut (), &mut load, &mut |action| actions.push(*action));
         let acceleration = self.mass.map_or(0.0, |mass| load.wrench[0].force.z / mass - self.gravity);

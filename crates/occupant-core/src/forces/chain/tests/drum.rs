@@ -83,7 +83,7 @@ impl Drum {
 
 /// An accepted step.
 fn commit(law: &ChainLaw<f64>, at: &Instant<'_, f64>, past: &mut ChainPast<f64>) {
-    let (at, mut load) = (Instant { accepted: true, ..*at }, Load::zero(&Layout::of(&TTI12)));
+    let (at, mut load) = (Instant { accepted: true, ..*at }, Load::zero(&Layout::of(&TTI12), []));
     Chains::apply(&vec![law.clone()], &at, std::slice::from_mut(past), &mut (), &mut load, &mut |_| {});
 }
 

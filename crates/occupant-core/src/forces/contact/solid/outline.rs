@@ -37,6 +37,16 @@ impl Solid {
         let polygons = between(&corners, -ends[1] - rounding, ends[0] + rounding);
         polygons.iter().map(|polygon| polygon.iter().map(place).collect()).collect()
     }
+
+    /// A closed line that tells where it is, frame axes, m: the middle of a rim's tube, one end of what has ends.
+    pub fn edge(&self) -> Vec<Point3<f64>> {
+        let Ok(shape) = build(&self.shape) else { return Vec::new() };
+        let form = &shape.whole;
+        let Section::Ring(ring) = form.section else { return self.outline().into_iter().next().unwrap_or_default() };
+        let axes = form.axes.to_matrix();
+        let place = |[c, s]: [f64; 2]| form.centre.to_vector() + axes * Vector3::new(c * ring, s * ring, 0.0);
+        circle(ROUND).map(|point| place(point).into()).collect()
+    }
 }
 
 /// Points of a unit circle, counter-clockwise.

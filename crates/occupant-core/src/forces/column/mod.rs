@@ -1,0 +1,184 @@
+//! Steering columns that give way: a frame with a mass, which bodies and bags push along an axis.
+//!
+//! The state owns place and speed of each (`law`), and the work that it takes up. A column carries its frame before anything
+//! acts on it; what pushes that frame is gathered by body (`Load::push`) and acts on the column after all others. What it
+//! remembers (`past`) is its greatest stroke, which stays.
+
+mod check;
+mod data;
+mod law;
+mod past;
+mod results;
+
+use crate::body::Body;
+use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkSum};
+use crate::forces::list::STORES;
+use crate::forces::rate::Rate;
+use crate::forces::sphere::Site;
+use crate::motion::frame::Frames;
+use crate::motion::mobility::Mobility;
+use crate::motion::scalar::Scalar;
+use crate::motion::state::State;
+use crate::quantity::Quantity;
+use crash_measures::unit::Unit;
+pub use data::{Column, ColumnData};
+pub use law::ColumnLaw;
+pub use past::ColumnPast;
+use placed_text::Problems;
+pub use results::ColumnAction;
+
+/// Place of the work that columns take up.
+const WORK: usize = 6;
+
+const OTHER_COLUMNS: Unlike = Unlike("the columns carry other frames or have other numbers of points of their force");
+
+/// The kind of force element: steering columns.
+#[derive(Clone, Copy, Debug)]
+pub struct Columns;
+
+impl Element for Columns {
+    const OPTIONAL: bool = true;
+    const STORED: &'static [StoredEnergy] = &[];
+    const SUMS: &'static [WorkSum] = &[WorkSum {
+        at: WORK,
+        quantity: Quantity::number(Unit::Joule, |taken_j: &f64| *taken_j)
+            .channel("columns", "work taken up by columns")
+            .field(19, "columns", "work that columns took up since the start, of bodies and of their own weight"),
+    }];
+    const NAMES: [&'static str; 2] = ["column", "columns"];
+
+    type Data<'a> = ColumnData<'a>;
+    type Law<S> = Vec<ColumnLaw<S>>;
+    type Past<S> = ColumnPast<S>;
+    type Hints<S: Scalar> = ();
+    type Action<S> = ColumnAction<S>;
+
+    fn check(data: ColumnData<'_>, _body: &Body, problems: &mut Problems) {
+        data.columns.iter().for_each(|column| check::data(column, problems));
+    }
+
+    fn new(data: ColumnData<'_>, _body: &Body) -> Vec<ColumnLaw<f64>> {
+        data.columns.iter().map(|column| ColumnLaw::new(column, &data)).collect()
+    }
+
+    fn own(law: &mut Vec<ColumnLaw<f64>>, numbers: &mut Vec<f64>) {
+        law.iter_mut().for_each(|column| column.own(numbers));
+    }
+
+    fn start(law: &Vec<ColumnLaw<f64>>, _at: &Instant<'_, f64>) -> Vec<ColumnPast<f64>> {
+        law.iter().map(|_| ColumnPast::none()).collect()
+    }
+
+    fn hints<S: Scalar>(_law: &Vec<ColumnLaw<S>>) {}
+
+    fn count<S>(law: &Vec<ColumnLaw<S>>) -> usize {
+        law.len()
+    }
+
+    fn zip<S: Copy, A: Copy, T>(
+        one: &Vec<ColumnLaw<S>>,
+        other: &Vec<ColumnLaw<A>>,
+        f: &impl Fn(S, A) -> T,
+    ) -> Result<Vec<ColumnLaw<T>>, Unlike> {
+        let all = (one.len() == other.len()).then(|| one.iter().zip(other).map(|(a, b)| a.zip(b, f)).collect());
+        all.flatten().ok_or(OTHER_COLUMNS)
+    }
+
+    fn each<S, A>(one: &mut ColumnPast<S>, other: &mut ColumnPast<A>, f: &mut impl FnMut(&mut S, &mut A)) {
+        one.each(other, f);
+    }
+
+    fn map<A: Copy, S>(past: &ColumnPast<A>, f: &mut impl FnMut(A) -> S) -> ColumnPast<S> {
+        past.map(f)
+    }
+
+    fn is_possible(_law: &Vec<ColumnLaw<f64>>, _number: usize, past: &ColumnPast<f64>) -> bool {
+        past.greatest >= 0.0
+    }
+
+    fn failure(data: ColumnData<'_>, law: &Vec<ColumnLaw<f64>>, past: &[ColumnPast<f64>]) -> Option<String> {
+        let all = data.columns.iter().zip(law).zip(past);
+        all.into_iter().find_map(|((column, law), past)| law.overrun(&column.name, past))
+    }
+
+    fn confine(past: &mut ColumnPast<f64>) {
+        past.greatest = past.greatest.max(0.0);
+    }
+
+    #[inline(always)]
+    fn apply<S: Scalar>(
+        law: &Vec<ColumnLaw<S>>,
+        at: &Instant<'_, S>,
+        past: &mut [ColumnPast<S>],
+        _hints: &mut (),
+        load: &mut Load<S>,
+        show: &mut impl FnMut(&ColumnAction<S>),
+    ) {
+        for (i, (column, past)) in law.iter().zip(past).enumerate() {
+            act(column, i, at, past, load, show);
+        }
+    }
+
+    fn rates(
+        data: ColumnData<'_>,
+        body: &Body,
+        _at: &Instant<'_, f64>,
+        _actions: &[ColumnAction<f64>],
+        _mobility: &Mobility<'_>,
+    ) -> Vec<Rate> {
+        let rate = |(column, law): (&Column, ColumnLaw<f64>)| {
+            Rate::of_spring(column.name.clone(), Self::NAMES[0].to_owned(), column.mass_kg, law.stiffness)
+        };
+        data.columns.iter().zip(Self::new(data, body)).map(rate).collect()
+    }
+
+    /// It stores nothing that the ledger of a body has, and so stands in no body's books.
+    fn segment(_: &Vec<ColumnLaw<f64>>, _: &[Site<f64>], _: usize, _: &ColumnAction<f64>) -> usize {
+        0
+    }
+
+    fn stored_j(_actions: &[ColumnAction<f64>], _stored_j: &mut [f64; STORES]) {}
+}
+
+/// Moves the frames of columns, which stand among `frames` as their parents carry them, by their strokes.
+#[inline(always)]
+pub(crate) fn carry<S: Scalar>(law: &[ColumnLaw<S>], state: &State<S>, frames: &mut Frames<S>) {
+    law.iter().for_each(|column| column.carry(state, frames));
+}
+
+/// What column `i` does. The work of a body along the stroke, which its books have as one of the frame, is the column's; what the
+/// motion of the parent does to the hub stands in the books of the first body, on both sides.
+#[inline(always)]
+fn act<S: Scalar>(
+    law: &ColumnLaw<S>,
+    i: usize,
+    at: &Instant<'_, S>,
+    past: &mut ColumnPast<S>,
+    load: &mut Load<S>,
+    show: &mut impl FnMut(&ColumnAction<S>),
+) {
+    let Some(own) = law.moved(at.state) else {
+        return show(&ColumnAction::idle());
+    };
+    if at.accepted {
+        past.greatest = past.greatest.max(own[0]);
+    }
+    let (now, axis, drag) = (law.now(own, past), law.axis(at), law.drag(at));
+    let (speed, mut push) = (own[1], S::zero());
+    let bodies = load.bodies();
+    for (onto, power) in load.onto.iter().zip(&mut load.power).take(bodies) {
+        let along = axis.dot(onto[i]);
+        push += along;
+        power.sums[WORK] += along * speed;
+        power.vehicle += along * speed;
+    }
+    let [power, ..] = &mut load.power;
+    power.sums[WORK] -= drag * speed;
+    power.vehicle -= drag * speed;
+    law.flow(&now, push, drag, &mut load.own);
+    if at.accepted {
+        past.residual = past.residual.max((own[2] - now.stored - now.lost).abs());
+        past.taken = past.taken.max(own[2]);
+    }
+    show(&ColumnAction::new(&now, push, past));
+}

@@ -1,0 +1,170 @@
+//! What a column contributes to results.
+
+use crash_measures::unit::Unit::{Joule, Metre, MetrePerSecond, Newton, One, Second};
+
+use super::law::Now;
+use super::past::ColumnPast;
+use super::{Column, Columns};
+use crate::forces::element::Element;
+use crate::forces::shown::{Named, OneOf, Reported, Shown, Tracked};
+use crate::forces::stored::Archive;
+use crate::forces::table::{Cell, Column as TableColumn, Table};
+use crate::motion::scalar::Scalar;
+use crate::quantity::{FieldWords, Quantity};
+
+/// What one column does at one instant.
+#[derive(Clone, Copy, Debug)]
+pub struct ColumnAction<S> {
+    /// x, m, and ẋ, m/s.
+    pub(crate) stroke: S,
+    speed: S,
+    /// S, and Q·â of bodies and bags, N.
+    force: S,
+    push: S,
+    /// Taken up since the start, stored and lost, J.
+    taken: S,
+    stored: S,
+    lost: S,
+    /// What stays of the stroke, m.
+    set: S,
+    /// 1 from the end of its stroke on.
+    bottoms: S,
+    /// Greatest residual of its book over the greatest work taken up.
+    residual: S,
+}
+
+impl<S: Scalar> ColumnAction<S> {
+    /// Of a column while the body is placed.
+    #[inline(always)]
+    pub(super) fn idle() -> Self {
+        let o = S::zero();
+        ColumnAction {
+            stroke: o,
+            speed: o,
+            force: o,
+            push: o,
+            taken: o,
+            stored: o,
+            lost: o,
+            set: o,
+            bottoms: o,
+            residual: o,
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn new(now: &Now<S>, push: S, past: &ColumnPast<S>) -> Self {
+        let [stroke, speed, taken] = now.own;
+        ColumnAction {
+            stroke,
+            speed,
+            force: now.force,
+            push,
+            taken,
+            stored: now.stored,
+            lost: now.lost,
+            set: now.set,
+            bottoms: now.bottoms,
+            residual: past.residual / past.taken.max(S::of(LEAST_J)),
+        }
+    }
+}
+
+/// Work below which a residual of a column's book is compared with this, J.
+const LEAST_J: f64 = 1e-3;
+/// A stroke that stays and is more than rounding, m.
+const GIVEN_M: f64 = 1e-6;
+
+type Of = Quantity<OneOf<Columns>>;
+
+const fn peak(of: fn(&ColumnAction<f64>) -> f64, column: TableColumn) -> Tracked<ColumnAction<f64>> {
+    Tracked { of, column, time: None, at_least_zero: true }
+}
+
+/// With the time at which the peak was first reached, under these names in JSON and among the measures.
+const fn timed(
+    of: fn(&ColumnAction<f64>) -> f64,
+    column: TableColumn,
+    key: &'static str,
+    measure: &'static str,
+) -> Tracked<ColumnAction<f64>> {
+    Tracked { time: Some(TableColumn::time(key).measure(measure, Second)), ..peak(of, column) }
+}
+
+const fn scaled(scale: f64, column: TableColumn) -> TableColumn {
+    TableColumn { scale, ..column }
+}
+
+impl Reported for Columns {
+    const MESSAGE: &'static str = "Column";
+    const TELLS: bool = true;
+
+    #[rustfmt::skip]
+    const QUANTITIES: &'static [Of] = &[
+        Of::number(Metre, |c| c.stroke).channel("stroke", "stroke of the {}").field(2, "stroke", "way along its axis since the start"),
+        Of::number(MetrePerSecond, |c| c.speed).channel("speed", "speed of stroke of the {}").field(3, "speed", "speed along its axis"),
+        Of::number(Newton, |c| c.force).channel("force", "force that holds the {}").field(4, "force", "force that holds it, against the stroke"),
+        Of::number(Newton, |c| c.push).channel("push", "push of bodies and bags on the {}").field(5, "push", "forces of bodies and bags on it, along its axis"),
+        Of::number(Joule, |c| c.taken).channel("work", "work taken up by the {}").field(6, "work", "work that it took up since the start"),
+        Of::number(Joule, |c| c.stored).channel("stored", "energy of the {}").field(7, "stored", "kinetic energy of its stroke and what it would give back"),
+        Of::number(Joule, |c| c.lost).channel("lost", "energy lost in the {}").field(8, "lost", "what it does not give back"),
+    ];
+
+    #[rustfmt::skip]
+    const PEAKS: &'static [Tracked<ColumnAction<f64>>] = &[
+        timed(|c| c.stroke, scaled(1e3, TableColumn::number("stroke_max_m", "stroke, mm", 1)).measure("stroke_max", Metre), "stroke_max_time_s", "stroke_max_time"),
+        timed(|c| c.force, scaled(1e-3, TableColumn::number("peak_n", "force, kN", 2)).measure("peak", Newton), "peak_time_s", "peak_time"),
+        peak(|c| c.taken, TableColumn::number("energy_j", "work, J", 1).measure("energy", Joule)),
+        timed(|c| c.bottoms, TableColumn::number("bottomed", "bottomed", 0), "bottomed_time_s", "bottomed_time"),
+        peak(|c| c.residual, scaled(1e6, TableColumn::number("book_error", "book, 1e-6", 1)).measure("book_error", One)),
+    ];
+
+    fn keep(past: &mut Vec<ColumnPast<f64>>, like: Option<&[ColumnPast<f64>]>, file: &mut dyn Archive) {
+        let number = if like.is_some() { 59 } else { 58 };
+        let meaning = "what each column remembers: its greatest stroke, its book";
+        let mut list = Vec::new();
+        for column in &*past {
+            column.map(&mut |x| list.push(x));
+        }
+        let list = file.numbers(FieldWords { number, stem: "columns", meaning }, list);
+        if list.len() % ColumnPast::<f64>::SIZE != 0 {
+            return file.refuse("a list of columns with parts missing");
+        }
+        let column = |numbers: &[f64]| {
+            let mut numbers = numbers.iter().copied();
+            ColumnPast::<f64>::none().map(&mut |none| numbers.next().unwrap_or(none))
+        };
+        *past = list.chunks(ColumnPast::<f64>::SIZE).map(column).collect();
+    }
+
+    fn named<'a>(data: Self::Data<'a>) -> Vec<Named<'a>> {
+        data.columns.iter().map(|column| Named { name: &column.name, sphere: None }).collect()
+    }
+
+    fn start_table(shown: &Shown<'_, Self>) -> Option<Table> {
+        if shown.data.columns.is_empty() {
+            return None;
+        }
+        let columns = [
+            TableColumn::number("mass_kg", "mass, kg", 2),
+            scaled(1e-3, TableColumn::number("most_n", "force up to, kN", 2)),
+            scaled(1e3, TableColumn::number("end_m", "ends at, mm", 0)),
+            scaled(1e-6, TableColumn::number("unload_n_per_m", "unloads, kN/mm", 2)),
+        ];
+        let row = |column: &Column| {
+            let numbers = [column.mass_kg, column.force.greatest_n(), column.end_m(), column.stiffness_n_per_m()];
+            (column.name.clone(), numbers.map(|number| Cell::Number(Some(number))).to_vec())
+        };
+        Some(Table::new(Self::NAMES[0], &columns, shown.data.columns.iter().map(row)))
+    }
+
+    fn event<S: Scalar>(before: &ColumnAction<S>, now: &ColumnAction<S>) -> Option<(&'static str, Option<S>)> {
+        let begins = |of: fn(&ColumnAction<S>) -> S, from: f64| {
+            S::any(of(now).gt(S::of(from))) && !S::any(of(before).gt(S::of(from)))
+        };
+        if begins(|c| c.bottoms, 0.5) {
+            return Some(("is at the end of its stroke", None));
+        }
+        begins(|c| c.set, GIVEN_M).then_some(("gives way", None))
+    }
+}
