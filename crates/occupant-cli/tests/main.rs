@@ -10,6 +10,7 @@ mod histories;
 mod pictures;
 mod print;
 mod recording;
+mod records;
 mod risk;
 mod sensitivity;
 mod study;

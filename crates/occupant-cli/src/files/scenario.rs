@@ -118,7 +118,7 @@ pub(crate) fn stored(file: &Path, run: &StoredRun) -> Result<(Loaded, Model, Dia
     let unreadable = |why: String| Failure::plain(format!("the scenario in {name} cannot be read:{why}"));
     input_file::scenario_fits(bytes).map_err(|error| unreadable(format!(" {error}")))?;
     let resolver = |table: &str| {
-        let found = run.attachments.get(&file_name(Path::new(table)));
+        let found = run.attachments.get(table).or_else(|| run.attachments.get(&file_name(Path::new(table))));
         found.cloned().ok_or_else(|| format!("{name} does not hold it"))
     };
     let loaded = Draft::read_bytes(bytes, Some(Format::Toml), RESOLVED)

@@ -48,7 +48,7 @@ impl Template {
 
 /// The sections of `base`, each as `changes` has it if it does, then what else `changes` has. A changed section keeps the
 /// comments before it unless it brings its own.
-fn changed(base: &str, changes: &str) -> String {
+pub(super) fn changed(base: &str, changes: &str) -> String {
     let (base, changes) = (sections(base), sections(changes));
     let as_changed = |old: &Section<'_>| match changes.iter().find(|new| new.name == old.name) {
         Some(new) if new.comments.trim().is_empty() => old.comments.to_owned() + new.text,

@@ -54,10 +54,10 @@ impl Wanted {
     ) -> Result<Report, Failure> {
         let bar = bar(Some(self.study.len() - 1), "{wide_bar} {pos}/{len}", quiet);
         // what the scenario names was read with it and is not read again
-        let table = opened.loaded.table();
-        let resolver = |name: &str| match table {
-            Some((table, text)) if table == name => Ok(text.as_bytes().to_vec()),
-            _ => Err("it was not read with the scenario".to_owned()),
+        let tables = opened.loaded.tables();
+        let resolver = |name: &str| match tables.iter().find(|(table, _)| *table == name) {
+            Some((_, text)) => Ok(text.as_bytes().to_vec()),
+            None => Err("it was not read with the scenario".to_owned()),
         };
         let members = Members {
             study: &self.study,

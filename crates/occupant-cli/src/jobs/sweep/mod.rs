@@ -20,7 +20,7 @@ pub(crate) mod words;
 
 pub(crate) use census::Census;
 pub(crate) use extremes::Extremes;
-pub(crate) use plan::{FILE, Plan};
+pub(crate) use plan::Plan;
 pub(crate) use results::Results;
 pub(crate) use simulation::Simulation;
 pub(crate) use stable::{Ensembles, Stable};
