@@ -5,6 +5,7 @@ mod command_line;
 mod common;
 mod convert;
 mod ensembles;
+mod everyday;
 mod fit;
 mod histories;
 mod pictures;

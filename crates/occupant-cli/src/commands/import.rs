@@ -44,7 +44,7 @@ pub(crate) struct Args {
     speed: Option<String>,
 
     /// How far the centre of gravity lies ahead of the point that a trajectory follows, such as '1.3 m'
-    #[arg(long, value_name = "LENGTH", value_parser = written::<LENGTH>)]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = written::<LENGTH>)]
     cg: Option<String>,
 
     #[command(flatten)]

@@ -14,7 +14,7 @@ use crate::base::{Failure, by_ending, file_name, input_file, say};
 /// Which scenario, and what is changed in it.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct ScenarioArgs {
-    /// The scenario, TOML or JSON
+    /// The scenario, TOML or JSON; `-` is standard input
     #[arg(value_name = "SCENARIO")]
     pub(crate) scenario: PathBuf,
 
@@ -81,7 +81,8 @@ pub(crate) fn open_draft(args: &ScenarioArgs, bytes: Vec<u8>, draft: Draft) -> R
 
 /// Reads the files that a scenario names, from the folder that it stands in.
 pub(crate) fn files_beside(scenario: &Path) -> impl Fn(&str) -> Result<Vec<u8>, String> {
-    let folder = scenario.parent().unwrap_or(Path::new("")).to_owned();
+    // a file called `-` is not standard input
+    let folder = Path::new(".").join(scenario.parent().unwrap_or(Path::new("")));
     move |file| input_file::bytes(&folder.join(file)).map_err(|error| error.to_string())
 }
 

@@ -9,7 +9,7 @@ use occupant_study::{Study, Tolerances};
 use placed_text::shown;
 
 use super::{Bands, Left, Members, Report, plot};
-use crate::base::progress::bar;
+use crate::base::progress::{bar, counted};
 use crate::base::{Existing, Failure, Interrupt, program, write_whole};
 use crate::files::scenario::Opened;
 use crate::files::table::{Form, TableFile};
@@ -52,7 +52,7 @@ impl Wanted {
         interrupt: &Interrupt,
         quiet: bool,
     ) -> Result<Report, Failure> {
-        let bar = bar(Some(self.study.len() - 1), "{wide_bar} {pos}/{len}", quiet);
+        let bar = bar(Some(self.study.len() - 1), &counted("members"), quiet);
         // what the scenario names was read with it and is not read again
         let tables = opened.loaded.tables();
         let resolver = |name: &str| match tables.iter().find(|(table, _)| *table == name) {

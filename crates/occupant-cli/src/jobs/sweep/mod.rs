@@ -12,6 +12,7 @@ pub(crate) mod job;
 pub(crate) mod kept;
 pub(crate) mod plan;
 mod progress;
+mod rehearsal;
 pub(crate) mod results;
 pub(crate) mod simulation;
 mod stable;
