@@ -147,6 +147,18 @@ fn a_run_says_what_comes_next() {
 }
 
 #[test]
+fn a_study_in_place_of_a_scenario_is_told_apart() {
+    let folder = folder_with(STUDY);
+    for command in ["run", "check"] {
+        let said = err(&answer(folder.path(), &[command, "study.toml"]));
+        assert!(
+            said.starts_with("error: study.toml is a study") && said.contains("occupant sweep study.toml"),
+            "{said}"
+        );
+    }
+}
+
+#[test]
 fn several_scenarios_are_one_table() {
     let folder = folder_with(STUDY);
     let here = folder.path();
@@ -205,6 +217,22 @@ fn a_scene_moves_as_the_run_does() {
         let view = &text["bufferViews"][accessor["bufferView"].as_u64().unwrap() as usize];
         assert_eq!(view["byteLength"].as_u64().unwrap(), size * accessor["count"].as_u64().unwrap());
     }
+    // Y is up: who sits has the head above the pelvis
+    let nodes = list("nodes");
+    let pose = |name: &str| {
+        let node = nodes.iter().find(|node| node["name"] == name).unwrap();
+        let numbers =
+            |key: &str| -> Vec<f64> { node[key].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect() };
+        let (t, q) = (numbers("translation"), numbers("rotation"));
+        let turn = nalgebra::Quaternion::new(q[3], q[0], q[1], q[2]);
+        let turn = nalgebra::UnitQuaternion::from_quaternion(turn);
+        nalgebra::Isometry3::from_parts(nalgebra::Translation3::new(t[0], t[1], t[2]), turn)
+    };
+    let place = |name: &str| (pose("space") * pose("vehicle") * pose(name)).translation.vector;
+    let above = place("head") - place("lower_torso");
+    assert!(above.y > 0.4 && above.z.abs() < 0.5, "{above}");
+    let ahead = place("left_lower_leg") - place("lower_torso");
+    assert!(ahead.z > 0.2 && ahead.x > 0.0, "{ahead}");
     // the head's way in the vehicle is the channel's
     let head = list("nodes").iter().position(|node| node["name"] == "head").unwrap();
     let animation = &list("animations")[0];

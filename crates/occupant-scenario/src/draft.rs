@@ -23,7 +23,7 @@ pub fn names_file(path: &str) -> bool {
         let pattern = pattern.split('.');
         pattern.clone().count() == steps.len() && pattern.zip(&steps).all(|(of, step)| of == "*" || of == *step)
     };
-    FILES.iter().any(|pattern| fits(&pattern))
+    FILES.iter().any(fits)
 }
 
 /// A scenario text that has been read but not yet checked.

@@ -24,8 +24,7 @@ ctor::declarative::ctor! {
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let text = plain(text);
     print_file(
-        if has_colours() { text.replace(BEYOND, &format!("\u{1b}[1;31m{BEYOND}\u{1b}[0m")) } else { text.into() }
-            .as_bytes(),
+        if has_colours() { text.replace(BEYOND, &format!("\u{1b}[1;31m{BEYOND}\u{1b}[0m")) } else { text }.as_bytes(),
     )
 }
 

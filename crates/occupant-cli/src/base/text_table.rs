@@ -48,7 +48,7 @@ impl Table {
 
     /// The text in so many columns; where it is to be read by people only, names are broken before it grows wider.
     fn within(&self, room: usize, breaks_names: bool) -> String {
-        let whole = self.widths(|cell| length(cell));
+        let whole = self.widths(length);
         let fits = |widths: &[usize], gap: &&usize| {
             widths.iter().sum::<usize>() + **gap * widths.len().saturating_sub(1) <= room
         };

@@ -24,9 +24,9 @@ use crate::jobs::sweep::words::{tell_damaged, warn_unlocked};
 /// Looks for the values of the study's parameters, each between the ends of its range, with which measured channels of one
 /// test or of several are reproduced best; the study's [fit] says what counts. A global search (CMA-ES with growing
 /// populations) is followed by a refinement and by intervals: how far each parameter can go while the others make up for it.
-/// Writes FOLDER/fit.json, fitted.toml (the scenario with the fitted numbers and where they come from), plots/*.svg
-/// (measured against computed, before and after) and history.parquet and .csv (every candidate). The same command
-/// resumes a fit that was interrupted or killed, and ends at the same answer.
+/// Writes FOLDER/fit.json, fitted.toml (the scenario with the fitted numbers and where they come from; of several scenarios
+/// fitted/TEST.toml), plots/*.svg (measured against computed, before and after) and history.parquet and .csv (every candidate).
+/// The same command resumes a fit that was interrupted or killed, and ends at the same answer.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The study, TOML or JSON

@@ -61,6 +61,11 @@ pub(crate) fn draft(args: &ScenarioArgs) -> Result<(Vec<u8>, Draft), Failure> {
     let name = path.display().to_string();
     let refuse = |problems: Diagnostics| refused(&name, &problems);
     let mut draft = Draft::read_bytes(&bytes, format_of(path), &name).map_err(refuse)?;
+    // a key of studies that no scenario has
+    if draft.get("base").is_ok() {
+        let help = format!("occupant sweep {name} runs it; `base` names the scenario that it varies");
+        return Err(Failure::with_help(format!("{name} is a study, not a scenario"), &help));
+    }
     for assignment in &args.overrides {
         draft.set(assignment).map_err(refuse)?;
     }

@@ -26,7 +26,7 @@ pub(crate) enum PathSection {
     /// Straight travel, slowed by a deceleration pulse.
     Pulse(Box<PulseSection>),
     /// Places and angles at given times.
-    Table(TableSection),
+    Table(Box<TableSection>),
     /// Recorded accelerations and turning rates, or velocity changes.
     Sensors(Box<SensorsSection>),
 }

@@ -173,10 +173,7 @@ impl Curve<'_> {
             ("LC", "NWM") => "MO",
             _ => return None,
         };
-        let direction = match self.fields[AXIS].chars().next() {
-            Some(axis @ ('X' | 'Y' | 'Z' | 'R')) => axis,
-            _ => '0',
-        };
+        let direction = self.fields[AXIS].chars().next().filter(|axis| "XYZR".contains(*axis)).unwrap_or('0');
         let code = format!("1{seat}{place}{dimension}{direction}0");
         (self.fields[REDUNDANT] != "R").then(|| code.parse().ok())?
     }

@@ -76,7 +76,7 @@ fn watched(results: &Results) -> Result<Motion, Failure> {
     let mut motion = Motion { times_s: Vec::new(), segments: Vec::new(), frames: BTreeMap::new(), vehicle: Vec::new() };
     let first_s = results.model.setup().time.start_s;
     results.watch(|sample| {
-        if sample.index as usize % every != 0 {
+        if !sample.index.is_multiple_of(every) {
             return;
         }
         let snapshot = Snapshot::of(sample);
@@ -111,10 +111,10 @@ fn isometry(motion: &FrameMotion) -> Isometry3<f64> {
     Isometry3::from_parts(Translation3::from(motion.origin_m), UnitQuaternion::from_rotation_matrix(&turned))
 }
 
-/// From forward, right, down to glTF's axes: Z ahead, X to the left, Y up.
+/// From space, forward, left, up, to glTF's axes: Z ahead, X to the left, Y up.
 fn upright() -> Isometry3<f64> {
-    let [ahead, right, down] = [Vector3::z(), -Vector3::x(), -Vector3::y()];
-    let turned = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[ahead, right, down]));
+    let [ahead, left, up] = [Vector3::z(), Vector3::x(), Vector3::y()];
+    let turned = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[ahead, left, up]));
     Isometry3::from_parts(Translation3::identity(), UnitQuaternion::from_rotation_matrix(&turned))
 }
 
