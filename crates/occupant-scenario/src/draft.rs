@@ -13,6 +13,19 @@ use placed_text::{
     to_text,
 };
 
+/// Where a scenario names files.
+const FILES: [&str; 3] = ["path.file", "vehicles.*.path.file", "frames.*.path.file"];
+
+/// Whether a path leads to where a scenario names a file.
+pub fn names_file(path: &str) -> bool {
+    let steps: Vec<&str> = path.split('.').collect();
+    let fits = |pattern: &&str| {
+        let pattern = pattern.split('.');
+        pattern.clone().count() == steps.len() && pattern.zip(&steps).all(|(of, step)| of == "*" || of == *step)
+    };
+    FILES.iter().any(fits)
+}
+
 /// A scenario text that has been read but not yet checked.
 #[derive(Clone, Debug)]
 pub struct Draft {
@@ -79,6 +92,15 @@ impl Draft {
         let value = |place: &Vec<Step>| Some((to_text(place), follow(&explicit, place)?.value.clone()));
         let found: Vec<_> = targets(&explicit, &steps).iter().filter_map(value).collect();
         if found.is_empty() { Err(leads_nowhere(path, path)) } else { Ok(found) }
+    }
+
+    /// The files that it names: paths of the keys, and names.
+    pub fn files(&mut self) -> Vec<(String, String)> {
+        let named = |(path, value)| match value {
+            Value::String(name) => Some((path, name)),
+            _ => None,
+        };
+        FILES.iter().flat_map(|path| self.get(path).unwrap_or_default()).filter_map(named).collect()
     }
 
     /// The units of its bare numbers.

@@ -52,7 +52,7 @@ pub const TIME: usize = 1;
 /// Plane angle.
 pub const ANGLE: usize = 2;
 /// Speed.
-pub(crate) const SPEED: usize = 3;
+pub const SPEED: usize = 3;
 /// Acceleration.
 pub(crate) const ACCELERATION: usize = 4;
 /// Angular velocity.

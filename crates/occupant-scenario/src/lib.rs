@@ -95,14 +95,15 @@ mod presets;
 mod sections;
 
 pub use check::{check_words, schema::schema_of};
-pub use draft::Draft;
+pub use draft::{Draft, names_file};
 pub use expand::rival_path;
 pub use loaded::{Loaded, Resolver};
 pub use placed_text::{Diagnostic, Diagnostics, Format};
 pub use places::{Place, Wanted};
 pub use presets::preset_body;
 pub use sections::{
-    Angle, FRACTION, Length, NOT_NEGATIVE, POSITIVE, Quantity, Ratio, RecordFile, Scenario, Time, read_record, schema,
+    Angle, FRACTION, Length, NOT_NEGATIVE, POSITIVE, Quantity, Ratio, RecordFile, Scenario, Time, column_named,
+    read_record, schema,
 };
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use super::expand::expand;
 use super::sections::{Scenario, setup, together};
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
-use placed_text::{Diagnostics, Document, Format, Problem, Problems, SourceId, text_of};
+use placed_text::{Diagnostics, Document, Format, Problem, Problems, text_of, with_key};
 
 /// Gives the bytes of a file named in a scenario, or says why not. The core reads no files itself.
 pub type Resolver<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, String>;
@@ -18,7 +18,6 @@ pub struct Loaded {
     explicit: Scenario,
     /// The tree of the explicit scenario.
     document: Document,
-    path_table: Option<SourceId>,
 }
 
 impl Scenario {
@@ -55,8 +54,8 @@ impl Loaded {
         for posture in explicit.posture.iter_mut().chain(others) {
             posture.settle.get_or_insert(true);
         }
-        let path_table = read_path_table(&mut document, &scenario, resolver)?;
-        Ok(Loaded { scenario, explicit, document, path_table })
+        read_tables(&mut document, &scenario, resolver)?;
+        Ok(Loaded { scenario, explicit, document })
     }
 
     /// The plain data of the scenario, with warnings.
@@ -65,7 +64,7 @@ impl Loaded {
     /// Everything that does not fit together: names that lead nowhere, keys that are missing or have no meaning here.
     pub fn build(&self) -> Result<(Setup, Diagnostics), Diagnostics> {
         let build = if self.explicit.has_several() { together } else { setup };
-        build(&self.scenario, &self.explicit, &self.document, self.path_table)
+        build(&self.scenario, &self.explicit, &self.document)
     }
 
     /// The model of the scenario, ready to be run, with warnings.
@@ -100,24 +99,35 @@ impl Loaded {
         &self.explicit
     }
 
-    /// Name and text of the table the scenario names, if it names one.
-    pub fn table(&self) -> Option<(&str, &str)> {
-        let id = self.path_table?;
-        Some((self.document.sources.name(id), self.document.sources.text(id)))
+    /// Names and texts of the tables that the scenario names, each once.
+    pub fn tables(&self) -> Vec<(&str, &str)> {
+        let sources = &self.document.sources;
+        let mut tables: Vec<(&str, &str)> = Vec::new();
+        for file in self.scenario.paths().into_iter().filter_map(|(_, path)| path.file()) {
+            if let (Some(id), true) = (sources.named(file), tables.iter().all(|(name, _)| *name != file)) {
+                tables.push((file, sources.text(id)));
+            }
+        }
+        tables
     }
 }
 
-/// Reads the CSV file that the vehicle path names.
-fn read_path_table(
-    document: &mut Document,
-    scenario: &Scenario,
-    resolver: Resolver,
-) -> Result<Option<SourceId>, Diagnostics> {
-    let Some(file) = scenario.path.as_ref().and_then(|path| path.file()) else { return Ok(None) };
-    let bytes = resolver(file).map_err(|reason| {
-        let found = format!("`{file}` cannot be read: {reason}");
-        document.place(Problem::error("path.file", found, "a CSV file, its name relative to the scenario"))
-    })?;
-    let text = text_of(&bytes, file)?;
-    Ok(Some(document.sources.add_named(file, text)))
+/// Reads the CSV files that the paths name, each once.
+fn read_tables(document: &mut Document, scenario: &Scenario, resolver: Resolver) -> Result<(), Diagnostics> {
+    let mut problems = Diagnostics::new();
+    for (at, file) in scenario.paths().into_iter().filter_map(|(at, path)| Some((at, path.file()?))) {
+        if document.sources.named(file).is_some() {
+            continue;
+        }
+        let read = resolver(file).map_err(|reason| {
+            let found = format!("`{file}` cannot be read: {reason}");
+            let expected = "a CSV file, its name relative to the scenario";
+            Diagnostics::from(document.place(Problem::error(with_key(&at, "file"), found, expected)))
+        });
+        match read.and_then(|bytes| text_of(&bytes, file).map(str::to_owned)) {
+            Ok(text) => _ = document.sources.add_named(file, text),
+            Err(found) => problems.extend(found),
+        }
+    }
+    if problems.is_empty() { Ok(()) } else { Err(problems) }
 }

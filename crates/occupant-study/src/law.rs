@@ -90,6 +90,11 @@ pub enum Law {
 }
 
 impl Law {
+    /// Whether equal ratios of its values are as likely, not equal differences.
+    pub fn goes_by_ratios(&self) -> bool {
+        matches!(self, Law::Grid { log: true, .. } | Law::Distribution(Distribution::LogUniform { .. }))
+    }
+
     /// How many values there are, if they can be counted.
     pub fn levels(&self) -> Option<u64> {
         match self {

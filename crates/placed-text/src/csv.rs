@@ -4,6 +4,7 @@ use crate::shown::shortened;
 use crate::source::{SourceId, Sources, Span};
 
 /// A cell: its words and place.
+#[derive(Clone, Copy)]
 pub struct Cell<'a> {
     /// Its words, trimmed.
     pub text: &'a str,
@@ -12,7 +13,7 @@ pub struct Cell<'a> {
 }
 
 /// Cells of a line that are read: none has as many columns, so one that does is refused for what it is read as.
-const MOST_CELLS: usize = 10_000;
+pub const MOST_CELLS: usize = 10_000;
 
 /// Characters of a cell that messages show.
 pub const CELL: usize = 40;
@@ -70,7 +71,7 @@ impl Separator {
             let span = Span { source: line.source, start, end };
             Cell { text: if text == 0 { "" } else { sources.slice(span) }, span }
         };
-        self.pieces(text).into_iter().take(MOST_CELLS).map(cell).collect()
+        self.pieces(text).into_iter().take(MOST_CELLS + 1).map(cell).collect()
     }
 
     /// The number in a cell; the decimal sign may be a comma where none stands between cells.
@@ -85,6 +86,50 @@ impl Separator {
             (text, _) => Err(format!("`{}`", shortened(text, CELL))),
         }
     }
+}
+
+/// A text table: headings, units that may stand below them, and lines of cells.
+pub struct TextTable<'a> {
+    /// What stands between its cells.
+    pub separator: Separator,
+    /// Its first line.
+    pub first: Span,
+    /// Its headings; none where it begins with numbers.
+    pub headings: Vec<Cell<'a>>,
+    /// Units in a line of their own below the headings; none where there is no such line.
+    pub units: Vec<Cell<'a>>,
+    /// The lines below.
+    pub lines: Vec<Span>,
+}
+
+impl<'a> TextTable<'a> {
+    /// The table in a text, none in an empty one; `is_unit` says of a cell without brackets whether it is a unit.
+    pub fn of(sources: &'a Sources, id: SourceId, is_unit: impl Fn(&str) -> bool) -> Option<Self> {
+        let mut lines = lines(sources, id).peekable();
+        let first = lines.peek().copied()?;
+        let separator = Separator::of(sources.slice(first));
+        let cells = |line: Span| separator.cells(sources, line);
+        let has_number = |line: Span| cells(line).iter().any(|cell| separator.number(cell).is_ok());
+        let headings = lines.next_if(|line| !has_number(*line)).map(cells);
+        let names_units = |cell: &Cell| matches!(cell.text, "" | "-") || is_unit(bare(cell.text));
+        let units =
+            lines.next_if(|line| headings.is_some() && !has_number(*line) && cells(*line).iter().all(names_units));
+        let (headings, units) = (headings.unwrap_or_default(), units.map(cells).unwrap_or_default());
+        Some(TextTable { separator, first, headings, units, lines: lines.collect() })
+    }
+
+    /// The unit of a column, in its heading or below, with its place; none where there is none.
+    pub fn unit(&self, column: usize) -> Option<(&'a str, Span)> {
+        let heading = self.headings.get(column)?;
+        let below =
+            || self.units.get(column).map(|cell| (bare(cell.text), cell.span)).filter(|(unit, _)| !unit.is_empty());
+        name_and_unit(heading.text).1.map(|unit| (unit, heading.span)).or_else(below)
+    }
+}
+
+/// A unit without the brackets round it.
+fn bare(unit: &str) -> &str {
+    unit.trim_matches(['[', ']', '(', ')'])
 }
 
 /// The lines of a text that hold something.

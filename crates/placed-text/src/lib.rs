@@ -13,7 +13,7 @@ mod shown;
 mod source;
 mod toml;
 
-pub use csv::{CELL, Cell, Separator, lines, name_and_unit};
+pub use csv::{CELL, Cell, MOST_CELLS, Separator, TextTable, lines, name_and_unit};
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use node::{Entry, Format, Node, Table, Value, Written};
 pub use path::{Step, child, children, follow, locate, parse as parse_path, targets, to_text, with_key, with_step};

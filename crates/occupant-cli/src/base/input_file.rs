@@ -22,12 +22,15 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     bytes(path).map_err(|error| Failure::plain(format!("{} cannot be read: {error}", path.display())))
 }
 
-/// The bytes of a file that a user or a text names. Results may be of any size.
+/// The bytes of a file that a user or a text names, of `-` those of standard input. Results may be of any size.
 ///
 /// # Errors
 /// What the operating system refuses; what is no ordinary file, such as a pipe that nobody may ever write into or a device
 /// without end, but for a pipe that is open already; more than a text may have ([`ErrorKind::InvalidData`]).
 pub(crate) fn bytes(path: &Path) -> io::Result<Vec<u8>> {
+    if is_input(path) {
+        return read_all(io::stdin(), MOST_OF_TABLE);
+    }
     let found = fs::metadata(path)?;
     let is_pipe = is_open_pipe(path, &found);
     if !found.is_file() && !found.is_dir() && !is_pipe {
@@ -89,8 +92,17 @@ fn within(size: u64, most: u64) -> io::Result<()> {
 
 /// What comes out of a pipe, until all who write it have closed it; `most` in MB.
 fn read_pipe(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    read_all(fs::File::open(path)?, most)
+}
+
+/// Whether a name is that of standard input.
+pub(crate) fn is_input(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+fn read_all(from: impl Read, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    fs::File::open(path)?.take(most * 1_000_000 + 1).read_to_end(&mut bytes)?;
+    from.take(most * 1_000_000 + 1).read_to_end(&mut bytes)?;
     if within(bytes.len() as u64, most).is_err() {
         let found = format!("it gives more than {most} MB, the most that such a text may have");
         return Err(io::Error::new(ErrorKind::InvalidData, found));

@@ -1,8 +1,9 @@
 //! How far a run is, or many runs are: a bar on a terminal; of many runs else a line now and then.
 
+use std::fmt;
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use occupant_core::model::Model;
 use occupant_core::results::outcome::Outcome;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
@@ -19,8 +20,13 @@ pub(crate) struct Progress {
 impl Progress {
     /// A bar on standard error where that is a terminal, else nothing.
     pub(crate) fn new(quiet: bool) -> Self {
-        Progress { bar: bar(None, "{bar:40} {msg}, {elapsed} so far, {eta} to go", quiet) }
+        Progress { bar: bar(None, "{bar:30} {msg}, {eta} to go", quiet) }
     }
+}
+
+/// A bar of many of `what`: how many, how fast, how long still, and what else is to be said.
+pub(crate) fn counted(what: &str) -> String {
+    format!("{{bar:30}} {{pos}} of {{len}} {what}, {{rate}}, {{eta}} to go{{msg}}")
 }
 
 /// A bar on standard error where that is a terminal, else nothing.
@@ -29,7 +35,10 @@ pub(crate) fn bar(length: Option<u64>, template: &str, quiet: bool) -> ProgressB
     let bar = ProgressBar::with_draw_target(length, target);
     // the words of the template are ours; should they not parse, the plain bar does
     if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style);
+        let rate = |state: &ProgressState, to: &mut dyn fmt::Write| {
+            let _it_stays_empty = write!(to, "{:.1}/s", state.per_sec());
+        };
+        bar.set_style(style.with_key("rate", rate));
     }
     bar
 }

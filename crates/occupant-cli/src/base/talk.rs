@@ -1,7 +1,7 @@
 //! The two voices: results on standard output, talk on standard error.
 
 use std::fs::symlink_metadata;
-use std::io::{self, ErrorKind, Write, stderr, stdout};
+use std::io::{self, ErrorKind, IsTerminal, Write, stderr, stdout};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use placed_text::plain;
@@ -22,7 +22,21 @@ ctor::declarative::ctor! {
 
 /// Writes a result, its control characters escaped. A reader that has gone away is no failure.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
-    print_file(plain(text).as_bytes())
+    let text = plain(text);
+    print_file(
+        if has_colours() { text.replace(BEYOND, &format!("\u{1b}[1;31m{BEYOND}\u{1b}[0m")) } else { text }.as_bytes(),
+    )
+}
+
+/// The word for a limit that is not kept.
+const BEYOND: &str = "EXCEEDED";
+
+/// Whether standard output is a terminal with colours, as <https://no-color.org> and `CLICOLOR_FORCE` say it.
+fn has_colours() -> bool {
+    let says = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    let is_forced = says("CLICOLOR_FORCE") && std::env::var_os("CLICOLOR_FORCE").is_some_and(|value| value != "0");
+    let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+    !says("NO_COLOR") && (is_forced || (stdout().is_terminal() && !is_dumb))
 }
 
 /// Writes the bytes of a file, as they are. A reader that has gone away is no failure.

@@ -1,4 +1,4 @@
-//! Text tables: columns as wide as their widest cell, numbers to the right.
+//! Text tables: columns as wide as their widest cell, numbers to the right, heads and words over several lines where the terminal is narrow.
 
 /// How a column is set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,8 +16,12 @@ pub(crate) struct Table {
     rows: Vec<Vec<String>>,
 }
 
-/// Blanks between columns.
-const GAP: &str = "   ";
+/// Blanks between columns, fewer where there is no room.
+const GAPS: [usize; 3] = [3, 2, 1];
+/// Columns that a table may take where standard output is no terminal.
+const PLAIN: usize = 80;
+/// No column of words is made narrower.
+const LEAST: usize = 10;
 /// Stands where there is no figure.
 pub(crate) const NONE: &str = "–";
 
@@ -36,26 +40,106 @@ impl Table {
         self.rows.push(cells.into_iter().collect());
     }
 
-    /// The text, each line ended, no blanks at line ends.
+    /// The text, each line ended, no blanks at line ends, as wide as the terminal at most.
     pub(crate) fn text(&self) -> String {
-        let width = |column: usize| {
-            let cells = self.rows.iter().filter_map(|row| row.get(column));
-            cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+        let (room, is_terminal) = room();
+        self.within(room, is_terminal)
+    }
+
+    /// The text in so many columns; where it is to be read by people only, names are broken before it grows wider.
+    fn within(&self, room: usize, breaks_names: bool) -> String {
+        let whole = self.widths(length);
+        let fits = |widths: &[usize], gap: &&usize| {
+            widths.iter().sum::<usize>() + **gap * widths.len().saturating_sub(1) <= room
         };
-        let widths: Vec<usize> = (0..self.columns.len()).map(width).collect();
+        if let Some(gap) = GAPS[..2].iter().find(|gap| fits(&whole, gap)) {
+            return self.set(&whole, *gap);
+        }
+        // heads over several lines
+        let longest_word = |cell: &str| cell.split(' ').map(length).max().unwrap_or(0);
+        let mut widths = self.body_widths();
+        let heads = self.rows.first().into_iter().flatten();
+        widths.iter_mut().zip(heads).for_each(|(width, head)| *width = (*width).max(longest_word(head)));
+        if let Some(gap) = GAPS.iter().find(|gap| fits(&widths, gap)) {
+            return self.set(&widths, *gap);
+        }
+        // words too
+        let part = |cell: &str| pieces(cell).map(length).max().unwrap_or(0);
+        let narrowest = if breaks_names { self.widths(part) } else { self.widths(longest_word) };
+        let can = |widths: &[usize], i: usize| self.columns[i] == Align::Left && widths[i] > narrowest[i].max(LEAST);
+        while !fits(&widths, &&GAPS[2])
+            && let Some(widest) = (0..widths.len()).filter(|i| can(&widths, *i)).max_by_key(|i| widths[*i])
+        {
+            widths[widest] -= 1;
+        }
+        self.set(&widths, GAPS[2])
+    }
+
+    fn widths(&self, of: impl Fn(&str) -> usize) -> Vec<usize> {
+        let width = |column: usize| self.rows.iter().filter_map(|row| row.get(column)).map(|cell| of(cell)).max();
+        (0..self.columns.len()).map(|column| width(column).unwrap_or(0)).collect()
+    }
+
+    /// The widths of what stands below the heads.
+    fn body_widths(&self) -> Vec<usize> {
+        let body = Table { columns: self.columns.clone(), rows: self.rows.iter().skip(1).cloned().collect() };
+        body.widths(length)
+    }
+
+    /// The text with columns of these widths.
+    fn set(&self, widths: &[usize], gap: usize) -> String {
         let mut text = String::new();
-        for row in &self.rows {
-            let cells = row.iter().zip(&widths).zip(&self.columns);
-            let set = cells.map(|((cell, &width), align)| match align {
-                Align::Left => format!("{cell:<width$}"),
-                Align::Right => format!("{cell:>width$}"),
-            });
-            let line = set.collect::<Vec<String>>().join(GAP);
-            text.push_str(line.trim_end());
-            text.push('\n');
+        for (i, row) in self.rows.iter().enumerate() {
+            let cells: Vec<Vec<String>> = row.iter().zip(widths).map(|(cell, width)| wrapped(cell, *width)).collect();
+            let lines = cells.iter().map(Vec::len).max().unwrap_or(0);
+            for line in 0..lines {
+                // heads stand on the numbers below them
+                let at = |cell: &Vec<String>| if i == 0 { (line + cell.len()).checked_sub(lines) } else { Some(line) };
+                let words = |cell: &Vec<String>| at(cell).and_then(|at| cell.get(at).cloned()).unwrap_or_default();
+                let set = cells.iter().zip(widths).zip(&self.columns).map(|((cell, &width), align)| match align {
+                    Align::Left => format!("{:<width$}", words(cell)),
+                    Align::Right => format!("{:>width$}", words(cell)),
+                });
+                text.push_str(set.collect::<Vec<String>>().join(&" ".repeat(gap)).trim_end());
+                text.push('\n');
+            }
         }
         text
     }
+}
+
+/// Columns that there are, and whether they are those of a terminal.
+fn room() -> (usize, bool) {
+    let terminal = terminal_size::terminal_size_of(std::io::stdout());
+    terminal.map_or((PLAIN, false), |(terminal_size::Width(width), _)| (usize::from(width).max(PLAIN / 2), true))
+}
+
+fn length(cell: &str) -> usize {
+    cell.chars().count()
+}
+
+/// What a cell can be broken into: words, and the parts of names.
+fn pieces(cell: &str) -> impl Iterator<Item = &str> {
+    cell.split(' ').flat_map(|word| word.split_inclusive('_'))
+}
+
+/// The lines of a cell, broken at blanks, and in a name where it alone is too wide.
+fn wrapped(cell: &str, width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    let mut put = |gap: &str, piece: &str| match lines.last_mut() {
+        Some(line) if line.is_empty() => line.push_str(piece),
+        Some(line) if length(line) + length(gap) + length(piece) <= width => *line += &format!("{gap}{piece}"),
+        _ => lines.push(piece.to_owned()),
+    };
+    if length(cell) <= width {
+        return vec![cell.to_owned()];
+    }
+    for word in cell.split(' ') {
+        let whole = length(word) <= width;
+        let pieces = word.split_inclusive(|sign| sign == '_' && !whole).enumerate();
+        pieces.for_each(|(i, piece)| put(if i == 0 { " " } else { "" }, piece));
+    }
+    lines
 }
 
 /// The text of a table with these rows.
@@ -89,7 +173,7 @@ pub(crate) fn without_zeros(digits: &str) -> &str {
 pub(crate) fn facts(facts: &[(&str, String)]) -> String {
     let width = facts.iter().map(|(name, _)| name.chars().count()).max();
     let width = width.unwrap_or(0);
-    let lines = facts.iter().map(|(name, words)| format!("{name:<width$}{GAP}{words}\n"));
+    let lines = facts.iter().map(|(name, words)| format!("{name:<width$}   {words}\n"));
     lines.collect()
 }
 
@@ -105,6 +189,28 @@ mod tests {
         table.row(["blank".to_owned()]);
         let expected = "joint            β, °\nneck              3.5\nleft_shoulder   127.0\nblank\n";
         assert_eq!(table.text(), expected);
+    }
+
+    #[test]
+    fn a_narrow_terminal_breaks_heads_then_words() {
+        let mut table =
+            Table::new(&[(Align::Left, &["sphere", "stiffest material"]), (Align::Right, &["effective mass, kg"])]);
+        table.row(["head".to_owned(), "windscreen of glass".to_owned(), "4.200".to_owned()]);
+        let wide = table.within(80, true);
+        assert_eq!(
+            wide,
+            "sphere   stiffest material     effective mass, kg\nhead     windscreen of glass                4.200\n"
+        );
+        let heads = "                               effective\nsphere   stiffest material      mass, kg\nhead     windscreen of glass       4.200\n";
+        assert_eq!(table.within(40, true), heads);
+        for room in 27..80 {
+            assert!(
+                table.within(room, true).lines().all(|line| length(line) <= room),
+                "{room}: {}",
+                table.within(room, true)
+            );
+        }
+        assert!(table.within(5, true).contains("windscreen"), "what has no room is shown all the same");
     }
 
     #[test]

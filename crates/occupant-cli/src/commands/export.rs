@@ -3,26 +3,29 @@
 use std::path::{Path, PathBuf};
 
 use super::flags::history::{code_letter, interval};
-use crate::base::{Existing, Failure, ending, file_name, note, program, say};
-use crate::files::export::About;
-use crate::files::history::{Filter, Histories, Treatment, UnitChoice, choose, family_name, load};
+use crate::base::input_file::is_input;
+use crate::base::{Existing, Failure, deliver, ending, file_name, note, print_file, program, refuse_input, say};
+use crate::files::export::{About, table};
+use crate::files::history::{AxisChoice, Filter, Histories, Treatment, UnitChoice, choose, family_name, load};
 use crate::files::mme::{Labels, files};
 use crate::files::results::Results;
 use crate::files::table::Form;
 use crate::jobs::export::{TableFiles, publish_folder};
+use crate::pictures::gltf::glb;
 
-/// Write a run's time histories as CSV, Parquet or ISO-MME
+/// Write a run's time histories as CSV, Parquet or ISO-MME, or its motion as a scene
 ///
 /// The ending of the output decides. CSV: one table, units in its headings; what the columns are stands beside it in
 /// NAME.csv-metadata.json. Parquet: the same table, its metadata inside. ISO-MME: NAME.mme becomes the folder NAME with
 /// NAME.mme and its channels, in SI units and SAE J211 axes, of all channels that the standard's dictionary has a code for.
+/// glTF: NAME.glb is a scene with the motion of body, surfaces and solids, without belts, for Blender and the web.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The results of `occupant run`
     #[arg(value_name = "RUN.mcap")]
     run: PathBuf,
 
-    /// The file to write: NAME.csv, NAME.parquet or NAME.mme; RUN.csv beside the run if absent
+    /// The file to write: NAME.csv, NAME.parquet, NAME.mme or NAME.glb; `-` writes CSV to standard output; RUN.csv beside the run if absent
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
@@ -41,6 +44,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "SYSTEM", default_value = "si")]
     units: UnitChoice,
 
+    /// Axes of CSV and Parquet for what is told along those of a segment
+    #[arg(long, value_enum, default_value_t)]
+    axes: AxisChoice,
+
     /// Position of the occupant in ISO-MME codes: 1 front left, 3 front right, 4 to 9 behind
     #[arg(long, value_name = "CODE", default_value = "1", value_parser = code_letter)]
     seat: char,
@@ -56,10 +63,14 @@ pub(crate) struct Args {
 
 pub(crate) fn export(args: &Args) -> Result<(), Failure> {
     let output = args.output.clone().unwrap_or_else(|| args.run.with_extension("csv"));
+    let to_standard = is_input(&output);
+    if ending(&output) == "glb" {
+        return export_scene(args, &output);
+    }
     let is_mme = ending(&output) == "mme";
-    let form = (!is_mme).then(|| Form::of(&output)).flatten();
+    let form = if to_standard { Some(Form::Csv) } else { Form::of(&output) };
     if !is_mme && form.is_none() {
-        return Err(Failure::ending(&output, ".csv, .parquet or .mme"));
+        return Err(Failure::ending(&output, ".csv, .parquet, .mme or .glb"));
     }
     let treatment = Treatment { interval_s: args.interval, ..args.treatment };
     let results = Results::open(&args.run)?;
@@ -69,12 +80,29 @@ pub(crate) fn export(args: &Args) -> Result<(), Failure> {
     let Some(form) = form else {
         return export_mme(args, &output, &results, &histories);
     };
+    let histories = args.axes.turned(histories);
     let coefficients = (treatment.filter != Filter::None).then(|| family_name(treatment.family));
     let about = About::new(&results, &histories, args.units, treatment.filter.words(), coefficients);
+    if to_standard {
+        let bytes = table(&histories, &about, args.units, form).map_err(|error| Failure::plain(error.to_string()))?;
+        return print_file(&bytes);
+    }
     let files = TableFiles::begin(&output, form, &args.run, Existing::by(args.force))?;
     files.write(&histories, &about, args.units)?;
     say(&format!("wrote {} channels: {}", histories.columns.len(), output.display()));
     Ok(())
+}
+
+/// The motion as a scene, of which neither channels nor filters are asked for.
+fn export_scene(args: &Args, output: &Path) -> Result<(), Failure> {
+    if !args.channels.is_empty() || args.interval.is_some() {
+        let found = "--channels and --interval are of tables, and a scene has every output";
+        return Err(Failure::with_help(found, "leave them out, or name a .csv"));
+    }
+    refuse_input(output, &args.run)?;
+    let results = Results::open(&args.run)?;
+    results.notes().iter().chain(&results.doubt()).for_each(note);
+    deliver(output, args.force, &glb(&results)?)
 }
 
 fn export_mme(args: &Args, output: &Path, results: &Results, histories: &Histories) -> Result<(), Failure> {

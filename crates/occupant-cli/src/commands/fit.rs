@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::flags::sweep::EngineArgs;
+use super::flags::sweep::{EngineArgs, folder_of};
 use crate::base::{Failure, Interrupt, json, print, program, say};
 use crate::files::measured::MapArgument;
 use crate::files::study_folder::checksums::Checksums;
@@ -24,9 +24,9 @@ use crate::jobs::sweep::words::{tell_damaged, warn_unlocked};
 /// Looks for the values of the study's parameters, each between the ends of its range, with which measured channels of one
 /// test or of several are reproduced best; the study's [fit] says what counts. A global search (CMA-ES with growing
 /// populations) is followed by a refinement and by intervals: how far each parameter can go while the others make up for it.
-/// Writes FOLDER/fit.json, fitted.toml (the scenario with the fitted numbers and where they come from), plots/*.svg
-/// (measured against computed, before and after) and history.parquet and .csv (every candidate). The same command
-/// resumes a fit that was interrupted or killed, and ends at the same answer.
+/// Writes FOLDER/fit.json, fitted.toml (the scenario with the fitted numbers and where they come from; of several scenarios
+/// fitted/TEST.toml), plots/*.svg (measured against computed, before and after) and history.parquet and .csv (every candidate).
+/// The same command resumes a fit that was interrupted or killed, and ends at the same answer.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The study, TOML or JSON
@@ -37,9 +37,9 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TEST")]
     to: Vec<PathBuf>,
 
-    /// The folder of the results; made if absent
+    /// The folder of the results, made if it is not there; that of the study's name in the present folder if absent
     #[arg(short, long, value_name = "FOLDER")]
-    output: PathBuf,
+    output: Option<PathBuf>,
 
     /// Which column of the tests is which channel: 'column=channel', 'column[unit]=channel', 'column=-channel' for opposite
     /// signs; columns named as channels are found without
@@ -73,7 +73,7 @@ pub(crate) fn fit(args: &Args) -> Result<(), Failure> {
     if !args.quiet {
         fitting.warnings.iter().for_each(|w| say(&format!("{w}\n")));
     }
-    let folder = Folder::of_fit(&args.output);
+    let folder = Folder::of_fit(&args.output.clone().map_or_else(|| folder_of(&args.study), Ok)?);
     let sha256 = sha256_of(&fitting.manifest)?;
     let held = folder.claim(&fitting.manifest, &fitting.texts, Shard::WHOLE, args.restart)?;
     warn_unlocked(&held, "fitting into one folder", args.quiet);
@@ -93,6 +93,11 @@ pub(crate) fn fit(args: &Args) -> Result<(), Failure> {
     match (args.json, args.quiet) {
         (true, _) => print(&json(&found)?),
         (false, true) => Ok(()),
-        (false, false) => print(&format!("{}\nwritten to {}\n", report::text(&found), folder.path.display())),
+        (false, false) => {
+            let path = folder.path.display();
+            let one = folder.path.join("fitted.toml").is_file();
+            let next = if one { format!("next: occupant run {path}/fitted.toml\n") } else { String::new() };
+            print(&format!("{}\nwritten to {path}\n{next}", report::text(&found)))
+        }
     }
 }

@@ -15,6 +15,7 @@ mod explain;
 mod export;
 mod fit;
 mod flags;
+mod import;
 mod man;
 mod measures;
 mod new;
@@ -74,6 +75,7 @@ commands! {
     Explain: explain::explain,
     Channels: channels::channels,
     Schema: schema::print,
+    Import: import::import,
     Convert: convert::convert,
     Print: print::print_run,
     Plot: plot::plot,

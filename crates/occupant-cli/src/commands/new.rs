@@ -30,6 +30,17 @@ pub(crate) struct Args {
     quiet: bool,
 }
 
+/// The driver's scenario with another title and path; all three as TOML.
+pub(super) fn with_path(title: &str, origin: &str, section: &str) -> String {
+    let head = "# A driver of ours, belted, in a car of ours, on the path of a test: change body, posture, belts and solids to those of the test.\n\n";
+    let changed = template::changed(STARTER, &format!("{head}title = {title}\n\n{section}"));
+    let line = |line: &str| match line.starts_with("path = ") {
+        true => format!("path = {origin}\n"),
+        false => line.to_owned(),
+    };
+    changed.split_inclusive('\n').map(line).collect()
+}
+
 /// Writes the starter scenario.
 pub(crate) fn new(args: &Args) -> Result<(), Failure> {
     let mut file = args.file.clone();

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::flags::history::{TestArgs, WindowArgs};
 use crate::base::{Failure, file_name, note, program, publish, refuse_input, said_and_opened, say, with_word};
-use crate::files::history::{Treatment, UnitChoice};
+use crate::files::history::{AxisChoice, Treatment, UnitChoice};
 use crate::files::results::Results;
 use crate::jobs::plot::{Request, plots};
 use crate::pictures::Format;
@@ -58,6 +58,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "SYSTEM", default_value = "g")]
     units: UnitChoice,
 
+    /// Axes for what is told along those of a segment
+    #[arg(long, value_enum, default_value_t)]
+    axes: AxisChoice,
+
     #[command(flatten)]
     treatment: Treatment,
 
@@ -105,6 +109,7 @@ pub(crate) fn plot(args: &Args) -> Result<(), Failure> {
         shift_s: args.signals.shift,
         treatment: args.treatment,
         units: args.units,
+        axes: args.axes,
         window_s,
     })?;
     notes.iter().for_each(note);

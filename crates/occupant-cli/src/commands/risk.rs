@@ -50,6 +50,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     end: Option<String>,
 
+    /// Names and units of the file's columns in place of its own headings, `-` for one that is left out, such as 't[ms],-,ax[g]'
+    #[arg(long, value_name = "COLUMNS")]
+    columns: Option<String>,
+
     /// Where the sensors stand, from the centre of gravity: forward, right, down, such as "-0.3 m,0,10 cm"
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     offset: Option<String>,

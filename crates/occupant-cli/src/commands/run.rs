@@ -9,7 +9,9 @@ use occupant_study::ending::Balance;
 use serde::Serialize;
 
 use super::flags::ensemble::EnsembleArgs;
+use super::tables::measures::side_by_side;
 use super::tables::summary::{Marks, summary_table};
+use crate::base::input_file::is_input;
 use crate::base::{Done, Existing, Failure, Interrupt, ending, json, print, program, say};
 use crate::files::scenario::{self, Opened, ScenarioArgs};
 use crate::jobs::ensemble::report::Report;
@@ -25,10 +27,14 @@ use crate::jobs::run::{Simulated, run as simulate};
 /// complete the file is called SCENARIO.partial.mcap. With --resume the run starts where another one ended, with the same
 /// states as one run to the new end, and writes SCENARIO.resumed.mcap. With --ensemble it is run many times with small
 /// changes, and the table says which of its results are stable.
-#[derive(Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     scenario: ScenarioArgs,
+
+    /// More scenarios: each is run in its turn, and their measures are printed side by side
+    #[arg(value_name = "MORE", conflicts_with_all = ["output", "resume", "json"])]
+    more: Vec<PathBuf>,
 
     /// The file to write
     #[arg(short, long, value_name = "FILE.mcap")]
@@ -65,6 +71,10 @@ pub(crate) struct Args {
 
     #[command(flatten)]
     ensemble: EnsembleArgs,
+
+    /// One of several, of which the tables are printed together.
+    #[arg(skip)]
+    is_one_of_several: bool,
 }
 
 /// What `--json` prints.
@@ -91,6 +101,37 @@ struct Answer<'a> {
 }
 
 pub(crate) fn run(args: &Args) -> Result<Done, Failure> {
+    if args.more.is_empty() { Ok(one(args)?.0) } else { several(args) }
+}
+
+/// Runs the scenarios one after the other, and prints their measures side by side.
+fn several(args: &Args) -> Result<Done, Failure> {
+    let mut done = Done::Well;
+    let mut runs: Vec<(PathBuf, Summary)> = Vec::new();
+    for scenario in std::iter::once(&args.scenario.scenario).chain(&args.more) {
+        let own = ScenarioArgs { scenario: scenario.clone(), ..args.scenario.clone() };
+        if !args.quiet {
+            say(&format!("{}: running", scenario.display()));
+        }
+        let (ended, summary) = one(&Args { scenario: own, more: Vec::new(), is_one_of_several: true, ..args.clone() })?;
+        if ended == Done::Unwell {
+            done = ended;
+        }
+        runs.push((scenario.clone(), summary));
+    }
+    let names = runs.iter().enumerate().map(|(i, (name, _))| format!("{}   {}\n", i + 1, name.display()));
+    let marks: Vec<Marks> = runs.iter().map(|(_, summary)| Marks::of(&summary.caveats)).collect();
+    let columns = runs.iter().zip(&marks).map(|((_, summary), marks)| (&summary.measures[..], marks));
+    let table = side_by_side(&columns.collect::<Vec<_>>());
+    let caveats = runs
+        .iter()
+        .enumerate()
+        .flat_map(|(i, (_, s))| s.caveats.iter().map(move |c| format!("{}! {}\n", i + 1, c.text)));
+    print(&format!("{}\n{table}\n{}", names.collect::<String>(), caveats.collect::<String>()))?;
+    Ok(done)
+}
+
+fn one(args: &Args) -> Result<(Done, Summary), Failure> {
     let chosen = chosen(args);
     let (bytes, draft) = scenario::draft(&chosen)?;
     let opened = scenario::open_draft(&chosen, bytes, draft.clone())?;
@@ -123,14 +164,16 @@ pub(crate) fn run(args: &Args) -> Result<Done, Failure> {
         .then(|| estimate(&opened, &run.summary, &run.head, &interrupt))
         .transpose()
         .map_err(|failure| failure.with_done(&run.written.left()))?;
-    show(args, &chosen, &opened, from.as_ref(), &run, (ensemble.as_ref(), estimate.as_ref()))?;
+    if !args.is_one_of_several {
+        show(args, &chosen, &opened, from.as_ref(), &run, (ensemble.as_ref(), estimate.as_ref()))?;
+    }
     if !args.quiet || balance == Balance::Lost {
         say_balance(balance, &run.summary);
     }
     if !run.completed {
         return Err(Failure::BrokeOff(broke_off(&run)));
     }
-    Ok(if balance == Balance::Lost { Done::Unwell } else { Done::Well })
+    Ok((if balance == Balance::Lost { Done::Unwell } else { Done::Well }, run.summary))
 }
 
 fn say_balance(balance: Balance, summary: &Summary) {
@@ -159,7 +202,8 @@ fn output_name(args: &Args) -> Result<Option<PathBuf>, Failure> {
         return is_ours.then(|| Some(name.clone())).ok_or_else(|| Failure::ending(name, ".mcap"));
     }
     let nameless = || Failure::with_help("the scenario's name gives no name to its results", "use -o FILE.mcap");
-    let mut name = args.scenario.scenario.file_stem().ok_or_else(nameless)?.to_owned();
+    let own = args.scenario.scenario.file_stem().filter(|_| !is_input(&args.scenario.scenario));
+    let mut name = own.ok_or_else(nameless)?.to_owned();
     name.push(if args.resume.is_some() { ".resumed.mcap" } else { ".mcap" });
     Ok(Some(PathBuf::from(name)))
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::Subcommand;
 
 use super::flags::sweep as flags;
-use crate::base::{Done, Failure, Interrupt, program, say};
+use crate::base::{Done, Failure, Interrupt, print, program, say};
 use crate::files::scenario::warn;
 use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::texts::Texts;
@@ -30,8 +30,8 @@ pub(crate) struct Args {
     #[arg(value_name = "STUDY", required = true)]
     study: Option<PathBuf>,
 
-    /// The folder of the results; made if absent
-    #[arg(short, long, value_name = "FOLDER", required = true)]
+    /// The folder of the results, made if it is not there; that of the study's name in the present folder if absent
+    #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
 
     /// Change a value in all samples, such as --set time.end='250 ms'; may be repeated
@@ -50,6 +50,10 @@ pub(crate) struct Args {
     /// 'worst 5 by head.peak'
     #[arg(long, value_name = "WHICH")]
     keep: Option<String>,
+
+    /// Write nothing: say how many samples there are, show the first, and estimate time and size by running one
+    #[arg(long)]
+    dry_run: bool,
 
     /// Write the table as results.csv too, with the units in columns.csv
     #[arg(long)]
@@ -71,10 +75,14 @@ enum Step {
 
 /// Runs a sweep, or merges one.
 pub(crate) fn sweep(args: &Args) -> Result<Done, Failure> {
-    match (&args.command, &args.study, &args.output) {
-        (Some(Step::Merge(args)), _, _) => merge::merge(args),
-        (None, Some(study), Some(output)) => open(args, study, output)?.run(),
-        (None, _, _) => Err(Failure::plain("a sweep needs a study and -o FOLDER")),
+    match (&args.command, &args.study) {
+        (Some(Step::Merge(args)), _) => merge::merge(args),
+        (None, Some(study)) => {
+            let output = args.output.clone().map_or_else(|| flags::folder_of(study), Ok)?;
+            let sweep = open(args, study, &output)?;
+            if args.dry_run { print(&sweep.rehearse()?).map(Into::into) } else { sweep.run() }
+        }
+        (None, None) => Err(Failure::plain("a sweep needs a study")),
     }
 }
 

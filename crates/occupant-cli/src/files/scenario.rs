@@ -14,7 +14,7 @@ use crate::base::{Failure, by_ending, file_name, input_file, say};
 /// Which scenario, and what is changed in it.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct ScenarioArgs {
-    /// The scenario, TOML or JSON
+    /// The scenario, TOML or JSON; `-` is standard input
     #[arg(value_name = "SCENARIO")]
     pub(crate) scenario: PathBuf,
 
@@ -61,6 +61,11 @@ pub(crate) fn draft(args: &ScenarioArgs) -> Result<(Vec<u8>, Draft), Failure> {
     let name = path.display().to_string();
     let refuse = |problems: Diagnostics| refused(&name, &problems);
     let mut draft = Draft::read_bytes(&bytes, format_of(path), &name).map_err(refuse)?;
+    // a key of studies that no scenario has
+    if draft.get("base").is_ok() {
+        let help = format!("occupant sweep {name} runs it; `base` names the scenario that it varies");
+        return Err(Failure::with_help(format!("{name} is a study, not a scenario"), &help));
+    }
     for assignment in &args.overrides {
         draft.set(assignment).map_err(refuse)?;
     }
@@ -81,7 +86,8 @@ pub(crate) fn open_draft(args: &ScenarioArgs, bytes: Vec<u8>, draft: Draft) -> R
 
 /// Reads the files that a scenario names, from the folder that it stands in.
 pub(crate) fn files_beside(scenario: &Path) -> impl Fn(&str) -> Result<Vec<u8>, String> {
-    let folder = scenario.parent().unwrap_or(Path::new("")).to_owned();
+    // a file called `-` is not standard input
+    let folder = Path::new(".").join(scenario.parent().unwrap_or(Path::new("")));
     move |file| input_file::bytes(&folder.join(file)).map_err(|error| error.to_string())
 }
 
@@ -118,7 +124,7 @@ pub(crate) fn stored(file: &Path, run: &StoredRun) -> Result<(Loaded, Model, Dia
     let unreadable = |why: String| Failure::plain(format!("the scenario in {name} cannot be read:{why}"));
     input_file::scenario_fits(bytes).map_err(|error| unreadable(format!(" {error}")))?;
     let resolver = |table: &str| {
-        let found = run.attachments.get(&file_name(Path::new(table)));
+        let found = run.attachments.get(table).or_else(|| run.attachments.get(&file_name(Path::new(table))));
         found.cloned().ok_or_else(|| format!("{name} does not hold it"))
     };
     let loaded = Draft::read_bytes(bytes, Some(Format::Toml), RESOLVED)

@@ -16,9 +16,6 @@ pub(crate) struct Trouble {
     hint: Option<String>,
 }
 
-/// Problems of one file that are named at once; the rest is counted.
-const MOST: usize = 10;
-
 impl Trouble {
     /// In a line (from 1) of a file.
     pub(crate) fn at(path: &Path, line: usize, found: impl Into<String>, expected: impl Into<String>) -> Self {
@@ -41,16 +38,6 @@ impl Trouble {
 
 impl From<Trouble> for Failure {
     fn from(trouble: Trouble) -> Self {
-        failure(&[trouble])
+        Failure::CouldNotRun(trouble.to_string())
     }
-}
-
-/// All problems as the end of a command.
-pub(crate) fn failure(problems: &[Trouble]) -> Failure {
-    let shown = problems.iter().take(MOST).map(Trouble::to_string);
-    let mut text = shown.collect::<Vec<_>>().join("\n\n");
-    if problems.len() > MOST {
-        text.push_str(&format!("\n\nand {} more", problems.len() - MOST));
-    }
-    Failure::CouldNotRun(text)
 }

@@ -7,6 +7,7 @@ pub(crate) mod ensemble;
 pub(crate) mod export;
 pub(crate) mod extend;
 pub(crate) mod fit;
+pub(crate) mod import;
 pub(crate) mod plot;
 pub(crate) mod print;
 pub(crate) mod report;

@@ -6,7 +6,7 @@ use occupant_core::quantity::Axes;
 use occupant_core::results::channel::{Channel, find};
 
 use crate::base::{Failure, file_name};
-use crate::files::history::{Treatment, UnitChoice, choose, load};
+use crate::files::history::{AxisChoice, Treatment, UnitChoice, choose, load};
 use crate::files::measured::{self, MapArgument, Wanted, pairs};
 use crate::files::results::Results;
 use crate::pictures::plot::{Entry, Figure, LimitArgument, Material, Overlay, Plot, RunCurves, figure, standard};
@@ -29,6 +29,7 @@ pub(crate) struct Request<'a> {
     pub(crate) shift_s: f64,
     pub(crate) treatment: Treatment,
     pub(crate) units: UnitChoice,
+    pub(crate) axes: AxisChoice,
     /// First and last time drawn.
     pub(crate) window_s: [f64; 2],
 }
@@ -40,7 +41,7 @@ pub(crate) struct Request<'a> {
 pub(crate) fn plots(request: &Request<'_>) -> Result<(Vec<Figure>, Vec<String>), Failure> {
     let plots = match request.channels {
         [] => standard_plots(request.runs),
-        names => names.iter().map(|names| own_plot(names, request.runs)).collect::<Result<_, _>>()?,
+        names => names.iter().map(|names| own_plot(names, request)).collect::<Result<_, _>>()?,
     };
     let names = channel_names(&plots, request.x);
     let mut notes = Vec::new();
@@ -78,20 +79,20 @@ fn standard_plots(runs: &[Results]) -> Vec<Plot> {
 }
 
 /// A plot of channels by name, as the first run that has them knows them.
-fn own_plot(names: &str, runs: &[Results]) -> Result<Plot, Failure> {
+fn own_plot(names: &str, request: &Request<'_>) -> Result<Plot, Failure> {
     let mut first_refusal = None;
-    for run in runs {
+    for run in request.runs {
         match choose(&run.model, &[names.to_owned()]) {
-            Ok(channels) => return Ok(plot_of(names, &channels)),
+            Ok(channels) => return Ok(plot_of(names, &channels, request.axes)),
             Err(refusal) => first_refusal = first_refusal.or(Some(refusal)),
         }
     }
     Err(first_refusal.unwrap_or_else(|| Failure::plain("no run was given")))
 }
 
-fn plot_of(names: &str, channels: &[Channel]) -> Plot {
+fn plot_of(names: &str, channels: &[Channel], axes: AxisChoice) -> Plot {
     let title = match channels {
-        [one] if one.axes != Axes::None => format!("{}, {} axes", one.name, one.axes.name()),
+        [one] if one.axes != Axes::None => format!("{}, {} axes", one.name, axes.of(one).0.name()),
         [one] => one.name.clone(),
         _ => names.split(',').map(str::trim).collect::<Vec<_>>().join(", "),
     };
@@ -131,7 +132,7 @@ fn run_curves(request: &Request<'_>, names: &[String], notes: &mut Vec<String>) 
                 Err(_) => notes.push(format!("{} has no channel {name}", run.path.display())),
             }
         }
-        let histories = load(run, channels, request.treatment)?;
+        let histories = request.axes.turned(load(run, channels, request.treatment)?);
         notes.extend(histories.notes.iter().cloned());
         curves.push(RunCurves { label, histories });
     }
@@ -159,7 +160,8 @@ fn labels(runs: &[Results]) -> Vec<String> {
 
 fn overlays(request: &Request<'_>, names: &[String], notes: &mut Vec<String>) -> Result<Vec<Overlay>, Failure> {
     let known = |n: &String| request.runs.iter().find_map(|r| find(&r.model, n).ok());
-    let wanted: Vec<Wanted> = names.iter().filter_map(known).map(|c| Wanted::from(&c)).collect();
+    let known: Vec<Channel> = names.iter().filter_map(known).collect();
+    let wanted: Vec<Wanted> = known.iter().map(Wanted::from).collect();
     let mut overlays = Vec::new();
     for path in request.tests {
         let recording = measured::read(path)?;
@@ -177,6 +179,8 @@ fn overlays(request: &Request<'_>, names: &[String], notes: &mut Vec<String>) ->
                 pair.filter(class, request.treatment.family)?;
             }
             pair.time_s.iter_mut().for_each(|t| *t += request.shift_s);
+            let sign = request.axes.of(&known[pair.channel]).1;
+            pair.values.iter_mut().for_each(|value| *value *= sign);
             overlays.push(Overlay { channel, file: file_name(path), pair });
         }
     }

@@ -7,6 +7,7 @@ pub(crate) mod body;
 pub(crate) mod film;
 pub(crate) mod font;
 mod format;
+pub(crate) mod gltf;
 pub(crate) mod html;
 pub(crate) mod plot;
 pub(crate) mod svg;

@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 use super::{answer, code, err, folder_with_case, out};
 
 /// What each command can do in the folder, in an order in which one has what another has made, and what it cannot.
-const COMMANDS: [[&str; 2]; 21] = [
+const COMMANDS: [[&str; 2]; 22] = [
     ["run case.toml -f -o run.mcap --set time.end=0.02", "run none.toml"],
     [
         "export run.mcap -f -o test.csv --channels lower_torso.acceleration.x",
@@ -17,6 +17,7 @@ const COMMANDS: [[&str; 2]; 21] = [
     ["sweep study.toml -o sweep", "sweep none.toml"],
     ["study report sweep -f", "study report none"],
     ["fit study.toml --to test.csv -o fit", "fit study.toml --to none.csv -o none"],
+    ["import test.csv -f -o import.toml", "import none.csv"],
     ["check case.toml", "check none.toml"],
     ["new new.toml -f", "new none/new.toml"],
     ["explain path", "explain none"],

@@ -3,7 +3,8 @@ use std::path::Path;
 use super::{answer, code, err, json, out};
 
 /// What `occupant new` can start from.
-const TEMPLATES: [&str; 7] = ["driver", "right-hand-drive", "rear-seat", "side", "rollover", "edr", "sensors"];
+const TEMPLATES: [&str; 9] =
+    ["driver", "right-hand-drive", "rear-seat", "side", "rollover", "edr", "sensors", "sled", "pedestrian"];
 
 /// A fresh folder with a template as case.toml.
 fn folder_with(template: &str) -> tempfile::TempDir {
@@ -33,7 +34,12 @@ fn every_template_runs_as_it_is_without_a_caveat() {
         assert_eq!((code(&run), err(&run)), (0, String::new()), "{template}");
         // a bare head on a bare window is a spike that no interval of outputs is short enough for
         let caveats = json(&run)["caveats"].as_array().unwrap().clone();
-        let is_spike = |name: &str| template == "side" && name == "outputs_too_coarse";
+        let is_spike = |name: &str| match template {
+            "side" => name == "outputs_too_coarse",
+            // who rolls on a road bends beyond what people bear, and says so
+            "pedestrian" => name == "outputs_too_coarse" || name.ends_with("_beyond_stop"),
+            _ => false,
+        };
         let caveats: Vec<_> = caveats.iter().filter(|c| !is_spike(c["name"].as_str().unwrap())).collect();
         assert!(caveats.is_empty(), "{template}: {caveats:?}");
     }

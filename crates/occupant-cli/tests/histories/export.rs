@@ -160,7 +160,7 @@ fn what_cannot_be_exported_is_said() {
     let run = coarse();
     let run = run.to_str().unwrap();
     for (words, expected) in [
-        (vec!["export", run, "-o", "a.xlsx"], ".csv, .parquet or .mme"),
+        (vec!["export", run, "-o", "a.xlsx"], ".csv, .parquet, .mme or .glb"),
         (vec!["export", run, "-o", "a.csv", "--channels", "head.aceleration.x"], "did you mean `head.acceleration.x`"),
         (vec!["export", run, "-o", "a.csv", "--channels", "nose.*"], "no channel is called `nose.*`"),
         (vec!["export", run, "-o", "a.csv", "--interval", "0"], "above zero"),

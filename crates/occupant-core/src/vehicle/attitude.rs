@@ -35,7 +35,7 @@ impl Attitude {
     ///
     /// With the vehicle upright on its nose or tail only the difference of roll and yaw is known; the roll is then that
     /// of `near`.
-    pub(crate) fn from_matrix(matrix: &Matrix3<f64>, near: &Attitude) -> Self {
+    pub fn from_matrix(matrix: &Matrix3<f64>, near: &Attitude) -> Self {
         let a = |row: usize, column: usize| matrix[(row - 1, column - 1)];
         // A₃₁ = −sin θ (79g), A₃₂ = cos θ sin φ (79h), A₃₃ = cos θ cos φ (79i)
         let cos_pitch = (a(3, 2) * a(3, 2) + a(3, 3) * a(3, 3)).sqrt();

@@ -240,19 +240,10 @@ fn check_names(b: &mut Builder, s: &Scenario) {
 
 /// The path that stands at `at`.
 pub(super) fn moving(b: &mut Builder, at: &[&str], section: &PathSection, gravity_m_s2: f64) -> Option<VehiclePath> {
-    if section.file().is_some() {
-        let found = "a table in a file of its own";
-        b.error(
-            &with_key(&at.join("."), "file"),
-            found,
-            "`columns` and `rows` here: one file belongs to a scenario, that of `path`",
-        );
-        return None;
-    }
     let root = with_path(&b.document.root, at)?;
     let document = Document { root, ..b.document.clone() };
     let own = &mut Builder { document: &document, problems: Diagnostics::new() };
-    let path = path::path(own, section, None, gravity_m_s2);
+    let path = path::path(own, section, gravity_m_s2);
     let problems = std::mem::take(&mut own.problems);
     b.problems.extend(problems);
     path

@@ -10,9 +10,9 @@ const SENSES: [Sense; 12] = [
     ('v', &["v", "velocity", "speed"]),
     ('a', &["acceleration", "accel", "acc", "a"]),
     ('w', &["rate", "angular", "omega", "gyro"]),
-    ('x', &["longitudinal", "long", "x"]),
-    ('y', &["lateral", "lat", "y"]),
-    ('z', &["vertical", "vert", "z"]),
+    ('x', &["longitudinal", "long", "x", "xpos"]),
+    ('y', &["lateral", "lat", "y", "ypos"]),
+    ('z', &["vertical", "vert", "z", "zpos"]),
     ('p', &["roll"]),
     ('q', &["pitch"]),
     ('r', &["yaw", "heading"]),
@@ -49,8 +49,8 @@ const COLUMNS: [(&str, &str); 26] = [
     ("dvy", "dvy"),
 ];
 
-/// The column that a heading means, if every word of it is known.
-pub(super) fn heading(text: &str) -> Option<&'static str> {
+/// The column of a path's table that a heading means, if every word of it is known.
+pub fn heading(text: &str) -> Option<&'static str> {
     let text = text.to_lowercase();
     let words = text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     let sense = |word: &str| SENSES.iter().find(|(_, names)| names.contains(&word)).map(|(sense, _)| *sense);

@@ -27,7 +27,7 @@ use occupant_core::forces::contact::surface::Frame;
 use occupant_core::forces::joint::Joints;
 use occupant_core::model::seating::{InitialPosture, InitialVelocity, Mounting, Placing};
 use occupant_core::model::setup::{Member, Setup};
-use placed_text::{Diagnostics, Document, Node, SourceId, with_key};
+use placed_text::{Diagnostics, Document, Node, with_key};
 
 /// One of several occupants.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -130,11 +130,10 @@ pub(crate) fn together(
     written: &Scenario,
     explicit: &Scenario,
     document: &Document,
-    table: Option<SourceId>,
 ) -> Result<(Setup, Diagnostics), Diagnostics> {
     let (mut problems, mut members, mut worlds) = (Diagnostics::new(), Vec::new(), Vec::new());
     if explicit.body.is_some() {
-        let (world, found) = setup(written, explicit, document, table)?;
+        let (world, found) = setup(written, explicit, document)?;
         problems.extend(found);
         members.push((String::new(), Frame::Vehicle, world.clone()));
         worlds.push(world);
@@ -152,7 +151,7 @@ pub(crate) fn together(
             b.error(&format!("occupants.{name}"), problem, "vehicle = \"vehicle\", or the name of another");
         }
         problems.extend(std::mem::take(&mut b.problems));
-        match setup(&says, &sections, &own, table) {
+        match setup(&says, &sections, &own) {
             Ok((world, found)) => {
                 problems.extend(found);
                 members.push((name.clone(), home, world.clone()));

@@ -9,7 +9,7 @@ use super::heading::heading;
 use crate::kind::{KINDS, UnitSystem};
 use crash_measures::unit::parse;
 use placed_text::{
-    CELL, Cell, Diagnostic, Diagnostics, Node, Problem, Separator, SourceId, Sources, Span, did_you_mean, lines,
+    CELL, Cell, Diagnostic, Diagnostics, Node, Problem, Separator, SourceId, Sources, Span, TextTable, did_you_mean,
     name_and_unit, one_of, shortened,
 };
 
@@ -64,43 +64,31 @@ pub(super) fn read_csv(
     columns: &[Column],
     names: Option<(Vec<Cell>, Span)>,
 ) -> Result<NumberTable, Diagnostics> {
-    let mut lines = lines(sources, id).peekable();
-    let Some(first) = lines.peek().copied() else {
+    let Some(text) = TextTable::of(sources, id, |unit| parse(unit, 0).is_ok()) else {
         let mut reader = Reader::new(sources, columns, Separator::of(""));
         reader.error(sources.start_of(id), "an empty table", "a line that names the columns");
         return Err(reader.problems);
     };
-    let separator = Separator::of(sources.slice(first));
-    let mut reader = Reader::new(sources, columns, separator);
-    let cells = |line: Span| separator.cells(sources, line);
-    let is_number = |cell: &Cell| separator.number(cell).is_ok();
-    let headings = lines.next_if(|line| names.is_none() || !cells(*line).iter().any(is_number)).map(cells);
-    let is_unit = |cell: &Cell| matches!(cell.text, "" | "-") || parse(bare(cell.text), 0).is_ok();
-    let units = lines.next_if(|line| headings.is_some() && cells(*line).iter().all(is_unit)).map(cells);
-    let mut table = NumberTable::new(first);
+    let mut reader = Reader::new(sources, columns, text.separator);
+    let mut table = NumberTable::new(text.first);
     match names {
-        Some((names, span)) => reader.header(&names, &[], span),
+        Some((names, span)) => reader.header(&names, |_| None, span),
         None => {
-            let headings = headings.unwrap_or_default();
-            if headings.iter().all(|cell| reader.place(name_and_unit(cell.text).0).is_none()) {
+            if text.headings.iter().all(|cell| reader.place(name_and_unit(cell.text).0).is_none()) {
                 // any file can be named in a scenario: what is no such table is not shown
                 let expected = one_of(&reader.names(), '`');
-                reader.error(first, "a first line that names no column of such a table", expected);
+                reader.error(text.first, "a first line that names no column of such a table", expected);
                 return Err(reader.problems);
             }
-            reader.header(&headings, &units.unwrap_or_default(), first);
+            reader.header(&text.headings, |i| text.unit(i).map(|(unit, _)| unit), text.first);
         }
     }
-    for line in lines {
-        let numbers = cells(line).iter().enumerate().map(|(i, cell)| reader.number(i, cell)).collect();
+    for line in text.lines {
+        let cells = text.separator.cells(sources, line);
+        let numbers = cells.iter().enumerate().map(|(i, cell)| reader.number(i, cell)).collect();
         reader.row(&mut table, numbers, line);
     }
     reader.finish(table)
-}
-
-/// A unit without the brackets round it.
-fn bare(unit: &str) -> &str {
-    unit.trim_matches(['[', ']', '(', ')'])
 }
 
 /// The names that `columns` of a section of the scenario gives to columns, and where.
@@ -117,7 +105,7 @@ pub(super) fn names_of(section: &Node) -> Option<(Vec<Cell<'_>>, Span)> {
 pub(super) fn read_inline(sources: &Sources, section: &Node, columns: &[Column]) -> Result<NumberTable, Diagnostics> {
     let mut reader = Reader::new(sources, columns, Separator::of(""));
     let (header, span) = names_of(section).unwrap_or((Vec::new(), section.span));
-    reader.header(&header, &[], span);
+    reader.header(&header, |_| None, span);
     let mut table = NumberTable::new(span);
     for row in section.get("rows").map_or(&[][..], Node::items) {
         let numbers = row.items().iter().map(|n| n.value.number().unwrap_or(f64::NAN)).collect();
@@ -156,11 +144,10 @@ impl<'a> Reader<'a> {
         self.problems.add(problem, |problem| Diagnostic::at(self.sources, span, problem));
     }
 
-    /// Headings, with units that may stand below them.
-    fn header(&mut self, cells: &[Cell], units: &[Cell], span: Span) {
+    /// Headings; `unit` gives the units that the table says of its columns.
+    fn header<'u>(&mut self, cells: &[Cell], unit: impl Fn(usize) -> Option<&'u str>, span: Span) {
         for (i, cell) in cells.iter().enumerate() {
-            let below = units.get(i).map(|unit| bare(unit.text)).filter(|unit| !unit.is_empty());
-            let column = self.column(cell, below);
+            let column = self.column(cell, unit(i));
             self.columns.push(column);
         }
         let wanted = self.wanted;

@@ -1,6 +1,6 @@
 //! `[path]`: its keys, and the [`VehiclePath`] they come to.
 
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -8,14 +8,14 @@ use super::builder::Builder;
 use super::number_table::{Column, NumberTable, column, names_of, read_csv, read_inline};
 use super::pulse::{self, PulseSection};
 use super::quantity::{all_si, si_or};
-use super::sensors::{self, SensorsSection};
-use super::{Angle, Length, Ratio};
+use super::sensors::{self, SensorAxes, SensorsSection};
+use super::{Angle, Length, Ratio, Scenario};
 use crate::kind;
 use occupant_core::vehicle::{
     AfterEnd, Attitude, FixedPath, Interpolation, PathProblem, Station, TablePath, TravelDirection, VehiclePath,
     VehiclePose,
 };
-use placed_text::{Diagnostic, Problem, SourceId};
+use placed_text::{Diagnostic, Problem, SourceId, with_key};
 
 /// Motion of the vehicle, in vehicle-space axes: x forward, y right, z down.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -26,7 +26,7 @@ pub(crate) enum PathSection {
     /// Straight travel, slowed by a deceleration pulse.
     Pulse(Box<PulseSection>),
     /// Places and angles at given times.
-    Table(TableSection),
+    Table(Box<TableSection>),
     /// Recorded accelerations and turning rates, or velocity changes.
     Sensors(Box<SensorsSection>),
 }
@@ -58,10 +58,27 @@ pub(crate) struct TableSection {
     pub(crate) columns: Option<Vec<String>>,
     /// The table itself, one list for each time.
     pub(crate) rows: Option<Vec<Vec<f64>>>,
+    /// Which way the axes of the table point; "z_down" if absent.
+    pub(crate) axes: Option<SensorAxes>,
+    /// In which order the table's angles turn the vehicle; "yaw_pitch_roll" if absent.
+    pub(crate) angles: Option<AngleOrder>,
+    /// The point of the vehicle whose places the table gives, such as the middle of its rear axle, [x, y, z] from the vehicle's centre of gravity,
+    /// forward, right, down; [0, 0, 0] if absent.
+    pub(crate) offset: Option<[Length; 3]>,
     /// How the table is read between its times; "spline" if absent.
     pub(crate) interpolation: Option<Interpolation>,
     /// What the vehicle does after the last time; a run that goes on is refused if absent.
     pub(crate) after: Option<AfterEnd>,
+}
+
+/// In which order angles turn a vehicle, each about the axis that those before it have turned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum AngleOrder {
+    /// Yaw about the vertical, then pitch, then roll: ISO 8855, SAE J670, OpenSCENARIO.
+    YawPitchRoll,
+    /// Roll about the line ahead, then pitch, then yaw.
+    RollPitchYaw,
 }
 
 /// Columns of a path table.
@@ -87,13 +104,19 @@ impl PathSection {
     }
 }
 
-/// The vehicle's path; `table` is the CSV text it names, if it names one, and `gravity_m_s2` that of the scenario.
-pub(super) fn path(
-    b: &mut Builder,
-    section: &PathSection,
-    table: Option<SourceId>,
-    gravity_m_s2: f64,
-) -> Option<VehiclePath> {
+impl Scenario {
+    /// All paths and where they stand.
+    pub(crate) fn paths(&self) -> Vec<(String, &PathSection)> {
+        let named = |key: &str, name: &str| with_key(&with_key(key, name), "path");
+        let vehicles = self.vehicles.iter().map(|(name, own)| (named("vehicles", name), &own.path));
+        let frames = self.frames.iter().map(|(name, own)| (named("frames", name), &own.path));
+        self.path.iter().map(|path| ("path".to_owned(), path)).chain(vehicles).chain(frames).collect()
+    }
+}
+
+/// The path of a vehicle or frame; `gravity_m_s2` is that of the scenario. The CSV text that it names is among those of the document.
+pub(super) fn path(b: &mut Builder, section: &PathSection, gravity_m_s2: f64) -> Option<VehiclePath> {
+    let table = section.file().and_then(|file| b.document.sources.named(file));
     match section {
         PathSection::Fixed(s) => {
             let path = FixedPath::new(pose(&s.position, [&s.roll, &s.pitch, &s.yaw]));
@@ -117,9 +140,32 @@ pub(super) fn pose(position: &Option<[Length; 3]>, [roll, pitch, yaw]: [&Option<
 
 fn table_path(b: &mut Builder, s: &TableSection, file: Option<SourceId>) -> Option<TablePath> {
     let table = numbers(b, file, &COLUMNS)?;
-    let stations = table.rows.iter().map(|r| Station::new(r[0], [r[1], r[2], r[3]], [r[4], r[5], r[6]])).collect();
+    let stations = stations(s, &table.rows);
     let path = TablePath::new(stations, s.interpolation.unwrap_or_default(), s.after.unwrap_or_default());
     path.map_err(|p| refuse(b, &p, Some(&table))).ok()
+}
+
+/// The vehicle's centre of gravity and angles, z down, at the times of the table.
+fn stations(s: &TableSection, rows: &[Vec<f64>]) -> Vec<Station> {
+    let sign = s.axes.map_or([1.0; 3], SensorAxes::signs);
+    let offset_m = Vector3::from(s.offset.as_ref().map_or([0.0; 3], all_si));
+    let mut before = Attitude::default();
+    let station = |r: &Vec<f64>| {
+        // along X both kinds of axes point ahead: only turns about the other two change their sense
+        let (place, angles) = ([0, 1, 2].map(|i| sign[i] * r[1 + i]), [0, 1, 2].map(|i| sign[i] * r[4 + i]));
+        let [roll_rad, pitch_rad, yaw_rad] = angles;
+        let mut attitude = Attitude { roll_rad, pitch_rad, yaw_rad };
+        if s.angles == Some(AngleOrder::RollPitchYaw) {
+            let turn = |axis, angle_rad| Rotation3::from_axis_angle(&axis, angle_rad);
+            let (x, y, z) = (Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis());
+            let turned = turn(x, roll_rad) * turn(y, pitch_rad) * turn(z, yaw_rad);
+            attitude = Attitude::from_matrix(turned.matrix(), &before);
+        }
+        before = attitude;
+        let place = Vector3::from(place) - attitude.matrix() * offset_m;
+        Station::new(r[0], place.into(), [attitude.roll_rad, attitude.pitch_rad, attitude.yaw_rad])
+    };
+    rows.iter().map(station).collect()
 }
 
 pub(super) fn numbers(b: &mut Builder, file: Option<SourceId>, columns: &[Column]) -> Option<NumberTable> {

@@ -3,7 +3,7 @@
 use super::number_table::read_csv;
 use super::sensors::{COLUMNS, RECORDED};
 use occupant_core::vehicle::AccelerationRecord;
-use placed_text::{Diagnostic, Diagnostics, Problem, Sources, Span, text_of};
+use placed_text::{Diagnostic, Diagnostics, Problem, Separator, Sources, Span, text_of};
 
 /// Recorded accelerations and rates in SI, as the file's axes have them, with the places of its lines.
 #[derive(Clone, Debug)]
@@ -16,15 +16,23 @@ pub struct RecordFile {
 }
 
 /// Reads a CSV file whose first line names `t` and any of `ax`, `ay`, `az`, `wx`, `wy`, `wz` (or `roll_rate`,
-/// `pitch_rate`, `yaw_rate`) with their units, such as `t[s],ax[g],wz[deg/s]`. `name` is what messages call it.
+/// `pitch_rate`, `yaw_rate`) with their units, such as `t[s],ax[g],wz[deg/s]`, or as recorders do; or `columns` names them so, `-` for one
+/// that is left out, in place of the file's own headings. `name` is what messages call it.
 ///
 /// # Errors
 /// Everything that is wrong with it: bytes that are not UTF-8, unknown, doubled and missing columns, wrong units, cells that
 /// are no number, lines that are too long or too short, times that do not increase, fewer than two lines, no channel.
-pub fn read_record(bytes: &[u8], name: &str) -> Result<RecordFile, Diagnostics> {
+pub fn read_record(bytes: &[u8], name: &str, columns: Option<&str>) -> Result<RecordFile, Diagnostics> {
     let mut sources = Sources::new();
     let id = sources.add(name, text_of(bytes, name)?);
-    let table = read_csv(&sources, id, &COLUMNS[..RECORDED], None)?;
+    let given = columns.map(|columns| sources.add("columns", columns));
+    let table = {
+        let names = given.map(|given| {
+            let all = Span { end: sources.text(given).len(), ..sources.start_of(given) };
+            (Separator::of(sources.slice(all)).cells(&sources, all), all)
+        });
+        read_csv(&sources, id, &COLUMNS[..RECORDED], names)?
+    };
     let channels = |from: usize| [0, 1, 2].map(|axis| table.column(from + axis));
     let file = RecordFile {
         record: AccelerationRecord {

@@ -63,7 +63,7 @@ pub(crate) struct SensorsSection {
     pub(crate) after: Option<AfterEnd>,
 }
 
-/// Which way the axes of sensors point.
+/// Which way the axes of sensors and tables point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum SensorAxes {
@@ -71,6 +71,16 @@ pub(crate) enum SensorAxes {
     ZDown,
     /// x forward, y left, z up (ISO 8855).
     ZUp,
+}
+
+impl SensorAxes {
+    /// Signs of what is told along these axes, along axes forward, right, down.
+    pub(super) fn signs(self) -> [f64; 3] {
+        match self {
+            SensorAxes::ZDown => [1.0; 3],
+            SensorAxes::ZUp => [1.0, -1.0, -1.0],
+        }
+    }
 }
 
 // in the order of `ChannelClass::ALL`
@@ -138,10 +148,7 @@ pub(super) fn path(
 /// The channels of the table, in axes forward, right, down.
 fn record(b: &mut Builder, s: &SensorsSection, table: &NumberTable) -> Option<SensorRecord> {
     let time_s = table.column(0).unwrap_or_default();
-    let sign = match s.axes {
-        Some(SensorAxes::ZUp) => [1.0, -1.0, -1.0],
-        Some(SensorAxes::ZDown) | None => [1.0; 3],
-    };
+    let sign = s.axes.map_or([1.0; 3], SensorAxes::signs);
     let channel = |i: usize, axis: usize| {
         let samples = table.column(i)?;
         Some(samples.into_iter().map(|x| sign[axis] * x).collect())

@@ -16,7 +16,7 @@ use occupant_core::body::Body;
 use occupant_core::forces::joint::Joints;
 use occupant_core::model::setup::{STANDARD_GRAVITY_M_S2, Setup};
 use occupant_core::vehicle::VehiclePath;
-use placed_text::{Diagnostics, Document, Problem, SourceId, locate, with_key};
+use placed_text::{Diagnostics, Document, Problem, locate, with_key};
 
 /// Builds the plain data; `written` is the scenario as it was written, `explicit` the one with presets written out, and
 /// `document` the tree of the latter.
@@ -24,7 +24,6 @@ pub(crate) fn setup(
     written: &Scenario,
     explicit: &Scenario,
     document: &Document,
-    path_table: Option<SourceId>,
 ) -> Result<(Setup, Diagnostics), Diagnostics> {
     let b = &mut Builder { document, problems: Diagnostics::new() };
     let is_part = explicit.mount.is_some();
@@ -52,7 +51,7 @@ pub(crate) fn setup(
     let integrator = run::integrator(b, explicit);
     let output = run::output(b, explicit, &body);
     let gravity_m_s2 = si_or(&explicit.gravity, STANDARD_GRAVITY_M_S2);
-    let path = first_path(b, explicit, path_table, gravity_m_s2);
+    let path = first_path(b, explicit, gravity_m_s2);
     let frames = frames::frames(b, explicit, gravity_m_s2);
     let columns = columns::columns(b, explicit, &frames);
     let (mut chains, mut bags) = (Vec::new(), Vec::new());
@@ -94,9 +93,9 @@ pub(crate) fn setup(
 }
 
 /// The path of the first vehicle.
-fn first_path(b: &mut Builder, s: &Scenario, table: Option<SourceId>, gravity_m_s2: f64) -> Option<VehiclePath> {
+fn first_path(b: &mut Builder, s: &Scenario, gravity_m_s2: f64) -> Option<VehiclePath> {
     match s.first_path() {
-        Some((at, section)) if at.len() == 1 => path::path(b, section, table, gravity_m_s2),
+        Some((at, section)) if at.len() == 1 => path::path(b, section, gravity_m_s2),
         Some((at, section)) => frames::moving(b, &at, section, gravity_m_s2),
         None => {
             b.error("", "no path", "path = { kind = … }, the motion of the vehicle, or `vehicles`");

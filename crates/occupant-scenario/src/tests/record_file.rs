@@ -6,7 +6,7 @@ const SOUND: &[u8] = b"t[ms],ax[g],ay[m/s^2],wz[deg/s]\n0,-1,2,3\n1,-1.5,2,3\n2,
 
 #[test]
 fn channels_arrive_in_si_and_others_are_not_there() {
-    let file = read_record(SOUND, "a.csv").unwrap();
+    let file = read_record(SOUND, "a.csv", None).unwrap();
     let record = &file.record;
     assert_eq!(record.time_s, [0.0, 0.001, 0.002, 0.003]);
     assert_eq!(record.acceleration_m_s2[0].as_ref().unwrap()[2], -2.0 * 9.80665);
@@ -23,7 +23,18 @@ fn what_is_wrong_with_a_whole_file_is_said_at_its_header() {
         (b"t[s],dvx[m/s]\n0,1\n", "error: unknown column `dvx`\n --> a.csv:1:6"),
         (b"", "error: an empty table\n --> a.csv:1:1"),
     ] {
-        let found = read_record(bytes, "a.csv").unwrap_err().to_string();
+        let found = read_record(bytes, "a.csv", None).unwrap_err().to_string();
         assert!(found.starts_with(expected), "{found}");
     }
+}
+
+#[test]
+fn columns_may_be_named_beside_the_file() {
+    let csv = b"zeit;speed;a_long\n0;1;-1\n1;2;-2,5\n";
+    let named = |columns| read_record(csv, "a.csv", Some(columns));
+    let file = named("t[ms], -, ax[g]").unwrap();
+    assert_eq!(file.record.time_s, [0.0, 0.001]);
+    assert_eq!(file.record.acceleration_m_s2[0].as_ref().unwrap()[1], -2.5 * 9.80665);
+    let found = named("t[ms],-,axe[g]").unwrap_err().to_string();
+    assert!(found.contains("unknown column `axe`\n --> columns:1:9"), "{found}");
 }

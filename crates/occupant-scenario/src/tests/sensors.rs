@@ -181,5 +181,5 @@ fn a_scenario_with_sensors_survives_its_own_text() {
     let again = loaded.scenario.to_toml().unwrap();
     let reread = Scenario::from_text(&again, Format::Toml, "s.toml", &files).unwrap();
     assert_eq!(loaded.scenario, reread.scenario);
-    assert_eq!(loaded.table().unwrap().0, "record.csv");
+    assert_eq!(loaded.tables()[0].0, "record.csv");
 }

@@ -69,6 +69,61 @@ fn tables_of_recorders_are_read_as_they_are() {
 }
 
 #[test]
+fn a_table_says_its_axes_its_point_and_the_order_of_its_angles() {
+    let path = |keys: &str, csv: &str| match with_csv(&format!("{TABLE}\n{keys}"), csv).unwrap().path {
+        VehiclePath::Table(table) => table.stations().to_vec(),
+        other => panic!("{other:?}"),
+    };
+    let csv = "t[s],x[m],y[m],z[m],roll[deg],pitch[deg],yaw[deg]\n0,0,0,0,0,0,0\n1,5,3,1,10,20,30\n";
+    let up = "Time,XPos,YPos,ZPos,Pitch,Roll,Yaw\n0,0,0,0,0,0,0\n1,5,-3,-1,-20,10,-30\n";
+    let named = "axes = \"z_up\"\ncolumns = [\"t[s]\", \"x[m]\", \"y[m]\", \"z[m]\", \"pitch[deg]\", \"roll[deg]\", \"yaw[deg]\"]";
+    assert_eq!(path(named, up), path("", csv));
+    // a point 1 m behind the centre of gravity, the car turned to the right by 90°
+    let turned = path("offset = [-1, 0, 0]", "t[s],x[m],y[m],yaw[deg]\n0,-1,0,0\n1,5,-1,90\n");
+    assert_relative_eq!(turned[0].pose.position_m.x, 0.0);
+    assert_relative_eq!(turned[1].pose.position_m, nalgebra::Vector3::new(5.0, 0.0, 0.0), epsilon = 1e-15);
+    // rolled by 90° first, its nose goes up to where its roof is: to the right
+    let csv = "t[s],roll[deg],pitch[deg],yaw[deg]\n0,0,0,0\n1,90,30,0\n";
+    let rolled = path("angles = \"roll_pitch_yaw\"", csv)[1].pose.attitude;
+    assert_relative_eq!(rolled.yaw_rad.to_degrees(), 30.0, epsilon = 1e-12);
+    assert_relative_eq!(rolled.roll_rad.to_degrees(), 90.0, epsilon = 1e-12);
+    assert_relative_eq!(rolled.pitch_rad, 0.0, epsilon = 1e-12);
+}
+
+#[test]
+fn every_vehicle_and_frame_may_have_a_file() {
+    let text = short_with(PULSE, TABLE)
+        + "\n[vehicles.other.path]\nkind = \"table\"\nfile = \"other.csv\"\nafter = \"hold\"\n"
+        + "\n[frames.door]\nparent = \"other\"\npath = { kind = \"table\", file = \"path.csv\", after = \"hold\" }\n";
+    let files = |name: &str| match name {
+        "path.csv" => Ok(b"t[s],x[m]\n0,0\n9,1\n".to_vec()),
+        "other.csv" => Ok(b"t[s],x[m]\n0,0\n9,2\n".to_vec()),
+        _ => Err("no such file".to_owned()),
+    };
+    let loaded = Scenario::from_text(&text, Format::Toml, "s.toml", &files).unwrap();
+    let setup = loaded.build().unwrap().0;
+    let last = |path: &VehiclePath| match path {
+        VehiclePath::Table(table) => table.stations()[1].pose.position_m.x,
+        other => panic!("{other:?}"),
+    };
+    let found: Vec<f64> = [&setup.path, &setup.frames[0].path, &setup.frames[2].path].map(last).to_vec();
+    assert_eq!(found, [1.0, 2.0, 1.0]);
+    let names: Vec<&str> = loaded.tables().iter().map(|(name, _)| *name).collect();
+    assert_eq!(names, ["path.csv", "other.csv"]);
+    let nowhere = Scenario::from_text(&text, Format::Toml, "s.toml", &|_: &str| Err("none".to_owned()));
+    let found = nowhere.unwrap_err().to_string();
+    assert!(found.contains("in: vehicles.other.path.file") && found.contains("in: path.file"), "{found}");
+    let wrong = |name: &str| if name == "other.csv" { Ok(b"t[s],x[m]\n0,?\n".to_vec()) } else { files(name) };
+    let wrong = Scenario::from_text(&text, Format::Toml, "s.toml", &wrong).unwrap().build().unwrap_err();
+    assert!(wrong.to_string().starts_with("error: `?`\n --> other.csv:2:3"), "{wrong}");
+    let mut draft = super::super::Draft::read(&text, Format::Toml, "s.toml").unwrap();
+    let files = draft.files().into_iter().map(|(path, name)| format!("{path}={name}"));
+    let expected = ["path.file=path.csv", "vehicles.other.path.file=other.csv", "frames.door.path.file=path.csv"];
+    assert_eq!(files.collect::<Vec<_>>(), expected);
+    assert!(super::super::names_file("vehicles.other.path.file") && !super::super::names_file("path.kind"));
+}
+
+#[test]
 fn a_tabulated_pulse_is_in_g() {
     let pulse = "kind = \"pulse\"\nshape = \"tabulated\"\nspeed = 10\ncolumns = [\"t[ms]\", \"a[g]\"]
 rows = [[0, 0], [40, 20], [80, 0]]";

@@ -260,7 +260,7 @@ fn any_bytes_give_measures_or_reasons() {
                 _ => drop(bytes.remove(at)),
             }
         }
-        if let Ok(file) = read_record(&bytes, "a.csv")
+        if let Ok(file) = read_record(&bytes, "a.csv", None)
             && let Ok(signals) = prepare(&file.record, &Preparation::default())
         {
             let _risk = VehicleRisk::of(&signals, &Flight::default());

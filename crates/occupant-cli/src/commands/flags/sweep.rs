@@ -1,6 +1,8 @@
 //! What flags and environment choose for a sweep.
 
+use std::ffi::OsStr;
 use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 
 use occupant_core::run::batch::Kernel;
@@ -104,4 +106,14 @@ impl EngineArgs {
         })?;
         engine(self.threads, kernel)
     }
+}
+
+/// The folder of a study's results where none is named: its name without the ending, in the present folder.
+///
+/// # Errors
+/// A study without a name.
+pub(crate) fn folder_of(study: &Path) -> Result<PathBuf, Failure> {
+    let is_named = |name: &&OsStr| *name != "-" && study.extension().is_some();
+    let nameless = || Failure::with_help("the study's name gives no name to its results", "use -o FOLDER");
+    study.file_stem().filter(is_named).map(PathBuf::from).ok_or_else(nameless)
 }

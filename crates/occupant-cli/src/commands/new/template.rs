@@ -18,6 +18,10 @@ pub(super) enum Template {
     Rollover,
     /// A belted driver in a crash that an event data recorder has kept
     Edr,
+    /// An occupant on a sled, belted, a pulse from a table
+    Sled,
+    /// A pedestrian struck by a car that brakes
+    Pedestrian,
     /// A belted driver in a crash that sensors in the car have recorded
     Sensors,
 }
@@ -41,6 +45,8 @@ impl Template {
             Template::Side => changed(driver, include_str!("side.toml")),
             Template::Rollover => changed(driver, include_str!("rollover.toml")),
             Template::Edr => changed(driver, include_str!("edr.toml")),
+            Template::Sled => include_str!("sled.toml").to_owned(),
+            Template::Pedestrian => include_str!("pedestrian.toml").to_owned(),
             Template::Sensors => changed(driver, include_str!("sensors.toml")),
         }
     }
@@ -48,7 +54,7 @@ impl Template {
 
 /// The sections of `base`, each as `changes` has it if it does, then what else `changes` has. A changed section keeps the
 /// comments before it unless it brings its own.
-fn changed(base: &str, changes: &str) -> String {
+pub(super) fn changed(base: &str, changes: &str) -> String {
     let (base, changes) = (sections(base), sections(changes));
     let as_changed = |old: &Section<'_>| match changes.iter().find(|new| new.name == old.name) {
         Some(new) if new.comments.trim().is_empty() => old.comments.to_owned() + new.text,

@@ -43,6 +43,7 @@ pub(crate) fn measured(args: &Args, wanted: &Preparation) -> Result<(Subject, Ve
 /// The path of the scenario or run in the file.
 fn path_of(args: &Args, name: &str, extension: &str, wanted: &Preparation) -> Result<Subject, Failure> {
     let foreign = [
+        ("--columns", args.columns.is_some()),
         ("--offset", args.offset.is_some()),
         ("--gravity-included", args.gravity_included),
         ("--z-up", args.z_up),
@@ -83,7 +84,7 @@ fn path_of(args: &Args, name: &str, extension: &str, wanted: &Preparation) -> Re
 /// The record in a CSV file, with its axes forward, right, down.
 fn recorded(args: &Args, name: &str) -> Result<RecordFile, Failure> {
     let bytes = input_file::read(&args.file)?;
-    let mut file = read_record(&bytes, name).map_err(|problems| {
+    let mut file = read_record(&bytes, name, args.columns.as_deref()).map_err(|problems| {
         let count = scenario::counted(problems.len());
         Failure::CouldNotRun(format!("{problems}\n\n{name}: {count}, nothing was measured"))
     })?;

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::base::{Existing, Failure, FileProblem, deliver, is_page, say};
-use crate::jobs::study::{Report, Tables, page, write_tables};
+use crate::base::{Existing, Failure, FileProblem, deliver, is_page, print, say};
+use crate::jobs::study::{Report, Tables, matrix_text, page, write_tables};
 use crate::jobs::sweep::stored::{MadeBy, open};
 
 /// Make a page of a study: what matters, how much, how sure that is, and the command that runs each worst case again
@@ -44,6 +44,7 @@ pub(crate) fn report(args: &ReportArgs) -> Result<(), Failure> {
     }
     let existing = Existing::by(args.force);
     write_tables(&report, &tables, existing)?;
+    print(&matrix_text(&report))?;
     deliver(&page_at, args.force, page(&report).as_bytes())
 }
 

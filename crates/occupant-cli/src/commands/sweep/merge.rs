@@ -65,5 +65,6 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     let (wanted, engine) = (found.worst.iter().copied().chain(runs), engine(args.threads, Kernel::best())?);
     kept::write_missing(&plan, (&target, &sums), &journal, wanted, &engine, &AtomicBool::new(false))?;
     sums.close()?;
-    if args.quiet { Ok(Done::Well) } else { tell(&found, None) }
+    let next = format!("occupant study report {}", target.path.display());
+    if args.quiet { Ok(Done::Well) } else { tell(&found, None, &next) }
 }

@@ -163,14 +163,14 @@ fn events(events: &[Event], more: u64) -> Option<String> {
 const ALWAYS: [&str; 4] = ["head", "chest", "left_knee", "right_knee"];
 
 fn first_contacts(summary: &Summary, marks: &Marks) -> String {
-    let heads = ["at, ms", "speed, m/s", "closing, m/s", "depth, mm", "greatest force, N", "at, ms"];
+    let heads = ["at, ms", "speed, m/s", "closing, m/s", "depth, mm", "peak force, N", "at, ms"];
     let is_shown = |first: &&FirstContact| first.contact.is_some() || ALWAYS.contains(&first.sphere.as_str());
     let rows = summary.first_contacts.iter().filter(is_shown).flat_map(|first| rows_of(summary, first, marks));
-    table(&[(Left, &["contact", "surface"]), (Right, &heads), (Left, &["on"])], rows)
+    table(&[(Left, &["contact", "surface"]), (Right, &heads)], rows)
 }
 
-/// A row for each surface that a part touched; the greatest force of the whole run stands in the first.
-fn rows_of(summary: &Summary, first: &FirstContact, marks: &Marks) -> Vec<[String; 9]> {
+/// A row for each surface that a part touched; the greatest force of the whole run stands in that of the surface that gave it.
+fn rows_of(summary: &Summary, first: &FirstContact, marks: &Marks) -> Vec<[String; 8]> {
     let peak = summary.sphere_forces.iter().find(|p| p.sphere == first.sphere);
     let none = || NONE.to_owned();
     let name = word(&first.sphere);
@@ -180,9 +180,8 @@ fn rows_of(summary: &Summary, first: &FirstContact, marks: &Marks) -> Vec<[Strin
             mark("penetration", number(p.penetration_m * 1e3, 0)),
             mark("peak", number(p.force_n, 0)),
             mark("peak_time", ms(p.time_s)),
-            p.surface.clone(),
         ],
-        None => [none(), none(), none(), none()],
+        None => [none(), none(), none()],
     };
     let own = summary.contacts.iter().filter(|c| c.part == first.sphere);
     let mut touches: Vec<[String; 4]> = own.map(touch).collect();
@@ -197,12 +196,15 @@ fn rows_of(summary: &Summary, first: &FirstContact, marks: &Marks) -> Vec<[Strin
     if touches.is_empty() {
         touches.push([none(), none(), none(), none()]);
     }
+    let on = peak.and_then(|p| touches.iter().position(|t| t[0] == p.surface));
+    if let (Some(p), None) = (peak, on) {
+        touches.push([p.surface.clone(), none(), none(), none()]);
+    }
+    let on = on.unwrap_or(touches.len() - 1);
     let row = |(i, [surface, at, speed, closing]): (usize, [String; 4])| {
-        let (name, [depth, n, when, on]) = match i {
-            0 => (first.sphere.clone(), force.clone()),
-            _ => Default::default(),
-        };
-        [name, surface, at, speed, closing, depth, n, when, on]
+        let name = if i == 0 { first.sphere.clone() } else { String::new() };
+        let [depth, n, when] = if i == on { force.clone() } else { Default::default() };
+        [name, surface, at, speed, closing, depth, n, when]
     };
     touches.into_iter().enumerate().map(row).collect()
 }
@@ -242,7 +244,10 @@ fn trust(summary: &Summary, written: &Written, marks: &Marks) -> String {
     lines.push(("integration", integration(summary)));
     match written {
         Written::Nothing => {}
-        Written::Complete(path) => lines.push(("written", path.display().to_string())),
+        Written::Complete(path) => {
+            lines.push(("written", path.display().to_string()));
+            lines.push(("next", format!("occupant report {0}; occupant measures {0}", path.display())));
+        }
         Written::Partial(path) => lines.push(("written", format!("{} (partial)", path.display()))),
     }
     facts(&lines)

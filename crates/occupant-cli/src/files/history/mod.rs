@@ -9,6 +9,7 @@ mod load;
 use clap::ValueEnum;
 use crash_measures::signal::ChannelClass;
 use crash_measures::unit::{Shown, Unit};
+use occupant_core::quantity::Axes;
 use occupant_core::results::channel::Channel;
 
 pub(crate) use filter::{Filter, family_name, filtered};
@@ -59,6 +60,37 @@ impl UnitChoice {
             UnitChoice::G => "g",
             UnitChoice::InchPound => "in-lbf-s",
         }
+    }
+}
+
+/// Axes for what is told along those of a segment.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum AxisChoice {
+    /// X ahead, Y left, Z up, of who stands upright
+    #[default]
+    Segment,
+    /// SAE J211: X ahead, Y right, Z down
+    J211,
+}
+
+impl AxisChoice {
+    /// The axes of a channel, and what its values are to be multiplied by.
+    pub(crate) fn of(self, channel: &Channel) -> (Axes, f64) {
+        if self == AxisChoice::Segment || channel.axes != Axes::Segment {
+            return (channel.axes, 1.0);
+        }
+        let is_across = [".y", ".z"].iter().any(|end| channel.name.ends_with(end));
+        (Axes::J211, if is_across { -1.0 } else { 1.0 })
+    }
+
+    /// The same histories along these axes.
+    pub(crate) fn turned(self, mut histories: Histories) -> Histories {
+        for column in &mut histories.columns {
+            let (axes, sign) = self.of(&column.channel);
+            column.channel.axes = axes;
+            column.values.iter_mut().for_each(|value| *value *= sign);
+        }
+        histories
     }
 }
 

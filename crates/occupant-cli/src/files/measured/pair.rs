@@ -9,8 +9,8 @@ use std::str::FromStr;
 use crash_measures::signal::{CfcFamily, ChannelClass, uniform_interval};
 use crash_measures::unit::Dimension;
 use occupant_core::results::channel::Channel;
+use placed_text::name_and_unit;
 
-use super::table::name_and_unit;
 use crate::base::Failure;
 use crate::files::history::filtered;
 use crate::files::signals::{Recording, Signal, scale_of};

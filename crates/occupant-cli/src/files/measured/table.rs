@@ -1,134 +1,69 @@
 //! Text tables: a line of headings with units, `t[s],head_x[g]`, and a line of numbers for each time.
 //!
-//! Commas, semicolons, tabs or blanks between cells (with semicolons a comma is a decimal point); lines that start with `#`
-//! are comments. Units may also stand in a line of their own below the headings. Without headings the first column is the
-//! time in seconds. An empty cell, `NaN` or `NOVALUE` is a missing value. A cell may stand in double quotes (RFC 4180).
+//! They are read as tables of scenarios are ([`TextTable`]); but without headings the first column is the time in seconds, and an
+//! empty cell, `NaN` or `NOVALUE` is a missing value.
 
 use std::path::Path;
 
 use crash_measures::unit::parse;
-use csv::{ReaderBuilder, StringRecord, Trim};
-use placed_text::{CELL, shortened};
+use placed_text::{
+    CELL, Cell, Diagnostic, Diagnostics, MOST_CELLS, Problem, Separator, Sources, Span, TextTable, name_and_unit,
+    shortened,
+};
 
 use crate::base::Failure;
-use crate::files::signals::{Recording, Signal, finite, scale_of, seconds_in};
-use crate::files::trouble::{Trouble, failure};
+use crate::files::signals::{Recording, Signal, scale_of, seconds_in};
 
-/// No table has more columns.
-const MOST_COLUMNS: usize = 10_000;
-
-/// Stands for any number of blanks between cells.
-const BLANKS: char = ' ';
-/// Round units in a line of their own.
-const BRACKETS: [char; 4] = ['[', ']', '(', ')'];
-
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 struct Heading {
     name: String,
     unit: Option<String>,
-    line: usize,
+    /// Where its unit stands, or it itself.
+    span: Span,
 }
-
-/// A line of a table: its number in the file, from 1, and its cells.
-type Line = (usize, StringRecord);
 
 /// Reads a table.
 ///
 /// # Errors
 /// What is wrong with it.
 pub(crate) fn read(path: &Path, text: &str, sha256: String) -> Result<Recording, Failure> {
-    let (lines, separator) = lines(text.trim_start_matches('\u{feff}'));
-    if lines.is_empty() {
-        return Err(Trouble::of(path, "an empty table", "headings and numbers").into());
-    }
-    if let Some((line, cells)) = lines.iter().find(|(_, cells)| cells.len() > MOST_COLUMNS) {
-        let found = format!("{} cells in line {line}", cells.len());
-        return Err(Trouble::of(path, found, format!("at most {MOST_COLUMNS}")).into());
-    }
+    let mut sources = Sources::new();
+    let id = sources.add_named(path.display().to_string(), text);
+    let problems = Diagnostics::new();
+    let Some(table) = TextTable::of(&sources, id, |unit| parse(unit, 0).is_ok()) else {
+        let mut reader = Reader { sources: &sources, separator: Separator::of(""), headings: Vec::new(), problems };
+        reader.wrong(sources.start_of(id), "an empty table", "headings and numbers");
+        return Err(reader.failure());
+    };
+    let headings = headings(&table, table.separator.cells(&sources, table.first).len());
+    let mut reader = Reader { sources: &sources, separator: table.separator, headings, problems };
     let mut notes = Vec::new();
-    let (headings, used) = headings(&lines, separator);
-    let time = time_column(&headings);
-    let mut reader = Reader { path, separator, headings, problems: Vec::new() };
-    let time_factor = reader.time_factor(time, used > 0, &mut notes);
-    let columns = reader.columns(&lines[used..]);
+    let time = time_column(&reader.headings);
+    let time_factor = reader.time_factor(time, !table.headings.is_empty(), path, &mut notes);
+    let columns = reader.columns(&table.lines);
     let time_s: Vec<f64> = columns.get(time).map(|c| c.iter().map(|t| t * time_factor).collect()).unwrap_or_default();
-    reader.check_times(&time_s, &lines[used..]);
+    reader.check_times(&time_s, &table);
+    if columns.len() < 2 && reader.problems.is_empty() {
+        reader.wrong(table.first, "a table with one column", "a column of times and one of values");
+    }
     if !reader.problems.is_empty() {
-        return Err(failure(&reader.problems));
+        return Err(reader.failure());
     }
     let signals = reader.signals(columns, time, &time_s);
-    if signals.is_empty() {
-        let found = "a table with one column";
-        return Err(Trouble::of(path, found, "a column of times and one of values").into());
-    }
     Ok(Recording { path: path.to_owned(), sha256, signals, notes })
 }
 
-/// The lines that are neither blank nor comments, and what stands between their cells.
-fn lines(text: &str) -> (Vec<Line>, char) {
-    let is_comment = |line: &str| matches!(line.trim_start().chars().next(), None | Some('#'));
-    let lines: Vec<(usize, &str)> = (1..).zip(text.lines()).filter(|(_, line)| !is_comment(line)).collect();
-    let used = |sign: &char| lines.first().is_some_and(|(_, line)| line.trim_end().contains(*sign));
-    let separator = [';', '\t', ','].into_iter().find(used).unwrap_or(BLANKS);
-    let plain = lines.iter().map(|(_, line)| match separator {
-        BLANKS => line.split_whitespace().collect::<Vec<_>>().join(" ") + "\n",
-        _ => format!("{}\n", line.trim_end()),
-    });
-    let plain: String = plain.collect();
-    let mut reader = ReaderBuilder::new();
-    reader.has_headers(false).flexible(true).delimiter(separator as u8).trim(Trim::All);
-    let records = reader.from_reader(plain.as_bytes()).into_records().flatten();
-    let numbered = records.filter_map(|record| {
-        let at = record.position()?.line() as usize - 1;
-        Some((lines.get(at)?.0, record))
-    });
-    (numbered.collect(), separator)
-}
-
-fn number(cell: &str, separator: char) -> Option<f64> {
-    match cell.to_ascii_lowercase().as_str() {
-        "" | "nan" | "novalue" => Some(f64::NAN),
-        _ if separator == ';' => finite(&cell.replace(',', ".")),
-        _ => finite(cell),
+/// Headings; numbers from 1 where the table has none.
+fn headings(table: &TextTable, columns: usize) -> Vec<Heading> {
+    if table.headings.is_empty() {
+        return (1..=columns).map(|i| Heading { name: i.to_string(), unit: None, span: table.first }).collect();
     }
-}
-
-/// Headings, and how many lines they take.
-fn headings(lines: &[Line], separator: char) -> (Vec<Heading>, usize) {
-    let is_number = |cell: &str| !cell.is_empty() && number(cell, separator).is_some();
-    let (line, first) = &lines[0];
-    if first.iter().any(is_number) {
-        let plain = |i: usize| Heading { name: (i + 1).to_string(), unit: None, line: *line };
-        return ((0..first.len()).map(plain).collect(), 0);
-    }
-    let heading = |cell: &str| {
-        let (name, unit) = name_and_unit(cell);
-        Heading { name: name.to_owned(), unit: unit.map(str::to_owned), line: *line }
+    let heading = |(i, cell): (usize, &Cell)| {
+        let unit = table.unit(i);
+        let (name, span) = (name_and_unit(cell.text).0.to_owned(), unit.map_or(cell.span, |(_, span)| span));
+        Heading { name, unit: unit.map(|(unit, _)| unit.to_owned()), span }
     };
-    let mut headings: Vec<Heading> = first.iter().map(heading).collect();
-    let is_unit = |cell: &str| matches!(cell, "" | "-") || parse(cell.trim_matches(BRACKETS), 0).is_ok();
-    let units = |(_, second): &&Line| !second.iter().any(is_number) && second.iter().all(is_unit);
-    let Some((line, units)) = lines.get(1).filter(units) else {
-        return (headings, 1);
-    };
-    for (heading, unit) in headings.iter_mut().zip(units) {
-        let unit = unit.trim_matches(BRACKETS);
-        if !unit.is_empty() && heading.unit.is_none() {
-            (heading.unit, heading.line) = (Some(unit.to_owned()), *line);
-        }
-    }
-    (headings, 2)
-}
-
-/// `x[m]` or `x (m)` → `x` and `m`.
-pub(crate) fn name_and_unit(text: &str) -> (&str, Option<&str>) {
-    let text = text.trim();
-    for (open, close) in [('[', ']'), ('(', ')')] {
-        if let Some((name, unit)) = text.strip_suffix(close).and_then(|t| t.split_once(open)) {
-            return (name.trim(), Some(unit.trim()));
-        }
-    }
-    (text, None)
+    table.headings.iter().enumerate().map(heading).collect()
 }
 
 /// The column called time, else the first.
@@ -139,66 +74,88 @@ fn time_column(headings: &[Heading]) -> usize {
 }
 
 struct Reader<'a> {
-    path: &'a Path,
-    separator: char,
+    sources: &'a Sources,
+    separator: Separator,
     headings: Vec<Heading>,
-    problems: Vec<Trouble>,
+    problems: Diagnostics,
 }
 
 impl Reader<'_> {
-    fn time_factor(&mut self, time: usize, has_headings: bool, notes: &mut Vec<String>) -> f64 {
-        let Some(heading) = self.headings.get(time) else {
+    fn time_factor(&mut self, time: usize, has_headings: bool, path: &Path, notes: &mut Vec<String>) -> f64 {
+        let Some(heading) = self.headings.get(time).cloned() else {
             return 1.0;
         };
         let Some(unit) = &heading.unit else {
             if !(has_headings && heading.name.ends_with("_s")) {
-                notes.push(format!("{} gives no unit for the time: taken as seconds", self.path.display()));
+                notes.push(format!("{} gives no unit for the time: taken as seconds", path.display()));
             }
             return 1.0;
         };
         seconds_in(unit).unwrap_or_else(|| {
             let found = format!("`{unit}` as the unit of the time column `{}`", heading.name);
-            let trouble = Trouble::at(self.path, heading.line, found, "a unit of time, such as s or ms");
-            self.problems.push(trouble.hint("the time is the column called `t` or `time`, or the first"));
+            let problem = Problem::error("", found, "a unit of time, such as s or ms");
+            let hint = "the time is the column called `t` or `time`, or the first";
+            self.report(heading.span, problem.with_hint(Some(hint)));
             1.0
         })
     }
 
-    fn wrong(&mut self, line: usize, found: impl Into<String>, expected: impl Into<String>) {
-        self.problems.push(Trouble::at(self.path, line, found, expected));
+    fn wrong(&mut self, span: Span, found: impl Into<String>, expected: impl Into<String>) {
+        self.report(span, Problem::error("", found, expected));
+    }
+
+    fn report(&mut self, span: Span, problem: Problem) {
+        self.problems.add(problem, |problem| Diagnostic::at(self.sources, span, problem));
+    }
+
+    fn failure(self) -> Failure {
+        Failure::CouldNotRun(self.problems.to_string())
     }
 
     /// Numbers column by column, as far as lines are right.
-    fn columns(&mut self, lines: &[Line]) -> Vec<Vec<f64>> {
+    fn columns(&mut self, lines: &[Span]) -> Vec<Vec<f64>> {
         let mut columns = vec![Vec::with_capacity(lines.len()); self.headings.len()];
-        for (line, cells) in lines {
+        if columns.len() > MOST_CELLS {
+            let span = self.headings[0].span;
+            self.wrong(span, format!("more than {MOST_CELLS} columns"), format!("at most {MOST_CELLS}"));
+            return columns;
+        }
+        for line in lines {
+            let cells = self.separator.cells(self.sources, *line);
             // a separator at the line's end opens no cell
-            let more = usize::from(cells.len() == columns.len() + 1 && cells.iter().next_back() == Some(""));
+            let more = usize::from(cells.len() == columns.len() + 1 && cells.last().is_some_and(|c| c.text.is_empty()));
             if cells.len() != columns.len() + more {
                 let expected = format!("{}, one for each column", columns.len());
                 self.wrong(*line, format!("{} cells", cells.len()), expected);
                 columns.iter_mut().for_each(|c| c.push(f64::NAN));
                 continue;
             }
-            for (column, cell) in columns.iter_mut().zip(cells) {
-                let value = number(cell, self.separator);
-                if value.is_none() {
-                    self.wrong(*line, format!("`{}`", shortened(cell, CELL)), "a number");
-                }
-                column.push(value.unwrap_or(f64::NAN));
+            for (column, cell) in columns.iter_mut().zip(&cells) {
+                column.push(self.number(cell));
             }
         }
         columns
     }
 
-    fn check_times(&mut self, time_s: &[f64], lines: &[Line]) {
+    /// A number; none is missing where the cell says so.
+    fn number(&mut self, cell: &Cell) -> f64 {
+        if let Ok(number) = self.separator.number(cell) {
+            return number;
+        }
+        if !["", "nan", "novalue"].contains(&cell.text.to_ascii_lowercase().as_str()) {
+            self.wrong(cell.span, format!("`{}`", shortened(cell.text, CELL)), "a number");
+        }
+        f64::NAN
+    }
+
+    fn check_times(&mut self, time_s: &[f64], table: &TextTable) {
         if !self.problems.is_empty() {
             return;
         }
         if time_s.is_empty() {
-            self.problems.push(Trouble::of(self.path, "headings without numbers", "a line for each time"));
+            self.wrong(table.first, "headings without numbers", "a line for each time");
         }
-        for (i, (t, (line, _))) in time_s.iter().zip(lines).enumerate() {
+        for (i, (t, line)) in time_s.iter().zip(&table.lines).enumerate() {
             let found = match i.checked_sub(1).map(|before| time_s[before]) {
                 _ if t.is_nan() => "a line without its time".to_owned(),
                 Some(before) if *t <= before => format!("time {t} s after {before} s"),
@@ -216,10 +173,14 @@ impl Reader<'_> {
             scale: heading.unit.as_deref().and_then(scale_of),
             time_s: time_s.to_vec(),
             values,
-            place: format!("{}:{}", self.path.display(), heading.line),
+            place: self.place(heading.span),
         };
         let named = self.headings.iter().zip(columns).enumerate();
         named.filter(|(i, _)| *i != time).map(|(_, column)| signal(column)).collect()
+    }
+
+    fn place(&self, span: Span) -> String {
+        format!("{}:{}", self.sources.name(span.source), self.sources.position(span).line)
     }
 }
 
@@ -282,7 +243,7 @@ mod tests {
     #[test]
     fn a_table_of_too_many_columns_is_refused() {
         let message = table(&format!("t[s]{}\n", ",a".repeat(10_000))).unwrap_err();
-        assert!(message.contains("10001 cells in line 1") && message.contains("at most 10000"), "{message}");
+        assert!(message.contains("more than 10000 columns") && message.contains("at most 10000"), "{message}");
     }
 
     #[test]

@@ -88,6 +88,13 @@ impl Code {
         fits.then_some(place.sign)
     }
 
+    /// Where on the vehicle it is an acceleration, and along which axis, from 0.
+    pub(crate) fn vehicle_acceleration(&self) -> Option<(String, usize)> {
+        let axis = "XYZ".find(char::from(self.0[14]))?;
+        let is_own = self.part(12, 14) == "AC" && self.is_at('0');
+        is_own.then(|| (self.part(2, 10).trim_end_matches('0').to_owned(), axis))
+    }
+
     fn is_at(&self, position: char) -> bool {
         let own = char::from(self.0[1]);
         own == position || own == '?' || (position == '0' && self.0[0] == b'S')

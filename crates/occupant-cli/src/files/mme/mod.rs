@@ -9,5 +9,6 @@ mod read;
 mod write;
 
 pub(crate) use code::Code;
+pub(crate) use header::text_of;
 pub(crate) use read::read;
 pub(crate) use write::{Labels, files};

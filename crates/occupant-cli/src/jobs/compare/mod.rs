@@ -7,7 +7,8 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::base::text_table::facts;
+use crate::base::text_table::Align::{Left, Right};
+use crate::base::text_table::{NONE, Table, facts};
 use crate::base::{Failure, file_name, program};
 use crate::files::history::{Treatment, class_name};
 use crate::files::measured::MapArgument;
@@ -46,6 +47,13 @@ pub(crate) struct Comparison {
     #[serde(skip)]
     pub(crate) worthless: Vec<String>,
 }
+
+/// What a comparison is summed up by: name, key of the metric and of its score.
+const METRICS: [(&str, &str, &str); 3] = [
+    ("ISO/TS 18571", "iso18571", "overall"),
+    ("CORA", "cora", "overall"),
+    ("Sprague–Geers", "sprague_geers", "combined"),
+];
 
 /// A file that was read, and its SHA-256.
 #[derive(Serialize)]
@@ -122,6 +130,30 @@ fn nothing_common(request: &Request<'_>) -> Failure {
 }
 
 impl Comparison {
+    /// All pairs in one line, and of several a table with a line for each.
+    fn at_a_glance(&self) -> String {
+        let scores = |pair: &RatedPair| METRICS.map(|(_, metric, score)| pair.rating.score(metric, score));
+        let mean = |i: usize| {
+            let known: Vec<f64> = self.pairs.iter().filter_map(|pair| scores(pair)[i]).collect();
+            let sum: f64 = known.iter().sum();
+            (!known.is_empty()).then(|| format!("{} {:.3}", METRICS[i].0, sum / known.len() as f64))
+        };
+        let count =
+            if self.pairs.len() == 1 { "1 channel".to_owned() } else { format!("{} channels", self.pairs.len()) };
+        let means: Vec<String> = (0..METRICS.len()).filter_map(mean).collect();
+        let line =
+            format!("{count}; mean of {}\n", if means.is_empty() { "nothing".to_owned() } else { means.join(", ") });
+        if self.pairs.len() == 1 {
+            return line;
+        }
+        let mut table = Table::new(&[(Left, &["channel"]), (Right, &METRICS.map(|(name, ..)| name))]);
+        for pair in &self.pairs {
+            let shown = scores(pair).map(|score| score.map_or(NONE.to_owned(), |score| format!("{score:.3}")));
+            table.row(std::iter::once(pair.channel.clone()).chain(shown));
+        }
+        format!("{line}\n{}", table.text())
+    }
+
     /// The ratings in words.
     pub(crate) fn text(&self) -> String {
         let mut text = format!(
@@ -131,6 +163,7 @@ impl Comparison {
             self.shift_s * 1e3,
             RATE_HZ / 1e3
         );
+        text.push_str(&self.at_a_glance());
         for pair in &self.pairs {
             let lines = facts(&pair.rating.lines(&pair.filter));
             text.push_str(&format!("\n{} against {}\n{lines}", pair.channel, pair.signal));

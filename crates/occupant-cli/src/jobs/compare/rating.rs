@@ -55,6 +55,11 @@ pub(crate) struct Rating {
 }
 
 impl Rating {
+    /// The whole score of a metric by its key; none where it is not rated.
+    pub(crate) fn score(&self, metric: &str, score: &str) -> Option<f64> {
+        self.scores.get(metric)?.get(score)?.as_f64()
+    }
+
     /// A name and its words, line by line; `filter` is what was done to both sides.
     pub(crate) fn lines(&self, filter: &str) -> Vec<(&'static str, String)> {
         let span = format!("{:.1} to {:.1} ms", self.from_s * 1e3, self.to_s * 1e3);

@@ -9,7 +9,7 @@ use occupant_study::{Study, Tolerances};
 use placed_text::shown;
 
 use super::{Bands, Left, Members, Report, plot};
-use crate::base::progress::bar;
+use crate::base::progress::{bar, counted};
 use crate::base::{Existing, Failure, Interrupt, program, write_whole};
 use crate::files::scenario::Opened;
 use crate::files::table::{Form, TableFile};
@@ -52,12 +52,12 @@ impl Wanted {
         interrupt: &Interrupt,
         quiet: bool,
     ) -> Result<Report, Failure> {
-        let bar = bar(Some(self.study.len() - 1), "{wide_bar} {pos}/{len}", quiet);
+        let bar = bar(Some(self.study.len() - 1), &counted("members"), quiet);
         // what the scenario names was read with it and is not read again
-        let table = opened.loaded.table();
-        let resolver = |name: &str| match table {
-            Some((table, text)) if table == name => Ok(text.as_bytes().to_vec()),
-            _ => Err("it was not read with the scenario".to_owned()),
+        let tables = opened.loaded.tables();
+        let resolver = |name: &str| match tables.iter().find(|(table, _)| *table == name) {
+            Some((_, text)) => Ok(text.as_bytes().to_vec()),
+            None => Err("it was not read with the scenario".to_owned()),
         };
         let members = Members {
             study: &self.study,

@@ -102,6 +102,13 @@ pub(crate) fn figure_table(figures: &[Judged]) -> String {
     table.text()
 }
 
+/// Two values of a figure as the tables show them, and their unit.
+pub(crate) fn ranged(values: [f64; 2], unit: &str) -> ([String; 2], &str) {
+    let (per, unit) = shown_unit(unit);
+    let greatest = values.iter().fold(0.0_f64, |m, x| m.max((x / per).abs()));
+    (values.map(|x| number(x / per, decimals(greatest))), unit)
+}
+
 /// SI units in one unit of the tables, and its name there.
 pub(crate) fn shown_unit(unit: &str) -> (f64, &str) {
     match unit {

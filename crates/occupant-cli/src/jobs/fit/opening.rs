@@ -15,7 +15,7 @@ use crate::files::measured::{self, MapArgument, Pair, Wanted, pairs};
 use crate::files::scenario::{Tables, format_of};
 use crate::files::signals::Recording;
 use crate::files::study_folder::{NamedBy, Texts};
-use crate::jobs::sweep::plan::{named_file, unread};
+use crate::jobs::sweep::plan::unread;
 
 /// Tests that the command line gives.
 pub(crate) struct Given<'a> {
@@ -187,14 +187,14 @@ impl<'a> Opening<'a> {
         Ok(experiment)
     }
 
-    /// The file that a scenario names, if it names one; one that cannot be read is reported when the scenario is opened.
+    /// The files that a scenario names; one that cannot be read is reported when the scenario is opened.
     fn tables(&self, study: &Study, base: &str) -> Tables {
         let beside = Path::new(base).parent().unwrap_or(Path::new(""));
-        let read = |name: String| {
+        let read = |(_, name): (String, String)| {
             let bytes = self.texts.get(NamedBy::Study, &beside.join(&name).display().to_string()).ok()?;
             Some((name, bytes))
         };
-        Tables(named_file(study).into_iter().filter_map(read).collect())
+        Tables(study.base.clone().files().into_iter().filter_map(read).collect())
     }
 
     fn recording(&mut self, named: &Named) -> Option<Recording> {

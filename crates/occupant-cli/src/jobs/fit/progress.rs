@@ -5,7 +5,7 @@ use std::time::Duration;
 use occupant_study::search::Stage;
 
 use super::{Record, WORST};
-use crate::base::progress::Runs;
+use crate::base::progress::{Runs, counted};
 
 /// At most a line so often where there is no terminal, stages apart.
 const LINE_EVERY: Duration = Duration::from_secs(2);
@@ -24,7 +24,7 @@ pub(crate) struct Progress {
 impl Progress {
     /// Of a search of so many evaluations.
     pub(crate) fn new(budget: u64, quiet: bool) -> Self {
-        let runs = Runs::new(budget, "{bar:30} {pos} of {len} evaluations, {msg}", LINE_EVERY, quiet);
+        let runs = Runs::new(budget, &counted("evaluations"), LINE_EVERY, quiet);
         Progress { runs, budget, evaluations: 0, best: f64::INFINITY, said: f64::INFINITY, stage: "" }
     }
 
@@ -39,7 +39,7 @@ impl Progress {
         if let Some(bar) = self.runs.bar() {
             bar.set_length(self.budget.max(self.evaluations));
             bar.set_position(self.evaluations);
-            bar.set_message(format!("{words}: score {:.5}", self.best));
+            bar.set_message(format!(", {words}: score {:.5}", self.best));
         } else if stage.is_none() {
             self.runs.say(&format!("base scenario: {}", score(least)));
         } else {

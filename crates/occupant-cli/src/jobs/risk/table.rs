@@ -117,8 +117,10 @@ fn limits(judgements: &[Judgement]) -> String {
     let mut table = Table::new(&[
         (Align::Left, &["rule", "measure", "limit"]),
         (Align::Right, &["at most", "value", "margin"]),
-        (Align::Left, &["unit", "verdict", "limit read in"]),
+        (Align::Left, &["unit", "verdict"]),
     ]);
+    // where limits were read, a mark for each such place
+    let mut read_in: Vec<&str> = Vec::new();
     for judgement in judgements {
         let unit = unit_of(judgement.limit.quantity);
         let perhaps = |si: Option<f64>| si.map_or(NONE.to_owned(), |si| shown(si, unit));
@@ -126,15 +128,27 @@ fn limits(judgements: &[Judgement]) -> String {
             judgement.limit.rule.name().to_owned(),
             judgement.measure.to_owned(),
             grade_name(judgement.limit.grade).to_owned(),
-            shown(judgement.limit.most, unit),
+            shown(judgement.limit.most, unit) + mark(basis_name(judgement.limit.basis), &mut read_in),
             perhaps(judgement.value),
             perhaps(judgement.verdict.map(|v| v.margin)),
             unit.0.symbol(),
             verdict_name(judgement).to_owned(),
-            basis_name(judgement.limit.basis).to_owned(),
         ]);
     }
-    table.text()
+    let notes = read_in.iter().zip(MARKS).map(|(words, mark)| format!("{mark} limit read in {words}\n"));
+    table.text() + &notes.collect::<String>()
+}
+
+/// Marks of footnotes.
+const MARKS: [&str; 2] = ["¹", "²"];
+
+/// The mark of a footnote, which is among those below from then on.
+fn mark<'a>(words: &'a str, known: &mut Vec<&'a str>) -> &'static str {
+    let at = known.iter().position(|own| *own == words).unwrap_or_else(|| {
+        known.push(words);
+        known.len() - 1
+    });
+    MARKS.get(at).copied().unwrap_or_default()
 }
 
 fn unit_of(quantity: Quantity) -> Unit {

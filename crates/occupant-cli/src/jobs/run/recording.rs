@@ -73,20 +73,21 @@ impl Recording {
             about.notes.extend(from.notes());
         }
         refuse_input(name, &args.scenario)?;
-        if let Some((table, _)) = opened.loaded.table() {
-            let folder = args.scenario.parent().unwrap_or(Path::new(""));
-            refuse_input(name, &folder.join(table))?;
-        }
+        let folder = args.scenario.parent().unwrap_or(Path::new(""));
+        let tables = opened.loaded.tables();
+        tables.iter().try_for_each(|(table, _)| refuse_input(name, &folder.join(table)))?;
         let file = PartialFile::create(name, existing)?.that_stays();
         let partial = file.partial_path().to_owned();
         let recorder = McapRecorder::new(file, about, McapOptions::default());
         let recorder = recorder.map_err(|e| unwritten(&partial, &e))?;
-        let recorder = match opened.loaded.table() {
-            Some((name, text)) => {
-                recorder.with_table(document(&file_name(Path::new(name)), "text/csv", text.as_bytes().to_vec()))
-            }
-            None => recorder,
+        let attached = |recorder: McapRecorder<_>, (name, text): &(&str, &str)| {
+            // by its name alone, where no other has the same in another folder
+            let short = |name: &str| file_name(Path::new(name));
+            let is_only = tables.iter().filter(|(other, _)| short(other) == short(name)).count() == 1;
+            let name = if is_only { short(name) } else { name.to_string() };
+            recorder.with_table(document(&name, "text/csv", text.as_bytes().to_vec()))
         };
+        let recorder = tables.iter().fold(recorder, attached);
         Ok(Recording(Some(Open { partial, recorder })))
     }
 

@@ -10,6 +10,7 @@ use occupant_core::results::outcome::Outcome;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::replay;
+use occupant_scenario::Loaded;
 use serde::Serialize;
 
 use super::difference::differences;
@@ -143,9 +144,9 @@ fn same_scenario(file: &Path, stored: &StoredRun, opened: &Opened) -> Result<(),
     let (theirs, ..) = scenario::stored(file, stored)?;
     let mut found = differences(theirs.explicit(), opened.loaded.explicit())
         .map_err(|e| Failure::plain(format!("the scenarios cannot be compared: {e}")))?;
-    let table = |loaded: &occupant_scenario::Loaded| loaded.table().map(|(_, text)| sha256(text.as_bytes()));
-    if table(&theirs) != table(&opened.loaded) {
-        found.push("the content of the path's table".to_owned());
+    let texts = |loaded: &Loaded| -> Vec<String> { loaded.tables().iter().map(|(_, text)| text.to_string()).collect() };
+    if texts(&theirs) != texts(&opened.loaded) {
+        found.push("the content of a path's table".to_owned());
     }
     if !found.is_empty() {
         let more = found.len().saturating_sub(SHOWN);

@@ -5,19 +5,16 @@
 
 use std::path::Path;
 
-use placed_text::Value as Node;
-
 use crate::base::file_name;
 use crate::files::study_folder::{Manifest, NamedBy};
-use crate::jobs::sweep::{FILE, Plan};
+use crate::jobs::sweep::Plan;
 
 /// The command that runs a run of the study again, given in the folder of the sweep. None where no shell can say it.
 pub(crate) fn command(plan: &Plan, manifest: &Manifest, run: u64) -> Option<String> {
     let (args, _) = plan.command(run);
     let base = manifest.texts.iter().find(|t| t.by == NamedBy::StudyAsBase)?;
     let mut words = vec!["occupant".to_owned(), "run".to_owned(), base.copy.clone()];
-    let table = table(plan, manifest, run);
-    for change in args.overrides.into_iter().chain(table) {
+    for change in args.overrides.into_iter().chain(tables(plan, manifest, run)) {
         words.extend(["--set".to_owned(), change]);
     }
     words.extend(["-o".to_owned(), format!("sample-{run:06}.mcap")]);
@@ -25,17 +22,15 @@ pub(crate) fn command(plan: &Plan, manifest: &Manifest, run: u64) -> Option<Stri
     quoted.map(|words| words.join(" "))
 }
 
-/// The file that the sample's scenario names, by the name of its copy, which stands beside that of the scenario.
-fn table(plan: &Plan, manifest: &Manifest, run: u64) -> Option<String> {
-    let mut draft = plan.study.draft(run).ok()?;
-    let found = draft.get(FILE).ok()?;
-    let Some((_, Node::String(name))) = found.first() else {
-        return None;
+/// The files that the sample's scenario names, by the names of their copies, which stand beside that of the scenario.
+fn tables(plan: &Plan, manifest: &Manifest, run: u64) -> Vec<String> {
+    let named = plan.study.draft(run).map_or_else(|_| Vec::new(), |mut draft| draft.files());
+    let copied = |(path, name): (String, String)| {
+        let text = manifest.texts.iter().find(|t| t.by == NamedBy::Scenario && t.name == name)?;
+        let copy = file_name(Path::new(&text.copy));
+        Some(format!("{path}={}", serde_json::Value::from(copy)))
     };
-    let mut texts = manifest.texts.iter();
-    let text = texts.find(|t| t.by == NamedBy::Scenario && t.name == *name)?;
-    let copy = file_name(Path::new(&text.copy));
-    Some(format!("{FILE}={}", serde_json::Value::from(copy)))
+    named.into_iter().filter_map(copied).collect()
 }
 
 /// A word as a POSIX shell reads it back unchanged; none if it holds a character that no argument can.

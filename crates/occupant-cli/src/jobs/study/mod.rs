@@ -10,6 +10,7 @@ pub mod caution;
 mod command;
 mod describe;
 mod gather;
+mod matrix;
 mod matters;
 mod numbers;
 mod page;
@@ -21,6 +22,7 @@ mod sections;
 mod shown;
 mod tables;
 
+pub(crate) use matrix::text as matrix_text;
 pub(crate) use page::page;
 pub(crate) use tables::{Tables, write as write_tables};
 

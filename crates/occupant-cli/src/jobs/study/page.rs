@@ -1,7 +1,7 @@
 //! The page: one HTML file that needs no network and no script.
 
 use super::shown::shown_unit;
-use super::{Report, caution, matters, sections};
+use super::{Report, caution, matrix, matters, sections};
 use crate::base::program;
 use crate::pictures::html::Html;
 use crate::pictures::svg::escape;
@@ -39,6 +39,7 @@ pub(crate) fn page(report: &Report) -> String {
     html.raw("</div><div>\n");
     sections::ends(&mut html, report);
     html.raw("</div></div>\n");
+    matrix::section(&mut html, report);
     sections::varied(&mut html, report);
     if ends.finished() == 0 {
         html.text("p class=\"note\"", "No run has finished yet: there is nothing to say.");

@@ -81,8 +81,8 @@ pub(crate) fn tornado(of: &Finding<'_>) -> String {
 pub(crate) fn scatter(input: &Input, response: &Response) -> String {
     let every = input.values.len().div_ceil(MOST_DOTS).max(1);
     let pairs = input.values.iter().zip(&response.values).step_by(every);
-    let per = [per(input), shown_unit(&response.unit).0];
-    let points: Vec<[f64; 2]> = pairs.map(|(x, y)| [x / per[0], y / per[1]]).collect();
+    let up = shown_unit(&response.unit).0;
+    let points: Vec<[f64; 2]> = pairs.map(|(x, y)| [place(input, *x), y / up]).collect();
     let curve = Curve::new("", Style::dots(BLUE, diameter(points.len())), points);
     let up = Axis::of(&response.name, shown_unit(&response.unit).1);
     dots_figure(&input.name, [axis_of(input), up], vec![curve])
@@ -97,7 +97,7 @@ pub(crate) fn map(across: &Input, up: &Input, response: &Response, fifths: &[f64
         let value = response.values[row];
         if value.is_finite() {
             let fifth = fifths.partition_point(|bound| *bound <= value);
-            let at = [across.values[row] / per(across), up.values[row] / per(up)];
+            let at = [place(across, across.values[row]), place(up, up.values[row])];
             points[fifth].push(at);
         }
     }
@@ -120,14 +120,16 @@ fn names(of: &Finding<'_>) -> Vec<String> {
     of.order().map(|i| of.samples.inputs[i].name.clone()).take(MOST_WORDS).collect()
 }
 
-fn per(input: &Input) -> f64 {
-    if input.is_number() { shown_unit(&input.unit).0 } else { 1.0 }
+/// Where a value stands on the axis of a parameter.
+fn place(input: &Input, value: f64) -> f64 {
+    let value = if input.is_number() { value / shown_unit(&input.unit).0 } else { value };
+    if input.by_ratios { value.log10() } else { value }
 }
 
 fn axis_of(input: &Input) -> Axis {
     match &input.words {
         Some(words) if !words.is_empty() => Axis::of_words(&input.name, words.clone()),
-        _ => Axis::of(&input.name, shown_unit(&input.unit).1),
+        _ => Axis { is_of_powers: input.by_ratios, ..Axis::of(&input.name, shown_unit(&input.unit).1) },
     }
 }
 

@@ -25,6 +25,8 @@ pub struct Input {
     pub values: Vec<f64>,
     /// The words of a parameter that has words for values; none for one with numbers.
     pub(crate) words: Option<Vec<String>>,
+    /// Whether equal ratios of its values are as likely, so that it is drawn over powers of ten.
+    pub(crate) by_ratios: bool,
 }
 
 /// A figure's column.
@@ -44,6 +46,7 @@ impl Samples {
         let input = |parameter: &occupant_study::Parameter| Input {
             name: parameter.name.clone(),
             unit: parameter.unit.to_owned(),
+            by_ratios: parameter.law.goes_by_ratios(),
             ..Input::default()
         };
         let response = |(name, unit): &(String, String)| Response {

@@ -92,7 +92,9 @@ pub(crate) fn response(html: &mut Html, of: &Finding<'_>) {
     if of.analysis.spread.is_some() && !of.analysis.constant {
         matters::by_design(html, of);
         matters::linear(html, of);
+        html.raw("<details>\n<summary>Pictures over the parameters</summary>\n");
         pictures::pictures(html, of);
+        html.raw("</details>\n");
     }
     extremes(html, of);
     html.raw("</section>\n");

@@ -134,6 +134,6 @@ impl Sweep {
             progress.elapsed_s(),
             self.engine.threads()
         );
-        tell(&results, Some(work))
+        tell(&results, Some(work), &format!("occupant study report {}", self.folder.path.display()))
     }
 }

@@ -12,6 +12,7 @@ pub(crate) mod job;
 pub(crate) mod kept;
 pub(crate) mod plan;
 mod progress;
+mod rehearsal;
 pub(crate) mod results;
 pub(crate) mod simulation;
 mod stable;
@@ -20,7 +21,7 @@ pub(crate) mod words;
 
 pub(crate) use census::Census;
 pub(crate) use extremes::Extremes;
-pub(crate) use plan::{FILE, Plan};
+pub(crate) use plan::Plan;
 pub(crate) use results::Results;
 pub(crate) use simulation::Simulation;
 pub(crate) use stable::{Ensembles, Stable};

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use occupant_core::model::Model;
 use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::run::simulate::simulate;
-use occupant_scenario::{Diagnostics, Draft, Loaded};
+use occupant_scenario::{Diagnostics, Draft, Loaded, names_file};
 use occupant_study::{Design, Law, Parameter, Setting, Study, StudyText, Value};
 use placed_text::Value as Written;
 
@@ -18,9 +18,6 @@ use crate::jobs::run::FirstOutput;
 
 /// So many samples are tried to find the columns where the base scenario itself cannot be run.
 const TRIED: u64 = 16;
-
-/// The key under which a scenario names a file.
-pub(crate) const FILE: &str = "path.file";
 
 /// A study and everything it needs. Shared by all threads.
 pub(crate) struct Plan {
@@ -129,11 +126,11 @@ impl Plan {
 
     /// Reads what the scenario names, and what those of the samples name where a study varies the name of a file.
     fn take_tables(&mut self, texts: &Texts) {
-        let mut names: Vec<String> = named_file(&self.study).into_iter().collect();
-        let varied = self.study.parameters.iter().any(|p| p.targets.iter().any(|t| t.path == FILE));
+        let mut names: Vec<String> = self.study.base.clone().files().into_iter().map(|(_, name)| name).collect();
+        let varied = self.study.parameters.iter().any(|p| p.targets.iter().any(|t| names_file(&t.path)));
         for index in (0..self.study.len()).filter(|_| varied) {
             for assignment in &self.study.assignments(index) {
-                if let (FILE, Value::Text(name)) = (assignment.path.as_str(), &assignment.value)
+                if let (true, Value::Text(name)) = (names_file(&assignment.path), &assignment.value)
                     && !names.contains(name)
                 {
                     names.push(name.clone());
@@ -224,14 +221,6 @@ fn changes_of(text: &StudyText) -> Vec<String> {
         Written::Null | Written::Array(_) | Written::Table(_) => format!("{path}="),
     };
     text.section.set.iter().map(change).collect()
-}
-
-/// The file that the base scenario of a study names.
-pub(crate) fn named_file(study: &Study) -> Option<String> {
-    match study.base.clone().get(FILE).ok()?.into_iter().next()? {
-        (_, Written::String(name)) => Some(name),
-        _ => None,
-    }
 }
 
 /// Whether a parameter has values that are no numbers.

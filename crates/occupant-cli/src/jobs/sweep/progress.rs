@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::base::progress::Runs;
+use crate::base::progress::{Runs, counted};
 use crate::files::study_folder::{Row, Status};
 
 /// A line so often where there is no terminal.
@@ -23,8 +23,7 @@ pub(crate) struct Progress {
 impl Progress {
     /// Of `samples`, `before` are finished.
     pub(crate) fn new(samples: u64, before: u64, quiet: bool) -> Self {
-        let template = "{bar:30} {pos} of {len} samples, {per_sec}, {eta} to go{msg}";
-        let runs = Runs::new(samples, template, LINE_EVERY, quiet);
+        let runs = Runs::new(samples, &counted("samples"), LINE_EVERY, quiet);
         if let Some(bar) = runs.bar() {
             bar.set_position(before);
             bar.reset_eta();

@@ -7,14 +7,17 @@ use occupant_study::Keep;
 use super::{Census, Ensembles, Extremes, Stable};
 use crate::base::Failure;
 use crate::files::study_folder::table::write_columns;
-use crate::files::study_folder::{Checksums, Folder, Journal, Manifest, Problem, StudyTable};
+use crate::files::study_folder::{Checksums, Folder, Journal, Manifest, Problem, Role, StudyTable};
 use crate::files::table::Cell;
+use crate::jobs::ensemble::text::is_shown;
 
 /// What a sweep came to.
 pub(crate) struct Results {
     pub(crate) census: Census,
     /// The samples with the greatest values of the measure that the keep names, greatest first.
     pub(crate) worst: Vec<u64>,
+    /// Least and greatest of the figures that are shown: name, unit, values and samples.
+    pub(crate) ranges: Vec<(String, String, Extremes<u64>)>,
     /// What is stable, where the study has ensembles.
     pub(crate) ensembles: Option<Ensembles>,
     /// Files that were written.
@@ -72,6 +75,7 @@ fn write_files(
     };
     let mut extremes = Extremes::new(usize::try_from(count).unwrap_or(usize::MAX));
     let mut census = Census::new(manifest);
+    let mut ranges = ranges(manifest);
     let mut stable = Stable::begin(folder, manifest, csv)?;
     let mut table = StudyTable::create(folder.parquet(), csv.then(|| folder.csv()), manifest)?;
     journal.each_row(|row| {
@@ -79,6 +83,9 @@ fn write_files(
         let value = figure.and_then(|at| row.cells.get(at)).and_then(Cell::number);
         if let (true, Some(value)) = (counts, value) {
             extremes.see(&row.index, value);
+        }
+        for (at, _, _, range) in ranges.iter_mut().filter(|_| counts) {
+            range.see(&row.index, row.cells.get(*at).and_then(Cell::number).unwrap_or(f64::NAN));
         }
         if let Some(stable) = &mut stable {
             stable.see(&row, counts)?;
@@ -91,5 +98,13 @@ fn write_files(
     }
     let ensembles = stable.map(Stable::finish).transpose()?;
     files.extend(ensembles.iter().flat_map(|e| e.files.clone()));
-    Ok(Results { census, worst: extremes.worst.iter().map(|(_, index)| *index).collect(), ensembles, files })
+    let ranges = ranges.into_iter().map(|(_, name, unit, range)| (name, unit, range)).collect();
+    Ok(Results { census, worst: extremes.worst.iter().map(|(_, index)| *index).collect(), ranges, ensembles, files })
+}
+
+/// The figures that tables show: column, name, unit, and nothing seen yet.
+fn ranges(manifest: &Manifest) -> Vec<(usize, String, String, Extremes<u64>)> {
+    let all = manifest.columns.iter().enumerate();
+    let shown = all.filter(|(_, column)| column.role == Role::Figure && is_shown(&column.name));
+    shown.map(|(at, column)| (at, column.name.clone(), column.unit.clone(), Extremes::new(1))).collect()
 }

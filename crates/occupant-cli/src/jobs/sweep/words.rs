@@ -7,7 +7,7 @@ use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{Table, facts};
 use crate::base::{Done, Failure, talk};
 use crate::files::study_folder::Held;
-use crate::jobs::ensemble::text::{figure_table, is_shown};
+use crate::jobs::ensemble::text::{figure_table, is_shown, ranged};
 
 /// Warns where a file system has no locks; `doing` is what two processes could be at in one folder.
 pub(crate) fn warn_unlocked(held: &Held, doing: &str, quiet: bool) {
@@ -26,7 +26,7 @@ pub(crate) fn tell_damaged(files: &[PathBuf]) {
 }
 
 /// What it came to.
-pub(crate) fn tell(results: &Results, work: Option<String>) -> Result<Done, Failure> {
+pub(crate) fn tell(results: &Results, work: Option<String>, next: &str) -> Result<Done, Failure> {
     let census = &results.census;
     let mut ended = vec![format!("{} completed", census.completed)];
     for (count, word) in
@@ -46,9 +46,24 @@ pub(crate) fn tell(results: &Results, work: Option<String>) -> Result<Done, Fail
     lines.extend(work.map(|work| ("computed", work)));
     let names: Vec<String> = results.files.iter().map(|f| f.display().to_string()).collect();
     lines.push(("written", names.join(", ")));
+    lines.push(("next", next.to_owned()));
     let stable = results.ensembles.as_ref().map(|e| format!("\n{}", stable(e)));
-    talk::print(&(facts(&lines) + &stable.unwrap_or_default()))?;
+    let ranges = if census.completed > 1 { format!("\n{}", ranges(results)) } else { String::new() };
+    talk::print(&(facts(&lines) + &ranges + &stable.unwrap_or_default()))?;
     Ok(Done::Well)
+}
+
+/// Least and greatest of each figure, and in which samples.
+fn ranges(results: &Results) -> String {
+    let mut table =
+        Table::new(&[(Left, &["figure"]), (Right, &["least", "in sample", "greatest", "in sample"]), (Left, &[""])]);
+    for (name, unit, range) in &results.ranges {
+        if let (Some((least, first)), Some((greatest, last))) = (range.best.first(), range.worst.first()) {
+            let ([least, greatest], unit) = ranged([*least, *greatest], unit);
+            table.row([name.clone(), least, first.to_string(), greatest, last.to_string(), unit.to_owned()]);
+        }
+    }
+    table.text()
 }
 
 /// The ensembles of a study in words.

@@ -65,7 +65,9 @@ fn nothing(svg: &mut Svg, figure: &Figure, [left, top]: [f64; 2], [width, height
 impl Page {
     fn new(figure: &Figure, [x, y]: [[f64; 2]; 2], [left, top]: [f64; 2], [width, height]: [f64; 2]) -> Self {
         let inner_height = height - TICK - LABEL - 16.0;
-        let y = if figure.y.words.is_empty() {
+        let y = if figure.y.is_of_powers {
+            Scale::of_powers(y)
+        } else if figure.y.words.is_empty() {
             Scale::new(y, ((inner_height / 36.0) as usize).clamp(2, 8))
         } else {
             Scale::of_words(short_words(&figure.y.words, WORDS * width), true)
@@ -157,6 +159,9 @@ fn across(figure: &Figure, range: [f64; 2], room: f64) -> Scale {
     if !words.is_empty() {
         let each = room / words.len() as f64 - 6.0;
         return Scale::of_words(short_words(words, each), false);
+    }
+    if figure.x.is_of_powers {
+        return Scale::of_powers(range);
     }
     let time = figure.x.unit == "ms";
     let scale = |count| if time { Scale::inside(range, count) } else { Scale::new(range, count) };

@@ -26,12 +26,14 @@ pub(crate) struct Axis {
     pub(crate) words: Vec<String>,
     /// Least and greatest value that an axis of numbers shows whatever the curves need.
     pub(crate) includes: Option<[f64; 2]>,
+    /// Whether points stand at the decimal logarithms of their values.
+    pub(crate) is_of_powers: bool,
 }
 
 impl Axis {
     /// An axis of numbers.
     pub(crate) fn of(name: impl Into<String>, unit: impl Into<String>) -> Self {
-        Axis { name: name.into(), unit: unit.into(), words: Vec::new(), includes: None }
+        Axis { name: name.into(), unit: unit.into(), words: Vec::new(), includes: None, is_of_powers: false }
     }
 
     /// A range that covers `range` and what is to be shown at any rate.

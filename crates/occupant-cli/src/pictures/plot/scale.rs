@@ -1,5 +1,7 @@
 //! Round ticks for a range.
 
+use crate::base::text_table::trimmed;
+
 /// An axis' range, its ticks, and how they are written.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Scale {
@@ -12,6 +14,8 @@ pub(crate) struct Scale {
     decimals: usize,
     /// What stands at the ticks 0, 1, 2, … instead of figures.
     words: Vec<String>,
+    /// Whether ticks are the decimal logarithms of what stands at them.
+    is_of_powers: bool,
 }
 
 impl Scale {
@@ -41,7 +45,24 @@ impl Scale {
     pub(crate) fn of_words(words: Vec<String>, downward: bool) -> Self {
         let ticks: Vec<f64> = (0..words.len()).map(|i| i as f64).collect();
         let beyond = words.len().max(1) as f64 - 0.5;
-        Scale { range: if downward { [beyond, -0.5] } else { [-0.5, beyond] }, ticks, exponent: 0, decimals: 0, words }
+        Scale {
+            range: if downward { [beyond, -0.5] } else { [-0.5, beyond] },
+            ticks,
+            exponent: 0,
+            decimals: 0,
+            words,
+            is_of_powers: false,
+        }
+    }
+
+    /// A scale of decimal logarithms: ticks at powers of ten, and at 2 and 5 times these where there are few.
+    pub(crate) fn of_powers([low, high]: [f64; 2]) -> Self {
+        let [low, high] = if high - low > 1e-9 { [low, high] } else { [low - 0.1, high + 0.1] };
+        let times: &[f64] = if high - low > 2.0 { &[1.0] } else { &[1.0, 2.0, 5.0] };
+        let decades = (low.floor() as i32..=high.ceil() as i32).take(100);
+        let all = decades.flat_map(|decade| times.iter().map(move |times| f64::from(decade) + times.log10()));
+        let ticks = all.filter(|tick| (low - 1e-9..=high + 1e-9).contains(tick)).collect();
+        Scale { range: [low, high], ticks, exponent: 0, decimals: 0, words: Vec::new(), is_of_powers: true }
     }
 
     /// Whether words stand at its ticks.
@@ -65,6 +86,7 @@ impl Scale {
             ticks,
             exponent,
             words: Vec::new(),
+            is_of_powers: false,
         }
     }
 
@@ -73,6 +95,10 @@ impl Scale {
         if self.has_words() {
             // ticks of words are 0, 1, 2, …
             return self.words.get(tick as usize).cloned().unwrap_or_default();
+        }
+        if self.is_of_powers {
+            let value = 10_f64.powf(tick);
+            return if (1e-3..1e5).contains(&value) { trimmed(value, 4) } else { format!("{value:.0e}") };
         }
         // in two factors: the power alone may be beyond what a double holds
         let half = self.exponent / 2;
@@ -162,6 +188,16 @@ mod tests {
         let scale = Scale::new([0.0, 3e-5], 3);
         assert_eq!((scale.exponent, scale.figures(1e-5).as_str()), (-6, "10"));
         assert_eq!(Scale::new([0.0, 9000.0], 5).exponent, 0);
+    }
+
+    #[test]
+    fn powers_have_round_ticks() {
+        let scale = Scale::of_powers([10_f64.log10(), 400_f64.log10()]);
+        let figures: Vec<String> = scale.ticks.iter().map(|tick| scale.figures(*tick)).collect();
+        assert_eq!(figures, ["10", "20", "50", "100", "200"]);
+        let wide = Scale::of_powers([-3.0, 3.0]);
+        assert_eq!(wide.figures(wide.ticks[0]), "0.001");
+        assert_eq!((wide.ticks.len(), wide.place(0.0)), (7, 0.5));
     }
 
     #[test]

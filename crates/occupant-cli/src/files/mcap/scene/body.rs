@@ -143,7 +143,7 @@ impl Tone {
         }
     }
 
-    fn color(self) -> Color {
+    pub(crate) fn color(self) -> Color {
         match self {
             Tone::Skin => SKIN,
             Tone::Shirt => SHIRT,

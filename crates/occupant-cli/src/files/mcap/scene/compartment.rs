@@ -38,7 +38,7 @@ pub(crate) fn write(wire: &mut Wire, model: &Model) {
     let surfaces = surfaces.map(|(s, face)| (&s.name, s.frame, s.material, vec![corners_m(face)]));
     let solids = setup.solids.iter().map(|s| (&s.name, s.frame, s.material, s.outline()));
     for (name, frame, material, polygons) in surfaces.chain(solids) {
-        let color = PALETTE[material % PALETTE.len()];
+        let color = color_of(material);
         entity(wire, 0, &frame_name(model, frame), name, |w| {
             for corners in &polygons {
                 polygon(w, corners, color);
@@ -46,6 +46,11 @@ pub(crate) fn write(wire: &mut Wire, model: &Model) {
             }
         });
     }
+}
+
+/// The colour of a material, by its place among them.
+pub(crate) fn color_of(material: usize) -> Color {
+    PALETTE[material % PALETTE.len()]
 }
 
 /// The viewer's name of a surface's frame.

@@ -17,6 +17,11 @@ use super::wire::Wire;
 pub(crate) struct Color(pub(crate) f64, pub(crate) f64, pub(crate) f64, pub(crate) f64);
 
 impl Color {
+    /// Red, green, blue, opacity.
+    pub(crate) const fn parts(self) -> [f64; 4] {
+        [self.0, self.1, self.2, self.3]
+    }
+
     /// The same with another opacity.
     const fn with_opacity(self, opacity: f64) -> Self {
         Color(self.0, self.1, self.2, opacity)

@@ -1,0 +1,127 @@
+//! `occupant import`.
+
+use std::path::{Path, PathBuf};
+
+use occupant_scenario::kind::{KINDS, LENGTH, SPEED};
+
+use super::flags::history::WindowArgs;
+use super::new::with_path;
+use crate::base::{Failure, file_name, file_stem, note, publish, say};
+use crate::files::measured::{self, Imported};
+use crate::jobs::import::{Made, PathTable, Request, import as made};
+
+/// Make a scenario and curves of the record of a test
+///
+/// SOURCE is a folder or file of NHTSA's databases (vNNNNN.EV5 with its ASCII curves), an ISO-MME test (folder or .mme file), an
+/// OpenSCENARIO file with a trajectory (.xosc), a table of esmini, or a recorder's table. Writes, as far as the record has it,
+/// NAME-path.csv, the motion of the vehicle; NAME.toml, the driver of `occupant new` in a car of ours on that path, to be changed
+/// to the car and the person of the test; and NAME-curves.csv, all other signals in one table that `compare`, `plot` and `fit` read.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// The record: a folder or a file
+    #[arg(value_name = "SOURCE")]
+    source: PathBuf,
+
+    /// The scenario to write; that of the source with .toml, in the folder that one works in, if absent
+    #[arg(short, long, value_name = "NAME.toml")]
+    output: Option<PathBuf>,
+
+    /// The vehicle, where the test has several
+    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
+    vehicle: u32,
+
+    /// The object whose trajectory it is, where the file has several
+    #[arg(long, value_name = "NAME")]
+    object: Option<String>,
+
+    /// Place of the vehicle's accelerometers that the path is made of, as the test names it; the centre of gravity, or the first
+    /// place, if absent
+    #[arg(long, value_name = "PLACE")]
+    at: Option<String>,
+
+    /// Speed of the vehicle when the path starts, such as '56 km/h'; that of the test record if absent
+    #[arg(long, value_name = "SPEED", value_parser = written::<SPEED>)]
+    speed: Option<String>,
+
+    /// How far the centre of gravity lies ahead of the point that a trajectory follows, such as '1.3 m'
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = written::<LENGTH>)]
+    cg: Option<String>,
+
+    #[command(flatten)]
+    window: WindowArgs,
+
+    /// Replace files that exist
+    #[arg(short, long)]
+    force: bool,
+}
+
+pub(crate) fn import(args: &Args) -> Result<(), Failure> {
+    let name = args.output.clone().unwrap_or_else(|| Path::new(&stem(&args.source)).with_extension("toml"));
+    let imported = measured::import(&args.source, args.vehicle, args.object.as_deref())?;
+    let made = made(
+        &imported,
+        &Request {
+            place: args.at.as_deref(),
+            window_s: [args.window.from, args.window.to],
+            speed: args.speed.as_deref(),
+            cg: args.cg.as_deref(),
+        },
+    )?;
+    made.notes.iter().for_each(note);
+    write(args, &name, &imported, &made)
+}
+
+/// A quantity as it is written, which is at least 0.
+fn written<const KIND: usize>(text: &str) -> Result<String, String> {
+    match KINDS[KIND].read(text) {
+        Ok(value) if value >= 0.0 => Ok(text.trim().to_owned()),
+        Ok(_) => Err("below 0".to_owned()),
+        Err(error) => Err(format!("{}; expected {}", error.found, error.expected)),
+    }
+}
+
+/// The name of the source without its ending, as that of a file.
+fn stem(source: &Path) -> String {
+    let whole = std::fs::canonicalize(source).unwrap_or_else(|_| source.to_owned());
+    let name = if whole.is_dir() { file_name(&whole) } else { file_name(&whole.with_extension("")) };
+    file_stem(&name).replace(' ', "_")
+}
+
+fn write(args: &Args, name: &Path, imported: &Imported, made: &Made) -> Result<(), Failure> {
+    let beside = |word: &str| name.with_file_name(format!("{}{word}", file_name(&name.with_extension(""))));
+    let [path_file, curves_file] = [beside("-path.csv"), beside("-curves.csv")];
+    if let Some(path) = &made.path {
+        publish(&path_file, args.force, &path.csv)?;
+        say(&format!("wrote {}: {}", path_file.display(), path.words));
+        let text = scenario(&args.source, imported, path, &file_name(&path_file));
+        publish(name, args.force, text.as_bytes())?;
+        say(&format!("wrote {}: a driver in a car of ours on that path", name.display()));
+    }
+    if let Some((bytes, count)) = &made.curves {
+        publish(&curves_file, args.force, bytes)?;
+        say(&format!("wrote {}: {count} signals", curves_file.display()));
+    }
+    let next = match (&made.path, &made.curves) {
+        (Some(_), Some(_)) => vec![
+            format!("occupant run {}", name.display()),
+            format!("occupant compare {} {}", name.with_extension("mcap").display(), curves_file.display()),
+        ],
+        (Some(_), None) => {
+            vec![format!("occupant check {}", name.display()), format!("occupant run {}", name.display())]
+        }
+        (None, _) => vec![format!("occupant compare RUN.mcap {}", curves_file.display())],
+    };
+    say(&format!("next: {}", next.join("\n      ")));
+    Ok(())
+}
+
+/// The driver of `occupant new` on this path.
+fn scenario(source: &Path, imported: &Imported, path: &PathTable, file: &str) -> String {
+    let text = |words: &str| toml_edit::Value::from(words).to_string();
+    let title = Some(imported.record.title.trim()).filter(|title| !title.is_empty());
+    let title = title.map_or_else(|| file_name(source), str::to_owned);
+    let keys = path.keys.join("\n");
+    let origin = format!("{}: {}, of {}", file_name(source), path.words, title);
+    let section = format!("[path]\n{keys}\nfile = {}\n", text(file));
+    with_path(&text(&title), &text(&origin), &section)
+}

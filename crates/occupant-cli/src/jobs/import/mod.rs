@@ -1,0 +1,67 @@
+//! The record of a test as files of this program: a path of a vehicle, curves to compare with, and a scenario that uses the path.
+
+mod curves;
+mod path;
+
+use crate::base::Failure;
+use crate::files::measured::Imported;
+use crate::files::signals::Recording;
+
+pub(crate) use path::PathTable;
+
+/// What is asked for.
+#[derive(Clone, Debug)]
+pub(crate) struct Request<'a> {
+    /// Place of the vehicle's sensors; the centre of gravity, or the first that there is, if absent.
+    pub(crate) place: Option<&'a str>,
+    /// First and last time of what is written, s.
+    pub(crate) window_s: [Option<f64>; 2],
+    /// Speed when the path starts, as a scenario has it.
+    pub(crate) speed: Option<&'a str>,
+    /// How far the centre of gravity lies ahead of the point that a trajectory follows, as a scenario has it.
+    pub(crate) cg: Option<&'a str>,
+}
+
+/// What became of a record.
+#[derive(Debug)]
+pub(crate) struct Made {
+    /// The vehicle's path; none where the record has none.
+    pub(crate) path: Option<PathTable>,
+    /// The curves as a table, and how many they are; none where all is path.
+    pub(crate) curves: Option<(Vec<u8>, usize)>,
+    /// What to know of it.
+    pub(crate) notes: Vec<String>,
+}
+
+/// Makes path and curves of a record.
+///
+/// # Errors
+/// Signals of the path that have no unit, and a place or window without any.
+pub(crate) fn import(imported: &Imported, request: &Request) -> Result<Made, Failure> {
+    let recording = within(&imported.recording, request.window_s);
+    if recording.signals.is_empty() {
+        return Err(Failure::plain("no sample lies between --from and --to"));
+    }
+    let mut notes = recording.notes.clone();
+    let path = path::of(&recording, imported, request, &mut notes)?;
+    let used = path.as_ref().map_or(&[][..], |path| &path.signals);
+    let others: Vec<_> = recording.signals.iter().filter(|signal| !used.contains(&signal.name)).collect();
+    let curves = if others.is_empty() { None } else { Some((curves::table(&others)?, others.len())) };
+    if path.is_none() && request.place.is_none() {
+        notes.push("no signal is the motion of the vehicle: no path and no scenario is written".to_owned());
+    }
+    Ok(Made { path, curves, notes })
+}
+
+/// The samples between two times; signals without any are left out.
+fn within(recording: &Recording, [from_s, to_s]: [Option<f64>; 2]) -> Recording {
+    let mut recording = recording.clone();
+    let is_in = |t: f64| from_s.is_none_or(|from| t >= from) && to_s.is_none_or(|to| t <= to);
+    for signal in &mut recording.signals {
+        let kept = |(t, _): &(f64, f64)| is_in(*t);
+        let samples = signal.time_s.iter().copied().zip(signal.values.iter().copied()).filter(kept);
+        (signal.time_s, signal.values) = samples.unzip();
+    }
+    recording.signals.retain(|signal| !signal.time_s.is_empty());
+    recording
+}
