@@ -109,7 +109,7 @@ impl Scenario {
     pub(crate) fn paths(&self) -> Vec<(String, &PathSection)> {
         let named = |key: &str, name: &str| with_key(&with_key(key, name), "path");
         let vehicles = self.vehicles.iter().map(|(name, own)| (named("vehicles", name), &own.path));
-        let frames = self.frames.iter().map(|(name, own)| (named("frames", name), &own.path));
+        let frames = self.frames.iter().filter_map(|(name, own)| Some((named("frames", name), own.path.as_ref()?)));
         self.path.iter().map(|path| ("path".to_owned(), path)).chain(vehicles).chain(frames).collect()
     }
 }
