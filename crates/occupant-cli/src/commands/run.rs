@@ -145,9 +145,7 @@ fn one(args: &Args) -> Result<(Done, Summary), Failure> {
         Some(name) => Recording::begin(&name, existing, &chosen, &opened, from.as_ref())?,
         None => Recording::none(),
     };
-    if let (Some(from), false) = (&from, args.quiet) {
-        from.announce();
-    }
+    from.iter().filter(|_| !args.quiet).for_each(Resumption::announce);
     let channels = ensemble.as_ref().map(|e| e.channels.clone()).unwrap_or_default();
     let interrupt = Interrupt::listen("stopping at the next output; once more to stop at once");
     let mut run = simulate(&opened, from.as_ref(), recording, channels, &interrupt, args.quiet)?;
@@ -160,10 +158,9 @@ fn one(args: &Args) -> Result<(Done, Summary), Failure> {
         }
         _ => None,
     };
-    let estimate = (args.estimate_error && run.completed)
-        .then(|| estimate(&opened, &run.summary, &run.head, &interrupt))
-        .transpose()
-        .map_err(|failure| failure.with_done(&run.written.left()))?;
+    let estimate =
+        (args.estimate_error && run.completed).then(|| estimate(&opened, &run.summary, &run.head, &interrupt));
+    let estimate = estimate.transpose().map_err(|failure| failure.with_done(&run.written.left()))?;
     if !args.is_one_of_several {
         show(args, &chosen, &opened, from.as_ref(), &run, (ensemble.as_ref(), estimate.as_ref()))?;
     }
