@@ -53,14 +53,14 @@ pub struct StrapAction<S> {
     pub ends: [V3<S>; 2],
     /// Force of the webbing on the node where it begins, vehicle axes, N.
     pub node_force: V3<S>,
-    /// The spheres that it wraps.
+    /// The spheres that it wraps, and points between that it passes without friction.
     arcs: [Arc<S>; MOST_ARCS],
 }
 
-/// Webbing on a sphere.
+/// Webbing on a sphere, or on a point.
 #[derive(Clone, Copy, Debug)]
 struct Arc<S> {
-    sphere: usize,
+    sphere: Option<usize>,
     /// W, rad; 0 or less where the webbing does not touch it.
     wrap: S,
     /// Centre, and from there to where the webbing comes onto the sphere, vehicle axes, m.
@@ -111,7 +111,7 @@ impl<S: Scalar> StrapAction<S> {
     }
 }
 
-/// The spheres of a strap that begins and ends at these nodes.
+/// The spheres of a strap that begins and ends at these nodes, and as many of the points between as there is room for.
 #[inline(always)]
 fn arcs<S: Scalar>(
     chain: &ChainLaw<S>,
@@ -121,17 +121,25 @@ fn arcs<S: Scalar>(
     nodes: std::ops::Range<usize>,
 ) -> [Arc<S>; MOST_ARCS] {
     let frame = &at.frames[chain.frame];
-    let mut spheres = nodes.filter(|k| chain.nodes[*k].is_sphere());
+    let (first, count) = (nodes.start, nodes.clone().filter(|k| chain.nodes[*k].is_sphere()).count());
+    let mut room = MOST_ARCS.saturating_sub(count);
+    let mut bearings = nodes.filter(move |k| {
+        let is_point = *k != first && !chain.nodes[*k].is_sphere();
+        let has_room = is_point && room > 0;
+        room -= usize::from(has_room);
+        has_room || chain.nodes[*k].is_sphere()
+    });
     from_fn(|_| {
         let none = V3::zero();
-        let Some(k) = spheres.next() else {
-            return Arc { sphere: 0, wrap: S::zero(), centre: none, touch: none, axis: none, force: none };
+        let Some(k) = bearings.next() else {
+            return Arc { sphere: None, wrap: S::zero(), centre: none, touch: none, axis: none, force: none };
         };
         let (bend, place) = (&now.lies.bends[k], &now.lies.places[k]);
-        let sphere = if let SiteLaw::Sphere(sphere) = &chain.nodes[k].site { *sphere } else { 0 };
+        let sphere = if let SiteLaw::Sphere(sphere) = &chain.nodes[k].site { Some(*sphere) } else { None };
         Arc {
             sphere,
-            wrap: S::select(past.nodes[k].is_on(), bend.wrap, S::zero()),
+            // a point is drawn like a sphere without size
+            wrap: S::select(past.nodes[k].is_on(), if sphere.is_some() { bend.wrap } else { S::of(1e-3) }, S::zero()),
             centre: frame.axes.into_frame(place.centre - frame.origin),
             touch: frame.axes.into_frame(bend.touch) * place.radius,
             axis: -frame.axes.into_frame(bend.normal),
@@ -268,7 +276,7 @@ impl Reported for Chains {
             Column { scale: 180.0 / std::f64::consts::PI, ..Column::number("wrap_rad", "wrap, °", 1) },
         ];
         let row = |(named, s): (Named<'_>, &StrapAction<f64>)| {
-            let wrap = s.arcs.iter().map(|arc| arc.wrap.max(0.0)).sum();
+            let wrap = s.arcs.iter().filter(|arc| arc.sphere.is_some()).map(|arc| arc.wrap.max(0.0)).sum();
             let numbers = [s.length, s.unstretched, s.force, s.turn, wrap];
             (named.name.to_owned(), numbers.map(|number| Cell::Number(Some(number))).to_vec())
         };
@@ -288,7 +296,8 @@ impl Reported for Chains {
         let [of, _] = Self::NAMES;
         for (named, strap) in Self::named(shown.data).into_iter().zip(shown.actions) {
             for arc in strap.arcs.iter().filter(|arc| arc.wrap > 0.0) {
-                let (name, sphere, point_m) = (named.name, arc.sphere, (shown.centre_m)(arc.sphere));
+                let Some(sphere) = arc.sphere else { continue };
+                let (name, point_m) = (named.name, (shown.centre_m)(sphere));
                 show(&Pull { of, name, sphere, point_m, force_n: arc.force.to_vector() });
             }
         }
@@ -307,7 +316,8 @@ impl Reported for Chains {
             return Some((words[phase.unwrap_or(0)], None));
         }
         let wraps = |strap: &StrapAction<S>| {
-            strap.arcs.iter().fold(0, |count, arc| count + usize::from(S::any(arc.wrap.gt(o))))
+            let on = strap.arcs.iter().filter(|arc| arc.sphere.is_some() && S::any(arc.wrap.gt(o)));
+            on.count()
         };
         match wraps(now).cmp(&wraps(before)) {
             std::cmp::Ordering::Less => return Some(("leaves a sphere of the body", None)),
