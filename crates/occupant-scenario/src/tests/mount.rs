@@ -139,6 +139,22 @@ fn a_part_has_the_results_of_what_it_has() {
     assert!(matching(&model, "left_femur.*").is_empty());
 }
 
+#[test]
+fn half_a_neck_says_so() {
+    for (preset, segments, is_half) in
+        [("gebod", 12, true), ("person", 12, true), ("person", 15, false), ("dummy50-like", 12, false)]
+    {
+        let model = model_of(&format!(
+            "{HEADER}path = {{ kind = \"fixed\" }}\nbody = {{ preset = \"male50\", segment_count = {segments} }}\n\
+             joints.preset = \"{preset}\"\nmount = {{ segment = \"upper_torso\", without = [\"middle_torso\", \"upper_arms\"] }}\n"
+        ));
+        let mut summarizer = Summarizer::new();
+        simulate(&model, &mut summarizer).unwrap();
+        let caveats = summarizer.summary(None).unwrap().caveats;
+        assert_eq!(caveats.iter().any(|caveat| caveat.name == "neck_of_gebod"), is_half, "{preset} {segments}");
+    }
+}
+
 /// What 49 CFR 572.33 asks of a Hybrid III, to which the neck of `dummy50-like` was fitted: greatest rotation (deg), its time and
 /// that of its return (ms), greatest moment (lbf·ft), its time and that of its return.
 const FLEXION: [[f64; 2]; 6] =

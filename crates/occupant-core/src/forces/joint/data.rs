@@ -8,6 +8,9 @@ use crate::body::{Joint, Tree};
 use crate::forces::joint::limit::Limits;
 use crate::forces::joint::muscle::Muscle;
 
+/// A spring of a neck that leaves the moment to its limit: half of what a dummy's has.
+const SOFT_NECK_N_M_RAD: f64 = 20.0;
+
 /// Damping that rises towards a limit of travel (Figs 9–11): from the joint's normal damping at `begin_rad` linearly to
 /// `damping_n_m_s` at `full_rad`, constant beyond, and only while the joint moves towards the limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -174,14 +177,15 @@ impl Joints {
         !self.limits.is_empty()
     }
 
-    /// Whether the neck of a body is one joint with the limit that GEBOD gives to one of two.
+    /// Whether the neck of a body is one joint with the limit that GEBOD gives to one of two, and no spring but a soft one.
     pub(crate) fn is_half_a_neck(&self) -> bool {
         let marks = self.tree.landmarks();
         let is_alone = |joint: &Joint| Some(self.tree[*joint].proximal) == marks.chest;
         let Some(neck) = marks.neck.filter(is_alone) else { return false };
         let has_spring = self[neck].ball().is_some_and(|ball| ball.spring.is_some());
         let mut own = self.limits.iter().filter(|limits| limits.joint == neck);
-        !has_spring && own.any(|limits| limits.lock.is_none() && limits.is_of_gebod_neck())
+        let is_soft = |limits: &Limits| limits.lock.is_none_or(|lock| lock.stiffness < SOFT_NECK_N_M_RAD);
+        !has_spring && own.any(|limits| is_soft(limits) && limits.is_of_gebod_neck())
     }
 
     /// The joints' tree.
