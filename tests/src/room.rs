@@ -3,6 +3,7 @@
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
 use occupant_core::results::checkpoint::Checkpoint;
+use occupant_core::results::outcome::{Outcome, Status};
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_core::run::batch::{Ended, Job, Kernel, simulate_many};
@@ -18,6 +19,14 @@ pub fn setup(text: &str, set: &[&str]) -> Setup {
     set.iter().for_each(|assignment| draft.set(assignment).unwrap());
     let no_files = |name: &str| Err(format!("no file {name}"));
     draft.load(&no_files).and_then(|loaded| loaded.build()).unwrap().0
+}
+
+/// A run to its end.
+pub fn run(setup: Setup, mut recorder: impl Recorder) -> (Model, Outcome) {
+    let model = Model::new(setup).unwrap();
+    let outcome = simulate(&model, &mut recorder).unwrap();
+    assert_eq!(outcome.status, Status::Completed);
+    (model, outcome)
 }
 
 /// A body that falls tumbling through a room of twenty solids, with these assignments.

@@ -3,13 +3,12 @@
 use nalgebra::{Point3, Vector3};
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
-use occupant_core::results::outcome::{Outcome, Status};
-use occupant_core::results::recorder::{Recorder, Watch};
+use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{Summarizer, Summary};
 use occupant_core::run::simulate::{resume, simulate};
 use occupant_tests::measure::assert_below;
-use occupant_tests::room::{Last, ends_alike_side_by_side, setup};
+use occupant_tests::room::{Last, ends_alike_side_by_side, run, setup};
 
 const ABREAST: &str = include_str!("../../scenarios/side-by-side.toml");
 const PEDESTRIAN: &str = include_str!("../../scenarios/pedestrian.toml");
@@ -34,14 +33,6 @@ steel  = { k1 = "400 kN/m", mu1 = 0.81, friction = 0.2 }
 
 fn space(more: &str, set: &[&str]) -> Setup {
     setup(&format!("{SPACE}{more}"), set)
-}
-
-fn run(setup: Setup, recorder: impl Recorder) -> (Model, Outcome) {
-    let model = Model::new(setup).unwrap();
-    let mut recorder = recorder;
-    let outcome = simulate(&model, &mut recorder).unwrap();
-    assert_eq!(outcome.status, Status::Completed);
-    (model, outcome)
 }
 
 fn summary(setup: Setup) -> Summary {

@@ -4,27 +4,18 @@ use nalgebra::Vector3;
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
 use occupant_core::results::checkpoint::Checkpoint;
-use occupant_core::results::outcome::{Outcome, Status};
-use occupant_core::results::recorder::{Recorder, Watch};
+use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{Summarizer, Summary};
 use occupant_core::run::simulate::{resume, simulate};
 use occupant_tests::measure::assert_below;
-use occupant_tests::room::{Last, ends_alike_side_by_side, setup};
+use occupant_tests::room::{Last, ends_alike_side_by_side, run, setup};
 
 /// A body afloat that brings hands, elbows and knees together.
 const CLAP: &str = include_str!("../data/clap.toml");
 
 fn clap(set: &[&str]) -> Setup {
     setup(CLAP, set)
-}
-
-fn run(setup: Setup, recorder: impl Recorder) -> (Model, Outcome) {
-    let model = Model::new(setup).unwrap();
-    let mut recorder = recorder;
-    let outcome = simulate(&model, &mut recorder).unwrap();
-    assert_eq!(outcome.status, Status::Completed);
-    (model, outcome)
 }
 
 /// Linear momentum, and angular momentum about the origin, space axes.

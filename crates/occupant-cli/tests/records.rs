@@ -174,10 +174,14 @@ fn what_is_wrong_with_a_record_is_said_with_its_place() {
     let folder = files();
     let here = folder.path();
     fs::write(here.join("v00001/v00001.003"), "0.0\t1\n0.1\tx\n").unwrap();
+    let record = fs::read_to_string(here.join("v00001/v00001.EV5")).unwrap();
+    fs::create_dir(here.join("v00002")).unwrap();
+    fs::write(here.join("v00002/v00002.EV5"), record.replace("1|2|AC", "1|../2|AC")).unwrap();
     fs::write(here.join("nurbs.xosc"), "<a>\n<Trajectory name=\"t\"><Shape><Nurbs/></Shape></Trajectory></a>").unwrap();
     fs::write(here.join("odd.csv"), "t[s],ax,b[N]\n0,1,2\n1,1,2\n").unwrap();
     for (words, expected) in [
         (vec!["import", "v00001"], "v00001.003:2\n = expected a time and a value"),
+        (vec!["import", "v00002"], "a curve numbered `../2`"),
         (vec!["import", "v00001", "--vehicle", "2"], "no curve of vehicle 2"),
         (vec!["import", "log.csv"], "2 objects\n --> log.csv\n = expected `Ego` or `Target`"),
         (vec!["import", "log.csv", "--object", "Nobody"], "no object `Nobody`"),

@@ -127,6 +127,11 @@ fn parsed<'a>(header: &Path, text: &'a str, vehicle: u32) -> Result<(TestRecord,
                     let expected = "20 fields of a curve with bars between them";
                     return Err(Trouble::at(header, line, format!("{} fields", fields.len()), expected));
                 }
+                // it becomes the ending of a file's name
+                if fields[NUMBER].is_empty() || !fields[NUMBER].bytes().all(|digit| digit.is_ascii_digit()) {
+                    let found = format!("a curve numbered `{}`", placed_text::shortened(fields[NUMBER], 40));
+                    return Err(Trouble::at(header, line, found, "digits, as in the names of the curves' files"));
+                }
                 if is_own(fields[VEHICLE]) {
                     curves.push(Curve { line, fields });
                 }
