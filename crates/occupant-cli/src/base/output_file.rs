@@ -333,7 +333,7 @@ pub(crate) fn deliver_and(open: bool, path: &Path, force: bool, bytes: &[u8]) ->
 /// Says that a file was written, and opens it if `open` says so.
 pub(crate) fn said_and_opened(open: bool, path: &Path) {
     say(&format!("wrote {}", path.display()));
-    if open && let Err(error) = opener::open(path) {
+    if open && let Err(error) = open::that(path) {
         say(&format!("note: {} could not be opened: {error}", path.display()));
     }
 }
