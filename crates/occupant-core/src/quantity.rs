@@ -228,7 +228,7 @@ impl<O: Owner> Quantity<O> {
     }
 
     /// The type of its field.
-    pub const fn kind(&self) -> Kind {
+    pub(crate) const fn kind(&self) -> Kind {
         match self.take {
             Take::Number(_) => Kind::Number,
             Take::Count(_) => Kind::Count,
@@ -251,7 +251,7 @@ impl Owner for Energy {
 }
 
 /// An energy: the number of its field, its name, and what it is, in plots and in the file's metadata.
-pub const fn energy(
+pub(crate) const fn energy(
     number: u32,
     name: &'static str,
     meaning: &'static str,

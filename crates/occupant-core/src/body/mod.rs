@@ -158,7 +158,7 @@ impl Body {
     }
 
     /// Names of the parts, each once.
-    pub fn parts(&self) -> impl Iterator<Item = &str> {
+    pub(crate) fn parts(&self) -> impl Iterator<Item = &str> {
         let is_first = |i: &usize| self.spheres[..*i].iter().all(|other| other.part != self.spheres[*i].part);
         (0..self.spheres.len()).filter(is_first).map(|i| self.spheres[i].part.as_str())
     }

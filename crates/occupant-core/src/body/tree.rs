@@ -254,7 +254,7 @@ impl Landmarks {
     }
 
     /// Segments that carry the accelerometers of head, chest and pelvis.
-    pub fn instruments(&self) -> [Option<Segment>; 3] {
+    pub(crate) fn instruments(&self) -> [Option<Segment>; 3] {
         [self.head, self.chest, self.pelvis]
     }
 

@@ -187,7 +187,7 @@ impl<S: Scalar> System<S> {
 
     /// Moves the frames that columns carry, which stand among `frames` where their parents carry them.
     #[inline(always)]
-    pub fn carry(&self, state: &State<S>, frames: &mut Frames<S>) {
+    pub(crate) fn carry(&self, state: &State<S>, frames: &mut Frames<S>) {
         column::carry(&self.forces.columns, state, frames);
     }
 

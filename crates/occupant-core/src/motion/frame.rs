@@ -36,7 +36,7 @@ pub const MOST_FRAMES: usize = 10;
 impl<S: Copy> Moving<S> {
     /// f applied to every number and the one in the same place of `other`.
     #[inline(always)]
-    pub fn zip<A: Copy, T>(&self, other: &Moving<A>, f: &impl Fn(S, A) -> T) -> Moving<T> {
+    pub(crate) fn zip<A: Copy, T>(&self, other: &Moving<A>, f: &impl Fn(S, A) -> T) -> Moving<T> {
         Moving {
             origin: self.origin.zip(&other.origin, f),
             axes: self.axes.zip(&other.axes, f),

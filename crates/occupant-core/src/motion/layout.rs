@@ -7,9 +7,9 @@ use crate::body::tree::{JointKind, JointRow, Tree};
 /// Most segments of all bodies together.
 pub const MOST_SEGMENTS: usize = 48;
 /// Most axes of hinges of all bodies together.
-pub const MOST_HINGES: usize = 48;
+pub(crate) const MOST_HINGES: usize = 48;
 /// Most bodies.
-pub const MOST_BODIES: usize = 8;
+pub(crate) const MOST_BODIES: usize = 8;
 /// Most segments, and most axes of hinges, of one tree.
 pub const MOST_OF_TREE: usize = 20;
 

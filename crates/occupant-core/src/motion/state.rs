@@ -22,7 +22,7 @@ pub struct Quat<S> {
 impl<S: Scalar> Quat<S> {
     /// q̇ = ½ ω q for an angular velocity in space axes.
     #[inline(always)]
-    pub fn rate(&self, omega: V3<S>) -> Self {
+    pub(crate) fn rate(&self, omega: V3<S>) -> Self {
         let half = omega * S::of(0.5);
         Quat { w: -half.dot(self.v), v: half * self.w + half.cross(self.v) }
     }
@@ -96,7 +96,7 @@ impl Shape {
 
     /// Bodies.
     #[inline(always)]
-    pub fn bodies(&self) -> std::ops::Range<usize> {
+    pub(crate) fn bodies(&self) -> std::ops::Range<usize> {
         0..self.bodies
     }
 
@@ -206,7 +206,7 @@ impl<S: Copy> State<S> {
 
     /// T1 of a body, space axes, m.
     #[inline(always)]
-    pub fn t1_of(&self, body: usize) -> V3<S> {
+    pub(crate) fn t1_of(&self, body: usize) -> V3<S> {
         self.vector(3 * body)
     }
 
@@ -218,7 +218,7 @@ impl<S: Copy> State<S> {
 
     /// Gives it another [`State::t1_of`].
     #[inline(always)]
-    pub fn set_t1_of(&mut self, body: usize, place: V3<S>) {
+    pub(crate) fn set_t1_of(&mut self, body: usize, place: V3<S>) {
         self.set_vector(3 * body, place);
     }
 
@@ -257,7 +257,7 @@ impl<S: Copy> State<S> {
 
     /// Velocity of T1 of a body, space axes, m/s.
     #[inline(always)]
-    pub fn velocity_of(&self, body: usize) -> V3<S> {
+    pub(crate) fn velocity_of(&self, body: usize) -> V3<S> {
         self.vector(self.shape.places() + 3 * body)
     }
 
@@ -269,7 +269,7 @@ impl<S: Copy> State<S> {
 
     /// Gives it another [`State::velocity_of`].
     #[inline(always)]
-    pub fn set_velocity_of(&mut self, body: usize, velocity: V3<S>) {
+    pub(crate) fn set_velocity_of(&mut self, body: usize, velocity: V3<S>) {
         self.set_vector(self.shape.places() + 3 * body, velocity);
     }
 
@@ -299,7 +299,7 @@ impl<S: Copy> State<S> {
 
     /// Gives it other [`State::work`] sums of a body.
     #[inline(always)]
-    pub fn set_work(&mut self, body: usize, work: &Work<S>) {
+    pub(crate) fn set_work(&mut self, body: usize, work: &Work<S>) {
         let works = self.shape.works();
         let w = &mut self.numbers[self.shape.moving() + body * works..][..works];
         w[..WORK_SUMS].copy_from_slice(&work.sums);
@@ -311,7 +311,7 @@ impl<S: Copy> State<S> {
 
     /// Numbers that force elements own, each scaled by its element to the order of 1.
     #[inline(always)]
-    pub fn own(&self) -> &[S] {
+    pub(crate) fn own(&self) -> &[S] {
         &self.numbers[self.shape.len() - self.shape.own..self.shape.len()]
     }
 
@@ -412,7 +412,7 @@ impl State<f64> {
     }
 
     /// The state of this shape with these numbers, if there are as many.
-    pub fn from_numbers(shape: Shape, numbers: &[f64]) -> Option<Self> {
+    pub(crate) fn from_numbers(shape: Shape, numbers: &[f64]) -> Option<Self> {
         let mut state = State::zero(shape);
         (numbers.len() == shape.len()).then(|| state.numbers_mut().copy_from_slice(numbers))?;
         Some(state)

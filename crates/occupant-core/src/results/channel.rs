@@ -53,7 +53,7 @@ impl Component {
     }
 
     /// A resultant has no axes.
-    pub fn axes(self, of_vector: Axes) -> Axes {
+    pub(crate) fn axes(self, of_vector: Axes) -> Axes {
         if self == Component::Resultant { Axes::None } else { of_vector }
     }
 

@@ -158,7 +158,7 @@ pub(crate) fn upper_neck(sample: &Sample<'_>) -> Reaction {
 
 /// What a mount exerts on the segment that it holds, at the point that it holds it by, in axes of that segment; none of a body
 /// that is on no mount. The segment's own weight and inertia are part of it.
-pub fn mount_load(sample: &Sample<'_>) -> Option<Reaction> {
+pub(crate) fn mount_load(sample: &Sample<'_>) -> Option<Reaction> {
     Loads::new(sample).mount()
 }
 

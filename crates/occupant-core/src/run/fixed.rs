@@ -75,7 +75,7 @@ impl Step {
 
     /// Frames at its start, middle and end.
     #[inline]
-    pub fn move_frames(self, frames: &mut [Frames<f64>; 3], model: &Model, cursor: &mut PathCursor) {
+    pub(crate) fn move_frames(self, frames: &mut [Frames<f64>; 3], model: &Model, cursor: &mut PathCursor) {
         let times_s = self.times_s();
         for (frames, t_s) in frames.iter_mut().zip(times_s) {
             model.move_frames(frames, t_s, times_s[1], cursor);
