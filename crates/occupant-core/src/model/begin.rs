@@ -143,13 +143,14 @@ fn place(
             return Some(Placed::at(state));
         }
         InitialPosture::Placed(placing) => {
-            let mut state = hang(&setup.body, &placing.at, &placing.at.carrier(vehicle));
+            let carrier = placing.at.carrier(vehicle);
+            let mut state = hang(&setup.body, &placing.at, &carrier);
             if placing.stands {
                 state = stand(setup, data, system, vehicle, state, problems);
             }
-            set_velocity(&mut state, &InitialVelocity::WithVehicle, vehicle);
+            set_velocity(&mut state, &InitialVelocity::WithVehicle, &carrier);
             if let InitialVelocity::Given(beside) = setup.velocity {
-                state.set_velocity(state.velocity() + V3::of(&vehicle.vector_to_space(beside)));
+                state.set_velocity(state.velocity() + V3::of(&carrier.vector_to_space(beside)));
             }
             spin(&mut state, placing, vehicle);
             return Some(Placed::at(state));

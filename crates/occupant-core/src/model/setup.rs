@@ -198,7 +198,7 @@ pub struct Member {
 impl Member {
     /// Whether it is a rigid body that moves freely, not an occupant.
     pub(crate) fn is_loose(&self) -> bool {
-        matches!(&self.alone.posture, InitialPosture::Placed(placing) if !placing.stands)
+        self.alone.body.name == LOOSE
     }
 
     /// Where a scenario tells of it.
@@ -206,6 +206,9 @@ impl Member {
         with_key(if self.is_loose() { "loose" } else { "occupants" }, &self.name)
     }
 }
+
+/// What the body is called of which a loose one consists.
+pub const LOOSE: &str = "body";
 
 /// Everything a run needs.
 #[derive(Clone, Debug, PartialEq)]
@@ -291,6 +294,14 @@ impl Setup {
     /// Homes of the bodies.
     pub(crate) fn homes(&self) -> Vec<Frame> {
         if self.members.is_empty() { vec![Frame::Vehicle] } else { self.members.iter().map(|m| m.home).collect() }
+    }
+
+    /// Whether the body is on a rig that holds it or lets it go: then it may be a part of one.
+    pub(crate) fn is_on_rig(&self) -> bool {
+        match &self.posture {
+            InitialPosture::Placed(placing) => !placing.stands,
+            posture => matches!(posture, InitialPosture::Mounted(_)),
+        }
     }
 
     /// What holds the body's first segment; none of a body that is free.

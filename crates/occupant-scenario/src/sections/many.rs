@@ -26,7 +26,7 @@ use occupant_core::body::{Body, ContactSphere};
 use occupant_core::forces::contact::surface::Frame;
 use occupant_core::forces::joint::Joints;
 use occupant_core::model::seating::{InitialPosture, InitialVelocity, Mounting, Placing};
-use occupant_core::model::setup::{Member, Setup};
+use occupant_core::model::setup::{LOOSE, Member, Setup};
 use placed_text::{Diagnostics, Document, Node, with_key};
 
 /// One of several occupants.
@@ -186,7 +186,7 @@ fn loose(b: &mut Builder, name: &str, section: &LooseSection, world: &Setup) -> 
     if cg.z < 0.0 {
         b.error(&format!("loose.{name}.cg"), "a centre of gravity below the origin", "an origin at it or below it");
     }
-    let mut body = Body::rigid("body", section.mass.si(), all_si(&section.inertia), cg);
+    let mut body = Body::rigid(LOOSE, section.mass.si(), all_si(&section.inertia), cg);
     let segment = body.tree.segment(0);
     for (name, sphere) in &section.spheres {
         body.spheres.push(ContactSphere::new(name, segment, point(&sphere.centre), sphere.radius.si()));

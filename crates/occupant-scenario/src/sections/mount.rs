@@ -7,12 +7,12 @@ use serde::{Deserialize, Serialize};
 use super::builder::Builder;
 use super::path::pose;
 use super::posture::{angle_words, unknown_angles};
-use super::quantity::point;
-use super::{Angle, Length};
+use super::quantity::{all_si, point};
+use super::{Angle, Length, Speed};
 use nalgebra::Vector3;
 use occupant_core::body::{Body, JointKind, Segment, both_sides};
 use occupant_core::forces::contact::surface::Frame;
-use occupant_core::model::seating::Mounting;
+use occupant_core::model::seating::{InitialPosture, InitialVelocity, Mounting, Placing};
 use placed_text::{Problem, with_key};
 
 /// A rig that holds a segment, such as a pendulum or a sled with a head and neck on it, or a bench with a leg. The body hangs
@@ -39,6 +39,9 @@ pub(crate) struct MountSection {
     pub(crate) pitch: Option<Angle>,
     /// Yaw, to the right; 0 if absent.
     pub(crate) yaw: Option<Angle>,
+    /// Velocity beside that of the frame, along its axes, with which it lets the body go at the start: a head that falls. It holds
+    /// the body throughout if absent.
+    pub(crate) let_go: Option<[Speed; 3]>,
     /// Angles of the other segments and of pins as in `posture`, in the plane that the mount faces. A segment of which nothing is
     /// said stands as the one that it hangs on.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
@@ -87,8 +90,18 @@ pub(super) fn held(b: &mut Builder, section: &MountSection, body: &Body) -> Opti
     Some(held)
 }
 
+/// How a body begins that hangs on a mount, or that it lets go.
+pub(super) fn beginning(b: &mut Builder, section: &MountSection, body: &Body) -> (InitialPosture, InitialVelocity) {
+    let at = mounting(b, section, body);
+    let Some(velocity) = &section.let_go else {
+        return (InitialPosture::Mounted(Box::new(at)), InitialVelocity::default());
+    };
+    let placing = Placing { at, stands: false, spin_rad_s: Vector3::zeros() };
+    (InitialPosture::Placed(Box::new(placing)), InitialVelocity::Given(all_si(velocity).into()))
+}
+
 /// The mount of a body that hangs on it.
-pub(super) fn mounting(b: &mut Builder, section: &MountSection, body: &Body) -> Mounting {
+fn mounting(b: &mut Builder, section: &MountSection, body: &Body) -> Mounting {
     let root = body.tree.segment(0);
     let words = angle_words(body.tree, |segment| segment != root);
     unknown_angles(b, "mount.posture", section.posture.keys().map(String::as_str), &words);

@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::builder::{Builder, index_of};
-use super::mount::mounting;
+use super::mount::beginning;
 use super::quantity::{all_si, si_or};
 use super::stance::stance;
 use super::{Angle, Length, Scenario, Speed};
@@ -106,8 +106,8 @@ pub(crate) struct InitialStateSection {
 /// Position and velocity at the start.
 pub(super) fn posture(b: &mut Builder, s: &Scenario, body: &Body) -> (Option<InitialPosture>, InitialVelocity) {
     if let Some(mount) = &s.mount {
-        let mounting = Box::new(mounting(b, mount, body));
-        return (Some(InitialPosture::Mounted(mounting)), InitialVelocity::default());
+        let (posture, velocity) = beginning(b, mount, body);
+        return (Some(posture), velocity);
     }
     if let Some(section) = &s.stance {
         let (posture, velocity) = stance(b, s, section, body);

@@ -17,6 +17,7 @@ mod mount;
 mod muscles;
 mod overrides;
 mod record_file;
+mod rigs;
 mod robustness;
 mod round_trip;
 mod schema;

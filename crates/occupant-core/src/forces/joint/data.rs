@@ -177,7 +177,7 @@ impl Joints {
         !self.limits.is_empty()
     }
 
-    /// Whether the neck of a body is one joint with the limit that GEBOD gives to one of two, and no spring but a soft one.
+    /// Whether the neck of a body is one joint with the limit of one of two, and no spring but a soft one.
     pub(crate) fn is_half_a_neck(&self) -> bool {
         let marks = self.tree.landmarks();
         let is_alone = |joint: &Joint| Some(self.tree[*joint].proximal) == marks.chest;
@@ -185,7 +185,7 @@ impl Joints {
         let has_spring = self[neck].ball().is_some_and(|ball| ball.spring.is_some());
         let mut own = self.limits.iter().filter(|limits| limits.joint == neck);
         let is_soft = |limits: &Limits| limits.lock.is_none_or(|lock| lock.stiffness < SOFT_NECK_N_M_RAD);
-        !has_spring && own.any(|limits| is_soft(limits) && limits.is_of_gebod_neck())
+        !has_spring && own.any(|limits| is_soft(limits) && limits.is_of_half_a_neck())
     }
 
     /// The joints' tree.

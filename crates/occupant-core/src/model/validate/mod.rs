@@ -102,7 +102,8 @@ fn check_posture(posture: &InitialPosture, problems: &mut Problems) {
     let (path, angles_rad) = match posture {
         InitialPosture::Seated(seating) => ("posture", &seating.angles_rad),
         InitialPosture::Mounted(mounting) => ("mount.posture", &mounting.angles_rad),
-        InitialPosture::Placed(placing) => ("posture", &placing.at.angles_rad),
+        InitialPosture::Placed(placing) if placing.stands => ("stance.posture", &placing.at.angles_rad),
+        InitialPosture::Placed(placing) => ("mount.posture", &placing.at.angles_rad),
         InitialPosture::Coordinates(_) | InitialPosture::Continued { .. } | InitialPosture::Together => return,
     };
     for (key, angle_rad) in angles_rad.iter().filter(|(_, angle)| angle.is_nan() || angle.abs() > PI) {

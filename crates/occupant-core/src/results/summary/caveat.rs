@@ -86,8 +86,8 @@ impl Caveat {
 
     /// A neck of one joint that has the limit of one of two.
     pub(super) fn half_a_neck() -> Self {
-        let text = "neck of the gebod or the person preset, the limit of one of two joints in the only one: 218 N·m at 52° where 88 to 108 N·m \
-                    at 64° to 78° are asked in the pendulum test of 49 CFR 572.33; neck figures are not to be quoted";
+        let text = "neck of the gebod or the person preset, the limit of one of two joints in the only one: 218 and 178 N·m at 52° and 44° where 88 to \
+                    108 N·m at 64° to 78° are asked in the pendulum test of 49 CFR 572.33; neck figures are not to be quoted";
         Caveat::new("neck_of_gebod", text.to_owned(), owned(&["nij", "neck_*"]))
     }
 

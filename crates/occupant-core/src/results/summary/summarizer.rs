@@ -56,7 +56,7 @@ struct Case {
     chains: Vec<Chain>,
     bags: Vec<Bag>,
     /// Whether parts of the body may be left out, as on a rig.
-    is_mounted: bool,
+    is_on_rig: bool,
     /// [`Joints::is_half_a_neck`](crate::forces::joint::Joints::is_half_a_neck).
     is_half_a_neck: bool,
     integrator: &'static str,
@@ -140,7 +140,7 @@ impl Summarizer {
             let off: Vec<_> = measures.iter().zip(off).filter(|(_, off)| *off > COARSE).collect();
             let own = [
                 Caveat::too_coarse(one.signals.interval_s, &off, passed),
-                if case.is_mounted { None } else { Caveat::other_dummy(self.options.dummy, one.mass_kg, &measures) },
+                if case.is_on_rig { None } else { Caveat::other_dummy(self.options.dummy, one.mass_kg, &measures) },
             ];
             caveats.extend(own.into_iter().flatten().map(|caveat| caveat.of_occupant(one.name)));
         }
@@ -222,7 +222,7 @@ impl Recorder for Summarizer {
             meets_itself: setup.self_contact.is_some(),
             chains: setup.chains.clone(),
             bags: setup.bags.clone(),
-            is_mounted: setup.mounting().is_some(),
+            is_on_rig: setup.is_on_rig(),
             is_half_a_neck: setup.joints.is_half_a_neck(),
             integrator: setup.integrator.name(),
             time: setup.time,

@@ -73,19 +73,13 @@ pub struct Limits {
     pub lock: Option<Lock<f64>>,
 }
 
-/// Where GEBOD limits the bend of each of the two joints of a neck, rad: 25°, and what it then resists with, N·m/rad²: 5 in·lbf/deg².
-const GEBOD_NECK: [f64; 2] = [0.436_332_313, 1_854.536_571];
+/// The most that the limit of one of two joints of a neck lets it bend, rad: GEBOD's 25°, with room for rounding.
+const HALF_A_NECK_RAD: f64 = 0.436_333;
 
 impl Limits {
-    /// Whether it limits the bend as GEBOD does that of each of two joints of a neck, all round.
-    pub(crate) fn is_of_gebod_neck(&self) -> bool {
-        self.bend.as_ref().is_some_and(|bend| {
-            let found = [bend.angle.bounds(), [bend.stop.value(1.0); 2]];
-            let is_near = |([least, most], known): (&[f64; 2], &f64)| {
-                (least / known - 1.0).abs() < 1e-6 && (most / known - 1.0).abs() < 1e-6
-            };
-            found.iter().zip(&GEBOD_NECK).all(is_near)
-        })
+    /// Whether it limits the bend all round as if there were another joint in the neck.
+    pub(crate) fn is_of_half_a_neck(&self) -> bool {
+        self.bend.as_ref().is_some_and(|bend| bend.angle.bounds()[1] < HALF_A_NECK_RAD)
     }
 }
 
