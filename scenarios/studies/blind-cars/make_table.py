@@ -1,11 +1,11 @@
 """Tables of crash tests 7292 and 10146 of NHTSA's vehicle database, for the scenarios beside this file.
 
-make_table.py FOLDER path > 7292-path.csv       the car's motion, from its sills: all that a scenario is made of
-make_table.py FOLDER driver > 7292-driver.csv   what the dummy felt, under the names of the driver's channels
+make_table.py FOLDER vehicle > 7292-path.csv           the car's motion, from its sides: all that a scenario is made of
+make_table.py FOLDER driver driver > 7292-driver.csv   what driver.csv says that a dummy felt, as channels of the occupant "driver"
+make_table.py FOLDER driver > 10146-driver.csv         the same of a scenario's only occupant
 
-FOLDER holds vehicle.csv and driver.csv (passengers: front-passenger.csv): the signals of the test in one table each, a column t_ms and columns
-named LOCATION_AXIS_TYPE_unit_class, such as HDCG_XL_AC_g_cfc1000, with the signs of SAE J211. The signals are the test's files in
-ASCII (v07292.EV5 and .001 …), cut to -10 to 200 ms.
+FOLDER holds vehicle.csv and driver.csv, a test's signals of -10 to 200 ms from NHTSA's database: a column t_ms, and columns named
+LOCATION_AXIS_TYPE_unit_class, such as HDCG_XL_AC_g_cfc1000, with the signs of SAE J211.
 """
 
 import csv
@@ -50,31 +50,33 @@ def path(table):
 
 
 def occupant(table, who):
+    """`who` is the occupant's name with a dot behind it, or nothing."""
     out = {"t[ms]": table["t_ms"]}
     for short, segment in SEGMENTS.items():
         axes = {axis: column(table, f"{short}_{axis}L_AC") for axis in SIGNS}
         for axis, values in axes.items():
             if values is not None:
                 ours, sign = SIGNS[axis]
-                out[f"{who}.{segment}.acceleration.{ours}[g]"] = [sign * value for value in values]
+                out[f"{who}{segment}.acceleration.{ours}[g]"] = [sign * value for value in values]
         if None not in axes.values():
             size = [sum(v * v for v in row) ** 0.5 for row in zip(*axes.values())]
-            out[f"{who}.{segment}.acceleration.resultant[g]"] = [f"{value:.3f}" for value in size]
+            out[f"{who}{segment}.acceleration.resultant[g]"] = [f"{value:.3f}" for value in size]
     for start, channel in FORCES.items():
         if (values := column(table, start)) is not None:
-            out[f"{who}.{channel}[N]"] = values
+            out[f"{who}{channel}[N]"] = values
     for start, strap in BELTS.items():
         if (values := column(table, start)) is not None:
-            out[f"{who}.strap.belt.{strap}.force[N]"] = values
+            out[f"strap.{who}belt.{strap}.force[N]"] = values
     return out
 
 
-def main(folder, what):
-    out = path(read(folder / "vehicle.csv")) if what == "path" else occupant(read(folder / f"{what}.csv"), what.split("-")[-1])
+def main(folder, what, who=None):
+    signals = read(Path(folder) / f"{what}.csv")
+    out = path(signals) if what == "vehicle" else occupant(signals, f"{who}." if who else "")
     table = csv.writer(sys.stdout, lineterminator="\n")
     table.writerow(out)
     table.writerows(zip(*out.values()))
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), sys.argv[2])
+    main(*sys.argv[1:])
