@@ -14,15 +14,15 @@ use occupant_core::run::simulate::simulate;
 use occupant_tests::room::setup;
 
 /// Columns of a table of a test, by name, at the interval of its first column.
-struct Curves {
-    names: Vec<String>,
+pub(crate) struct Curves {
+    pub(crate) names: Vec<String>,
     rows: Vec<Vec<f64>>,
 }
 
 impl Curves {
     /// The table of this name; none, with a word, where no curves are.
     #[expect(clippy::print_stderr, reason = "a test that is left out says so")]
-    fn open(name: &str) -> Option<Curves> {
+    pub(crate) fn open(name: &str) -> Option<Curves> {
         let beside = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../shared/reference/tests");
         let folder = std::env::var_os("OCCUPANT_CRASH_TESTS").map_or_else(beside, PathBuf::from);
         let Ok(text) = std::fs::read_to_string(folder.join(name)) else {
@@ -35,13 +35,13 @@ impl Curves {
         Some(Curves { names, rows })
     }
 
-    fn column(&self, name: &str) -> Vec<f64> {
+    pub(crate) fn column(&self, name: &str) -> Vec<f64> {
         let at = self.names.iter().position(|n| n.starts_with(name)).unwrap_or_else(|| panic!("no column {name}"));
         self.rows.iter().map(|row| row[at]).collect()
     }
 
     /// Magnitude of three columns in g, m/s².
-    fn resultant(&self, names: [&str; 3]) -> Vec<f64> {
+    pub(crate) fn resultant(&self, names: [&str; 3]) -> Vec<f64> {
         let [x, y, z] = names.map(|name| self.column(name));
         let of = |((x, y), z): ((&f64, &f64), &f64)| STANDARD_GRAVITY_MPS2 * (x * x + y * y + z * z).sqrt();
         x.iter().zip(&y).zip(&z).map(of).collect()
@@ -117,13 +117,18 @@ fn three_milliseconds_of_the_chest_are_the_laboratorys_own() {
 
 /// Straight lines through a curve, at 10 kHz from 0 to 125 ms; displacements (`is_way`) from where they begin.
 fn sampled(time_s: &[f64], values: &[f64], is_way: bool) -> Vec<f64> {
+    sampled_to(125, time_s, values, is_way)
+}
+
+/// The same to another end.
+pub(crate) fn sampled_to(last_ms: i32, time_s: &[f64], values: &[f64], is_way: bool) -> Vec<f64> {
     let zero = if is_way { values[0] } else { 0.0 };
     let at = |t: f64| {
         let i = time_s.partition_point(|own| *own <= t).clamp(1, time_s.len() - 1);
         let share = (t - time_s[i - 1]) / (time_s[i] - time_s[i - 1]);
         values[i - 1] + share * (values[i] - values[i - 1]) - zero
     };
-    (0..=1250).map(|i| at(1e-4 * f64::from(i))).collect()
+    (0..=10 * last_ms).map(|i| at(1e-4 * f64::from(i))).collect()
 }
 
 /// `scenarios/sled-person.toml` in the test's own pulse against the means of eight men (Shaw 2009): ISO/TS 18571 of 26 channels. The

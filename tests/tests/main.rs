@@ -5,6 +5,7 @@ mod appendix3;
 mod bags;
 mod belts;
 mod bodies;
+mod cars;
 mod cart_cases;
 mod columns;
 mod contact_scene;

@@ -15,6 +15,7 @@ use occupant_core::vehicle::{Attitude, FixedPath, VehiclePath, VehiclePose};
 use occupant_tests::cart::{self, GRAVITY_M_S2, lap};
 use occupant_tests::cases::{INCH_M, male50, parked};
 use occupant_tests::measure::{assert_below, assert_within};
+use occupant_tests::room::setup;
 
 const PELVIS: usize = 2;
 
@@ -314,4 +315,14 @@ fn settling_keeps_the_posture() {
         // Measured: 3.1e-16.
         assert_below("one turn for all", (turn * a - b).norm(), 1e-12);
     }
+}
+
+/// Friction holds what the 6 N of a spool pull at one shoulder; without it they turned the body by 6 degrees.
+#[test]
+fn the_spool_of_a_retractor_does_not_turn_a_seated_body() {
+    let start = start(setup(include_str!("../../scenarios/three-point.toml"), &[]));
+    assert!(start.model.start().settled.unwrap().moved_m > 1e-3);
+    let [l, r] = [tti12::LEFT_LOWER_LEG, tti12::RIGHT_LOWER_LEG].map(|n| start.joints_m[n.index()][0]);
+    assert_below("one knee ahead of the other, m", l.x - r.x, 1e-3);
+    assert_below("to the side, m", (l + r).y / 2.0 + 0.35, 1e-3);
 }

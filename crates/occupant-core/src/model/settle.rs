@@ -3,7 +3,7 @@
 //!
 //! Our decision (the report has none): joints locked, posture kept; the six freedoms of the rigid body are found by a
 //! damped Newton iteration on the resultant force and moment of contacts, belts and weight, every contact on its loading
-//! curve, at rest relative to the vehicle. Directions that nothing resists are left alone.
+//! curve, at rest relative to the vehicle. Directions that nothing resists are left alone; what friction holds stays.
 
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use serde::{Serialize, Serializer};
@@ -150,12 +150,14 @@ pub(crate) fn settle(
     let mut body = Resting::new(setup, *data, system, vehicle);
     let mut x = Vector6::zeros();
     let mut r = body.load(&moved(&state, &x));
+    let free = not_held(&r, weight_n, vehicle);
+    r = free * r;
     let mut damping = 1e-3;
     for _ in 0..ITERATIONS {
         if r.norm() < 1e-9 * weight_n.max(1.0) || body.looks > MOST_LOOKS {
             break;
         }
-        let mut residual = |x: &Vector6<f64>| body.load(&moved(&state, x));
+        let mut residual = |x: &Vector6<f64>| free * body.load(&moved(&state, &(free * x)));
         let j = jacobian(&x, &mut residual);
         let normal = j.tr_mul(&j);
         let gradient = j.tr_mul(&r);
@@ -173,6 +175,20 @@ pub(crate) fn settle(
         }
     }
     (moved(&state, &x), settled(setup, &x, &r))
+}
+
+/// What friction holds sideways, as a part of the weight: less than that of any seat.
+const HELD: f64 = 0.1;
+
+/// The projector on the freedoms that friction does not hold: all but moving sideways and turning about the vehicle's vertical,
+/// where neither load is worth mentioning. The few newtons of a retractor's spool would else turn a body by 6 degrees.
+fn not_held(load: &Vector6<f64>, weight_n: f64, vehicle: &FrameMotion) -> Matrix6<f64> {
+    let (mut sideways, mut turning) = (Vector6::zeros(), Vector6::zeros());
+    sideways.fixed_rows_mut::<3>(0).copy_from(&vehicle.rotation.column(1));
+    turning.fixed_rows_mut::<3>(3).copy_from(&vehicle.rotation.column(2));
+    let is_held = [sideways, turning].iter().all(|along| along.dot(load).abs() < HELD * weight_n);
+    let held = sideways * sideways.transpose() + turning * turning.transpose();
+    if is_held { Matrix6::identity() - held } else { Matrix6::identity() }
 }
 
 /// At most 2 cm (or the like in rotation) at a time: the forces are stiff and only piecewise smooth.

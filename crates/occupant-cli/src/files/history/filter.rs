@@ -59,19 +59,19 @@ impl Filter {
 }
 
 /// The class of a channel's quantity, as crash test programs apply SAE J211: head 1000, chest 180, pelvis 1000, neck and
-/// femurs 600, belts and vehicle acceleration 60, angular velocity of the head 60. It gives none to what no transducer of a
+/// femurs 600, belts and vehicle acceleration 60, angular velocity of the head 60, of each occupant. It gives none to what no transducer of a
 /// dummy measures (contact forces, joint loads, angles, energies); pelvis, belts and vehicle are common practice and not
 /// read in the standard.
 fn j211_class(channel: &str) -> Option<ChannelClass> {
     use ChannelClass::*;
     let words: Vec<&str> = channel.split('.').collect();
     match words.as_slice() {
-        ["head" | "lower_torso", "acceleration", _] => Some(Cfc1000),
-        ["upper_torso" | "middle_torso", "acceleration", _] => Some(Cfc180),
-        ["neck", "force" | "moment", _] => Some(Cfc600),
-        ["right_femur" | "left_femur", "axial"] => Some(Cfc600),
-        ["belt", .., "force"] | ["vehicle", "acceleration", _] => Some(Cfc60),
-        ["head", "angular_velocity", _] => Some(Cfc60),
+        [.., "head" | "lower_torso", "acceleration", _] => Some(Cfc1000),
+        [.., "upper_torso" | "middle_torso", "acceleration", _] => Some(Cfc180),
+        [.., "neck", "force" | "moment", _] => Some(Cfc600),
+        [.., "right_femur" | "left_femur", "axial"] => Some(Cfc600),
+        ["belt" | "strap", .., "force"] | ["vehicle", "acceleration", _] => Some(Cfc60),
+        [.., "head", "angular_velocity", _] => Some(Cfc60),
         _ => None,
     }
 }
@@ -112,7 +112,9 @@ mod tests {
         assert_eq!(class("head.acceleration.resultant"), Some(ChannelClass::Cfc1000));
         assert_eq!(class("upper_torso.acceleration.x"), Some(ChannelClass::Cfc180));
         assert_eq!(class("belt.lap.force"), Some(ChannelClass::Cfc60));
+        assert_eq!(class("strap.driver.belt.d_ring_shoulder.force"), Some(ChannelClass::Cfc60));
         assert_eq!(class("left_femur.axial"), Some(ChannelClass::Cfc600));
+        assert_eq!(class("passenger.upper_torso.acceleration.x"), Some(ChannelClass::Cfc180));
         assert_eq!(class("energy.kinetic"), None);
         assert_eq!(class("sphere.head.force.x"), None);
     }

@@ -167,7 +167,20 @@ fn conclusion(report: &Report) -> String {
     format!("NOT STABLE: {} of {all} figures{besides}\n", unstable.len())
 }
 
-/// Whether the tables show a figure.
+/// Whether the tables show a figure, of the only occupant or of one of several.
 pub(crate) fn is_shown(name: &str) -> bool {
-    (name.starts_with("belts.") && name.ends_with(".peak")) || ALWAYS.contains(&name)
+    let is_belt = ["belts.", "straps."].iter().any(|kind| name.starts_with(kind));
+    let of_one = name.split_once('.').filter(|(kind, _)| *kind != "contacts").map_or(name, |(_, figure)| figure);
+    (is_belt && name.ends_with(".peak")) || ALWAYS.contains(&name) || ALWAYS.contains(&of_one)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_shown;
+
+    #[test]
+    fn figures_of_several_occupants_are_shown_as_those_of_one() {
+        assert!(["hic15", "driver.hic15", "rear.head.peak", "straps.driver_belt_sill.peak"].into_iter().all(is_shown));
+        assert!(!["contacts.pelvis.peak", "driver.hic15_time", "rear.csi"].into_iter().any(is_shown));
+    }
 }
