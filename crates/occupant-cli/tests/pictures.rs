@@ -70,9 +70,17 @@ fn what_is_made_of_a_run_has_a_name_beside_it_and_is_told() {
         assert_eq!(code(&output), 0, "{}", err(&output));
         assert!(err(&output).contains("wrote ") && err(&output).ends_with(&format!("{name}\n")), "{}", err(&output));
         assert!(folder.path().join(name).exists(), "{name}");
-        // nothing that is there is replaced
-        assert_eq!(code(&answer(folder.path(), words)), 2, "{name}");
+        // nothing that is there is replaced, but an earlier report of the same
+        let again = answer(folder.path(), words);
+        let replaced = err(&again).contains("run.html is an earlier report of the same and is replaced");
+        assert_eq!((code(&again), replaced), if name == "run.html" { (0, true) } else { (2, false) }, "{name}");
     }
+    fs::copy(folder.path().join("run.mcap"), folder.path().join("other.mcap")).expect("a copy");
+    for words in [&["report", "run.mcap", "-o", "run.html"][..], &["report", "run.mcap", "--against", "other.mcap"]] {
+        assert_eq!(code(&answer(folder.path(), words)), 2, "{words:?}");
+    }
+    fs::write(folder.path().join("other.html"), "mine").expect("written");
+    assert_eq!(code(&answer(folder.path(), &["report", "other.mcap"])), 2);
 }
 
 #[test]
