@@ -203,6 +203,31 @@ fn a_report_is_one_file_whose_data_stay_data() {
     }
 }
 
+/// Moments and angles of joints stood there as forces in kN.
+#[test]
+fn peaks_of_all_elements_have_their_own_units() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/three-point.toml");
+    let words = ["run", scenario, "--json", "-o", "run.mcap", "--set", "time.end=90 ms"];
+    let run = answer(folder.path(), &words);
+    let summary: serde_json::Value = serde_json::from_slice(&run.stdout).expect("JSON");
+    assert_eq!(code(&answer(folder.path(), &["report", "run.mcap"])), 0);
+    let html = read(folder.path(), "run.html");
+    let data = html.split_once("id=\"report-data\">").and_then(|(_, rest)| rest.split_once("</script>"));
+    let data: serde_json::Value = serde_json::from_str(data.expect("data").0).expect("JSON");
+    let measures = data["runs"][0]["measures"].as_array().expect("a list");
+    let row =
+        |name: &str| measures.iter().find(|m| m["name"] == name).unwrap_or_else(|| panic!("{name}: {measures:?}"));
+    let neck =
+        summary["joints"].as_array().expect("joints").iter().find(|joint| joint["joint"] == "neck").expect("a neck");
+    let moment = row("Joint neck, stop moment");
+    assert_eq!((&moment["unit"], &moment["value"]), (&"N·m".into(), &neck["stop_peak_n_m"]));
+    assert_eq!(row("Joint neck, beyond limit")["unit"], "°");
+    assert_eq!(row("Strap driver.buckle_sill, force")["unit"], "kN");
+    // what was never reached has no row
+    assert!(measures.iter().all(|m| m["group"] != "Loads" || !m["time_s"].is_null()));
+}
+
 #[test]
 fn a_report_against_another_run_holds_both() {
     let folder = folder_with_run();

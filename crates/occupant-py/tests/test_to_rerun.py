@@ -33,7 +33,8 @@ def columns(recording):
     found = {}
     for chunk in RrdReader(str(recording)).stream():
         batch = chunk.to_record_batch()
-        for name, column in zip(batch.schema.names, batch.columns):
+        own = [(n, c) for n, c in zip(batch.schema.names, batch.columns) if ":" in n]
+        for name, column in own:
             found.setdefault((chunk.entity_path, name), []).extend(column.to_pylist())
     return found
 

@@ -146,19 +146,15 @@ fn one(args: &Args) -> Result<(Done, Summary), Failure> {
     let chosen = chosen(args);
     let (bytes, draft) = scenario::draft(&chosen)?;
     let opened = scenario::open_draft(&chosen, bytes, draft.clone())?;
-    let existing = Existing::by(args.force);
-    let ensemble = args.ensemble.wanted(&draft, &opened, &chosen.scenario, existing)?;
+    let ensemble = args.ensemble.wanted(&draft, &opened, &chosen.scenario, Existing::by(args.force))?;
     let from = args.resume.as_deref().map(|file| Resumption::find(file, &opened)).transpose()?;
     if !args.quiet {
         scenario::warn(&opened.warnings);
     }
-    let recording = match output_name(args)? {
-        Some(name) => {
-            let existing = if replaces_earlier(args, &name, &chosen, &opened) { Existing::Replace } else { existing };
-            Recording::begin(&name, existing, &chosen, &opened, from.as_ref())?
-        }
-        None => Recording::none(),
-    };
+    let recording = output_name(args)?.map(|name| {
+        Recording::begin(&name, existing_at(args, &name, &chosen, &opened), &chosen, &opened, from.as_ref())
+    });
+    let recording = recording.transpose()?.unwrap_or(Recording::none());
     from.iter().filter(|_| !args.quiet).for_each(Resumption::announce);
     let channels = ensemble.as_ref().map(|e| e.channels.clone()).unwrap_or_default();
     let interrupt = Interrupt::listen("stopping at the next output; once more to stop at once");
@@ -174,9 +170,8 @@ fn one(args: &Args) -> Result<(Done, Summary), Failure> {
         let more = (ensemble.as_ref().and_then(told), estimate.as_ref().and_then(told));
         show(args, &chosen, &opened, from.as_ref(), &run, more)?;
     }
-    let left = |failure: Failure| failure.with_done(&run.written.left());
-    ensemble.transpose().map_err(left)?;
-    estimate.transpose().map_err(left)?;
+    let unmade = ensemble.and_then(Result::err).or(estimate.and_then(Result::err));
+    unmade.map_or(Ok(()), |failure| Err(failure.with_done(&run.written.left())))?;
     if !args.quiet || balance == Balance::Lost {
         say_balance(balance, &run.summary);
     }
@@ -191,14 +186,15 @@ fn told<T>(of: &Result<T, Failure>) -> Option<&T> {
     of.as_ref().ok()
 }
 
-/// Whether a file of the default name is an earlier run of this scenario, which this one replaces; then says so.
-fn replaces_earlier(args: &Args, name: &Path, chosen: &ScenarioArgs, opened: &Opened) -> bool {
+/// What happens to a file that stands where ours goes: one of the default name that is an earlier run of this scenario is
+/// replaced, which is said.
+fn existing_at(args: &Args, name: &Path, chosen: &ScenarioArgs, opened: &Opened) -> Existing {
     let unasked = args.output.is_none() && args.resume.is_none() && !args.force;
     let is_earlier = unasked && is_earlier(name, chosen, opened);
     if is_earlier && !args.quiet {
         say(&format!("{} is an earlier run of this scenario and is replaced; -o keeps both", name.display()));
     }
-    is_earlier
+    Existing::by(args.force || is_earlier)
 }
 
 fn say_balance(balance: Balance, summary: &Summary) {

@@ -25,7 +25,7 @@ fn an_earlier_run_of_the_same_scenario_is_replaced_and_nothing_else() {
     };
     assert_eq!(run(&[]), (0, false));
     let text = std::fs::read_to_string(at("case.toml")).unwrap();
-    std::fs::write(at("case.toml"), text.replace("50 km/h", "40 km/h")).unwrap();
+    std::fs::write(at("case.toml"), text.replace("speed = \"50 km/h\"", "speed = \"40 km/h\"")).unwrap();
     let before = std::fs::read(at("case.mcap")).unwrap();
     assert_eq!(run(&[]), (0, true));
     let after = std::fs::read(at("case.mcap")).unwrap();

@@ -16,6 +16,7 @@ from typing import Any
 
 try:
     import rerun as rr
+    from mcap.exceptions import McapError
     from mcap.reader import make_reader
     from mcap_protobuf.decoder import DecoderFactory
 except ImportError as missing:
@@ -162,7 +163,7 @@ def convert(source: Path, target: Path) -> int:
             if schema.name in scenes
         ]
     if not found:
-        raise ValueError(f"{source} holds no scene; give a file that `occupant run` has written")
+        raise ValueError("it holds no scene; give a file that `occupant run` has written")
     # frames before what stands in them
     found.sort(key=lambda row: (row[0], row[1]))
     recording = rr.RecordingStream("occupant", recording_id=source.stem)
@@ -190,8 +191,8 @@ def main() -> None:
         sys.exit(f"error: {output} exists; --force replaces it, -o gives another name")
     try:
         count = convert(args.run, output)
-    except (OSError, ValueError) as error:
-        sys.exit(f"error: {error}")
+    except (OSError, ValueError, McapError) as error:
+        sys.exit(f"error: {args.run}: {error}")
     print(f"wrote {output}: {count} messages of the scene\nnext: rerun {output}", file=sys.stderr)
 
 

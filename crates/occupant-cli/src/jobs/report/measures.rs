@@ -117,18 +117,24 @@ fn load(name: String, figure: String, force_n: Option<f64>, time_s: Option<f64>)
     Measure { value, time_s, ..Measure::new("Loads", name, figure, unit) }
 }
 
-/// Peak forces of force elements whose times are known: `Belt lap, loop force`.
+/// Peaks of force elements that were reached at a time: `Belt lap, loop force`, `Joint neck, stop moment`.
 fn element_rows(list: &str, table: &Table) -> impl Iterator<Item = Measure> {
     let of = table.columns[0].heading;
     let of = of[..1].to_uppercase() + &of[1..];
     let peaks = table.columns.windows(2).filter(|both| both[1].holds == Holds::Time);
-    let all = peaks.flat_map(|peak| table.rows.iter().map(move |row| (peak, row)));
-    all.map(move |(peak, row)| {
-        let what = peak[0].heading.split(',').next().unwrap_or_default();
+    let all = peaks.flat_map(|peak| table.rows.iter().map(move |row| (&peak[0], &peak[1], row)));
+    all.filter_map(move |(peak, time, row)| {
+        let time_s = row[time.key].number()?;
+        let (what, unit) = peak.heading.rsplit_once(", ").unwrap_or((peak.heading, ""));
         let element = row[0].text().unwrap_or_default();
-        let measure = peak[0].measure.map_or(peak[0].key, |(measure, _)| measure);
-        let figure = format!("{list}.{}.{measure}", word(element));
-        load(format!("{of} {element}, {what}"), figure, row[peak[0].key].number(), row[peak[1].key].number())
+        let name = format!("{of} {element}, {what}");
+        let figure = format!("{list}.{}.{}", word(element), peak.measure.map_or(peak.key, |(measure, _)| measure));
+        let value = row[peak.key].number();
+        if unit == "N" {
+            return Some(load(name, figure, value, Some(time_s)));
+        }
+        let own = Measure::new("Loads", name, figure, Unit::One.shown());
+        Some(Measure { value: value.map(|x| x * peak.scale), time_s: Some(time_s), unit: unit.to_owned(), ..own })
     })
 }
 
