@@ -70,9 +70,17 @@ fn what_is_made_of_a_run_has_a_name_beside_it_and_is_told() {
         assert_eq!(code(&output), 0, "{}", err(&output));
         assert!(err(&output).contains("wrote ") && err(&output).ends_with(&format!("{name}\n")), "{}", err(&output));
         assert!(folder.path().join(name).exists(), "{name}");
-        // nothing that is there is replaced
-        assert_eq!(code(&answer(folder.path(), words)), 2, "{name}");
+        // nothing that is there is replaced, but an earlier report of the same
+        let again = answer(folder.path(), words);
+        let replaced = err(&again).contains("run.html is an earlier report of the same and is replaced");
+        assert_eq!((code(&again), replaced), if name == "run.html" { (0, true) } else { (2, false) }, "{name}");
     }
+    fs::copy(folder.path().join("run.mcap"), folder.path().join("other.mcap")).expect("a copy");
+    for words in [&["report", "run.mcap", "-o", "run.html"][..], &["report", "run.mcap", "--against", "other.mcap"]] {
+        assert_eq!(code(&answer(folder.path(), words)), 2, "{words:?}");
+    }
+    fs::write(folder.path().join("other.html"), "mine").expect("written");
+    assert_eq!(code(&answer(folder.path(), &["report", "other.mcap"])), 2);
 }
 
 #[test]
@@ -193,6 +201,31 @@ fn a_report_is_one_file_whose_data_stay_data() {
     for source in ["src=\"", "href=\"", "@import", "url(http"] {
         assert!(!html.contains(source), "{source}");
     }
+}
+
+/// Moments and angles of joints stood there as forces in kN.
+#[test]
+fn peaks_of_all_elements_have_their_own_units() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/three-point.toml");
+    let words = ["run", scenario, "--json", "-o", "run.mcap", "--set", "time.end=90 ms"];
+    let run = answer(folder.path(), &words);
+    let summary: serde_json::Value = serde_json::from_slice(&run.stdout).expect("JSON");
+    assert_eq!(code(&answer(folder.path(), &["report", "run.mcap"])), 0);
+    let html = read(folder.path(), "run.html");
+    let data = html.split_once("id=\"report-data\">").and_then(|(_, rest)| rest.split_once("</script>"));
+    let data: serde_json::Value = serde_json::from_str(data.expect("data").0).expect("JSON");
+    let measures = data["runs"][0]["measures"].as_array().expect("a list");
+    let row =
+        |name: &str| measures.iter().find(|m| m["name"] == name).unwrap_or_else(|| panic!("{name}: {measures:?}"));
+    let neck =
+        summary["joints"].as_array().expect("joints").iter().find(|joint| joint["joint"] == "neck").expect("a neck");
+    let moment = row("Joint neck, stop moment");
+    assert_eq!((&moment["unit"], &moment["value"]), (&"N·m".into(), &neck["stop_peak_n_m"]));
+    assert_eq!(row("Joint neck, beyond limit")["unit"], "°");
+    assert_eq!(row("Strap driver.buckle_sill, force")["unit"], "kN");
+    // what was never reached has no row
+    assert!(measures.iter().all(|m| m["group"] != "Loads" || !m["time_s"].is_null()));
 }
 
 #[test]

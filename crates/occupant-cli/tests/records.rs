@@ -5,6 +5,8 @@ use std::fs;
 use std::path::Path;
 
 use crate::common::{answer, done, err, spoken};
+#[cfg(unix)]
+use crate::pages::run_page;
 
 /// A half sine of 0.1 s.
 fn pulse(t: f64) -> f64 {
@@ -42,7 +44,8 @@ fn nhtsa(folder: &Path) {
     fs::write(folder.join("v00001.EV5"), record + "----- END -----\n").unwrap();
 }
 
-fn files() -> tempfile::TempDir {
+/// A folder with a record of each kind.
+pub(crate) fn files() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     nhtsa(&here.join("v00001"));
@@ -76,27 +79,12 @@ fn files() -> tempfile::TempDir {
 }
 
 /// The commands of the page, one after the other, and what stands in its TOML.
+#[cfg(unix)]
 #[test]
 fn the_commands_of_the_page_run() {
     let folder = files();
     let page = include_str!("../docs/records.md");
-    let blocks = page.split("```sh\n").skip(1).filter_map(|rest| rest.split("```").next());
-    let mut count = 0;
-    for line in blocks.flat_map(str::lines) {
-        let words: Vec<String> = line
-            .split('\'')
-            .enumerate()
-            .flat_map(|(i, part)| match i % 2 {
-                0 => part.split_whitespace().map(str::to_owned).collect(),
-                _ => vec![part.to_owned()],
-            })
-            .collect();
-        let words: Vec<&str> = words.iter().map(String::as_str).collect();
-        assert_eq!(words[0], "occupant");
-        done(folder.path(), &words[1..]);
-        count += 1;
-    }
-    assert_eq!(count, 9);
+    assert_eq!(run_page(folder.path(), page), 9);
     let section = page.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
     let rec_tec = "Time,XPos,YPos,ZPos,Pitch,Roll,Yaw\n0,0,0,0,0,0,0\n1,10,0,0,0,0,10\n2,20,0,0,0,0,20\n";
     fs::write(folder.path().join("rec-tec.csv"), rec_tec).unwrap();

@@ -1,7 +1,7 @@
 //! Ctrl-C and the signals that ask a run to end stop it at its next output; a second one ends it at once.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
@@ -16,9 +16,14 @@ pub(crate) struct Interrupt {
 }
 
 impl Interrupt {
-    /// Listens from now on, and answers a signal with these words. Where that is impossible a signal ends the process at
-    /// once; what was written stays readable.
+    /// Listens from now on, and answers a signal with these words, those of the first to listen. Where that is impossible a
+    /// signal ends the process at once; what was written stays readable.
     pub(crate) fn listen(words: &'static str) -> Self {
+        static LISTENING: OnceLock<Interrupt> = OnceLock::new();
+        LISTENING.get_or_init(|| Interrupt::begin(words)).clone()
+    }
+
+    fn begin(words: &'static str) -> Self {
         let interrupt = Interrupt::default();
         let asked = Arc::clone(&interrupt.asked);
         let handler = move || {

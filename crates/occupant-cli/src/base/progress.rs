@@ -20,7 +20,7 @@ pub(crate) struct Progress {
 impl Progress {
     /// A bar on standard error where that is a terminal, else nothing.
     pub(crate) fn new(quiet: bool) -> Self {
-        Progress { bar: bar(None, "{bar:30} {msg}, {eta} to go", quiet) }
+        Progress { bar: bar(None, &counted("outputs"), quiet) }
     }
 }
 
@@ -48,14 +48,44 @@ pub(crate) fn bar(length: Option<u64>, template: &str, quiet: bool) -> ProgressB
 pub(crate) struct Runs {
     bar: ProgressBar,
     quiet: bool,
+    what: &'static str,
     every: Duration,
     line: Instant,
+    began: Instant,
+    /// How many were done before this process.
+    before: u64,
 }
 
 impl Runs {
-    /// Of so many; without a terminal at most a line `every` so often.
-    pub(crate) fn new(length: u64, template: &str, every: Duration, quiet: bool) -> Self {
-        Runs { bar: bar(Some(length), template, quiet), quiet, every, line: Instant::now() }
+    /// Of so many of `what`; without a terminal at most a line `every` so often.
+    pub(crate) fn new(length: u64, what: &'static str, every: Duration, quiet: bool) -> Self {
+        let (bar, now) = (bar(Some(length), &counted(what), quiet), Instant::now());
+        Runs { bar, quiet, what, every, line: now, began: now, before: 0 }
+    }
+
+    /// So many were there before: they say nothing of the rate.
+    pub(crate) fn from(mut self, before: u64) -> Self {
+        self.bar.set_position(before);
+        self.bar.reset_eta();
+        self.before = before;
+        self
+    }
+
+    /// Seconds since the beginning.
+    pub(crate) fn elapsed_s(&self) -> f64 {
+        self.began.elapsed().as_secs_f64()
+    }
+
+    /// The bar's words as a line: how many, how fast, how long still.
+    pub(crate) fn words(&self, done: u64) -> String {
+        let all = self.bar.length().unwrap_or(done);
+        let computed = done.saturating_sub(self.before);
+        if computed == 0 {
+            return format!("{done} of {all} {}", self.what);
+        }
+        let rate = computed as f64 / self.elapsed_s();
+        let to_go_s = all.saturating_sub(done) as f64 / rate;
+        format!("{done} of {all} {}, {rate:.1}/s, {to_go_s:.0} s to go", self.what)
     }
 
     /// The bar, where there is one.
@@ -91,7 +121,7 @@ impl Recorder for Progress {
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
         if !self.bar.is_hidden() {
             self.bar.set_position(sample.index as u64 + 1);
-            self.bar.set_message(format!("{:.1} ms", sample.time_s * 1e3));
+            self.bar.set_message(format!(", at {:.1} ms", sample.time_s * 1e3));
         }
         Ok(Flow::Continue)
     }

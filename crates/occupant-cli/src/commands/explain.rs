@@ -11,7 +11,7 @@ use crate::commands::schema::Document;
 /// Explain the keys of a scenario or study: meaning, unit, example
 ///
 /// `occupant explain` lists the sections, `occupant explain path` the keys of one, `occupant explain path.delta_v` tells of one
-/// key. A single word finds every key of that name. NAME stands for a name of your own.
+/// key. A single word finds every key of that name, else every key that may be that word, such as sensors. NAME stands for a name of your own.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// Where the key stands, such as belts.NAME.slack, or its name alone; all sections if absent
@@ -29,7 +29,7 @@ pub(crate) struct Args {
 
 /// Tells of a key.
 pub(crate) fn explain(args: &Args) -> Result<(), Failure> {
-    let root = Key { path: String::new(), variant: None, needed: true, root: args.of.schema(), own: args.of.schema() };
+    let root = Key::root(args.of.schema());
     if args.markdown {
         return talk::print(&page(&root, args.of));
     }
@@ -51,19 +51,26 @@ struct Key<'a> {
     root: &'a Json,
     /// What the schema says at its place.
     own: &'a Json,
+    /// The table that it stands in.
+    table: &'a Json,
 }
 
 impl<'a> Key<'a> {
+    fn root(schema: &'a Json) -> Self {
+        Key { path: String::new(), variant: None, needed: true, root: schema, own: schema, table: schema }
+    }
+
     /// What the schema says of it, behind references.
     fn schema(&self) -> &'a Json {
         let name = self.own["$ref"].as_str().and_then(|path| path.strip_prefix("#/$defs/"));
         name.map_or(self.own, |name| &self.root["$defs"][name])
     }
 
-    /// Its description in one line.
+    /// Its description in one line; of a word that names a kind of table, that of the table.
     fn meaning(&self) -> String {
         let words = |schema: &'a Json| schema["description"].as_str();
-        words(self.own).or_else(|| words(self.schema())).unwrap_or_default().replace('\n', " ")
+        let of_kind = || words(self.table).filter(|_| self.own.get("const").is_some());
+        words(self.own).or_else(|| words(self.schema())).or_else(of_kind).unwrap_or_default().replace('\n', " ")
     }
 
     /// The tables that may stand at its place, each with what tells it from the others: one, unless there are kinds of it.
@@ -87,11 +94,11 @@ impl<'a> Key<'a> {
             let needed = |key: &str| table["required"].as_array().is_some_and(|keys| keys.iter().any(|k| k == key));
             for (key, own) in table["properties"].as_object().into_iter().flatten() {
                 let variant = variant.clone();
-                keys.push(Key { path: join(key), variant, needed: needed(key), root: self.root, own });
+                keys.push(Key { path: join(key), variant, needed: needed(key), root: self.root, own, table });
             }
             if table["additionalProperties"].is_object() {
                 let own = &table["additionalProperties"];
-                keys.push(Key { path: join("NAME"), variant, needed: false, root: self.root, own });
+                keys.push(Key { path: join("NAME"), variant, needed: false, root: self.root, own, table });
             }
         }
         let items = &self.schema()["items"];
@@ -108,7 +115,8 @@ impl<'a> Key<'a> {
         below.iter().flat_map(|key| std::iter::once(key.clone()).chain(key.all())).collect()
     }
 
-    /// The keys at a path, in which names and stars stand for what has a name of the user's own; else all of that name.
+    /// The keys at a path, in which names and stars stand for what has a name of the user's own; else all of that name; else
+    /// all that may be that word.
     fn find(&self, path: &str) -> Result<Vec<Key<'a>>, Failure> {
         let all = self.all();
         let wanted: Vec<&str> = path.split('.').map(bare).collect();
@@ -119,6 +127,8 @@ impl<'a> Key<'a> {
         let is_named = |key: &&Key| wanted.len() == 1 && key.name() == wanted[0];
         let found: Vec<Key> = all.iter().filter(is_at).cloned().collect();
         let found = if found.is_empty() { all.iter().filter(is_named).cloned().collect() } else { found };
+        let is_word = |key: &&Key| names(key.schema()).contains(&format!("\"{path}\""));
+        let found: Vec<Key> = if found.is_empty() { all.iter().filter(is_word).cloned().collect() } else { found };
         if found.is_empty() {
             let names: Vec<&str> = all.iter().map(Key::name).collect();
             let hint = did_you_mean(wanted.last().unwrap_or(&""), &names, '`');
@@ -211,7 +221,7 @@ fn plain(schema: &Json, root: &Json) -> String {
         Some("integer") => "whole number".into(),
         Some("number") => "number".into(),
         Some("array") => {
-            let item = Key { path: String::new(), variant: None, needed: false, root, own: &schema["items"] };
+            let item = Key { own: &schema["items"], ..Key::root(root) };
             match (&schema["minItems"], &schema["maxItems"]) {
                 (least, most) if least == most && !least.is_null() => format!("list of {least}: {}", item.kind()),
                 (Json::Null, _) => format!("list: {}", item.kind()),

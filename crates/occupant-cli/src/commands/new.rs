@@ -10,7 +10,7 @@ use template::Template;
 /// The scenario that is written unless another template is asked for.
 pub(super) const STARTER: &str = include_str!("new/driver.toml");
 
-/// Write a commented starter scenario that runs as it is
+/// Write a commented starter scenario that runs as it is, or a study
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The file to write; .toml is added where there is no extension
@@ -56,7 +56,7 @@ pub(crate) fn new(args: &Args) -> Result<(), Failure> {
     }
     publish(&file, args.force, args.template.text().as_bytes())?;
     if !args.quiet {
-        say(&format!("wrote {name}\nnext: occupant check {name}\n      occupant run {name}"));
+        say(&format!("wrote {name}\nnext: {}", args.template.next(&name.to_string())));
     }
     Ok(())
 }

@@ -1,10 +1,11 @@
 //! `occupant report`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use crate::base::{Failure, deliver_and, is_page, note, refuse_input};
+use crate::base::{Failure, deliver_and, file_name, is_page, note, refuse_input, say};
 use crate::files::results::Results;
-use crate::jobs::report::page;
+use crate::jobs::report::{page, subject};
+use crate::pictures::html::is_page_of;
 
 /// Make a page of a run: motion in 3-D, time histories, measures, contacts and where it comes from, in one HTML file
 ///
@@ -15,7 +16,7 @@ pub(crate) struct Args {
     #[arg(value_name = "RUN.mcap")]
     run: PathBuf,
 
-    /// The page; RUN.html beside the run if absent
+    /// The page; RUN.html beside the run if absent, where an earlier report of the same is replaced
     #[arg(short, long, value_name = "FILE.html")]
     output: Option<PathBuf>,
 
@@ -43,5 +44,17 @@ pub(crate) fn report(args: &Args) -> Result<(), Failure> {
     let run = Results::open(&args.run)?;
     let against = args.against.as_deref().map(Results::open).transpose()?;
     std::iter::once(&run).chain(&against).flat_map(Results::notes).for_each(|text| note(&text));
-    deliver_and(args.open, &output, args.force, page(&run, against.as_ref())?.as_bytes())
+    let force = args.force || replaces_earlier(args, &output);
+    deliver_and(args.open, &output, force, page(&run, against.as_ref())?.as_bytes())
+}
+
+/// Whether the page of the default name is an earlier one of the same runs; then says that it is replaced.
+fn replaces_earlier(args: &Args, output: &Path) -> bool {
+    let names: Vec<String> = std::iter::once(&args.run).chain(&args.against).map(|run| file_name(run)).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let is_earlier = args.output.is_none() && is_page_of(output, &subject(&names));
+    if is_earlier {
+        say(&format!("{} is an earlier report of the same and is replaced; -o keeps both", output.display()));
+    }
+    is_earlier
 }

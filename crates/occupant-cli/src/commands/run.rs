@@ -1,6 +1,6 @@
 //! `occupant run`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use occupant_core::diagnosis::UnstableFriction;
 use occupant_core::results::summary::{RunStatus, Summary};
@@ -16,6 +16,7 @@ use crate::base::{Done, Existing, Failure, Interrupt, ending, json, print, progr
 use crate::files::scenario::{self, Opened, ScenarioArgs};
 use crate::jobs::ensemble::report::Report;
 use crate::jobs::ensemble::text::text as ensemble_text;
+use crate::jobs::run::earlier::is_earlier;
 use crate::jobs::run::estimate::{ErrorEstimate, estimate};
 use crate::jobs::run::recording::{Recording, Written};
 use crate::jobs::run::resume::{Resumed, Resumption};
@@ -24,7 +25,8 @@ use crate::jobs::run::{Simulated, run as simulate};
 /// Simulate the occupant and write what happened
 ///
 /// Writes an MCAP file (by default SCENARIO.mcap in the present folder) and ends with a short table. Until the run is
-/// complete the file is called SCENARIO.partial.mcap. With --resume the run starts where another one ended, with the same
+/// complete the file is called SCENARIO.partial.mcap. Without -o, a complete earlier run of the same scenario file (beside
+/// it, with the same title and --set) is replaced, and a line says so; any other file only with --force. With --resume the run starts where another one ended, with the same
 /// states as one run to the new end, and writes SCENARIO.resumed.mcap. With --ensemble it is run many times with small
 /// changes, and the table says which of its results are stable.
 #[derive(Clone, Debug, clap::Args)]
@@ -113,12 +115,22 @@ fn several(args: &Args) -> Result<Done, Failure> {
         if !args.quiet {
             say(&format!("{}: running", scenario.display()));
         }
-        let (ended, summary) = one(&Args { scenario: own, more: Vec::new(), is_one_of_several: true, ..args.clone() })?;
+        let ran = one(&Args { scenario: own, more: Vec::new(), is_one_of_several: true, ..args.clone() });
+        let (ended, summary) = match ran {
+            Ok(ran) => ran,
+            Err(failure) if runs.is_empty() => return Err(failure),
+            Err(failure) => return beside(&runs).and(Err(failure)),
+        };
         if ended == Done::Unwell {
             done = ended;
         }
         runs.push((scenario.clone(), summary));
     }
+    beside(&runs).map(|()| done)
+}
+
+/// Prints the measures of runs side by side.
+fn beside(runs: &[(PathBuf, Summary)]) -> Result<(), Failure> {
     let names = runs.iter().enumerate().map(|(i, (name, _))| format!("{}   {}\n", i + 1, name.display()));
     let marks: Vec<Marks> = runs.iter().map(|(_, summary)| Marks::of(&summary.caveats)).collect();
     let columns = runs.iter().zip(&marks).map(|((_, summary), marks)| (&summary.measures[..], marks));
@@ -127,43 +139,39 @@ fn several(args: &Args) -> Result<Done, Failure> {
         .iter()
         .enumerate()
         .flat_map(|(i, (_, s))| s.caveats.iter().map(move |c| format!("{}! {}\n", i + 1, c.text)));
-    print(&format!("{}\n{table}\n{}", names.collect::<String>(), caveats.collect::<String>()))?;
-    Ok(done)
+    print(&format!("{}\n{table}\n{}", names.collect::<String>(), caveats.collect::<String>()))
 }
 
 fn one(args: &Args) -> Result<(Done, Summary), Failure> {
     let chosen = chosen(args);
     let (bytes, draft) = scenario::draft(&chosen)?;
     let opened = scenario::open_draft(&chosen, bytes, draft.clone())?;
-    let existing = Existing::by(args.force);
-    let ensemble = args.ensemble.wanted(&draft, &opened, &chosen.scenario, existing)?;
+    let ensemble = args.ensemble.wanted(&draft, &opened, &chosen.scenario, Existing::by(args.force))?;
     let from = args.resume.as_deref().map(|file| Resumption::find(file, &opened)).transpose()?;
     if !args.quiet {
         scenario::warn(&opened.warnings);
     }
-    let recording = match output_name(args)? {
-        Some(name) => Recording::begin(&name, existing, &chosen, &opened, from.as_ref())?,
-        None => Recording::none(),
-    };
+    let recording = output_name(args)?.map(|name| {
+        Recording::begin(&name, existing_at(args, &name, &chosen, &opened), &chosen, &opened, from.as_ref())
+    });
+    let recording = recording.transpose()?.unwrap_or(Recording::none());
     from.iter().filter(|_| !args.quiet).for_each(Resumption::announce);
     let channels = ensemble.as_ref().map(|e| e.channels.clone()).unwrap_or_default();
     let interrupt = Interrupt::listen("stopping at the next output; once more to stop at once");
     let mut run = simulate(&opened, from.as_ref(), recording, channels, &interrupt, args.quiet)?;
     let balance = run.summary.energy.balance;
-    let ensemble = match ensemble {
-        Some(wanted) if run.completed && balance != Balance::Lost => {
-            let histories = std::mem::take(&mut run.histories);
-            let ran = wanted.run(&opened, &run.summary, histories, &interrupt, args.quiet);
-            Some(ran.map_err(|failure| failure.with_done(&run.written.left()))?)
-        }
-        _ => None,
-    };
-    let estimate =
-        (args.estimate_error && run.completed).then(|| estimate(&opened, &run.summary, &run.head, &interrupt));
-    let estimate = estimate.transpose().map_err(|failure| failure.with_done(&run.written.left()))?;
+    let histories = std::mem::take(&mut run.histories);
+    let ensemble = ensemble.filter(|_| run.completed && balance != Balance::Lost);
+    let ensemble = ensemble.map(|wanted| wanted.run(&opened, &run.summary, histories, &interrupt, args.quiet));
+    let estimate = (args.estimate_error && run.completed && !interrupt.is_asked())
+        .then(|| estimate(&opened, &run.summary, &run.head, &interrupt));
     if !args.is_one_of_several {
-        show(args, &chosen, &opened, from.as_ref(), &run, (ensemble.as_ref(), estimate.as_ref()))?;
+        // the run itself is told also where what was to come after it has failed
+        let more = (ensemble.as_ref().and_then(told), estimate.as_ref().and_then(told));
+        show(args, &chosen, &opened, from.as_ref(), &run, more)?;
     }
+    let unmade = ensemble.and_then(Result::err).or(estimate.and_then(Result::err));
+    unmade.map_or(Ok(()), |failure| Err(failure.with_done(&run.written.left())))?;
     if !args.quiet || balance == Balance::Lost {
         say_balance(balance, &run.summary);
     }
@@ -171,6 +179,22 @@ fn one(args: &Args) -> Result<(Done, Summary), Failure> {
         return Err(Failure::BrokeOff(broke_off(&run)));
     }
     Ok((if balance == Balance::Lost { Done::Unwell } else { Done::Well }, run.summary))
+}
+
+/// What came of something, if anything did.
+fn told<T>(of: &Result<T, Failure>) -> Option<&T> {
+    of.as_ref().ok()
+}
+
+/// What happens to a file that stands where ours goes: one of the default name that is an earlier run of this scenario is
+/// replaced, which is said.
+fn existing_at(args: &Args, name: &Path, chosen: &ScenarioArgs, opened: &Opened) -> Existing {
+    let unasked = args.output.is_none() && args.resume.is_none() && !args.force;
+    let is_earlier = unasked && is_earlier(name, chosen, opened);
+    if is_earlier && !args.quiet {
+        say(&format!("{} is an earlier run of this scenario and is replaced; -o keeps both", name.display()));
+    }
+    Existing::by(args.force || is_earlier)
 }
 
 fn say_balance(balance: Balance, summary: &Summary) {

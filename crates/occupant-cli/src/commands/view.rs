@@ -10,6 +10,7 @@ use occupant_core::run::simulate::simulate;
 use rayon::prelude::*;
 
 use super::flags::history::seconds;
+use crate::base::progress::{bar, counted};
 use crate::base::{Failure, by_ending, deliver_and, file_name, note, publish, refuse_input, say, with_word};
 use crate::files::results::Results;
 use crate::files::scenario::{self, ScenarioArgs};
@@ -93,16 +94,33 @@ pub(crate) fn view(args: &Args) -> Result<(), Failure> {
         (None, Kind::Film(_) | Kind::Frames) => frames_s(span_s(&results), args.slow_motion)?,
     };
     let moments = moments(&results, &outputs(&results, &wanted)?)?;
-    let strip = Strip { model: &results.model, moments, views: views(args, kind), origin: origin(&results) };
+    let origin = origin(&results) + &pace(args, kind);
+    let strip = Strip { model: &results.model, moments, views: views(args, kind), origin };
+    let (one, bar) = (frames(&strip), bar(Some(strip.moments.len() as u64), &counted("frames"), false));
+    let one = |frame| {
+        let drawing = one(frame);
+        bar.inc(1);
+        drawing
+    };
     let bytes = match kind {
         Kind::Picture(format) => picture(&strip, format)?,
         Kind::Film(film) => {
             let help = "write a .gif; --times and --slow-motion make it shorter";
-            film.encode(strip.moments.len(), &frames(&strip)).map_err(|e| Failure::with_help(e, help))?
+            let film = film.encode(strip.moments.len(), &one).map_err(|e| Failure::with_help(e, help))?;
+            bar.finish_and_clear();
+            film
         }
-        Kind::Frames => return write_each(args, strip.moments.len(), &frames(&strip)),
+        Kind::Frames => return write_each(args, strip.moments.len(), &one),
     };
     deliver_and(args.open, &output, args.force, &bytes)
+}
+
+/// How fast a film plays, in words.
+fn pace(args: &Args, kind: Kind) -> String {
+    match (&args.times, kind) {
+        (None, Kind::Film(_) | Kind::Frames) => format!(", {} times slower than life", args.slow_motion),
+        _ => String::new(),
+    }
 }
 
 /// What is made.

@@ -1,6 +1,31 @@
 //! HTML element by element. Texts are escaped where they are put, so that nothing a user named can leave its place.
 
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
 use super::svg::escape;
+use crate::base::program;
+
+/// What a page says in its head: which program made it, and of what.
+pub(crate) fn about(subject: &str) -> String {
+    format!("<meta name=\"generator\" content=\"{}\">\n{}", escape(&program()), described(subject))
+}
+
+fn described(subject: &str) -> String {
+    format!("<meta name=\"description\" content=\"{}\">", escape(subject))
+}
+
+/// A head is no longer than so many bytes, up to its style.
+const HEAD: u64 = 4096;
+
+/// Whether a file is a page that this program, of whatever version, made of the same subject.
+pub(crate) fn is_page_of(path: &Path, subject: &str) -> bool {
+    let mut head = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+    let head = String::from_utf8_lossy(&head);
+    read.is_ok() && head.contains("<meta name=\"generator\" content=\"occupant ") && head.contains(&described(subject))
+}
 
 /// A part of a page.
 #[derive(Clone, Debug, Default)]
@@ -37,12 +62,27 @@ impl Html {
         self.raw("</table></div>\n");
     }
 
+    /// Begins what stands folded under a line.
+    pub(crate) fn fold(&mut self, line: &str) {
+        self.raw(&format!("<details>\n<summary>{}</summary>\n", escape(line)));
+    }
+
+    /// Ends it.
+    pub(crate) fn unfold(&mut self) {
+        self.raw("</details>\n");
+    }
+
     pub(crate) fn table(&mut self, head: &[&str], rows: &[Vec<Cell>]) {
+        self.table_under(&head.iter().map(|name| escape(name)).collect::<Vec<_>>(), rows);
+    }
+
+    /// The same under heads that are HTML already.
+    pub(crate) fn table_under(&mut self, head: &[String], rows: &[Vec<Cell>]) {
         self.raw("<div class=\"scroll\"><table>\n<tr>");
         for (i, name) in head.iter().enumerate() {
             let numbers = rows.first().and_then(|r| r.get(i)).is_some_and(|c| !matches!(c, Cell::Words(_)));
             let class = if numbers { " class=\"number\"" } else { "" };
-            self.raw(&format!("<th{class}>{}</th>", escape(name)));
+            self.raw(&format!("<th{class}>{name}</th>"));
         }
         self.raw("</tr>\n");
         for row in rows {

@@ -20,7 +20,10 @@ const FLAGS = [
 /** What the software renderer says when a screenshot reads its pixels: not the page's doing. */
 const DRIVER = /GL Driver Message \(OpenGL, Performance/;
 
-/** Runs `work(open)`, where `open(file, viewport, scheme)` gives a page with `complaints` and `requests`. */
+/**
+ * Runs `work(open)`, where `open(file, viewport, scheme)` gives a page with `complaints` and `requests`. The page of a study
+ * draws nothing itself.
+ */
 export async function withBrowser(work) {
   const profile = mkdtempSync(join(tmpdir(), "occupant-browser-"));
   const context = await chromium.launchPersistentContext(profile, {
@@ -43,7 +46,8 @@ export async function withBrowser(work) {
       page.on("pageerror", (error) => page.complaints.push(String(error)));
       page.on("request", (request) => page.requests.push(request.url()));
       await page.goto(`file://${file}`);
-      await page.waitForFunction(() => window.occupantReport?.stage?.frames > 0, null, { timeout: 60000 });
+      const isDrawn = () => document.querySelector(".study") || window.occupantReport?.stage?.frames > 0;
+      await page.waitForFunction(isDrawn, null, { timeout: 60000 });
       return page;
     });
   } finally {

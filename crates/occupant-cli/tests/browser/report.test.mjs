@@ -1,20 +1,22 @@
-// The page of `occupant report` in a real browser: node report.test.mjs REPORT.html COMPARISON.html [SCREENSHOTS]
+// The pages of `occupant report` and `occupant study report` in a real browser:
+// node report.test.mjs REPORT.html COMPARISON.html STUDY.html [SCREENSHOTS]
 //
-// REPORT.html is a report of scenarios/cart-lap-torso.toml, COMPARISON.html one with --against cart-unbelted.
+// REPORT.html is a report of scenarios/cart-lap-torso.toml, COMPARISON.html one with --against cart-unbelted, STUDY.html one of
+// scenarios/studies/screening-morris.toml.
 
 import assert from "node:assert/strict";
 import { mkdirSync, statSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { withBrowser } from "./browser.mjs";
 
-const [report, comparison, pictures] = process.argv.slice(2).map((path) => resolve(path));
-if (!report || !comparison) throw new Error("give REPORT.html and COMPARISON.html");
+const [report, comparison, study, pictures] = process.argv.slice(2).map((path) => resolve(path));
+if (!report || !comparison || !study) throw new Error("give REPORT.html, COMPARISON.html and STUDY.html");
 if (pictures) mkdirSync(pictures, { recursive: true });
 
 /** A report of 0.2 s at 1 kHz, the program of the page included. */
 const MOST_BYTES = 3e6;
 
-const tests = { opens, plays, scrubs, followsKeys, followsSegments, toggles, zoomsAndOrbits, linksPlots, compares, fitsSmallScreens, isDark };
+const tests = { opens, plays, scrubs, followsKeys, followsSegments, toggles, zoomsAndOrbits, linksPlots, compares, fitsSmallScreens, isDark, isShort, tellsFirst, foldsStudies };
 
 const state = (page) =>
   page.evaluate(() => {
@@ -132,6 +134,7 @@ async function zoomsAndOrbits(open) {
     await seek(page, 0.09);
     await picture(page, `view-${view}`);
   }
+  await page.locator("#stage canvas").scrollIntoViewIfNeeded();
   const box = await page.locator("#stage canvas").boundingBox();
   const middle = [box.x + box.width / 2, box.y + box.height / 2];
   const before = await state(page);
@@ -153,6 +156,7 @@ async function zoomsAndOrbits(open) {
 async function linksPlots(open) {
   const page = await open(report);
   const plot = page.locator(".plot .u-over").first();
+  await plot.scrollIntoViewIfNeeded();
   const box = await plot.boundingBox();
   await page.mouse.click(box.x + 0.5 * box.width, box.y + 0.5 * box.height);
   assert.ok(Math.abs((await state(page)).time - 0.1) < 0.005, `${(await state(page)).time}`);
@@ -190,6 +194,53 @@ async function isDark(open) {
   const page = await open(report, undefined, "dark");
   await seek(page, 0.08);
   await picture(page, "dark");
+  return page;
+}
+
+const height = (page) => page.evaluate(() => document.documentElement.scrollHeight);
+
+/** Pages grew to 7000 px of a run and 17 000 of a study. */
+async function isShort(open) {
+  for (const [file, width, most] of [[report, 1280, 3200], [report, 800, 5500], [study, 1280, 1500], [study, 800, 1800]]) {
+    const page = await open(file, { width, height: 900 });
+    const found = await height(page);
+    assert.ok(found <= most, `${file} at ${width} px is ${found} px high`);
+    await page.close();
+  }
+  return open(report);
+}
+
+async function tellsFirst(open) {
+  const page = await open(report);
+  const place = async (what) => (await page.locator(what).first().boundingBox()).y;
+  const places = [await place("h1"), await place(".verdicts"), await place(".caveats"), await place("#stage")];
+  assert.deepEqual(places, [...places].sort((a, b) => a - b));
+  assert.match(await page.locator(".card.failed").first().textContent(), /Nij.*failed, ≤ 1/);
+  // a mark leads to its caveat
+  const mark = page.locator(".card .mark").first();
+  const caveat = page.locator(await mark.getAttribute("href"));
+  assert.match(await caveat.textContent(), /neck/);
+  // no column without a value, no empty half of the page
+  for (const table of await page.locator(".tables table").all()) {
+    const empty = await table.evaluate((node) => {
+      const rows = [...node.tBodies[0].rows].filter((row) => row.cells.length > 1);
+      return [...Array(rows[0].cells.length).keys()].filter((i) => rows.every((row) => !row.cells[i].textContent));
+    });
+    assert.deepEqual(empty, []);
+  }
+  const [scene, plots] = [await page.locator(".scene").boundingBox(), await page.locator(".plots").boundingBox()];
+  assert.ok(Math.abs(scene.height - plots.height) < 2, `${scene.height} and ${plots.height} px`);
+  assert.ok(!/Steps rejected/.test(await page.locator(".tables").textContent()));
+  return page;
+}
+
+async function foldsStudies(open) {
+  const page = await open(study);
+  const section = page.locator("section#r0");
+  assert.ok(!(await section.isVisible()));
+  await page.locator("a[href='#r0']").click();
+  assert.ok(await section.isVisible(), "the link does not unfold its section");
+  await picture(page, "study");
   return page;
 }
 

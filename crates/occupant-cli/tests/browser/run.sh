@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes two reports and opens them in headless Chromium. Wants chromium, node and npm; the program as first argument.
+# Makes reports of runs and of a study and opens them in headless Chromium. Wants chromium, node and npm; the program as first argument.
 #
 #   crates/occupant-cli/tests/browser/run.sh target/release/occupant [folder for screenshots]
 set -euo pipefail
@@ -15,7 +15,10 @@ for case in cart-lap-torso cart-unbelted; do
 done
 "$occupant" report "$out/cart-lap-torso.mcap" --output "$out/report.html"
 "$occupant" report "$out/cart-lap-torso.mcap" --against "$out/cart-unbelted.mcap" --output "$out/comparison.html"
+study="$out/study"
+"$occupant" sweep "$root/scenarios/studies/screening-morris.toml" --output "$study" --quiet
+"$occupant" study report "$study" >/dev/null 2>&1
 
 cd "$here"
 [ -d node_modules/playwright-core ] || npm ci --no-audit --no-fund --silent
-node report.test.mjs "$out/report.html" "$out/comparison.html" ${pictures:+"$pictures"}
+node report.test.mjs "$out/report.html" "$out/comparison.html" "$study/report.html" ${pictures:+"$pictures"}

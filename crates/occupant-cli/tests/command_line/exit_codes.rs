@@ -20,7 +20,7 @@ const COMMANDS: [[&str; 2]; 22] = [
     ["import test.csv -f -o import.toml", "import none.csv"],
     ["check case.toml", "check none.toml"],
     ["new new.toml -f", "new none/new.toml"],
-    ["explain path", "explain none"],
+    ["explain path", "explain nowhere"],
     ["schema", "schema --of none"],
     ["channels head", "channels head --of none.mcap"],
     ["convert deck.dat -f -o deck.toml", "convert none.dat"],

@@ -15,6 +15,38 @@ fn a_file_that_exists_is_not_written_over() {
     assert!(std::fs::metadata(&file).unwrap().len() > 10_000);
 }
 
+#[test]
+fn an_earlier_run_of_the_same_scenario_is_replaced_and_nothing_else() {
+    let folder = folder_with_case();
+    let at = |name: &str| folder.path().join(name);
+    let run = |words: &[&str]| {
+        let output = answer(folder.path(), &[&["run", "case.toml", "--until", "10 ms"], words].concat());
+        (code(&output), err(&output).contains("case.mcap is an earlier run of this scenario and is replaced"))
+    };
+    assert_eq!(run(&[]), (0, false));
+    let text = std::fs::read_to_string(at("case.toml")).unwrap();
+    std::fs::write(at("case.toml"), text.replace("speed = \"50 km/h\"", "speed = \"40 km/h\"")).unwrap();
+    let before = std::fs::read(at("case.mcap")).unwrap();
+    assert_eq!(run(&[]), (0, true));
+    let after = std::fs::read(at("case.mcap")).unwrap();
+    assert!(before != after);
+    // another variant, a name that was asked for, a scenario with another title, one of another folder
+    assert_eq!(run(&["--set", "path.speed='60 km/h'"]), (2, false));
+    assert_eq!(run(&["-o", "case.mcap"]), (2, false));
+    assert_eq!(run(&["--set", "title='another'"]), (2, false));
+    std::fs::create_dir(at("there")).unwrap();
+    std::fs::copy(at("case.toml"), at("there/case.toml")).unwrap();
+    assert_eq!(code(&answer(folder.path(), &["run", "there/case.toml", "--until", "10 ms"])), 2);
+    // what a run that broke off has left can be resumed, and is not taken
+    std::fs::write(at("case.partial.mcap"), "half").unwrap();
+    assert_eq!(run(&[]), (2, false));
+    std::fs::remove_file(at("case.partial.mcap")).unwrap();
+    // nor what is damaged
+    assert!(after == std::fs::read(at("case.mcap")).unwrap());
+    std::fs::write(at("case.mcap"), &after[..after.len() / 2]).unwrap();
+    assert_eq!(run(&[]), (2, false));
+}
+
 #[cfg(unix)]
 #[test]
 fn a_pipe_of_the_shell_is_read_and_bounded() {

@@ -20,7 +20,7 @@ fn help_and_the_error_of_an_unknown_template_list_them_all() {
     let help = out(&answer(folder.path(), &["new", "--help"]));
     let unknown = err(&answer(folder.path(), &["new", "other.toml", "--template", "back-seat"]));
     for said in [help, unknown] {
-        assert!(TEMPLATES.iter().all(|name| said.contains(name)), "{said}");
+        assert!(TEMPLATES.iter().chain(&["study"]).all(|name| said.contains(name)), "{said}");
     }
 }
 
@@ -95,4 +95,25 @@ fn the_ending_is_added_and_no_other_is_taken() {
     assert!(folder.path().join("other.toml").exists());
     assert_eq!(code(&answer(folder.path(), &["new", "other.json"])), 2);
     assert_eq!(code(&answer(folder.path(), &["new", "no/such/folder.toml"])), 2);
+}
+
+#[test]
+fn the_study_runs_beside_the_scenario_of_its_name() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let said = |words: &[&str]| {
+        let output = answer(folder.path(), words);
+        assert_eq!(code(&output), 0, "{}", err(&output));
+        out(&output) + &err(&output)
+    };
+    assert!(
+        said(&["new", "case-study.toml", "--template", "study"])
+            .contains("next: occupant sweep case-study.toml --dry-run")
+    );
+    said(&["new", "my-case.toml"]);
+    assert!(said(&["sweep", "case-study.toml", "--dry-run"]).contains("60 of"));
+    said(&["sweep", "case-study.toml", "--set", "time.end=80 ms"]);
+    // the faster the car, the more the belts hold
+    let matrix = said(&["study", "report", "case-study", "--to", "belts.lap.peak"]);
+    let speed = matrix.lines().find(|line| line.starts_with("speed ")).expect("a row");
+    assert!(speed.split_whitespace().nth(1).is_some_and(|rank| rank.starts_with("0.")), "{matrix}");
 }

@@ -161,7 +161,7 @@ fn a_run_that_fails_marks_every_figure_and_judges_its_energy_as_far_as_it_came()
     assert!(row(&table, "energy")[3].ends_with('!') && row(&table, "HIC15")[1].ends_with('!'), "{table}");
     said(&["report", "a.partial.mcap", "-o", "a.html"], 0);
     let page = std::fs::read_to_string(folder.path().join("a.html")).unwrap();
-    assert!(page.contains("\"is_marked\":true") && !page.contains("\"is_marked\":false"));
+    assert!(page.contains("\"caveats\":[0") && !page.contains("\"caveats\":[]"));
     let printed = out(&said(&["print", "a.partial.mcap"], 0));
     assert!(printed.contains(&format!("*** {why}")), "{}", &printed[printed.len() - 4000..]);
 }

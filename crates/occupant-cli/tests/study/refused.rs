@@ -2,20 +2,28 @@
 
 use std::fs;
 
-use super::{STUDY, answer, done, err, swept};
+use super::{STUDY, answer, done, err, spoken, swept};
 
 #[test]
-fn files_that_exist_are_replaced_only_by_force() {
+fn an_earlier_report_is_replaced_and_other_files_only_by_force() {
     let folder = swept(STUDY);
     let at = folder.path();
     done(at, &["study", "report", "out"]);
     let before = fs::read(at.join("out/report.html")).unwrap();
-    let output = answer(at, &["study", "report", "out"]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(err(&output).contains("--force replaces it"), "{}", err(&output));
-    done(at, &["study", "report", "out", "--force"]);
+    let said = spoken(at, &["study", "report", "out"]);
+    assert!(said.contains("is an earlier report of this study and is replaced"), "{said}");
     // the same rows give the same page
     assert!(before == fs::read(at.join("out/report.html")).unwrap());
+    // nor under a name that was asked for, nor a page of somebody else
+    let named = ["study", "report", "out", "-o", "out/report.html"];
+    let changed = String::from_utf8(before).unwrap().replacen("Report of the study", "Notes on the study", 1);
+    for words in [&named[..], &["study", "report", "out"]] {
+        let output = answer(at, words);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(err(&output).contains("--force replaces it"), "{}", err(&output));
+        fs::write(at.join("out/report.html"), &changed).unwrap();
+    }
+    done(at, &["study", "report", "out", "--force"]);
     // a table alone is in the way, too
     fs::remove_file(at.join("out/report.html")).unwrap();
     let output = answer(at, &["study", "report", "out"]);

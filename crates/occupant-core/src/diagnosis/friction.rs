@@ -1,7 +1,9 @@
-//! Stability of friction in an explicit step: step·f·wF/(v_s·m_eff) must stay below 2.
+//! Stability of friction in a step of the classical Runge–Kutta method, the one with fixed steps: step·f·wF/(v_s·m_eff)
+//! must stay below 2.785.
 //!
 //! Friction is −f·wF·v_t/√(v_t² + v_s²); at low slip it is a damper f·wF/v_s against the effective mass along the surface.
-//! Ours (model text, section 6); the masses are those of the posture at the start.
+//! The masses are those of the posture at the start. In the shipped cases the energy balance jumps where the number
+//! passes the limit: 2.4e-6 at 2.72 and 3.3e-4 at 3.48 (`cart-unbelted`), 1.7e-6 at 2.79 and 6.7e-5 at 3.14 (`rear-seat`).
 
 use serde::Serialize;
 
@@ -12,8 +14,8 @@ use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
 use placed_text::Problems;
 
-/// Stability number above which a warning is due.
-pub(super) const LIMIT: f64 = 2.0;
+/// Stability number above which a warning is due: where 1 + z + z²/2 + z³/6 + z⁴/24 = 1 on the negative real axis.
+pub(super) const LIMIT: f64 = 2.785;
 
 /// A sphere's friction against one material that was too strong for the step.
 #[derive(Clone, Debug, PartialEq, Serialize)]

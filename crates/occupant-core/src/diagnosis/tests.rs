@@ -83,7 +83,7 @@ fn a_step_beyond_the_stability_limit_is_found() {
 }
 
 #[test]
-fn friction_warns_where_its_stability_number_passes_two() {
+fn friction_warns_where_its_stability_number_passes_that_of_the_method() {
     // the watch and the limit of `check` are two ways to the same number
     let model = standing_on(0.8, 0.1);
     let mut watch = FrictionWatch::new();

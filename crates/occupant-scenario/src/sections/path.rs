@@ -27,7 +27,7 @@ pub(crate) enum PathSection {
     Pulse(Box<PulseSection>),
     /// Places and angles at given times.
     Table(Box<TableSection>),
-    /// Recorded accelerations and turning rates, or velocity changes.
+    /// Recorded accelerations and turning rates, or velocity changes, as of an event data recorder.
     Sensors(Box<SensorsSection>),
 }
 

@@ -50,6 +50,7 @@ pub(crate) struct SensorsSection {
     /// beyond what it should is taken away from all of it. Nothing is taken away if absent.
     pub(crate) baseline: Option<Time<POSITIVE>>,
     /// Time of the record at which the path starts and position, angles and speed hold; its first time if absent.
+    /// With `time.start` at the same time a run leaves out the braking before a crash, under which a body without muscles folds.
     pub(crate) start: Option<Time>,
     /// [x, y, z] of the vehicle's centre of gravity when the path starts; [0, 0, 0] if absent.
     pub(crate) position: Option<[Length; 3]>,

@@ -1,6 +1,7 @@
-// The frame of the page: title, notes, and the places where the rest goes.
+// The frame of the page: title, verdicts and caveats, and the places where the rest goes.
 
 import { element } from "./dom.js";
+import { buildVerdicts } from "./tables.js";
 
 export function buildPage(root, report) {
   const runs = report.runs;
@@ -12,7 +13,9 @@ export function buildPage(root, report) {
   root.append(
     heading(runs),
     ...runs.flatMap((run) => notes(run, runs.length > 1)),
-    element("main", {}, scene, plots),
+    buildVerdicts(runs),
+    ...runs.map((run, number) => caveats(run, number, runs.length > 1)),
+    element("main", {}, scene, element("div", { class: "beside" }, plots)),
     tables,
     footer(report),
   );
@@ -39,14 +42,33 @@ function heading(runs) {
   const title = element("h1", {}, first.title || first.label);
   const against =
     second &&
-    element("p", { class: "against" }, swatch(1), `against ${second.label}: ${second.title}`);
-  const own = element("p", { class: "own" }, second ? swatch(0) : null, first.label);
+    element("p", {}, swatch(1), `against ${second.label}, ${second.title}: ${second.facts}`);
+  const own = element("p", {}, second ? swatch(0) : null, `${first.label}: ${first.facts}`);
   return element("header", {}, title, own, against);
 }
 
 /** A patch of the colour of a run. */
 export function swatch(run) {
   return element("span", { class: `swatch run-${run}`, "aria-hidden": "true" });
+}
+
+/** The name of a caveat in the page. */
+export const caveatName = (run, place) => `caveat-${run + 1}-${place + 1}`;
+
+/** What was seen in a run that spoils figures, numbered as the marks of the figures are. */
+function caveats(run, number, several) {
+  if (run.caveats.length === 0) return null;
+  const items = run.caveats.map((text, place) =>
+    element("li", { id: caveatName(number, place) }, text),
+  );
+  const whose = several ? ` of ${run.label}` : "";
+  const words = `Caveats${whose}: figures with ! are not to be quoted without them`;
+  return element(
+    "section",
+    { class: "note caveats", role: "note" },
+    element("h2", {}, words),
+    element("ol", {}, ...items),
+  );
 }
 
 function notes(run, several) {

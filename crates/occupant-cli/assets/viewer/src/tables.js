@@ -1,11 +1,52 @@
 // The run in numbers: measures against limits, contacts, energy, provenance, scenario.
 
 import { element, figures, milliseconds } from "./dom.js";
-import { swatch } from "./page.js";
+import { caveatName, swatch } from "./page.js";
 
 export function buildTables(root, runs, clock) {
-  root.append(measures(runs, clock), contacts(runs, clock), provenance(runs));
+  root.append(measures(runs, clock), provenance(runs));
   for (const run of runs) root.append(scenario(run, runs.length > 1));
+}
+
+/** Every measure that has a limit, with its verdict; the same limit of several rules once. */
+export function buildVerdicts(runs) {
+  const judged = runs[0].measures.filter((m) => m.limit !== null);
+  const cards = [];
+  for (const m of judged) {
+    const known = cards.find((card) => card.name === m.name && card.limit === m.limit);
+    if (known) known.rules.push(m.rule);
+    else cards.push({ ...m, rules: [m.rule] });
+  }
+  return element("section", { class: "verdicts", "aria-label": "Verdicts" }, ...cards.map(verdict));
+
+  function verdict(card) {
+    const own = runs.map((run, number) => {
+      const m = run.measures.find((other) => isSame(other, card));
+      if (!m) return null;
+      const value = [`${figures(m.value)} ${m.unit}`, ...marks(m, number)];
+      const sign = runs.length > 1 ? swatch(number) : null;
+      return element("b", { class: `verdict ${m.verdict}` }, sign, ...value);
+    });
+    const limit = `${card.verdict}, ≤ ${figures(card.limit)} of ${card.rules.join(", ")}`;
+    return element(
+      "div",
+      { class: `card ${card.verdict}` },
+      element("span", {}, card.name),
+      ...own,
+      element("small", {}, limit),
+    );
+  }
+}
+
+/** Marks of a figure, one for each caveat on it, which lead there. */
+function marks(m, run) {
+  return m.caveats.map((place) =>
+    element(
+      "a",
+      { class: "mark", href: `#${caveatName(run, place)}`, title: `caveat ${place + 1}` },
+      ` !${place + 1}`,
+    ),
+  );
 }
 
 function section(title, ...children) {
@@ -29,7 +70,7 @@ function table(head, rows) {
 
 /** A time that can be clicked to go there. */
 function timeCell(time, clock) {
-  if (time === null || time === undefined) return element("td", {}, "–");
+  if (time === null || time === undefined) return element("td", {});
   const button = element("button", { type: "button", class: "time-link" }, milliseconds(time));
   button.addEventListener("click", () => {
     clock.pause();
@@ -38,22 +79,17 @@ function timeCell(time, clock) {
   return element("td", { class: "number" }, button);
 }
 
+/** A table of each group, as many beside each other as there is room for. */
 function measures(runs, clock) {
   const keys = [];
   for (const m of runs.flatMap((run) => run.measures)) {
     if (!keys.some((key) => isSame(key, m))) keys.push(m);
   }
-  const head = ["Measure"];
-  for (const number of runs.keys()) {
-    head.push(runs.length > 1 ? [swatch(number), "value"] : "Value", "at", "limit", "verdict");
-  }
-  head.push("rule");
-  const rows = [];
-  for (const [i, key] of keys.entries()) {
-    if (i === 0 || key.group !== keys[i - 1].group) rows.push(groupRow(key.group, head.length));
-    rows.push(measureRow(key, runs, clock));
-  }
-  return section("Measures", table(head, rows));
+  const names = [...new Set(keys.map((key) => key.group))];
+  const groups = names.map((name) => group(name, keys, runs, clock));
+  const columns = runs.length > 1 ? "groups wide" : "groups";
+  const all = element("div", { class: columns }, ...groups, ...contacts(runs, clock));
+  return section("All measures", all);
 }
 
 /** Whether two rows tell of one measure against one rule. */
@@ -61,39 +97,62 @@ function isSame(a, b) {
   return a.group === b.group && a.name === b.name && a.rule === b.rule;
 }
 
-function groupRow(group, columns) {
-  const head = element("th", { colspan: columns, scope: "rowgroup" }, group);
-  return element("tr", { class: "group" }, head);
-}
-
-function measureRow(key, runs, clock) {
-  const remark = key.remark ? element("p", { class: "remark" }, key.remark) : null;
-  const name = element("th", { scope: "row" }, key.name, remark);
-  const cells = runs.flatMap((run) =>
-    measureCells(
-      run.measures.find((m) => isSame(key, m)),
-      clock,
-    ),
+/** The measures of a group, under the columns that are not empty. */
+function group(name, keys, runs, clock) {
+  const own = keys.filter((key) => key.group === name);
+  const rows = own.map((key) => runs.map((run) => run.measures.find((m) => isSame(key, m))));
+  const columns = COLUMNS.filter(
+    ({ field }) => !field || rows.flat().some((m) => m && m[field] !== null),
   );
-  return element("tr", {}, name, ...cells, element("td", {}, key.rule ?? ""));
+  const head = ["Measure"];
+  for (const number of runs.keys()) {
+    const names = columns.map((column) => column.head);
+    if (runs.length > 1) names[0] = [swatch(number), names[0]];
+    head.push(...names);
+  }
+  const isRuled = own.some((key) => key.rule !== null);
+  if (isRuled) head.push("rule");
+  const body = own.flatMap((key, i) => {
+    const cells = rows[i].flatMap((m, run) =>
+      columns.map((column) => (m ? column.cell(m, run, clock) : element("td", {}, "–"))),
+    );
+    const rule = isRuled ? element("td", {}, key.rule ?? "") : null;
+    const row = element("tr", {}, element("th", { scope: "row" }, key.name), ...cells, rule);
+    if (!key.remark) return [row];
+    row.classList.add("remarked");
+    const remark = element("td", { class: "remark", colspan: head.length }, key.remark);
+    return [row, element("tr", {}, remark)];
+  });
+  return element("section", {}, element("h3", {}, name), table(head, body));
 }
 
-function measureCells(m, clock) {
-  if (!m) return ["–", "–", "–", "–"].map((text) => element("td", {}, text));
-  const mark = m.is_marked ? " !" : "";
-  const value = m.value === null ? "–" : `${figures(m.value)} ${m.unit}${mark}`;
-  const limit = m.limit === null ? "–" : `≤ ${figures(m.limit)} ${m.unit}`;
-  const verdict = m.verdict ?? "–";
-  return [
-    element("td", { class: "number" }, value),
-    timeCell(m.time_s, clock),
-    element("td", { class: "number" }, limit),
-    element("td", { class: `verdict ${verdict}` }, verdict),
-  ];
+/** Columns of a run's measures; one without a value of its field in any row is left out. */
+const COLUMNS = [
+  { head: "value", cell: (m, run) => valueCell(m, run) },
+  { head: "at", field: "time_s", cell: (m, run, clock) => timeCell(m.time_s, clock) },
+  {
+    head: "limit",
+    field: "limit",
+    cell: (m) =>
+      element("td", { class: "number" }, m.limit === null ? "" : `≤ ${figures(m.limit)}`),
+  },
+  {
+    head: "verdict",
+    field: "verdict",
+    cell: (m) => element("td", { class: `verdict ${m.verdict}` }, m.verdict ?? ""),
+  },
+];
+
+function valueCell(m, run) {
+  // what rounds to nothing is nothing, but where a small part of something counts
+  const exact = m.unit === "" || m.unit === "%";
+  const value = m.value === null || exact ? m.value : Number(m.value.toFixed(3));
+  const text = value === null ? "–" : `${figures(value)} ${m.unit}`;
+  return element("td", { class: "number" }, text, ...marks(m, run));
 }
 
 function contacts(runs, clock) {
-  const lists = runs.map((run, number) => {
+  return runs.map((run, number) => {
     const rows = run.first_contacts.map((c) =>
       element(
         "tr",
@@ -108,15 +167,13 @@ function contacts(runs, clock) {
         ),
       ),
     );
-    const parts = [];
-    if (runs.length > 1) parts.push(element("h3", {}, swatch(number), run.label));
+    const whose =
+      runs.length > 1 ? [swatch(number), `First contacts of ${run.label}`] : ["First contacts"];
     const none = element("p", {}, "Nothing touched anything.");
-    parts.push(
-      rows.length > 0 ? table(["Time", "Sphere", "Surface", "Closing speed"], rows) : none,
-    );
-    return element("div", {}, ...parts);
+    const list =
+      rows.length > 0 ? table(["Time", "Sphere", "Surface", "Closing speed"], rows) : none;
+    return element("section", {}, element("h3", {}, ...whose), list);
   });
-  return section("First contacts", element("div", { class: "columns" }, ...lists));
 }
 
 function provenance(runs) {
@@ -134,11 +191,15 @@ function provenance(runs) {
     "",
     ...runs.map((run, number) => (runs.length > 1 ? [swatch(number), run.label] : run.label)),
   ];
-  return section("Where it comes from", table(head, rows));
+  return folded("Where it comes from", table(head, rows));
 }
 
 function scenario(run, several) {
   const title = several ? `Scenario of ${run.label}` : "Scenario";
   const text = element("pre", { tabindex: "0" }, run.scenario);
-  return element("details", { class: "scenario" }, element("summary", {}, title), text);
+  return folded(title, text);
+}
+
+function folded(title, ...children) {
+  return element("details", { class: "scenario" }, element("summary", {}, title), ...children);
 }

@@ -35,13 +35,13 @@ pub(crate) struct EnsembleArgs {
     #[arg(long, value_name = "N", requires = "ensemble")]
     threads: Option<NonZeroUsize>,
 
-    /// How far the members are changed: posture='1 deg', place='5 mm', path='1 %', stiffness='2 %' if absent; also
-    /// segments='15 %', mass and inertia of each of the body. May be repeated
+    /// How far the members are changed: posture='1 deg', place='5 mm', path=1%, stiffness=2% if absent; also
+    /// segments=15%, mass and inertia of each of the body. May be repeated
     #[arg(long, value_name = "WHAT=AMOUNT", requires = "ensemble")]
     change: Vec<String>,
 
-    /// A figure is stable if the middle 90 % of the members lie within this part of the median
-    #[arg(long, value_name = "PART", default_value = "10 %", requires = "ensemble")]
+    /// A figure is stable if the middle 90% of the members lie within this part of the median
+    #[arg(long, value_name = "PART", default_value = "10%", requires = "ensemble")]
     stable_within: String,
 
     /// Write the bands over time: NAME.csv or NAME.parquet for numbers, NAME.svg or NAME.png for a picture; may be repeated

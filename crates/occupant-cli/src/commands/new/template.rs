@@ -24,6 +24,8 @@ pub(super) enum Template {
     Pedestrian,
     /// A belted driver in a crash that sensors in the car have recorded
     Sensors,
+    /// A study of my-case.toml: what is varied, and between which ends
+    Study,
 }
 
 /// Sections and the comments before them.
@@ -48,6 +50,15 @@ impl Template {
             Template::Sled => include_str!("sled.toml").to_owned(),
             Template::Pedestrian => include_str!("pedestrian.toml").to_owned(),
             Template::Sensors => changed(driver, include_str!("sensors.toml")),
+            Template::Study => include_str!("study.toml").to_owned(),
+        }
+    }
+
+    /// What one does next with a file of this name.
+    pub(super) fn next(self, name: &str) -> String {
+        match self {
+            Template::Study => format!("occupant sweep {name} --dry-run\n      occupant sweep {name}"),
+            _ => format!("occupant check {name}\n      occupant run {name}"),
         }
     }
 }

@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use crate::base::{Existing, Failure, FileProblem, deliver, is_page, print, say};
-use crate::jobs::study::{Report, Tables, matrix_text, page, write_tables};
+use crate::jobs::study::{Report, Tables, matrix_text, page, subject, write_tables};
 use crate::jobs::sweep::stored::{MadeBy, open};
+use crate::pictures::html::is_page_of;
 
 /// Make a page of a study: what matters, how much, how sure that is, and the command that runs each worst case again
 ///
@@ -16,7 +17,7 @@ pub(crate) struct ReportArgs {
     #[arg(value_name = "FOLDER", required = true)]
     folders: Vec<PathBuf>,
 
-    /// The page; FOLDER/report.html if absent
+    /// The page; FOLDER/report.html if absent, where an earlier report of the same study is replaced with its tables
     #[arg(short, long, value_name = "FILE.html")]
     output: Option<PathBuf>,
 
@@ -37,19 +38,25 @@ pub(crate) fn report(args: &ReportArgs) -> Result<(), Failure> {
     let page_at = args.output.clone().unwrap_or_else(|| first.join("report.html"));
     let tables = Tables::beside(&page_at);
     let opened = open(&args.folders, MadeBy::AnyProgram)?;
-    refuse(&page_at, &tables, args)?;
+    refuse_names(&page_at, &tables, args)?;
     let report = Report::of(opened, &args.to)?;
+    let force = args.force || (args.output.is_none() && is_page_of(&page_at, &subject(&report)));
+    if !force {
+        refuse_there(&page_at, &tables)?;
+    } else if !args.force {
+        say(&format!("{} is an earlier report of this study and is replaced; -o keeps both", page_at.display()));
+    }
     for note in &report.notes {
         say(note);
     }
-    let existing = Existing::by(args.force);
+    let existing = Existing::by(force);
     write_tables(&report, &tables, existing)?;
     print(&matrix_text(&report))?;
-    deliver(&page_at, args.force, page(&report).as_bytes())
+    deliver(&page_at, force, page(&report).as_bytes())
 }
 
-/// Refuses names that are no page, files of the sweep itself, and files that are there.
-fn refuse(page: &Path, tables: &Tables, args: &ReportArgs) -> Result<(), Failure> {
+/// Refuses names that are no page, and files of the sweep itself.
+fn refuse_names(page: &Path, tables: &Tables, args: &ReportArgs) -> Result<(), Failure> {
     if !is_page(page) {
         return Err(Failure::with_help(
             format!("{} has not the ending of a page", page.display()),
@@ -67,14 +74,13 @@ fn refuse(page: &Path, tables: &Tables, args: &ReportArgs) -> Result<(), Failure
             "give the page another name",
         ));
     }
-    let there = [page, &tables.numbers, &tables.samples];
-    match there.into_iter().find(|p| p.exists()) {
-        Some(path) if !args.force => {
-            let path = path.to_owned();
-            Err(Failure::plain(FileProblem::Exists { path }.to_string()))
-        }
-        _ => Ok(()),
-    }
+    Ok(())
+}
+
+/// Refuses files that are there.
+fn refuse_there(page: &Path, tables: &Tables) -> Result<(), Failure> {
+    let there = [page, &tables.numbers, &tables.samples].into_iter().find(|path| path.exists());
+    there.map_or(Ok(()), |path| Err(FileProblem::Exists { path: path.to_owned() }.into()))
 }
 
 /// Whether two names lead to the same place, files that are not there yet included.

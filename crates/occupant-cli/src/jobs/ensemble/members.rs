@@ -72,7 +72,10 @@ impl Members<'_> {
         self.bar.finish_and_clear();
         ended?;
         if self.interrupt.is_asked() {
-            return Err(Failure::broke_off("the ensemble was interrupted"));
+            let (done, all) = (members.len(), self.runs.end - self.runs.start);
+            return Err(Failure::broke_off(format!(
+                "the ensemble was interrupted after {done} of {all} members, which say nothing alone"
+            )));
         }
         members.sort_unstable_by_key(|(number, _)| *number);
         Ok(members.into_iter().map(|(_, member)| member).collect())

@@ -72,6 +72,7 @@ impl<'a> Evaluator<'a> {
             known.insert(row.index, row);
             Ok(())
         })?;
+        let progress = progress.from(known.len() as u64 / fitting.experiments.len() as u64);
         Ok(Evaluator {
             fitting,
             engine,

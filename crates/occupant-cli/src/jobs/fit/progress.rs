@@ -5,7 +5,7 @@ use std::time::Duration;
 use occupant_study::search::Stage;
 
 use super::{Record, WORST};
-use crate::base::progress::{Runs, counted};
+use crate::base::progress::Runs;
 
 /// At most a line so often where there is no terminal, stages apart.
 const LINE_EVERY: Duration = Duration::from_secs(2);
@@ -24,8 +24,13 @@ pub(crate) struct Progress {
 impl Progress {
     /// Of a search of so many evaluations.
     pub(crate) fn new(budget: u64, quiet: bool) -> Self {
-        let runs = Runs::new(budget, &counted("evaluations"), LINE_EVERY, quiet);
+        let runs = Runs::new(budget, "evaluations", LINE_EVERY, quiet);
         Progress { runs, budget, evaluations: 0, best: f64::INFINITY, said: f64::INFINITY, stage: "" }
+    }
+
+    /// So many evaluations were there before.
+    pub(crate) fn from(self, before: u64) -> Self {
+        Progress { runs: self.runs.from(before), ..self }
     }
 
     /// What a batch came to.
@@ -44,7 +49,8 @@ impl Progress {
             self.runs.say(&format!("base scenario: {}", score(least)));
         } else {
             if name != self.stage || (self.best < self.said && self.runs.is_line_due()) {
-                self.runs.say(&format!("{} evaluations, {words}: {}", self.evaluations, score(self.best)));
+                let far = self.runs.words(self.evaluations);
+                self.runs.say(&format!("{far}, {words}: {}", score(self.best)));
                 self.said = self.best;
             }
             self.stage = name;

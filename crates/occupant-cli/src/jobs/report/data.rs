@@ -26,6 +26,12 @@ pub(crate) struct Report {
 }
 
 impl Report {
+    /// What the page is of, by the names of its files.
+    pub(crate) fn subject(&self) -> String {
+        let labels: Vec<&str> = self.runs.iter().map(|run| run.label.as_str()).collect();
+        subject(&labels)
+    }
+
     /// The title of the page.
     pub(crate) fn title(&self) -> String {
         let titles = self.runs.iter().map(|run| match run.title.as_str() {
@@ -36,12 +42,21 @@ impl Report {
     }
 }
 
+/// What a page of runs of these names is of.
+pub(crate) fn subject(labels: &[&str]) -> String {
+    format!("Report of {}", labels.join(" against "))
+}
+
 #[derive(Debug, Serialize)]
 pub(crate) struct Run {
     label: String,
     title: String,
+    /// The run in a line.
+    facts: String,
     /// What a reader should know before trusting the results.
     notes: Vec<String>,
+    /// What was seen that spoils figures; rows of measures count them from 0.
+    caveats: Vec<String>,
     times: Array,
     segments: Vec<String>,
     parts: Vec<PartData>,
@@ -97,12 +112,13 @@ impl Run {
         times.float64(&series.time_s);
         let summary = results.summary()?;
         let mut notes = results.notes();
-        notes.extend(summary.caveats.iter().map(|caveat| caveat.text.clone()));
         notes.extend(model.warnings().iter().map(|w| w.to_string()));
         Ok(Run {
             label: file_name(&results.path),
             title: model.setup().title.clone(),
+            facts: provenance::facts(results, &summary),
             notes,
+            caveats: summary.caveats.iter().map(|caveat| caveat.text.clone()).collect(),
             times,
             segments: model.body().tree.segment_rows().iter().map(|row| row.name.replace('_', " ")).collect(),
             parts: parts(model.body()).iter().map(PartData::of).collect(),

@@ -23,8 +23,8 @@ pub(crate) struct Measure {
     verdict: Option<&'static str>,
     /// Why there is no value, or what to know of it.
     remark: Option<String>,
-    /// Whether a caveat touches it.
-    is_marked: bool,
+    /// The caveats that touch it, by their places in the list.
+    caveats: Vec<usize>,
     /// The name that caveats know it by.
     #[serde(skip)]
     figure: String,
@@ -35,14 +35,10 @@ impl Measure {
         Measure { group, name: name.into(), figure: figure.into(), unit: unit.symbol(), ..Measure::default() }
     }
 
-    /// With the caveats on it as the first remarks.
-    fn judged(mut self, caveats: &[Caveat]) -> Self {
-        let touching: Vec<_> = caveats.iter().filter(|caveat| caveat.touches(&self.figure)).collect();
-        self.is_marked = !touching.is_empty();
-        let remarks = touching.iter().map(|caveat| caveat.text.as_str()).chain(self.remark.as_deref());
-        let remarks: Vec<_> = remarks.collect();
-        self.remark = (!remarks.is_empty()).then(|| remarks.join("; "));
-        self
+    /// With the caveats on it.
+    fn judged(self, caveats: &[Caveat]) -> Self {
+        let touching = caveats.iter().enumerate().filter(|(_, caveat)| caveat.touches(&self.figure));
+        Measure { caveats: touching.map(|(place, _)| place).collect(), ..self }
     }
 }
 
@@ -60,7 +56,7 @@ pub(crate) fn measures(summary: &Summary) -> Vec<Measure> {
     add_loads(&mut rows, summary);
     add_excursion(&mut rows, summary);
     let energy = &summary.energy;
-    let group = "Energy balance and work of the integrator";
+    let group = "Energy";
     let mut add = |name: &str, figure: &str, value: f64, unit| {
         rows.push(Measure { value: Some(value), ..Measure::new(group, name, figure, unit) });
     };
@@ -69,8 +65,6 @@ pub(crate) fn measures(summary: &Summary) -> Vec<Measure> {
     add(&imbalance, "energy.balance_error", 100.0 * energy.balance_error, percent);
     let kinetic = "Greatest kinetic energy, in the vehicle";
     add(kinetic, "energy.greatest_kinetic", energy.greatest_kinetic_j, Unit::Joule.shown());
-    add("Steps", "solver.steps", summary.solver.steps as f64, Unit::One.shown());
-    add("Steps rejected", "solver.rejected", summary.solver.rejected as f64, Unit::One.shown());
     rows.into_iter().map(|row| row.judged(&summary.caveats)).collect()
 }
 
@@ -123,18 +117,24 @@ fn load(name: String, figure: String, force_n: Option<f64>, time_s: Option<f64>)
     Measure { value, time_s, ..Measure::new("Loads", name, figure, unit) }
 }
 
-/// Peak forces of force elements whose times are known: `Belt lap, loop force`.
+/// Peaks of force elements that were reached at a time: `Belt lap, loop force`, `Joint neck, stop moment`.
 fn element_rows(list: &str, table: &Table) -> impl Iterator<Item = Measure> {
     let of = table.columns[0].heading;
     let of = of[..1].to_uppercase() + &of[1..];
     let peaks = table.columns.windows(2).filter(|both| both[1].holds == Holds::Time);
-    let all = peaks.flat_map(|peak| table.rows.iter().map(move |row| (peak, row)));
-    all.map(move |(peak, row)| {
-        let what = peak[0].heading.split(',').next().unwrap_or_default();
+    let all = peaks.flat_map(|peak| table.rows.iter().map(move |row| (&peak[0], &peak[1], row)));
+    all.filter_map(move |(peak, time, row)| {
+        let time_s = row[time.key].number()?;
+        let (what, unit) = peak.heading.rsplit_once(", ").unwrap_or((peak.heading, ""));
         let element = row[0].text().unwrap_or_default();
-        let measure = peak[0].measure.map_or(peak[0].key, |(measure, _)| measure);
-        let figure = format!("{list}.{}.{measure}", word(element));
-        load(format!("{of} {element}, {what}"), figure, row[peak[0].key].number(), row[peak[1].key].number())
+        let name = format!("{of} {element}, {what}");
+        let figure = format!("{list}.{}.{}", word(element), peak.measure.map_or(peak.key, |(measure, _)| measure));
+        let value = row[peak.key].number();
+        if unit == "N" {
+            return Some(load(name, figure, value, Some(time_s)));
+        }
+        let own = Measure::new("Loads", name, figure, Unit::One.shown());
+        Some(Measure { value: value.map(|x| x * peak.scale), time_s: Some(time_s), unit: unit.to_owned(), ..own })
     })
 }
 

@@ -14,7 +14,7 @@ mod provenance;
 use crate::base::{Failure, program};
 use crate::files::results::Results;
 
-pub(crate) use data::Report;
+pub(crate) use data::{Report, subject};
 
 /// The page for a run, or for a run and another to compare it with.
 ///

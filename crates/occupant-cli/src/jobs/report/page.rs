@@ -3,6 +3,7 @@
 
 use super::data::Report;
 use crate::base::Failure;
+use crate::pictures::html::about;
 use crate::pictures::svg::escape;
 
 const PAGE: &str = include_str!("../../../assets/viewer/src/page.html");
@@ -18,7 +19,7 @@ pub(crate) fn fill(report: &Report) -> Result<String, Failure> {
     let data =
         serde_json::to_string(report).map_err(|e| Failure::plain(format!("the report's data are not JSON: {e}")))?;
     let parts = [
-        ("program", escape(&report.program)),
+        ("about", about(&report.subject())),
         ("title", escape(&report.title())),
         ("style", STYLE.trim_end().to_owned()),
         ("data", harmless(&data)),

@@ -4,6 +4,23 @@ use occupant_core::results::summary::{RunStatus, Summary};
 
 use crate::files::results::Results;
 
+/// The run in a line: how far it went, whose body it is, and what its integration is worth.
+pub(crate) fn facts(results: &Results, summary: &Summary) -> String {
+    let body = results.run.get("body").map_or("a body", String::as_str);
+    let energy = &summary.energy;
+    format!(
+        "{:.1} to {:.1} ms; {}, {:.1} kg; {}, {} steps, energy balance off by {:.1e} of the {}",
+        summary.start_s * 1e3,
+        summary.reached_s * 1e3,
+        body,
+        results.model.setup().body.mass_kg(),
+        summary.solver.integrator,
+        summary.solver.steps,
+        energy.balance_error,
+        energy.reference
+    )
+}
+
 /// Key and value, in order.
 pub(crate) fn lines(results: &Results, summary: &Summary) -> Vec<[String; 2]> {
     let mut lines = Vec::new();
@@ -16,6 +33,10 @@ pub(crate) fn lines(results: &Results, summary: &Summary) -> Vec<[String; 2]> {
     let reason = summary.reason.as_ref().map(|r| format!(": {r}"));
     put("status", format!("{status}{}", reason.unwrap_or_default()));
     put("reached", format!("{} s of {} s", summary.reached_s, summary.end_s));
+    put("steps", summary.solver.steps.to_string());
+    if summary.solver.rejected > 0 {
+        put("steps rejected", summary.solver.rejected.to_string());
+    }
     put("outputs", results.checkpoints.len().to_string());
     put("results", results.path.display().to_string());
     put("results, SHA-256", results.sha256.clone());

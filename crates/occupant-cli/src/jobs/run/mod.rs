@@ -1,6 +1,7 @@
 //! One run: the file that it writes, the file that it resumes, and who watches it. The integration itself is the core's.
 
 mod difference;
+pub(crate) mod earlier;
 pub(crate) mod estimate;
 pub(crate) mod recording;
 pub(crate) mod resume;

@@ -138,8 +138,11 @@ pub(crate) fn of_the_study(opened: &Stored, gathered: &Gathered) -> Vec<String> 
             ends.finished()
         ));
     }
-    let caveat = |line| format!("Caveat {line}: `occupant run` of it says what was seen and which figures it spoils.");
-    notes.extend(ends.caveats().map(caveat));
+    let caveats: Vec<String> = ends.caveats().collect();
+    if !caveats.is_empty() {
+        let help = "`occupant run` of such a run says what was seen and which figures it spoils.";
+        notes.push(format!("Caveats. {}. {help}", caveats.join("; ")));
+    }
     let study = &opened.plan.study;
     if !matches!(study.design, Design::Saltelli { .. } | Design::Morris { .. } | Design::OneAtATime { .. }) {
         notes.extend(together(&gathered.samples));

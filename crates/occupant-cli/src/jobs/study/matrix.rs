@@ -5,6 +5,7 @@ use super::{ByDesign, Finding, Report};
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table};
 use crate::pictures::html::{Cell, Html};
+use crate::pictures::svg::escape;
 
 /// At most so many measures stand in the matrix.
 const MOST: usize = 12;
@@ -50,8 +51,18 @@ pub(super) fn section(html: &mut Html, report: &Report) {
         return;
     }
     html.text("h2", "What matters for what");
-    html.text("p class=\"remark\"", &format!("In each cell {}.", telling(first).1));
-    let heads: Vec<&str> = std::iter::once("parameter").chain(told.iter().map(|(_, head)| head.as_str())).collect();
+    let words = "A measure leads to what stands of it below. † is not to be relied on, its tip says why.";
+    html.text("p class=\"remark\"", &format!("In each cell of a parameter {}. {words}", telling(first).1));
+    let link = |(of, head): &(Finding<'_>, String)| {
+        format!("<a href=\"#r{}\">{}</a>", of.analysis.response, breakable(&escape(head)))
+    };
+    let heads: Vec<String> = std::iter::once("parameter".to_owned()).chain(told.iter().map(link)).collect();
+    let spread = ["median", "q05", "q95"].map(|quantity| {
+        let name = quantity.replace("q05", "5 %").replace("q95", "95 %");
+        let cells = told.iter().filter_map(|(of, _)| of.numbers.iter().find(|n| n.quantity == quantity).zip(Some(of)));
+        let cells = cells.map(|(n, of)| Cell::of(shown(n.estimate.value, &of.response.unit), n.mark.clone()));
+        std::iter::once(Cell::Words(name)).chain(cells).collect()
+    });
     let row = |i: usize| {
         let cells = told.iter().map(|(of, _)| match cell(of, i) {
             Some((text, mark)) => Cell::of(text, mark),
@@ -59,7 +70,12 @@ pub(super) fn section(html: &mut Html, report: &Report) {
         });
         std::iter::once(Cell::Words(inputs[i].name.clone())).chain(cells).collect()
     };
-    html.table(&heads, &(0..inputs.len()).map(row).collect::<Vec<_>>());
+    html.table_under(&heads, &spread.into_iter().chain((0..inputs.len()).map(row)).collect::<Vec<_>>());
+}
+
+/// A name that a narrow column may break behind its points and underscores.
+fn breakable(name: &str) -> String {
+    name.replace('.', ".<wbr>").replace('_', "_<wbr>")
 }
 
 /// The matrix as a text; empty where nothing can be told.

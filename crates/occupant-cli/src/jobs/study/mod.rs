@@ -23,7 +23,7 @@ mod shown;
 mod tables;
 
 pub(crate) use matrix::text as matrix_text;
-pub(crate) use page::page;
+pub(crate) use page::{page, subject};
 pub(crate) use tables::{Tables, write as write_tables};
 
 use crate::base::Failure;

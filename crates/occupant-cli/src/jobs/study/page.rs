@@ -1,14 +1,17 @@
 //! The page: one HTML file that needs no network and no script.
 
-use super::shown::shown_unit;
 use super::{Report, caution, matrix, matters, sections};
 use crate::base::program;
-use crate::pictures::html::Html;
-use crate::pictures::svg::escape;
+use crate::pictures::html::{Html, about as about_page};
 
 /// The look of the report of a run, and what this page adds to it.
 const STYLE: &str = include_str!("../../../assets/viewer/dist/viewer.css");
 const OWN_STYLE: &str = include_str!("../../../assets/study/study.css");
+
+/// What the page is of.
+pub(crate) fn subject(report: &Report) -> String {
+    format!("Report of the study {}", report.opened.manifest.title)
+}
 
 /// The whole file.
 pub(crate) fn page(report: &Report) -> String {
@@ -19,7 +22,7 @@ pub(crate) fn page(report: &Report) -> String {
     let mut html = Html::default();
     html.raw("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
     html.raw("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
-    html.raw(&format!("<meta name=\"generator\" content=\"{}\">\n", escape(&program())));
+    html.raw(&format!("{}\n", about_page(&subject(report))));
     html.raw(
         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n",
     );
@@ -33,18 +36,17 @@ pub(crate) fn page(report: &Report) -> String {
     for note in &report.notes {
         html.text("p class=\"note\"", note);
     }
-    contents(&mut html, report);
+    matrix::section(&mut html, report);
     html.raw("<div class=\"pair\"><div>\n");
     sections::study(&mut html, report);
     html.raw("</div><div>\n");
     sections::ends(&mut html, report);
     html.raw("</div></div>\n");
-    matrix::section(&mut html, report);
     sections::varied(&mut html, report);
     if ends.finished() == 0 {
         html.text("p class=\"note\"", "No run has finished yet: there is nothing to say.");
-    }
-    if ends.finished() > 0 {
+    } else {
+        html.text("h2", "Measure by measure");
         report.findings().for_each(|finding| sections::response(&mut html, &finding));
     }
     about(&mut html, report);
@@ -52,27 +54,10 @@ pub(crate) fn page(report: &Report) -> String {
     html.finish()
 }
 
-fn contents(html: &mut Html, report: &Report) {
-    if report.gathered.ends.finished() == 0 || report.analyses.len() < 2 {
-        return;
-    }
-    html.raw("<nav>");
-    for finding in report.findings() {
-        let unit = shown_unit(&finding.response.unit).1;
-        html.raw(&format!(
-            "<a href=\"#r{}\" title=\"{}\">{}</a> ",
-            finding.analysis.response,
-            escape(unit),
-            escape(&finding.response.name)
-        ));
-    }
-    html.raw("</nav>\n");
-}
-
 /// How to read it, and where it comes from.
 fn about(html: &mut Html, report: &Report) {
     let opened = &report.opened;
-    html.text("h2", "How to read it");
+    html.fold("How to read it");
     html.text(
         "p",
         "A number with † should not be relied on; the reason stands in its tip and in the table beside the page (.parquet). Marked are:",
@@ -89,7 +74,8 @@ fn about(html: &mut Html, report: &Report) {
          Intervals hold 95 %: by bootstrap, those of rank correlations by Fisher’s z. The runs of Saltelli’s blocks A and B \
          count in correlation and regression; with an ensemble a sample counts once, with the median of its members.",
     );
-    html.text("h2", "Where it comes from");
+    html.unfold();
+    html.fold("Where it comes from");
     let mut facts = vec![
         ("runs made by", opened.manifest.program.clone()),
         ("report made by", program()),
@@ -99,4 +85,5 @@ fn about(html: &mut Html, report: &Report) {
         facts.push(("text", format!("{}, SHA-256 {}", text.name, text.sha256)));
     }
     html.facts(&facts);
+    html.unfold();
 }

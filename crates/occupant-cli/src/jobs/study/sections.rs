@@ -34,7 +34,7 @@ pub(crate) fn varied(html: &mut Html, report: &Report) {
     if study.parameters.is_empty() {
         return;
     }
-    html.text("h2", "What is varied");
+    html.fold("What is varied");
     let rows = study.parameters.iter().map(|p| {
         vec![
             Cell::Words(p.name.clone()),
@@ -45,6 +45,7 @@ pub(crate) fn varied(html: &mut Html, report: &Report) {
     });
     let head = ["parameter", "values", "in the base", "where"];
     html.table(&head, &rows.collect::<Vec<_>>());
+    html.unfold();
 }
 
 /// How the runs ended.
@@ -81,23 +82,30 @@ pub(crate) fn ends(html: &mut Html, report: &Report) {
     html.table(&["runs", "first", "reason"], &rows);
 }
 
+/// What stands of a response, folded under a line with its middle and its range. A link to the section unfolds it.
 pub(crate) fn response(html: &mut Html, of: &Finding<'_>) {
     let heading = match shown_unit(&of.response.unit).1 {
         "" => of.response.name.clone(),
         unit => format!("{}, {unit}", of.response.name),
     };
+    let value = |x: f64| shown(x, &of.response.unit);
+    let range = of.analysis.spread.map_or_else(
+        || "no sample has it".to_owned(),
+        |s| format!("median {}, 5 to 95 %: {} … {}", value(s.median), value(s.q05), value(s.q95)),
+    );
+    html.fold(&format!("{heading}: {range}"));
     html.raw(&format!("<section id=\"r{}\">\n", of.analysis.response));
-    html.text("h2", &heading);
     spread(html, of);
     if of.analysis.spread.is_some() && !of.analysis.constant {
         matters::by_design(html, of);
         matters::linear(html, of);
-        html.raw("<details>\n<summary>Pictures over the parameters</summary>\n");
+        html.fold("Pictures over the parameters");
         pictures::pictures(html, of);
-        html.raw("</details>\n");
+        html.unfold();
     }
     extremes(html, of);
     html.raw("</section>\n");
+    html.unfold();
 }
 
 fn spread(html: &mut Html, of: &Finding<'_>) {
@@ -141,10 +149,11 @@ fn extremes(html: &mut Html, of: &Finding<'_>) {
         let word = if number.quantity == "worst" { "greatest" } else { "least" };
         let value = with_unit(number.estimate.value, &of.response.unit);
         let mark = number.mark.as_ref().map(|why| format!(" †: {why}")).unwrap_or_default();
-        html.text("p class=\"run\"", &format!("Run {}, {word}: {value}{mark}", run.number));
+        html.fold(&format!("Run {}, {word}: {value}{mark}", run.number));
         match &run.command {
             Some(command) => html.text("pre class=\"command\"", command),
             None => html.text("p class=\"remark\"", "No shell command can say its values."),
         }
+        html.unfold();
     }
 }
