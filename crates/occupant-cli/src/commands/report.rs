@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::base::{Failure, deliver_and, is_page, note, refuse_input};
+use crate::base::{Failure, UnitsArg, deliver_and, is_page, note, refuse_input};
 use crate::files::results::Results;
 use crate::jobs::report::page;
 
@@ -18,6 +18,9 @@ pub(crate) struct Args {
     /// The page; RUN.html beside the run if absent
     #[arg(short, long, value_name = "FILE.html")]
     output: Option<PathBuf>,
+
+    #[command(flatten)]
+    units: UnitsArg,
 
     /// Replace a file that exists
     #[arg(short, long)]
@@ -43,5 +46,10 @@ pub(crate) fn report(args: &Args) -> Result<(), Failure> {
     let run = Results::open(&args.run)?;
     let against = args.against.as_deref().map(Results::open).transpose()?;
     std::iter::once(&run).chain(&against).flat_map(Results::notes).for_each(|text| note(&text));
-    deliver_and(args.open, &output, args.force, page(&run, against.as_ref())?.as_bytes())
+    deliver_and(
+        args.open,
+        &output,
+        args.force,
+        page(&run, against.as_ref(), args.units.or(run.loaded.scenario.units))?.as_bytes(),
+    )
 }

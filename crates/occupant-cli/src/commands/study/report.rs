@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::base::{Existing, Failure, FileProblem, deliver, is_page, print, say};
+use crate::base::{Existing, Failure, FileProblem, UnitsArg, deliver, is_page, print, say};
 use crate::jobs::study::{Report, Tables, matrix_text, page, write_tables};
 use crate::jobs::sweep::stored::{MadeBy, open};
 
@@ -24,6 +24,9 @@ pub(crate) struct ReportArgs {
     #[arg(short, long)]
     force: bool,
 
+    #[command(flatten)]
+    units: UnitsArg,
+
     /// Figures to report on, such as hic15,belts.*.peak; those of head, chest, pelvis and belts that vary if absent
     #[arg(long, value_name = "FIGURES", value_delimiter = ',')]
     to: Vec<String>,
@@ -38,7 +41,8 @@ pub(crate) fn report(args: &ReportArgs) -> Result<(), Failure> {
     let tables = Tables::beside(&page_at);
     let opened = open(&args.folders, MadeBy::AnyProgram)?;
     refuse(&page_at, &tables, args)?;
-    let report = Report::of(opened, &args.to)?;
+    let units = args.units.or(Some(opened.plan.study.base.units()));
+    let report = Report::of(opened, &args.to, units)?;
     for note in &report.notes {
         say(note);
     }
