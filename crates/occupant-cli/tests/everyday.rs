@@ -156,6 +156,11 @@ fn a_study_in_place_of_a_scenario_is_told_apart() {
             "{said}"
         );
     }
+    let said = err(&answer(folder.path(), &["sweep", "case.toml"]));
+    assert!(said.starts_with("error: case.toml is a scenario, not a study") && said.contains("occupant run"), "{said}");
+    fs::write(folder.path().join("case.mcap"), "x").unwrap();
+    let said = err(&answer(folder.path(), &["run", "case.mcap"]));
+    assert!(said.starts_with("error: case.mcap is what a run has written"), "{said}");
 }
 
 #[test]
@@ -249,4 +254,105 @@ fn a_scene_moves_as_the_run_does() {
     let expected: f64 = csv.lines().last().unwrap().split(',').nth(1).unwrap().parse().unwrap();
     assert!((f64::from(last_x) - expected).abs() < 1e-5, "{last_x} and {expected}");
     assert!(err(&answer(here, &["export", "case.mcap", "-o", "y.glb", "--channels", "head.*"])).contains("--channels"));
+}
+
+/// The number in so many-th place behind the beginning of a line.
+fn told(text: &str, line: &str, place: usize) -> f64 {
+    let found = text.lines().find(|own| own.starts_with(line)).unwrap_or_else(|| panic!("no {line} in\n{text}"));
+    let word = found[line.len()..].split_whitespace().nth(place).unwrap();
+    word.trim_end_matches(['!', '*']).parse().unwrap_or_else(|_| panic!("{word} in {found}"))
+}
+
+#[test]
+fn units_are_those_of_the_scenario_or_those_asked_for() {
+    let folder = folder_with(STUDY);
+    let here = folder.path();
+    let si = done(here, &["run", "case.toml", "--set", "time.end=60 ms"]);
+    let inches = |words: &[&str]| done(here, &[words, &["--units", "inch-pound"]].concat());
+    let again = inches(&["run", "case.toml", "-f", "--set", "time.end=60 ms"]);
+    assert!(again.contains("loop force, lbf") && !again.contains("depth, mm"), "{again}");
+    let [n, lbf] = [&si, &again].map(|text| told(text, "lap ", 0));
+    assert!(n > 100.0 && (n / 4.448_221_6 - lbf).abs() < 0.62, "{n} N, {lbf} lbf");
+    let measures = ["measures", "case.mcap"];
+    let [n, lbf] = [done(here, &measures), inches(&measures)].map(|text| told(&text, "neck tension", 0));
+    assert!((n / 4.448_221_6 - lbf).abs() < 0.62, "{n} N, {lbf} lbf");
+    let json = |words: &[&str]| done(here, &[words, &["--json"]].concat());
+    assert_eq!(json(&measures), json(&["measures", "case.mcap", "--units", "in-lbf-s"]));
+    let checked = inches(&["check", "case.toml"]);
+    for words in ["31.069 mph at the start", "mass, lb", "length, in", "1.00000 g", "force, lbf"] {
+        assert!(checked.contains(words), "{words}: {checked}");
+    }
+    done(here, &["sweep", "study.toml", "-o", "out"]);
+    let sweep = inches(&["sweep", "study.toml", "-o", "again"]);
+    assert!(sweep.contains(" lbf") && !sweep.contains(" N\n"), "{sweep}");
+    inches(&["report", "case.mcap", "-o", "page.html"]);
+    let page = fs::read_to_string(here.join("page.html")).unwrap();
+    assert!(page.contains("\"unit\":\"lbf\"") && !page.contains("\"unit\":\"kN\""));
+    for (words, speed, others) in [(&[][..], "km/h", "forward, mm"), (&["--units", "inch-pound"], "mph", "forward, in")]
+    {
+        done(here, &[&["study", "report", "out", "-f"], words].concat());
+        let page = fs::read_to_string(here.join("out/report.html")).unwrap();
+        assert!(page.contains(speed) && page.contains("g</h2>") && page.contains(others), "{speed}, {others}");
+    }
+}
+
+/// What a value has that a schema does not tell, by its path.
+fn untold(all: &serde_json::Value, schema: &serde_json::Value, value: &serde_json::Value, at: &str) -> Vec<String> {
+    let schema = match schema["$ref"].as_str() {
+        Some(name) => &all["$defs"][name.rsplit('/').next().unwrap()],
+        None => schema["anyOf"].get(0).filter(|_| !value.is_null()).unwrap_or(schema),
+    };
+    if let Some(name) = schema["$ref"].as_str() {
+        return untold(all, &all["$defs"][name.rsplit('/').next().unwrap()], value, at);
+    }
+    let is = match value {
+        serde_json::Value::Null => "null",
+        serde_json::Value::Bool(_) => "boolean",
+        serde_json::Value::Number(n) if n.is_f64() => "number",
+        serde_json::Value::Number(_) => "integer",
+        serde_json::Value::String(_) => "string",
+        serde_json::Value::Array(_) => "array",
+        serde_json::Value::Object(_) => "object",
+    };
+    let of = schema["type"].to_string();
+    let fits = schema["type"].is_null() || of.contains(is) || (is == "integer" && of.contains("number"));
+    let mut found = if fits { Vec::new() } else { vec![format!("{at} is {is} and not {of}")] };
+    for (key, value) in value.as_object().into_iter().flatten() {
+        let own = schema["properties"]
+            .get(key)
+            .or_else(|| schema["additionalProperties"].as_object().map(|_| &schema["additionalProperties"]));
+        match own {
+            Some(own) => found.extend(untold(all, own, value, &format!("{at}.{key}"))),
+            None if schema["additionalProperties"] == true => {}
+            None => found.push(format!("{at}.{key} has no words")),
+        }
+    }
+    let items = value.as_array().into_iter().flatten();
+    found.extend(items.flat_map(|item| untold(all, &schema["items"], item, &format!("{at}[]"))));
+    found
+}
+
+#[test]
+fn every_name_of_an_answer_is_in_its_schema() {
+    let folder = folder_with(STUDY);
+    let here = folder.path();
+    done(here, &["run", "case.toml", "--set", "time.end=60 ms", "-q"]);
+    done(here, &["export", "case.mcap", "-o", "test.csv", "--channels", "head.acceleration.*"]);
+    for (of, words) in [
+        ("run", &["run", "case.toml", "--no-mcap", "--set", "time.end=60 ms", "--estimate-error"][..]),
+        ("check", &["check", "case.toml"]),
+        ("check", &["check", "case.toml", "--set", "posture.settle=true"]),
+        ("measures", &["measures", "case.mcap", "--filter", "sae-j211"]),
+        ("compare", &["compare", "case.mcap", "test.csv"]),
+        ("risk", &["risk", "case.toml"]),
+        (
+            "sensitivity",
+            &["sensitivity", "case.toml", "--to", "hic15", "--of", "joints.neck.damping", "--set", "time.end=30 ms"],
+        ),
+    ] {
+        let json = |words: &[&str]| -> serde_json::Value { serde_json::from_str(&done(here, words)).unwrap() };
+        let schema = json(&["schema", "--of", of]);
+        let found = untold(&schema, &schema, &json(&[words, &["--json"]].concat()), of);
+        assert!(found.is_empty(), "{found:#?}");
+    }
 }

@@ -157,6 +157,135 @@ fn trajectories_and_recorders_become_paths() {
     done(here, &["run", "recorder.toml", "--quiet", "--until", "20 ms", "--no-mcap"]);
 }
 
+/// Tables of programs that name no units: commas or blanks between cells, a number behind the headings of the second car.
+#[test]
+fn headings_tell_which_program_wrote_a_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let rec_tec = |gap: &str, vehicle: &str, end: &str| {
+        let heads = ["Time", "XPos", "YPos", "ZPos", "Pitch", "Roll", "Yaw"].map(|head| head.to_owned());
+        let mut text = heads.map(|head| if head == "Time" { head } else { head + vehicle }).join(gap) + end;
+        for i in 0..5 {
+            let t = f64::from(i) * 0.033;
+            let cells = [t, 44.0 * t, 0.5, -1.25, 1.0, 2.0, 3.0].map(|x| format!("{x:.3}"));
+            text += &(cells.join(gap) + end);
+        }
+        text
+    };
+    fs::write(here.join("SmacRT1C.csv"), rec_tec(",", "", "\n")).unwrap();
+    fs::write(here.join("SmacRT2S.asc"), rec_tec("   ", "2", "\r\n")).unwrap();
+    let heads = "t[s],x[ft],y[ft],z[ft],roll[deg],pitch[deg],yaw[deg]\n0,0,0.5,-1.25,2,1,3\n0.033,1.452,";
+    for name in ["SmacRT1C.csv", "SmacRT2S.asc"] {
+        let said = spoken(here, &["import", name]);
+        assert!(said.contains("taken as feet and degrees, y to the right and z down"), "{said}");
+        let stem = &name[..8];
+        let path = fs::read_to_string(here.join(format!("{stem}-path.csv"))).unwrap();
+        assert!(path.starts_with(heads), "{path}");
+        let scenario = fs::read_to_string(here.join(format!("{stem}.toml"))).unwrap();
+        assert!(!scenario.contains("z_up"), "{scenario}");
+        assert!(done(here, &["check", &format!("{stem}.toml")]).contains("13.411 m/s at the start"));
+    }
+    let car = "Time;Car.Yaw [rad];Car.tx [m];Car.ty [m];Car.tz [m];Car.v;Car.Roll [rad];Car.Pitch [rad]\n\
+               0;0.1;0;0;0.2;10;0;0\n0.1;0.1;1;0.1;0.2;10;0;0\n0.2;0.1;2;0.2;0.2;10;0;0\n";
+    fs::write(here.join("car.csv"), car).unwrap();
+    let said = spoken(here, &["import", "car.csv"]);
+    assert!(said.contains("CarMaker"), "{said}");
+    assert!(!spoken(here, &["import", "car.csv", "-f", "--cg", "2 m"]).contains("CarMaker"));
+    let path = fs::read_to_string(here.join("car-path.csv")).unwrap();
+    assert!(path.starts_with("t[s],x[m],y[m],z[m],roll[rad],pitch[rad],yaw[rad]\n0,0,0,0.2,0,0,0.1\n"), "{path}");
+    assert!(fs::read_to_string(here.join("car.toml")).unwrap().contains("axes = \"z_up\""));
+    fs::write(here.join("cut.csv"), rec_tec(",", "", "\n").replace("0.066,", "0.066,a")).unwrap();
+    let found = answer(here, &["import", "cut.csv"]);
+    assert!(err(&found).contains("cut.csv:4\n = expected numbers for time, xpos"), "{}", err(&found));
+}
+
+/// All sections that a record of NHTSA has, in the order and with the fields of its test reference guide (version 5); two sensors of one
+/// name, one that fails on the way, one that was not there, barrier cells, line ends of Windows.
+#[test]
+fn a_whole_record_of_nhtsa_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path().join("v99999ascii");
+    fs::create_dir(&here).unwrap();
+    let zeros = |n: usize| "0|".repeat(n);
+    let vehicle = |number: u32, speed: &str, words: &str| {
+        let about = "16|03|2018|M0|4S|VIN|4CIF|2.5|AF|1719|1514|2825|4896|1837|1246|UN|UNK|P|";
+        let (before, damage) = (zeros(21), "0|0|DE|NA|NA|380|466|511|518|489|370|12FDEW2|1260|0|518");
+        format!("{number}|{about}|{before}{speed}|{damage}|{}0|0|{words}\n", zeros(21))
+    };
+    let mut record = "# Source: made up\n# Date: <1/1/2020>\n----- EV5 -----\n----- TEST -----\n\
+         V5|A CAR INTO A CAR|MADE UP|03/OCT/2017|X|C|R|NCA|VTV|CON|DRY|22|OTH|OTH|113.4|0|0|0|9|WORDS | AND MORE\n\
+         ----- VEHICLE -----\n"
+        .to_owned();
+    record += &(vehicle(1, "57.09", "") + &vehicle(2, "0.0", "DPD1-6=CMM OF BUMPER"));
+    record += "----- BARRIER -----\nR|LCB|0|0|CELLS\n----- OCCUPANT -----\n1|01|H3|0|M|0|0|H3|50|S/N 351|||312\n\
+         ----- RESTRAINT -----\n1|01|1|3PT|BC|NA|\n----- INSTRUMENTATION -----\n";
+    let curves = [
+        (1, 1, "AC|01|HDCG|XL", "G'S", "AM|P", "HEAD X", Some(-40.0)),
+        (1, 2, "AC|01|HDCG|XL", "G'S", "AM|R", "HEAD XR", Some(-41.0)),
+        (1, 3, "LC|01|NEKU|XL", "NWM", "AM|P", "NECK MX", Some(7.0)),
+        (1, 4, "LC|01|NEKU|XL", "NWT", "AM|P", "NECK FX", Some(300.0)),
+        (1, 5, "LC|01|TBLU|ZL", "NWT", "AM|P", "TIBIA FZ", Some(900.0)),
+        (1, 6, "LC|01|SHBT|NA", "NWT", "NO|P", "SHOULDER BELT: Not installed", None),
+        (1, 10, "AC|NA|FLLR|XG", "G'S", "AM|P", "LEFT CROSSMEMBER X", Some(-36.0)),
+        (1, 11, "AC|NA|FLLR|ZG", "G'S", "AM|P", "LEFT CROSSMEMBER Z", Some(4.0)),
+        (1, 12, "AC|NA|ENGN|XG", "G'S", "AM|P", "TOP OF ENGINE X", Some(-60.0)),
+        (1, 13, "AC|NA|ENGN|XG", "G'S", "CF|P", "BOTTOM OF ENGINE X: No valid data after 67ms", Some(-70.0)),
+        (2, 14, "AC|NA|VECG|XG", "G'S", "AM|P", "THE OTHER CAR", Some(20.0)),
+        (1, 100, "AV|01|HDCG|YL", "DPS", "AM|P", "HEAD RATE Y", Some(600.0)),
+        (1, 101, "LC|NA|BR01|XG", "NWT", "AM|P", "BARRIER CELL", Some(1000.0)),
+        (1, 102, "TP|NA|OTHR|NA", "CEN", "AM|P", "WARMTH", Some(21.0)),
+    ];
+    for (vehicle, number, what, unit, status, words, size) in curves {
+        let maker = "MFG: X MODEL: Y, S/N: Z|11/AUG/2017|1200|4|57.09|-20|149|1000";
+        record += &format!("{vehicle}|{number}|{what}|SEC|{unit}|2800|{maker}|{status}|{words}\n");
+        if let Some(size) = size {
+            let lines = rows(|t| {
+                if number == 13 && t > 0.067 { String::new() } else { format!("{t:.6}\t{:.5}\r\n", size * pulse(t)) }
+            });
+            fs::write(here.join(format!("v99999.{number:03}")), lines).unwrap();
+        }
+    }
+    record += "----- END -----\n";
+    fs::write(here.join("v99999.EV5"), record.replace('\n', "\r\n")).unwrap();
+    let said = spoken(folder.path(), &["import", "v99999ascii", "-o", "crash.toml"]);
+    for words in [
+        "note: curve 006, SHOULDER BELT: Not installed, has no file: left out",
+        "note: curve 013, BOTTOM OF ENGINE X: No valid data after 67ms, has the status CF",
+        "note: the path is that of FLLR; --at takes another: FLLR, ENGN",
+        "wrote crash-path.csv: accelerations at FLLR, 170 times",
+        "wrote crash-curves.csv: 10 signals",
+    ] {
+        assert!(said.contains(words), "{said}");
+    }
+    let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+    assert!(read("crash-path.csv").starts_with("t[s],ax[g],az[g]\n-0.02,0,0\n"), "{}", read("crash-path.csv"));
+    assert!(
+        read("crash.toml").contains("speed = \"57.09 km/h\"")
+            && read("crash.toml").contains("title = \"A CAR INTO A CAR\"")
+    );
+    let curves = read("crash-curves.csv");
+    let heads: Vec<&str> = curves.lines().next().unwrap().split(',').collect();
+    for (i, head) in heads.iter().enumerate() {
+        assert!(!heads[..i].contains(head), "{head} twice in {heads:?}");
+    }
+    for head in ["11HEADCG0000AVY0[deg/s]", "11NECKUP0000MOX0[N*m]", "11NECKUP0000FOX0[N]", "NA_BR01_XG_LC[N]"] {
+        assert!(heads.contains(&head), "{heads:?}");
+    }
+    let peak = |head: &str| {
+        let at = heads.iter().position(|own| *own == head).unwrap();
+        let cells = curves.lines().skip(1).map(|line| line.split(',').nth(at).unwrap().parse::<f64>().unwrap_or(0.0));
+        cells.fold(0.0_f64, |most, value| if value.abs() > most.abs() { value } else { most })
+    };
+    assert_eq!([peak("11HEADCG0000ACX0[g]"), peak("01_TBLU_ZL_LC[N]")], [-40.0, 900.0]);
+    // the other car, and the folder read again as curves to compare with
+    assert!(
+        spoken(folder.path(), &["import", "v99999ascii", "--vehicle", "2", "-o", "other.toml"]).contains("170 times")
+    );
+    done(folder.path(), &["run", "crash.toml", "--quiet", "--set", "time.end=0.05"]);
+    let first = |file: &str| done(folder.path(), &["compare", "crash.mcap", file]).lines().count();
+    assert!(first("crash-curves.csv") > 5 && first("v99999ascii") > 5);
+}
+
 #[test]
 fn what_is_wrong_with_a_record_is_said_with_its_place() {
     let folder = files();

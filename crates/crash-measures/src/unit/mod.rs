@@ -191,6 +191,37 @@ const TABLE: [Row; 27] = [
     row("heat transfer", ["W/(m²·K)", "W/(m^2·K)", "W/(m^2·K)"], [0, 1, -3, 0]).heat(-1, 0),
 ];
 
+/// All units, in the order of [`Unit`].
+pub(crate) const ALL: [Unit; 27] = [
+    Unit::Metre,
+    Unit::MetrePerSecond,
+    Unit::MetrePerSecondSquared,
+    Unit::Radian,
+    Unit::RadianPerSecond,
+    Unit::RadianPerSecondSquared,
+    Unit::Newton,
+    Unit::NewtonMetre,
+    Unit::Joule,
+    Unit::Second,
+    Unit::One,
+    Unit::Kilogram,
+    Unit::KilogramMetreSquared,
+    Unit::NewtonPerMetre,
+    Unit::NewtonMetrePerRadian,
+    Unit::NewtonMetreSecondPerRadian,
+    Unit::NewtonMetrePerRadianSquared,
+    Unit::NewtonMetrePerRadianCubed,
+    Unit::Pascal,
+    Unit::Kelvin,
+    Unit::MetreSquared,
+    Unit::MetreCubed,
+    Unit::KilogramPerSecond,
+    Unit::KilogramPerMole,
+    Unit::JoulePerKilogramKelvin,
+    Unit::JoulePerKilogramKelvinSquared,
+    Unit::WattPerMetreSquaredKelvin,
+];
+
 impl Unit {
     /// What it measures, in words.
     pub const fn quantity(self) -> &'static str {
@@ -221,36 +252,6 @@ impl Unit {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    const ALL: [Unit; 27] = [
-        Unit::Metre,
-        Unit::MetrePerSecond,
-        Unit::MetrePerSecondSquared,
-        Unit::Radian,
-        Unit::RadianPerSecond,
-        Unit::RadianPerSecondSquared,
-        Unit::Newton,
-        Unit::NewtonMetre,
-        Unit::Joule,
-        Unit::Second,
-        Unit::One,
-        Unit::Kilogram,
-        Unit::KilogramMetreSquared,
-        Unit::NewtonPerMetre,
-        Unit::NewtonMetrePerRadian,
-        Unit::NewtonMetreSecondPerRadian,
-        Unit::NewtonMetrePerRadianSquared,
-        Unit::NewtonMetrePerRadianCubed,
-        Unit::Pascal,
-        Unit::Kelvin,
-        Unit::MetreSquared,
-        Unit::MetreCubed,
-        Unit::KilogramPerSecond,
-        Unit::KilogramPerMole,
-        Unit::JoulePerKilogramKelvin,
-        Unit::JoulePerKilogramKelvinSquared,
-        Unit::WattPerMetreSquaredKelvin,
-    ];
 
     /// SI units read back as 1 of themselves, those in inches and pounds as the same dimension.
     #[test]

@@ -1,4 +1,4 @@
-//! The names that files and messages carry: of this program, and of files without their folders.
+//! The names that files and messages carry: of this program, and of files without their folders. Texts as XML has them.
 
 use std::path::{Component, Path};
 
@@ -38,4 +38,23 @@ pub(crate) fn file_stem(name: &str) -> String {
 /// Whether a name that a file tells leads to somewhere within a folder, and not out of it again.
 pub(crate) fn stays_within(name: &str) -> bool {
     !name.is_empty() && Path::new(name).components().all(|part| matches!(part, Component::Normal(_)))
+}
+
+/// Text for XML: marks escaped, control characters (which XML forbids) replaced.
+pub(crate) fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            '\n' | '\t' | '\r' => out.push(' '),
+            '\u{fffe}' | '\u{ffff}' => out.push('\u{fffd}'),
+            c if c.is_control() => out.push('\u{fffd}'),
+            c => out.push(c),
+        }
+    }
+    out
 }

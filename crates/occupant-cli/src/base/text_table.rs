@@ -169,11 +169,18 @@ pub(crate) fn without_zeros(digits: &str) -> &str {
     digits.trim_end_matches('0').trim_end_matches('.')
 }
 
-/// Two columns of words without a head: a name and its description.
+/// Two columns of words without a head: a name and its description, which is broken where a terminal is too narrow.
 pub(crate) fn facts(facts: &[(&str, String)]) -> String {
-    let width = facts.iter().map(|(name, _)| name.chars().count()).max();
-    let width = width.unwrap_or(0);
-    let lines = facts.iter().map(|(name, words)| format!("{name:<width$}   {words}\n"));
+    let (room, is_terminal) = room();
+    facts_within(facts, if is_terminal { room } else { usize::MAX })
+}
+
+fn facts_within(facts: &[(&str, String)], room: usize) -> String {
+    let width = facts.iter().map(|(name, _)| length(name)).max().unwrap_or(0);
+    let lines = facts.iter().map(|(name, words)| {
+        let words = wrapped(words, room.saturating_sub(width + GAPS[0]).max(LEAST));
+        format!("{name:<width$}   {}\n", words.join(&format!("\n{:width$}   ", "")))
+    });
     lines.collect()
 }
 
@@ -224,5 +231,7 @@ mod tests {
     fn facts_line_up() {
         let text = facts(&[("a", "one".to_owned()), ("longer", "two".to_owned())]);
         assert_eq!(text, "a        one\nlonger   two\n");
+        let text = facts_within(&[("longer", "a long way to go".to_owned())], 20);
+        assert_eq!(text, "longer   a long way\n         to go\n");
     }
 }

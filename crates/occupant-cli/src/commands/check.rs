@@ -3,7 +3,7 @@
 use occupant_core::diagnosis::{Diagnosis, RK4_STABILITY_LIMIT, diagnose};
 
 use super::tables::check::check_text;
-use crate::base::{Done, Failure, say, talk};
+use crate::base::{Done, Failure, UnitsArg, say, talk};
 use crate::files::scenario::{self, ScenarioArgs};
 
 /// Check a scenario and show what will be simulated, without running it
@@ -14,7 +14,10 @@ pub(crate) struct Args {
     #[command(flatten)]
     scenario: ScenarioArgs,
 
-    /// Print JSON instead of tables
+    #[command(flatten)]
+    units: UnitsArg,
+
+    /// Print JSON instead of tables; SI units
     #[arg(long)]
     json: bool,
 
@@ -28,16 +31,17 @@ pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
     scenario::warn(&opened.warnings);
     let mut diagnosis = diagnose(&opened.model);
     opened.loaded.compare_with_people(&mut diagnosis.body);
+    let units = args.units.or(opened.loaded.scenario.units);
     if args.json {
         talk::print(&talk::json(&diagnosis)?)?;
     } else if !args.quiet {
-        talk::print(&check_text(&diagnosis))?;
+        talk::print(&check_text(&diagnosis, units))?;
     }
     for behind in &diagnosis.behind {
         say(&format!(
-            "warning: the centre of {} starts {:.1} mm behind {}: the sphere feels that surface only after it has come out",
+            "warning: the centre of {} starts {} behind {}: the sphere feels that surface only after it has come out",
             behind.sphere,
-            behind.behind_m * 1e3,
+            units.say(behind.behind_m * 1e3, "mm", 1),
             behind.surface
         ));
     }

@@ -9,23 +9,28 @@ use crate::files::export::{About, table};
 use crate::files::history::{AxisChoice, Filter, Histories, Treatment, UnitChoice, choose, family_name, load};
 use crate::files::mme::{Labels, files};
 use crate::files::results::Results;
+use crate::files::study_folder::StudyTable;
 use crate::files::table::Form;
 use crate::jobs::export::{TableFiles, publish_folder};
+use crate::jobs::sweep::results::refuse_gaps;
+use crate::jobs::sweep::stored::{MadeBy, Stored, open};
 use crate::pictures::gltf::glb;
 
-/// Write a run's time histories as CSV, Parquet or ISO-MME, or its motion as a scene
+/// Write a run's time histories as CSV, Parquet, XLSX, MAT or ISO-MME, or its motion as a scene
 ///
 /// The ending of the output decides. CSV: one table, units in its headings; what the columns are stands beside it in
-/// NAME.csv-metadata.json. Parquet: the same table, its metadata inside. ISO-MME: NAME.mme becomes the folder NAME with
+/// NAME.csv-metadata.json. Parquet: the same table, its metadata inside. XLSX: the same, with sheets for the measures of the run and
+/// for what the columns are. MAT: a variable for each channel, head_acceleration_x, and the structures measures, columns and about.
+/// ISO-MME: NAME.mme becomes the folder NAME with
 /// NAME.mme and its channels, in SI units and SAE J211 axes, of all channels that the standard's dictionary has a code for.
 /// glTF: NAME.glb is a scene with the motion of body, surfaces and solids, without belts, for Blender and the web.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// The results of `occupant run`
+    /// The results of `occupant run`, or the folder of a sweep, of which the table of samples is written
     #[arg(value_name = "RUN.mcap")]
     run: PathBuf,
 
-    /// The file to write: NAME.csv, NAME.parquet, NAME.mme or NAME.glb; `-` writes CSV to standard output; RUN.csv beside the run if absent
+    /// The file to write: NAME.csv, .parquet, .xlsx, .mat, .mme or .glb; `-` writes CSV to standard output; RUN.csv beside the run if absent
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
@@ -40,11 +45,11 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TIME", value_parser = interval)]
     interval: Option<f64>,
 
-    /// Units of CSV and Parquet
+    /// Units of tables; of the measures they are SI
     #[arg(long, value_name = "SYSTEM", default_value = "si")]
     units: UnitChoice,
 
-    /// Axes of CSV and Parquet for what is told along those of a segment
+    /// Axes of tables for what is told along those of a segment
     #[arg(long, value_enum, default_value_t)]
     axes: AxisChoice,
 
@@ -70,7 +75,10 @@ pub(crate) fn export(args: &Args) -> Result<(), Failure> {
     let is_mme = ending(&output) == "mme";
     let form = if to_standard { Some(Form::Csv) } else { Form::of(&output) };
     if !is_mme && form.is_none() {
-        return Err(Failure::ending(&output, ".csv, .parquet, .mme or .glb"));
+        return Err(Failure::ending(&output, ".csv, .parquet, .xlsx, .mat, .mme or .glb"));
+    }
+    if let (true, Some(form)) = (args.run.is_dir(), form) {
+        return export_sweep(args, &output, form);
     }
     let treatment = Treatment { interval_s: args.interval, ..args.treatment };
     let results = Results::open(&args.run)?;
@@ -82,7 +90,10 @@ pub(crate) fn export(args: &Args) -> Result<(), Failure> {
     };
     let histories = args.axes.turned(histories);
     let coefficients = (treatment.filter != Filter::None).then(|| family_name(treatment.family));
-    let about = About::new(&results, &histories, args.units, treatment.filter.words(), coefficients);
+    let mut about = About::new(&results, &histories, args.units, treatment.filter.words(), coefficients);
+    if matches!(form, Form::Xlsx | Form::Mat) {
+        about.figures = results.summary()?.figures(&results.model);
+    }
     if to_standard {
         let bytes = table(&histories, &about, args.units, form).map_err(|error| Failure::plain(error.to_string()))?;
         return print_file(&bytes);
@@ -103,6 +114,21 @@ fn export_scene(args: &Args, output: &Path) -> Result<(), Failure> {
     let results = Results::open(&args.run)?;
     results.notes().iter().chain(&results.doubt()).for_each(note);
     deliver(output, args.force, &glb(&results)?)
+}
+
+/// The table of a sweep, whose columns are all written.
+fn export_sweep(args: &Args, output: &Path, form: Form) -> Result<(), Failure> {
+    if is_input(output) || !args.channels.is_empty() || args.interval.is_some() {
+        let found = format!("{} is the folder of a sweep, which has a row for each sample", args.run.display());
+        return Err(Failure::with_help(found, "give -o FILE, and neither --channels nor --interval"));
+    }
+    let Stored { manifest, journal, .. } = open(std::slice::from_ref(&args.run), MadeBy::AnyProgram)?;
+    refuse_gaps(&journal, &manifest)?;
+    let mut table = StudyTable::create([(output.to_owned(), form)], Existing::by(args.force), &manifest)?;
+    journal.each_row(|row| table.row(&row))?;
+    table.publish()?;
+    say(&format!("wrote {} samples: {}", manifest.samples, output.display()));
+    Ok(())
 }
 
 fn export_mme(args: &Args, output: &Path, results: &Results, histories: &Histories) -> Result<(), Failure> {

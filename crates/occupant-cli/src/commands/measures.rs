@@ -13,7 +13,7 @@ use serde::Serialize;
 use super::flags::history::interval;
 use super::tables::measures::{remarks, risks, side_by_side, table};
 use super::tables::summary::Marks;
-use crate::base::{Done, Failure, json, note, one_of, print};
+use crate::base::{Done, Failure, Units, UnitsArg, json, note, one_of, print};
 use crate::files::history::family_name;
 use crate::files::results::Results;
 
@@ -47,6 +47,9 @@ pub(crate) struct Args {
     /// Exit with code 1 if a limit is exceeded
     #[arg(long)]
     strict: bool,
+
+    #[command(flatten)]
+    units: UnitsArg,
 
     /// Print JSON instead of tables, of several runs a list; SI units
     #[arg(long)]
@@ -112,6 +115,11 @@ impl Judged {
         Ok(Judged { file: file.display().to_string(), results, summary, interval_ms, notes })
     }
 
+    /// Those asked for, or of its scenario.
+    fn units(&self, args: &Args) -> Units {
+        args.units.or(self.results.loaded.scenario.units)
+    }
+
     fn answer(&self, options: &Options) -> Answer<'_> {
         Answer {
             file: &self.file,
@@ -137,10 +145,11 @@ pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
         print(&if let [one] = &answers[..] { json(one)? } else { json(&answers)? })?;
     } else if let [one] = &all[..] {
         one.notes.iter().for_each(note);
-        print(&text(&one.results, one.interval_ms, &options, &one.summary))?;
+        print(&text(&one.results, one.interval_ms, &options, &one.summary, one.units(args)))?;
     } else {
         all.iter().for_each(|one| one.notes.iter().for_each(|text| note(&format!("{}: {text}", one.file))));
-        print(&texts(&all, &options))?;
+        let units = all.first().map_or(Units::default(), |one| one.units(args));
+        print(&texts(&all, &options, units))?;
     }
     let others = all.iter().flat_map(|one| one.summary.others.values()).flat_map(|person| &person.measures);
     let exceeded = all.iter().flat_map(|one| &one.summary.measures).chain(others).any(Measure::is_exceeded);
@@ -148,7 +157,7 @@ pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
 }
 
 /// Several runs, numbered, in one table.
-fn texts(all: &[Judged], options: &Options) -> String {
+fn texts(all: &[Judged], options: &Options, units: Units) -> String {
     let marks: Vec<_> = all.iter().map(|one| Marks::of(&one.summary.caveats)).collect();
     let runs = (1..).zip(all).map(|(number, one)| {
         let title = shown(&one.results.model.setup().title);
@@ -162,7 +171,7 @@ fn texts(all: &[Judged], options: &Options) -> String {
     let (filter, dummy) = (filter(options), options.dummy.name());
     [
         runs.collect::<String>() + &format!("{filter}; limits of a {dummy}\n"),
-        side_by_side(&columns) + "> beyond a limit\n",
+        side_by_side(&columns, units) + "> beyond a limit\n",
         remarks.collect(),
         JUDGEMENT.to_owned(),
     ]
@@ -180,7 +189,7 @@ fn filter(options: &Options) -> String {
 const JUDGEMENT: &str =
     "Limits and curves were read where others quote them, not in the rules: check the rule before a legal statement.\n";
 
-fn text(results: &Results, interval_ms: f64, options: &Options, summary: &Summary) -> String {
+fn text(results: &Results, interval_ms: f64, options: &Options, summary: &Summary, units: Units) -> String {
     let (people, all) = (summary.people(), Marks::of(&summary.caveats));
     let filter = filter(options);
     let title = shown(&results.model.setup().title);
@@ -191,7 +200,7 @@ fn text(results: &Results, interval_ms: f64, options: &Options, summary: &Summar
         let marks = all.of_occupant(prefix);
         let name = shown(prefix.trim_end_matches('.'));
         parts.extend((!prefix.is_empty()).then(|| format!("{name}\n")));
-        parts.extend([table(measures, &marks), risks(measures, &marks), remarks(measures)]);
+        parts.extend([table(measures, &marks, units), risks(measures, &marks), remarks(measures)]);
     }
     // what the marks mean stands behind the first table
     parts.insert(if people.len() > 1 { parts.len() } else { 2 }, all.explained().unwrap_or_default());

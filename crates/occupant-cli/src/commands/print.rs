@@ -2,10 +2,8 @@
 
 use std::path::PathBuf;
 
-use occupant_scenario::kind::UnitSystem;
-
 use super::flags::history::interval;
-use crate::base::{Failure, deliver, note, one_of, print, refuse_input, say};
+use crate::base::{Failure, UnitsArg, deliver, note, print, refuse_input, say};
 use crate::jobs::print::{Case, printout, uneven};
 
 /// Print a run as paged text, as the report's program did
@@ -30,22 +28,15 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = interval)]
     every: Option<f64>,
 
-    /// Units; those of the scenario if absent
-    #[arg(long, value_name = "SYSTEM", value_parser = one_of(&UNITS))]
-    units: Option<UnitSystem>,
+    #[command(flatten)]
+    units: UnitsArg,
 }
-
-/// Units of the printout: names on the command line, names in help.
-const UNITS: [(&str, &str, UnitSystem); 2] = [
-    ("si", "Metre, kilogram, newton", UnitSystem::Si),
-    ("in-lbf-s", "Inch, pound, pound-force", UnitSystem::InchPound),
-];
 
 pub(crate) fn print_run(args: &Args) -> Result<(), Failure> {
     let name = args.run.display();
     let case = Case::read(&args.run)?;
-    let units = args.units.map_or_else(|| case.units(), Into::into);
-    let text = printout(&case, units, args.every).map_err(|e| Failure::plain(format!("{name}: {e}")))?;
+    let units = args.units.or(case.loaded.scenario.units).system;
+    let text = printout(&case, units.into(), args.every).map_err(|e| Failure::plain(format!("{name}: {e}")))?;
     match &args.output {
         Some(path) => {
             refuse_input(path, &args.run)?;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::base::{Failure, deliver_and, file_name, is_page, note, refuse_input, say};
+use crate::base::{Failure, UnitsArg, deliver_and, file_name, is_page, note, refuse_input, say};
 use crate::files::results::Results;
 use crate::jobs::report::{page, subject};
 use crate::pictures::html::is_page_of;
@@ -19,6 +19,9 @@ pub(crate) struct Args {
     /// The page; RUN.html beside the run if absent, where an earlier report of the same is replaced
     #[arg(short, long, value_name = "FILE.html")]
     output: Option<PathBuf>,
+
+    #[command(flatten)]
+    units: UnitsArg,
 
     /// Replace a file that exists
     #[arg(short, long)]
@@ -45,7 +48,8 @@ pub(crate) fn report(args: &Args) -> Result<(), Failure> {
     let against = args.against.as_deref().map(Results::open).transpose()?;
     std::iter::once(&run).chain(&against).flat_map(Results::notes).for_each(|text| note(&text));
     let force = args.force || replaces_earlier(args, &output);
-    deliver_and(args.open, &output, force, page(&run, against.as_ref())?.as_bytes())
+    let page = page(&run, against.as_ref(), args.units.or(run.loaded.scenario.units))?;
+    deliver_and(args.open, &output, force, page.as_bytes())
 }
 
 /// Whether the page of the default name is an earlier one of the same runs; then says that it is replaced.

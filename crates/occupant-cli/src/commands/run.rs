@@ -12,7 +12,7 @@ use super::flags::ensemble::EnsembleArgs;
 use super::tables::measures::side_by_side;
 use super::tables::summary::{Marks, summary_table};
 use crate::base::input_file::is_input;
-use crate::base::{Done, Existing, Failure, Interrupt, ending, json, print, program, say};
+use crate::base::{Done, Existing, Failure, Interrupt, Units, UnitsArg, ending, json, print, program, say};
 use crate::files::scenario::{self, Opened, ScenarioArgs};
 use crate::jobs::ensemble::report::Report;
 use crate::jobs::ensemble::text::text as ensemble_text;
@@ -63,7 +63,10 @@ pub(crate) struct Args {
     #[arg(short, long)]
     force: bool,
 
-    /// Print the summary as JSON instead of a table
+    #[command(flatten)]
+    units: UnitsArg,
+
+    /// Print the summary as JSON instead of a table; SI units
     #[arg(long)]
     json: bool,
 
@@ -109,14 +112,14 @@ pub(crate) fn run(args: &Args) -> Result<Done, Failure> {
 /// Runs the scenarios one after the other, and prints their measures side by side.
 fn several(args: &Args) -> Result<Done, Failure> {
     let mut done = Done::Well;
-    let mut runs: Vec<(PathBuf, Summary)> = Vec::new();
+    let mut runs: Vec<(PathBuf, Summary, Units)> = Vec::new();
     for scenario in std::iter::once(&args.scenario.scenario).chain(&args.more) {
         let own = ScenarioArgs { scenario: scenario.clone(), ..args.scenario.clone() };
         if !args.quiet {
             say(&format!("{}: running", scenario.display()));
         }
         let ran = one(&Args { scenario: own, more: Vec::new(), is_one_of_several: true, ..args.clone() });
-        let (ended, summary) = match ran {
+        let (ended, summary, units) = match ran {
             Ok(ran) => ran,
             Err(failure) if runs.is_empty() => return Err(failure),
             Err(failure) => return beside(&runs).and(Err(failure)),
@@ -124,29 +127,32 @@ fn several(args: &Args) -> Result<Done, Failure> {
         if ended == Done::Unwell {
             done = ended;
         }
-        runs.push((scenario.clone(), summary));
+        runs.push((scenario.clone(), summary, units));
     }
     beside(&runs).map(|()| done)
 }
 
-/// Prints the measures of runs side by side.
-fn beside(runs: &[(PathBuf, Summary)]) -> Result<(), Failure> {
-    let names = runs.iter().enumerate().map(|(i, (name, _))| format!("{}   {}\n", i + 1, name.display()));
-    let marks: Vec<Marks> = runs.iter().map(|(_, summary)| Marks::of(&summary.caveats)).collect();
-    let columns = runs.iter().zip(&marks).map(|((_, summary), marks)| (&summary.measures[..], marks));
-    let table = side_by_side(&columns.collect::<Vec<_>>());
+/// Prints the measures of runs side by side, in the units of the first.
+fn beside(runs: &[(PathBuf, Summary, Units)]) -> Result<(), Failure> {
+    let names = runs.iter().enumerate().map(|(i, (name, ..))| format!("{}   {}\n", i + 1, name.display()));
+    let marks: Vec<Marks> = runs.iter().map(|(_, summary, _)| Marks::of(&summary.caveats)).collect();
+    let columns = runs.iter().zip(&marks).map(|((_, summary, _), marks)| (&summary.measures[..], marks));
+    let units = runs.first().map_or(Units::default(), |(.., units)| *units);
+    let table = side_by_side(&columns.collect::<Vec<_>>(), units);
     let caveats = runs
         .iter()
         .enumerate()
-        .flat_map(|(i, (_, s))| s.caveats.iter().map(move |c| format!("{}! {}\n", i + 1, c.text)));
+        .flat_map(|(i, (_, s, _))| s.caveats.iter().map(move |c| format!("{}! {}\n", i + 1, c.text)));
     print(&format!("{}\n{table}\n{}", names.collect::<String>(), caveats.collect::<String>()))
 }
 
-fn one(args: &Args) -> Result<(Done, Summary), Failure> {
+/// How a scenario ended, its summary, and the units of its tables.
+fn one(args: &Args) -> Result<(Done, Summary, Units), Failure> {
     let chosen = chosen(args);
     let (bytes, draft) = scenario::draft(&chosen)?;
     let opened = scenario::open_draft(&chosen, bytes, draft.clone())?;
-    let ensemble = args.ensemble.wanted(&draft, &opened, &chosen.scenario, Existing::by(args.force))?;
+    let (existing, units) = (Existing::by(args.force), args.units.or(opened.loaded.scenario.units));
+    let ensemble = args.ensemble.wanted(&draft, &opened, &chosen.scenario, (existing, units))?;
     let from = args.resume.as_deref().map(|file| Resumption::find(file, &opened)).transpose()?;
     if !args.quiet {
         scenario::warn(&opened.warnings);
@@ -178,7 +184,8 @@ fn one(args: &Args) -> Result<(Done, Summary), Failure> {
     if !run.completed {
         return Err(Failure::BrokeOff(broke_off(&run)));
     }
-    Ok((if balance == Balance::Lost { Done::Unwell } else { Done::Well }, run.summary))
+    let done = if balance == Balance::Lost { Done::Unwell } else { Done::Well };
+    Ok((done, run.summary, units))
 }
 
 /// What came of something, if anything did.
@@ -263,15 +270,16 @@ fn show(
     if args.quiet {
         return Ok(());
     }
-    let error = estimate.map(ErrorEstimate::text).unwrap_or_default();
+    let units = args.units.or(opened.loaded.scenario.units);
+    let error = estimate.map(|estimate| estimate.text(units)).unwrap_or_default();
     let Some(ensemble) = ensemble else {
-        let table = summary_table(&run.summary, &run.written, &Marks::of(&run.summary.caveats));
+        let table = summary_table(&run.summary, &run.written, &Marks::of(&run.summary.caveats), units);
         return print(&(table + &error));
     };
     let marks = Marks::of(&run.summary.caveats).and_unstable(ensemble.unstable());
-    let summary = summary_table(&run.summary, &run.written, &marks);
+    let summary = summary_table(&run.summary, &run.written, &marks, units);
     let files: String = ensemble.files.iter().map(|f| format!("written   {f}\n")).collect();
-    print(&format!("{summary}{error}\n{}{files}", ensemble_text(ensemble)))
+    print(&format!("{summary}{error}\n{}{files}", ensemble_text(ensemble, units)))
 }
 
 fn broke_off(run: &Simulated) -> String {

@@ -6,14 +6,32 @@ use serde_json::Value as Json;
 
 use crate::base::{Failure, talk};
 
-/// Print the JSON Schema of a scenario or study, for completion and checks in an editor
+/// Print the JSON Schema of a scenario or study, for completion and checks in an editor, or of what a command prints with --json
 ///
 /// Save it as occupant.schema.json beside the scenarios and put `#:schema ./occupant.schema.json` into their first line.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Of which kind of file; what `occupant fit` reads is a study with a section `fit`
-    #[arg(long, value_enum, default_value_t = Document::Scenario)]
-    of: Document,
+    /// Of which kind of file, or of which command's answer
+    #[arg(long, value_enum, default_value_t = Of::Scenario)]
+    of: Of,
+}
+
+/// What there is a schema of.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum Of {
+    /// What `run` reads
+    Scenario,
+    /// What `sweep` reads
+    Study,
+    /// What `fit` reads: a study with a section `fit`
+    Fit,
+    /// What `run --json` prints; likewise those that follow
+    Run,
+    Check,
+    Measures,
+    Compare,
+    Risk,
+    Sensitivity,
 }
 
 /// A kind of file that people write.
@@ -45,5 +63,18 @@ impl Document {
 
 /// Prints the schema.
 pub(crate) fn print(args: &Args) -> Result<(), Failure> {
-    talk::print(&talk::json(args.of.schema())?)
+    let answer = match args.of {
+        Of::Scenario => return talk::print(&talk::json(Document::Scenario.schema())?),
+        Of::Study | Of::Fit => return talk::print(&talk::json(Document::Study.schema())?),
+        Of::Run => "run",
+        Of::Check => "check",
+        Of::Measures => "measures",
+        Of::Compare => "compare",
+        Of::Risk => "risk",
+        Of::Sensitivity => "sensitivity",
+    };
+    let all: serde_json::Result<Json> = serde_json::from_str(include_str!("schema/answers.json"));
+    let mut all = all.map_err(|error| Failure::plain(format!("the schema is broken: {error}")))?;
+    all["$ref"] = format!("#/$defs/{answer}").into();
+    talk::print(&talk::json(&all)?)
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::base::{Existing, Failure, file_name, print, sha256, talk};
+use crate::base::{Existing, Failure, UnitsArg, file_name, print, sha256, talk};
 use crate::files::history::UnitChoice;
 use crate::files::scenario::{ScenarioArgs, draft, files_beside, open_draft, warn};
 use crate::files::table::Form;
@@ -39,7 +39,10 @@ pub(crate) struct Args {
     #[arg(short, long, value_name = "FILE", requires = "channels")]
     output: Option<PathBuf>,
 
-    /// Print all results as JSON
+    #[command(flatten)]
+    units: UnitsArg,
+
+    /// Print all results as JSON; SI units
     #[arg(long)]
     json: bool,
 
@@ -70,6 +73,6 @@ pub(crate) fn sensitivity(args: &Args) -> Result<(), Failure> {
     print(&if args.json {
         talk::json(&answer(&name, &opened.model, &asked, &analysis))?
     } else {
-        text(&opened.model, &asked, &analysis)
+        text(&opened.model, &asked, &analysis, args.units.or(opened.loaded.scenario.units))
     })
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::Subcommand;
 
 use super::flags::sweep as flags;
-use crate::base::{Done, Failure, Interrupt, print, program, say};
+use crate::base::{Done, Failure, Interrupt, UnitsArg, print, program, say};
 use crate::files::scenario::warn;
 use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::texts::Texts;
@@ -63,6 +63,9 @@ pub(crate) struct Args {
     #[arg(long)]
     restart: bool,
 
+    #[command(flatten)]
+    units: UnitsArg,
+
     /// No progress, no warnings, no table of what it came to
     #[arg(short, long)]
     quiet: bool,
@@ -113,6 +116,7 @@ fn open(args: &Args, study: &Path, output: &Path) -> Result<Sweep, Failure> {
         interrupt: Interrupt::listen("stopping; once more to stop at once"),
         restart: args.restart,
         quiet: args.quiet,
+        units: args.units.or(Some(plan.study.base.units())),
         plan,
         shard,
         keep,

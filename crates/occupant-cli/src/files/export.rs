@@ -1,12 +1,14 @@
-//! Histories for other programs: the content of CSV and Parquet files, and what they say of themselves and their columns.
-//! Names and writes no file.
+//! Histories for other programs: the content of CSV, Parquet, XLSX and MAT files, and what they say of themselves and their
+//! columns. Names and writes no file.
 //!
 //! CSV has one line of headings with units, `time[s],head.acceleration.x[m/s^2]`, then numbers: nothing but that, so that
 //! spreadsheets and data frames open it as it is. What the columns are stands beside it in `NAME.csv-metadata.json`, the
-//! place and form that "CSV on the Web" (W3C) gives it; of a Parquet file it is JSON in the file's key `occupant`.
+//! place and form that "CSV on the Web" (W3C) gives it; of a Parquet file it is JSON in the file's key `occupant`. Workbooks and MAT
+//! files have tables of their own for it, and one with the figures of the run.
 
 use std::io;
 
+use occupant_core::results::summary::Figure;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -39,6 +41,9 @@ pub(crate) struct About {
     pub(crate) notes: Vec<String>,
     /// The columns, time first.
     pub(crate) columns: Vec<ColumnAbout>,
+    /// The figures of the run, for the forms that have a table for them.
+    #[serde(skip)]
+    pub(crate) figures: Vec<Figure>,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -93,7 +98,34 @@ impl About {
             filter_coefficients: coefficients,
             notes: histories.notes.clone(),
             columns: std::iter::once(ColumnAbout::time()).chain(histories.columns.iter().map(of)).collect(),
+            figures: Vec::new(),
         }
+    }
+
+    /// Tables of the figures, of the columns and of the run, beside that of the histories.
+    fn beside(&self, table: &mut Table<Vec<u8>>) {
+        use Kind::{MaybeNumber, Text};
+        let texts = |texts: &[&str]| texts.iter().map(|text| Cell::text(text)).collect();
+        let figure =
+            |f: &Figure| vec![Cell::text(&f.name), f.value.map_or(Cell::Absent, Cell::Number), Cell::text(f.unit)];
+        let heads = [("name", Text), ("value", MaybeNumber), ("unit", Text)];
+        table.beside("measures", &heads, self.figures.iter().map(figure));
+        let heads = ["name", "unit", "frame", "filter", "meaning"].map(|name| (name, Text));
+        let column = |c: &ColumnAbout| texts(&[&c.name, &c.unit, c.frame, &c.filter, &c.meaning]);
+        table.beside("columns", &heads, self.columns.iter().map(column));
+        let complete = if self.complete { "yes" } else { "no" };
+        let facts = [
+            ("title", &self.title[..]),
+            ("program", &self.program),
+            ("source", &self.source),
+            ("source_sha256", &self.source_sha256),
+            ("complete", complete),
+            ("filter", &self.filter),
+            ("filter_coefficients", self.filter_coefficients.unwrap_or_default()),
+        ];
+        let notes = self.notes.iter().map(|note| ("note", &note[..]));
+        let facts = facts.into_iter().chain(notes).map(|(what, words)| texts(&[what, words]));
+        table.beside("about", &[("what", Text), ("words", Text)], facts);
     }
 }
 
@@ -103,22 +135,23 @@ impl About {
 /// # Errors
 /// What the writer refuses, in its words.
 pub(crate) fn table(histories: &Histories, about: &About, units: UnitChoice, form: Form) -> io::Result<Vec<u8>> {
-    let named = |c: &ColumnAbout| if form == Form::Csv { heading(c) } else { c.name.clone() };
+    let is_read = matches!(form, Form::Csv | Form::Xlsx);
+    let named = |c: &ColumnAbout| if is_read { heading(c) } else { c.name.clone() };
     let columns: Vec<(String, Kind)> = about.columns.iter().map(|c| (named(c), Kind::Number)).collect();
     let mut table = Table::new(Vec::new(), form, &columns, &[("occupant", serde_json::to_string(about)?)])?;
     let columns = || histories.columns.iter();
     let sizes: Vec<f64> = columns().map(|c| shown(c.channel.unit, units).si).collect();
     for (i, time_s) in histories.time_s.iter().enumerate() {
         let values = columns().zip(&sizes).map(|(column, size)| column.values[i] / size);
-        table.row(match form {
+        table.row(if is_read {
             // 0 and not −0
-            Form::Csv => {
-                let values = values.map(|value| Cell::finite(value + 0.0));
-                std::iter::once(Cell::Number(rounded(*time_s))).chain(values).collect()
-            }
-            Form::Parquet => std::iter::once(*time_s).chain(values).map(Cell::Number).collect(),
+            let values = values.map(|value| Cell::finite(value + 0.0));
+            std::iter::once(Cell::Number(rounded(*time_s))).chain(values).collect()
+        } else {
+            std::iter::once(*time_s).chain(values).map(Cell::Number).collect()
         })?;
     }
+    about.beside(&mut table);
     table.finish()
 }
 

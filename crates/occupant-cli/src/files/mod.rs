@@ -1,7 +1,8 @@
-//! Files that are read and written: results (MCAP), tables, measured tests, ISO-MME, folders of studies.
+//! Files that are read and written: results (MCAP), tables, workbooks, measured tests, ISO-MME, folders of studies.
 //!
 //! Draws no picture, starts no run of its own and knows no command.
 
+mod book;
 pub(crate) mod export;
 pub(crate) mod history;
 pub mod mcap;

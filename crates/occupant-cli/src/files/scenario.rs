@@ -9,7 +9,7 @@ use placed_text::Severity;
 
 use super::mcap::StoredRun;
 use super::mcap::about::RESOLVED;
-use crate::base::{Failure, by_ending, file_name, input_file, say};
+use crate::base::{Failure, by_ending, ending, file_name, input_file, say};
 
 /// Which scenario, and what is changed in it.
 #[derive(Clone, Debug, Args)]
@@ -60,6 +60,13 @@ pub(crate) fn draft(args: &ScenarioArgs) -> Result<(Vec<u8>, Draft), Failure> {
     let bytes = bytes.map_err(|error| unreadable(path, &error))?;
     let name = path.display().to_string();
     let refuse = |problems: Diagnostics| refused(&name, &problems);
+    if ending(path) == "mcap" {
+        let found = format!("{name} is what a run has written, not a scenario");
+        return Err(Failure::with_help(
+            found,
+            &format!("occupant measures {name} and occupant report {name} tell of it"),
+        ));
+    }
     let mut draft = Draft::read_bytes(&bytes, format_of(path), &name).map_err(refuse)?;
     // a key of studies that no scenario has
     if draft.get("base").is_ok() {

@@ -1,4 +1,5 @@
-//! Tables of words and numbers as CSV (RFC 4180) or Parquet, row by row; of a Parquet file a group of rows is held at a time.
+//! Tables of words and numbers as CSV (RFC 4180) or Parquet, row by row; of a Parquet file a group of rows is held at a time, a
+//! workbook or MAT file as a whole.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -14,6 +15,7 @@ use parquet::schema::types::Type;
 use placed_text::plain;
 use serde::{Deserialize, Serialize};
 
+use super::book::{self, Sheet};
 use crate::base::{Existing, Failure, PartialFile, by_ending, program};
 
 /// So many values are held at a time, but never fewer or more rows than these.
@@ -97,12 +99,20 @@ pub(crate) enum Form {
     /// Text, with a line of headings.
     Csv,
     Parquet,
+    /// A workbook of Excel.
+    Xlsx,
+    /// Variables of MATLAB.
+    Mat,
 }
+
+/// The forms by their endings.
+const FORMS: [(&str, Form); 4] =
+    [("csv", Form::Csv), ("parquet", Form::Parquet), ("xlsx", Form::Xlsx), ("mat", Form::Mat)];
 
 impl Form {
     /// The form that the file's ending asks for.
     pub(crate) fn of(path: &Path) -> Option<Form> {
-        by_ending(path, &[("csv", Form::Csv), ("parquet", Form::Parquet)])
+        by_ending(path, &FORMS)
     }
 
     /// The form of the table asked for.
@@ -110,7 +120,7 @@ impl Form {
     /// # Errors
     /// Another ending.
     pub(crate) fn of_output(path: &Path) -> Result<Form, Failure> {
-        Form::of(path).ok_or_else(|| Failure::ending(path, ".csv or .parquet"))
+        Form::of(path).ok_or_else(|| Failure::ending(path, ".csv, .parquet, .xlsx or .mat"))
     }
 }
 
@@ -124,6 +134,7 @@ pub(crate) struct Table<W: Write + Send> {
 enum Writer<W: Write + Send> {
     Csv(Box<csv::Writer<W>>),
     Parquet(Box<SerializedFileWriter<W>>),
+    Book(W, Form, Vec<Sheet>),
 }
 
 impl<W: Write + Send> Table<W> {
@@ -141,6 +152,7 @@ impl<W: Write + Send> Table<W> {
                 Writer::Csv(Box::new(writer))
             }
             Form::Parquet => Writer::Parquet(Box::new(begin(to, columns, about).map_err(reason)?)),
+            Form::Xlsx | Form::Mat => Writer::Book(to, form, vec![Sheet::new("table", columns)]),
         };
         Ok(Table { kinds: columns.iter().map(|(_, kind)| *kind).collect(), waiting: Vec::new(), writer })
     }
@@ -155,8 +167,23 @@ impl<W: Write + Send> Table<W> {
                     self.flush()?;
                 }
             }
+            Writer::Book(.., sheets) => sheets[0].row(&cells),
         }
         Ok(())
+    }
+
+    /// Adds a table beside it, where there is room for one: a sheet of a workbook, a structure of a MAT file.
+    pub(crate) fn beside(
+        &mut self,
+        name: &'static str,
+        columns: &[(&str, Kind)],
+        rows: impl IntoIterator<Item = Vec<Cell>>,
+    ) {
+        if let Writer::Book(.., sheets) = &mut self.writer {
+            let mut sheet = Sheet::new(name, columns);
+            rows.into_iter().for_each(|cells| sheet.row(&cells));
+            sheets.push(sheet);
+        }
     }
 
     /// Ends the table and gives back where it went.
@@ -165,6 +192,7 @@ impl<W: Write + Send> Table<W> {
         match self.writer {
             Writer::Csv(writer) => writer.into_inner().map_err(|e| e.into_error()),
             Writer::Parquet(writer) => writer.into_inner().map_err(reason),
+            Writer::Book(mut to, form, sheets) => to.write_all(&book::bytes(form, &sheets)?).map(|()| to),
         }
     }
 
@@ -275,6 +303,16 @@ impl TableFile {
     /// Adds a row, a cell for each column.
     pub(crate) fn row(&mut self, cells: Vec<Cell>) -> Result<(), Failure> {
         self.table.row(cells).map_err(|e| unwritten(&self.path, &e))
+    }
+
+    /// As [`Table::beside`].
+    pub(crate) fn beside(
+        &mut self,
+        name: &'static str,
+        columns: &[(&str, Kind)],
+        rows: impl IntoIterator<Item = Vec<Cell>>,
+    ) {
+        self.table.beside(name, columns, rows);
     }
 
     /// Gives the complete file its name.

@@ -30,8 +30,8 @@ impl TableFiles {
         };
         let table = create(path)?;
         let beside = match form {
-            Form::Parquet => None,
             Form::Csv => Some(create(&beside(path))?),
+            Form::Parquet | Form::Xlsx | Form::Mat => None,
         };
         Ok(TableFiles { path: path.to_owned(), form, table, beside })
     }

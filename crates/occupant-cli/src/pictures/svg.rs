@@ -3,6 +3,7 @@
 //! Numbers are written with two decimals of a user unit (a pixel at 96 dpi), texts escaped, so that nothing that a user
 //! named can break out of its place.
 
+pub(crate) use crate::base::escape;
 use std::fmt::Write as _;
 
 use super::font::{self, Weight};
@@ -182,25 +183,6 @@ pub(crate) fn number(value: f64) -> String {
     }
     let text = trimmed(value, 2);
     if text == "-0" { "0".to_owned() } else { text }
-}
-
-/// Text for XML: marks escaped, control characters (which XML forbids) replaced.
-pub(crate) fn escape(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\'' => out.push_str("&#39;"),
-            '\n' | '\t' | '\r' => out.push(' '),
-            '\u{fffe}' | '\u{ffff}' => out.push('\u{fffd}'),
-            c if c.is_control() => out.push('\u{fffd}'),
-            c => out.push(c),
-        }
-    }
-    out
 }
 
 fn list(points: &[[f64; 2]]) -> String {

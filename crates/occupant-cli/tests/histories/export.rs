@@ -160,7 +160,7 @@ fn what_cannot_be_exported_is_said() {
     let run = coarse();
     let run = run.to_str().unwrap();
     for (words, expected) in [
-        (vec!["export", run, "-o", "a.xlsx"], ".csv, .parquet, .mme or .glb"),
+        (vec!["export", run, "-o", "a.xls"], ".csv, .parquet, .xlsx, .mat, .mme or .glb"),
         (vec!["export", run, "-o", "a.csv", "--channels", "head.aceleration.x"], "did you mean `head.acceleration.x`"),
         (vec!["export", run, "-o", "a.csv", "--channels", "nose.*"], "no channel is called `nose.*`"),
         (vec!["export", run, "-o", "a.csv", "--interval", "0"], "above zero"),
@@ -178,4 +178,24 @@ fn what_cannot_be_exported_is_said() {
     assert!(refused(folder.path(), &words).contains("a.csv exists"));
     assert_eq!(text(&folder.path().join("a.csv")), "mine");
     assert!(!folder.path().join("a.csv-metadata.json").exists());
+}
+
+/// What the files hold is read by other programs in `read_histories.py`.
+#[test]
+fn workbooks_and_mat_files_are_written_twice_alike() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = coarse();
+    let run = run.to_str().unwrap();
+    for ending in ["xlsx", "mat"] {
+        let read = |name: &str| {
+            let file = format!("{name}.{ending}");
+            well(folder.path(), &["export", run, "-o", &file]);
+            std::fs::read(folder.path().join(file)).unwrap()
+        };
+        let first = read("first");
+        assert_eq!(first, read("second"));
+        assert!(first.starts_with(if ending == "xlsx" { b"PK" } else { b"MA" }) && first.len() > 50_000);
+        let message = refused(folder.path(), &["export", run, "-o", &format!("first.{ending}")]);
+        assert!(message.contains("--force"), "{message}");
+    }
 }

@@ -11,7 +11,7 @@ use occupant_study::{Study, Tolerances};
 use placed_text::Value;
 
 use super::sweep::engine;
-use crate::base::{Existing, Failure, refuse_input};
+use crate::base::{Existing, Failure, Units, refuse_input};
 use crate::files::scenario::Opened;
 use crate::files::table::Form;
 use crate::jobs::ensemble::bands::{choose, refuse_too_much};
@@ -44,7 +44,7 @@ pub(crate) struct EnsembleArgs {
     #[arg(long, value_name = "PART", default_value = "10%", requires = "ensemble")]
     stable_within: String,
 
-    /// Write the bands over time: NAME.csv or NAME.parquet for numbers, NAME.svg or NAME.png for a picture; may be repeated
+    /// Write the bands over time: NAME.csv, .parquet, .xlsx or .mat for numbers, NAME.svg or NAME.png for a picture; may be repeated
     #[arg(long, value_name = "FILE", requires = "ensemble")]
     bands: Vec<PathBuf>,
 
@@ -64,7 +64,7 @@ impl EnsembleArgs {
         draft: &Draft,
         opened: &Opened,
         scenario: &Path,
-        existing: Existing,
+        (existing, units): (Existing, Units),
     ) -> Result<Option<Wanted>, Failure> {
         let Some(members) = self.ensemble.map(u64::from) else {
             return Ok(None);
@@ -91,6 +91,7 @@ impl EnsembleArgs {
             engine: engine(self.threads, Kernel::best())?,
             channels,
             existing,
+            units,
         }))
     }
 }

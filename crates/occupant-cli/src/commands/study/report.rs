@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::base::{Existing, Failure, FileProblem, deliver, is_page, print, say};
+use crate::base::{Existing, Failure, FileProblem, UnitsArg, deliver, is_page, print, say};
 use crate::jobs::study::{Report, Tables, matrix_text, page, subject, write_tables};
 use crate::jobs::sweep::stored::{MadeBy, open};
 use crate::pictures::html::is_page_of;
@@ -25,6 +25,9 @@ pub(crate) struct ReportArgs {
     #[arg(short, long)]
     force: bool,
 
+    #[command(flatten)]
+    units: UnitsArg,
+
     /// Figures to report on, such as hic15,belts.*.peak; those of head, chest, pelvis and belts that vary if absent
     #[arg(long, value_name = "FIGURES", value_delimiter = ',')]
     to: Vec<String>,
@@ -39,7 +42,8 @@ pub(crate) fn report(args: &ReportArgs) -> Result<(), Failure> {
     let tables = Tables::beside(&page_at);
     let opened = open(&args.folders, MadeBy::AnyProgram)?;
     refuse_names(&page_at, &tables, args)?;
-    let report = Report::of(opened, &args.to)?;
+    let units = args.units.or(Some(opened.plan.study.base.units()));
+    let report = Report::of(opened, &args.to, units)?;
     let force = args.force || (args.output.is_none() && is_page_of(&page_at, &subject(&report)));
     if !force {
         refuse_there(&page_at, &tables)?;

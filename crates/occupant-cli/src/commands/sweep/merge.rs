@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use occupant_core::run::batch::Kernel;
 
-use crate::base::{Done, Failure};
+use crate::base::{Done, Failure, UnitsArg};
 use crate::commands::flags::sweep::{engine, keep};
 use crate::files::study_folder::checksums::Checksums;
 use crate::files::study_folder::folder::Folder;
@@ -41,6 +41,9 @@ pub(crate) struct MergeArgs {
     #[arg(long)]
     csv: bool,
 
+    #[command(flatten)]
+    units: UnitsArg,
+
     /// No table of what it came to
     #[arg(short, long)]
     quiet: bool,
@@ -66,5 +69,5 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     kept::write_missing(&plan, (&target, &sums), &journal, wanted, &engine, &AtomicBool::new(false))?;
     sums.close()?;
     let next = format!("occupant study report {}", target.path.display());
-    if args.quiet { Ok(Done::Well) } else { tell(&found, None, &next) }
+    if args.quiet { Ok(Done::Well) } else { tell(&found, None, &next, args.units.or(Some(plan.study.base.units()))) }
 }

@@ -5,6 +5,7 @@ use placed_text::shown;
 
 use super::elements;
 use super::summary::Marks;
+use crate::base::Units;
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, facts, table, trimmed};
 
@@ -12,12 +13,12 @@ use crate::base::text_table::{NONE, facts, table, trimmed};
 const LEAST_LACK_N_M: f64 = 1.0;
 
 /// Everything that a user should see before a run.
-pub(crate) fn check_text(d: &Diagnosis) -> String {
-    let mut parts = vec![format!("{}\n", shown(&d.title)), overview(d), segments(d)];
+pub(crate) fn check_text(d: &Diagnosis, units: Units) -> String {
+    let mut parts = vec![format!("{}\n", shown(&d.title)), overview(d, units), segments(d, units)];
     if let Some(seat) = &d.seat {
-        parts.push(seating(seat));
+        parts.push(seating(seat, units));
     }
-    parts.push(contacts(d));
+    parts.push(contacts(d, units));
     if !d.corners.is_empty() {
         parts.push(corners(d));
     }
@@ -25,8 +26,8 @@ pub(crate) fn check_text(d: &Diagnosis) -> String {
         let rows = d.self_contact.iter().map(|(part, others)| [part.clone(), others.join(", ")]);
         parts.push(table(&[(Left, &["part of the body", "can touch"])], rows));
     }
-    parts.extend(elements::texts(&d.elements, &Marks::default()));
-    parts.push(sphere_rates(d));
+    parts.extend(elements::texts(&d.elements, &Marks::default(), units));
+    parts.push(sphere_rates(d, units));
     if !d.other_rates.is_empty() {
         parts.push(other_rates(d));
     }
@@ -34,19 +35,20 @@ pub(crate) fn check_text(d: &Diagnosis) -> String {
     parts.join("\n")
 }
 
-fn overview(d: &Diagnosis) -> String {
+fn overview(d: &Diagnosis, units: Units) -> String {
     let (run, vehicle) = (&d.run, &d.vehicle);
     let step = match run.step_s {
         Some(step_s) => format!("{}, step {} ms", run.integrator, trimmed(step_s * 1e3, 4)),
         None => format!("{}, step under error control", run.integrator),
     };
+    let speed = |m_s| units.say(m_s, "m/s", 3);
     facts(&[
         (
             "occupant",
             format!(
-                "{}: {:.2} kg in {} segments, {} degrees of freedom, {} contact spheres",
+                "{}: {} in {} segments, {} degrees of freedom, {} contact spheres",
                 d.body.name,
-                d.body.mass_kg,
+                units.say(d.body.mass_kg, "kg", 2),
                 d.body.segments.len(),
                 d.body.degrees_of_freedom,
                 d.body.spheres
@@ -55,8 +57,12 @@ fn overview(d: &Diagnosis) -> String {
         (
             "vehicle",
             format!(
-                "{} path: {:.3} m/s at the start, {:.3} m/s at the end, velocity change {:.3} m/s; {} surfaces",
-                vehicle.path, vehicle.start_speed_m_s, vehicle.end_speed_m_s, vehicle.velocity_change_m_s, d.surfaces
+                "{} path: {} at the start, {} at the end, velocity change {}; {} surfaces",
+                vehicle.path,
+                speed(vehicle.start_speed_m_s),
+                speed(vehicle.end_speed_m_s),
+                speed(vehicle.velocity_change_m_s),
+                d.surfaces
             ),
         ),
         (
@@ -69,29 +75,36 @@ fn overview(d: &Diagnosis) -> String {
                 trimmed(run.output_s * 1e3, 4)
             ),
         ),
-        ("gravity", format!("{:.5} m/s²", run.gravity_m_s2)),
+        ("gravity", units.say(run.gravity_m_s2, "m/s²", 5)),
     ])
 }
 
-fn segments(d: &Diagnosis) -> String {
+fn segments(d: &Diagnosis, units: Units) -> String {
     let all = &d.body.segments;
-    let mut columns = vec!["mass, kg", "length, m"];
+    let heads = ["mass, kg", "length, m"].map(|head| units.heading(head));
+    let mut columns: Vec<&str> = heads.iter().map(String::as_str).collect();
+    let length = |m| units.number(m, "m", 4);
     let has_bands = all.iter().any(|s| s.length_band_m.is_some());
     columns.extend(has_bands.then_some("of 90 % of such people"));
     let row = |s: &SegmentFigures| {
-        let band = s.length_band_m.map_or(NONE.to_owned(), |[least, most]| format!("{least:.4} to {most:.4}"));
-        let cells = [s.segment.to_owned(), format!("{:.3}", s.mass_kg), format!("{:.4}", s.length_m), band];
+        let band =
+            s.length_band_m.map_or(NONE.to_owned(), |[least, most]| format!("{} to {}", length(least), length(most)));
+        let cells = [s.segment.to_owned(), units.number(s.mass_kg, "kg", 3), length(s.length_m), band];
         cells.into_iter().take(1 + columns.len()).collect::<Vec<_>>()
     };
     let weak = d.body.weak.map_or(String::new(), |words| format!("note: {words}\n"));
     table(&[(Left, &["segment"]), (Right, &columns)], all.iter().map(row)) + &weak
 }
 
-fn seating(seat: &SeatStart) -> String {
-    let place = |[x, y, z]: [f64; 3]| format!("({x:.4}, {y:.4}, {z:.4}) m in the vehicle");
+fn seating(seat: &SeatStart, units: Units) -> String {
+    let place = |p: [f64; 3]| {
+        let [x, y, z] = p.map(|m| units.number(m, "m", 4));
+        format!("({x}, {y}, {z}) {} in the vehicle", units.symbol("m"))
+    };
+    let mm = |m: f64| units.say(m * 1e3, "mm", 1);
     let mut lines = vec![
         ("seated on", format!("{}, {}", seat.cushion, seat.back)),
-        ("pelvis", format!("centre at {}, sinks {:.1} mm into the cushion", place(seat.pelvis_m), seat.sink_m * 1e3)),
+        ("pelvis", format!("centre at {}, sinks {} into the cushion", place(seat.pelvis_m), mm(seat.sink_m))),
         ("left knee", format!("at {}", place(seat.left_knee_m))),
         ("legs", format!("thighs lean {:.1}°, lower legs {:.1}°", seat.thighs_deg, seat.lower_legs_deg)),
     ];
@@ -99,36 +112,41 @@ fn seating(seat: &SeatStart) -> String {
         lines.push((
             "settled",
             format!(
-                "moved {:.1} mm and turned {:.2}°; left over {:.2} N and {:.2} N·m of a weight of {:.1} N",
-                s.moved_m * 1e3,
+                "moved {} and turned {:.2}°; left over {} and {} of a weight of {}",
+                mm(s.moved_m),
                 s.turned_rad.to_degrees(),
-                s.residual_force_n,
-                s.residual_moment_n_m,
-                s.weight_n
+                units.say(s.residual_force_n, "N", 2),
+                units.say(s.residual_moment_n_m, "N·m", 2),
+                units.say(s.weight_n, "N", 1)
             ),
         ));
     }
     if let Some(lack) = seat.settled.and_then(|s| s.lack).filter(|lack| lack.moment_n_m > LEAST_LACK_N_M) {
         let joint = lack.joint.replace('_', " ");
-        let words = format!("nothing holds the posture: {joint} lacks {:.1} N·m, and the body sags; ", lack.moment_n_m);
+        let words = format!(
+            "nothing holds the posture: {joint} lacks {}, and the body sags; ",
+            units.say(lack.moment_n_m, "N·m", 1)
+        );
         lines.push(("joints", words + "muscles with tone hold it, posture.limp = true lets it sink before the run"));
     }
     if let Some(s) = seat.unsettled.filter(|s| s.residual_force_n > 0.1 * s.weight_n) {
-        let left = format!("{:.0} N left over of a weight of {:.0} N", s.residual_force_n, s.weight_n);
+        let left = [s.residual_force_n, s.weight_n].map(|n| units.say(n, "N", 0));
+        let left = format!("{} left over of a weight of {}", left[0], left[1]);
         lines.push(("unsettled", format!("{left} spoil the first 50 ms; posture.settle = true mends it")));
     }
     facts(&lines)
 }
 
-fn contacts(d: &Diagnosis) -> String {
+fn contacts(d: &Diagnosis, units: Units) -> String {
     if d.contacts.is_empty() {
         return "nothing touches at the start\n".to_owned();
     }
     let rows = d.contacts.iter().map(|c| {
-        let [depth, force] = [format!("{:.2}", c.depth_m * 1e3), format!("{:.1}", c.normal_force_n)];
+        let [depth, force] = [units.number(c.depth_m * 1e3, "mm", 2), units.number(c.normal_force_n, "N", 1)];
         [c.sphere.clone(), c.surface.clone(), depth, force]
     });
-    table(&[(Left, &["touches at the start", "surface"]), (Right, &["depth, mm", "force, N"])], rows)
+    let [depth, force] = ["depth, mm", "force, N"].map(|head| units.heading(head));
+    table(&[(Left, &["touches at the start", "surface"]), (Right, &[&depth, &force])], rows)
 }
 
 /// Corners that a sphere may come round.
@@ -138,12 +156,14 @@ fn corners(d: &Diagnosis) -> String {
     table(&[(Left, &["convex corner of", "and"])], rows) + note
 }
 
-fn sphere_rates(d: &Diagnosis) -> String {
+fn sphere_rates(d: &Diagnosis, units: Units) -> String {
     let heads = ["effective mass, kg", "slope, kN/m", "time scale, ms", "step/time scale", "friction stable to, N"];
+    let heads = heads.map(|head| units.heading(head));
+    let heads = heads.each_ref().map(String::as_str);
     let rows = d.sphere_rates.iter().map(|s| {
         let r = &s.rate;
-        let [mass, slope] = [format!("{:.3}", r.effective), format!("{:.1}", r.coefficient / 1e3)];
-        let limit = s.friction_limit_n.map_or(NONE.to_owned(), |n| format!("{n:.0}"));
+        let [mass, slope] = [units.number(r.effective, "kg", 3), units.number(r.coefficient / 1e3, "kN/m", 1)];
+        let limit = s.friction_limit_n.map_or(NONE.to_owned(), |n| units.number(n, "N", 0));
         [r.of.clone(), r.by.clone(), mass, slope, format!("{:.3}", r.time_scale_s * 1e3), by_step(d, r), limit]
     });
     table(&[(Left, &["sphere", "stiffest material"]), (Right, &heads)], rows)

@@ -5,8 +5,9 @@ use crash_measures::unit::Unit;
 use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
 
 use super::summary::Marks;
+use crate::base::Units;
 use crate::base::text_table::Align::{Left, Right};
-use crate::base::text_table::{self, NONE, Table, number};
+use crate::base::text_table::{self, NONE, Table};
 
 /// What to know of measures, a line for all of which the same is to know.
 pub(crate) fn remarks(measures: &[Measure]) -> String {
@@ -24,13 +25,13 @@ pub(crate) fn remarks(measures: &[Measure]) -> String {
 pub(crate) fn risks(measures: &[Measure], marks: &Marks) -> String {
     let rows = measures.iter().flat_map(|m| m.risks.iter().map(move |risk| (m, risk))).map(|(m, risk)| {
         let mark = if risk.agrees && !marks.spoils(m.figure.unwrap_or(m.name)) { " " } else { "!" };
-        [risk.injury.to_owned(), m.label.to_owned(), number(100.0 * risk.probability, 1) + mark]
+        [risk.injury.to_owned(), m.label.to_owned(), text_table::number(100.0 * risk.probability, 1) + mark]
     });
     text_table::table(&[(Left, &["injury", "from"]), (Right, &["risk, %"])], rows)
 }
 
 /// Measures, each limit on a line of its own.
-pub(crate) fn table<'m>(measures: impl IntoIterator<Item = &'m Measure>, marks: &Marks) -> String {
+pub(crate) fn table<'m>(measures: impl IntoIterator<Item = &'m Measure>, marks: &Marks, units: Units) -> String {
     let mut table = Table::new(&[
         (Left, &["injury measure"]),
         (Right, &["value"]),
@@ -41,10 +42,10 @@ pub(crate) fn table<'m>(measures: impl IntoIterator<Item = &'m Measure>, marks: 
         (Left, &[""]),
     ]);
     for m in measures {
-        let value = m.value.map_or(NONE.to_owned(), |v| shown(m, v));
-        let mut left = [m.label.to_owned(), marks.put(m.figure.unwrap_or(m.name), value), unit(m).to_owned(), at(m)];
+        let value = m.value.map_or(NONE.to_owned(), |v| shown(m, v, units));
+        let mut left = [m.label.to_owned(), marks.put(m.figure.unwrap_or(m.name), value), unit(m, units), at(m)];
         for i in 0..m.limits.len().max(1) {
-            let right = m.limits.get(i).map(|limit| verdict(m, limit)).unwrap_or_default();
+            let right = m.limits.get(i).map(|limit| verdict(m, limit, units)).unwrap_or_default();
             table.row(left.into_iter().chain(right));
             left = Default::default();
         }
@@ -53,7 +54,7 @@ pub(crate) fn table<'m>(measures: impl IntoIterator<Item = &'m Measure>, marks: 
 }
 
 /// Measures of several runs, a column for each; a value beyond a limit carries a `>`, the least limit is named.
-pub(crate) fn side_by_side(runs: &[(&[Measure], &Marks)]) -> String {
+pub(crate) fn side_by_side(runs: &[(&[Measure], &Marks)], units: Units) -> String {
     let numbers: Vec<String> = (1..=runs.len()).map(|number| number.to_string()).collect();
     let heads: Vec<&str> = numbers.iter().map(String::as_str).collect();
     let mut table = Table::new(&[(Left, &["injury measure", "unit"]), (Right, &["limit"]), (Right, &heads)]);
@@ -65,10 +66,10 @@ pub(crate) fn side_by_side(runs: &[(&[Measure], &Marks)]) -> String {
     }
     for m in known {
         let least = m.limits.iter().map(|limit| limit.most).min_by(f64::total_cmp);
-        let left = [m.label.to_owned(), unit(m).to_owned(), least.map(|most| shown(m, most)).unwrap_or_default()];
+        let left = [m.label.to_owned(), unit(m, units), least.map(|most| shown(m, most, units)).unwrap_or_default()];
         let values = runs.iter().map(|(measures, marks)| {
             let Some(own) = measures.iter().find(|own| own.name == m.name) else { return NONE.to_owned() };
-            let value = own.value.map_or(NONE.to_owned(), |v| shown(own, v));
+            let value = own.value.map_or(NONE.to_owned(), |v| shown(own, v, units));
             let beyond = if own.is_exceeded() { '>' } else { ' ' };
             marks.put(own.figure.unwrap_or(own.name), value) + &beyond.to_string()
         });
@@ -77,9 +78,9 @@ pub(crate) fn side_by_side(runs: &[(&[Measure], &Marks)]) -> String {
     table.text()
 }
 
-fn verdict(m: &Measure, limit: &Judgement) -> [String; 4] {
+fn verdict(m: &Measure, limit: &Judgement, units: Units) -> [String; 4] {
     [
-        shown(m, limit.most),
+        shown(m, limit.most, units),
         limit.rule.to_owned(),
         format!("{:+.0} %", 100.0 * limit.relative_margin),
         if limit.passed { "met" } else { "EXCEEDED" }.to_owned(),
@@ -95,18 +96,19 @@ fn at(m: &Measure) -> String {
     }
 }
 
-fn unit(m: &Measure) -> &'static str {
+fn unit(m: &Measure, units: Units) -> String {
     match m.unit {
-        Unit::MetrePerSecondSquared => "g",
-        Unit::One => "",
-        unit => unit.symbol(),
+        Unit::MetrePerSecondSquared => "g".to_owned(),
+        Unit::One => String::new(),
+        unit => units.symbol(unit.symbol()),
     }
 }
 
 /// A value of a measure's unit; accelerations in g.
-fn shown(m: &Measure, value: f64) -> String {
+fn shown(m: &Measure, value: f64, units: Units) -> String {
+    let number = |value, decimals| units.number(value, m.unit.symbol(), decimals);
     match m.unit {
-        Unit::MetrePerSecondSquared => number(value / STANDARD_GRAVITY_M_S2, 1),
+        Unit::MetrePerSecondSquared => text_table::number(value / STANDARD_GRAVITY_M_S2, 1),
         Unit::Newton => number(value, 0),
         Unit::NewtonMetre => number(value, 1),
         _ if value.abs() < 10.0 => number(value, 3),

@@ -10,6 +10,7 @@ use occupant_core::results::summary::{
 use placed_text::shown;
 
 use super::{elements, measures};
+use crate::base::Units;
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, facts, number, table, without_zeros};
 use crate::jobs::run::recording::Written;
@@ -66,20 +67,20 @@ impl<'a> Marks<'a> {
 }
 
 /// The table: title, accelerations, force elements, first contacts, and how far to trust the run.
-pub(crate) fn summary_table(summary: &Summary, written: &Written, marks: &Marks) -> String {
+pub(crate) fn summary_table(summary: &Summary, written: &Written, marks: &Marks, units: Units) -> String {
     let mut parts = vec![title(summary), accelerations(summary, marks)];
-    parts.extend(elements::texts(&summary.elements, marks));
+    parts.extend(elements::texts(&summary.elements, marks, units));
     parts.extend(events(&summary.events, summary.more_events));
     if !summary.first_contacts.is_empty() {
-        parts.push(first_contacts(summary, marks));
+        parts.push(first_contacts(summary, marks, units));
     }
     for (prefix, person) in summary.people() {
-        let own = measures::table(person.measures.iter().filter(|m| m.brief), &marks.of_occupant(&prefix));
+        let own = measures::table(person.measures.iter().filter(|m| m.brief), &marks.of_occupant(&prefix), units);
         parts.push(if prefix.is_empty() { own } else { format!("{}\n{own}", shown(prefix.trim_end_matches('.'))) });
     }
-    parts.extend(throws(summary));
+    parts.extend(throws(summary, units));
     parts.extend(marks.explained());
-    parts.push(trust(summary, written, marks));
+    parts.push(trust(summary, written, marks, units));
     parts.join("\n")
 }
 
@@ -124,7 +125,7 @@ fn acceleration(name: &str, part: &Acceleration, marks: &Marks) -> [String; 6] {
 }
 
 /// Where bodies went that were struck; none where nothing was.
-fn throws(summary: &Summary) -> Option<String> {
+fn throws(summary: &Summary, units: Units) -> Option<String> {
     let heads = [
         "struck at, ms",
         "airborne from–to, ms",
@@ -133,19 +134,21 @@ fn throws(summary: &Summary) -> Option<String> {
         "speed, m/s",
         "distance, m",
         "end speed, m/s",
-    ];
+    ]
+    .map(|head| units.heading(head));
+    let heads = heads.each_ref().map(String::as_str);
     let row = |(name, throw): (&&str, &Throw)| {
-        let landing = |of: fn(&Landing) -> String| throw.landing.as_ref().map_or(NONE.to_owned(), of);
+        let landing = |of: &dyn Fn(&Landing) -> String| throw.landing.as_ref().map_or(NONE.to_owned(), of);
         let flights = throw.airborne_s.iter().map(|[from, to]| format!("{}–{}", ms(*from), ms(*to)));
         [
             if name.is_empty() { "occupant".to_owned() } else { shown(name).to_string() },
             ms(throw.struck_s),
             flights.take(1).next().unwrap_or(NONE.to_owned()),
-            landing(|l| ms(l.time_s)),
-            landing(|l| number(l.distance_m, 2)),
-            landing(|l| number(l.speed_m_s, 2)),
-            number(throw.distance_m, 2),
-            number(throw.end_speed_m_s, 2),
+            landing(&|l| ms(l.time_s)),
+            landing(&|l| units.number(l.distance_m, "m", 2)),
+            landing(&|l| units.number(l.speed_m_s, "m/s", 2)),
+            units.number(throw.distance_m, "m", 2),
+            units.number(throw.end_speed_m_s, "m/s", 2),
         ]
     };
     let rows = summary.throws.iter().map(row);
@@ -159,32 +162,37 @@ fn events(events: &[Event], more: u64) -> Option<String> {
     (!events.is_empty()).then(|| table(&[(Right, &["at, ms"]), (Left, &["event"])], rows) + &rest)
 }
 
-/// Parts whose row is there even if they touched nothing.
+/// Parts whose row is there even if they touched nothing; so are those of all others that a force came on, from the start or later.
 const ALWAYS: [&str; 4] = ["head", "chest", "left_knee", "right_knee"];
 
-fn first_contacts(summary: &Summary, marks: &Marks) -> String {
+fn first_contacts(summary: &Summary, marks: &Marks, units: Units) -> String {
     let heads = ["at, ms", "speed, m/s", "closing, m/s", "depth, mm", "peak force, N", "at, ms"];
-    let is_shown = |first: &&FirstContact| first.contact.is_some() || ALWAYS.contains(&first.sphere.as_str());
-    let rows = summary.first_contacts.iter().filter(is_shown).flat_map(|first| rows_of(summary, first, marks));
+    let heads = heads.map(|head| units.heading(head));
+    let heads = heads.each_ref().map(String::as_str);
+    let is_loaded = |part: &str| summary.sphere_forces.iter().any(|p| p.sphere == part && p.force_n > 0.0);
+    let is_shown = |first: &&FirstContact| {
+        first.contact.is_some() || is_loaded(&first.sphere) || ALWAYS.contains(&first.sphere.as_str())
+    };
+    let rows = summary.first_contacts.iter().filter(is_shown).flat_map(|first| rows_of(summary, first, marks, units));
     table(&[(Left, &["contact", "surface"]), (Right, &heads)], rows)
 }
 
 /// A row for each surface that a part touched; the greatest force of the whole run stands in that of the surface that gave it.
-fn rows_of(summary: &Summary, first: &FirstContact, marks: &Marks) -> Vec<[String; 8]> {
+fn rows_of(summary: &Summary, first: &FirstContact, marks: &Marks, units: Units) -> Vec<[String; 8]> {
     let peak = summary.sphere_forces.iter().find(|p| p.sphere == first.sphere);
     let none = || NONE.to_owned();
     let name = word(&first.sphere);
     let mark = |figure: &str, text| marks.put(&format!("contacts.{name}.{figure}"), text);
     let force = match peak {
         Some(p) => [
-            mark("penetration", number(p.penetration_m * 1e3, 0)),
-            mark("peak", number(p.force_n, 0)),
+            mark("penetration", units.number(p.penetration_m * 1e3, "mm", 0)),
+            mark("peak", units.number(p.force_n, "N", 0)),
             mark("peak_time", ms(p.time_s)),
         ],
         None => [none(), none(), none()],
     };
     let own = summary.contacts.iter().filter(|c| c.part == first.sphere);
-    let mut touches: Vec<[String; 4]> = own.map(touch).collect();
+    let mut touches: Vec<[String; 4]> = own.map(|contact| touch(contact, units)).collect();
     let is_first = |t: &&[String; 4]| Some(&t[1]) == first.contact.as_ref().map(|c| ms(c.time_s)).as_ref();
     let arrival = touches.iter().position(|t| is_first(&t));
     for (i, [_, texts @ ..]) in touches.iter_mut().enumerate() {
@@ -210,22 +218,23 @@ fn rows_of(summary: &Summary, first: &FirstContact, marks: &Marks) -> Vec<[Strin
 }
 
 /// Surface, time, speed and its part towards the surface; what touches at the start has not arrived.
-fn touch(contact: &ContactBegin) -> [String; 4] {
+fn touch(contact: &ContactBegin, units: Units) -> [String; 4] {
     let [time, speed, closing] = if contact.at_start {
         ["at start", NONE, NONE].map(str::to_owned)
     } else {
-        [ms(contact.time_s), number(contact.speed_m_s, 2), number(contact.closing_m_s, 2)]
+        let speed = |m_s| units.number(m_s, "m/s", 2);
+        [ms(contact.time_s), speed(contact.speed_m_s), speed(contact.closing_m_s)]
     };
     [contact.surface.clone(), time, speed, closing]
 }
 
-fn trust(summary: &Summary, written: &Written, marks: &Marks) -> String {
+fn trust(summary: &Summary, written: &Written, marks: &Marks, units: Units) -> String {
     let mut lines = Vec::new();
     for (prefix, Person { head_excursion, .. }) in summary.people() {
         let Some(e) = &head_excursion else { continue };
         let mark =
             |figure: &str, text| marks.put(&format!("{prefix}head_excursion.{figure}"), text).trim_end().to_owned();
-        let mm = |way: &str, peak: Peak| mark(way, format!("{way} {} mm", number(peak.value * 1e3, 0)));
+        let mm = |way: &str, peak: Peak| mark(way, format!("{way} {}", units.say(peak.value * 1e3, "mm", 0)));
         let ways = [
             format!("{} at {}", mm("forward", e.forward), mark("forward_time", format!("{} ms", ms(e.forward.time_s)))),
             mm("up", e.up),
@@ -239,8 +248,8 @@ fn trust(summary: &Summary, written: &Written, marks: &Marks) -> String {
     let EnergyCheck { balance_error, reference, reference_j, .. } = summary.energy;
     let error = if balance_error.is_finite() { format!("error {balance_error:.1e}") } else { "not known".to_owned() };
     let error = marks.put("energy.balance_error", error);
-    let of_j = number(reference_j, if reference_j < 1.0 { 4 } else { 0 });
-    lines.push(("energy balance", format!("{} of the {reference}, {of_j} J", error.trim_end())));
+    let of = units.say(reference_j, "J", if reference_j < 1.0 { 4 } else { 0 });
+    lines.push(("energy balance", format!("{} of the {reference}, {of}", error.trim_end())));
     lines.push(("integration", integration(summary)));
     match written {
         Written::Nothing => {}

@@ -48,7 +48,7 @@ pub(crate) enum UnitChoice {
     /// As si, but accelerations in g (9.80665 m/s²)
     G,
     /// Inch, pound-force, second
-    #[value(name = "in-lbf-s")]
+    #[value(name = "in-lbf-s", alias = "inch-pound")]
     InchPound,
 }
 

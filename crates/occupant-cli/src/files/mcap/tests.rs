@@ -9,7 +9,7 @@ use occupant_core::results::checkpoint::Checkpoint;
 
 use super::StoredRun;
 use super::records::{Frame, Record};
-use crate::base::{Existing, Interrupt};
+use crate::base::{Existing, Interrupt, Units};
 use crate::files::history::{Filter, Treatment, choose, load};
 use crate::files::results::Results;
 use crate::files::scenario::{self, ScenarioArgs};
@@ -111,11 +111,11 @@ fn starts(bytes: &[u8]) -> Vec<usize> {
 /// Lets every reader of result files see one.
 fn read_by_all(file: &Path) -> Option<()> {
     if let Ok(case) = Case::read(file) {
-        let _ = printout(&case, case.units(), None);
+        let _ = printout(&case, case.loaded.scenario.units.unwrap_or_default().into(), None);
     }
     let results = Results::open(file).ok()?;
     let _ = (results.summary(), results.notes(), results.ending());
-    let _ = page(&results, None);
+    let _ = page(&results, None, Units::default());
     let all = choose(&results.model, &[]).ok()?;
     let treatment =
         Treatment { filter: Filter::J211, family: crash_measures::signal::CfcFamily::SaeJ211, interval_s: Some(1e-3) };

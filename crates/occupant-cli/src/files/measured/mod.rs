@@ -41,8 +41,7 @@ pub(crate) fn import(path: &Path, vehicle: u32, object: Option<&str>) -> Result<
         return Ok(Imported { record, recording, z_up: false });
     }
     let trajectory = if path.is_dir() { None } else { trajectory::read(path, object)? };
-    let z_up = trajectory.is_some();
-    let recording = trajectory.map_or_else(|| read(path), Ok)?;
+    let (recording, z_up) = trajectory.map_or_else(|| read(path).map(|recording| (recording, false)), Ok)?;
     Ok(Imported { record: TestRecord::default(), recording, z_up })
 }
 

@@ -99,7 +99,12 @@ pub(super) fn read(header: &Path, vehicle: u32) -> Result<(TestRecord, Recording
         if !["AM", ""].contains(&curve.fields[QUALITY]) {
             notes.push(format!("curve {number}, {}, has the status {}", curve.words(), curve.fields[QUALITY]));
         }
-        signals.push(curve.signal(header, time_s, values));
+        let mut signal = curve.signal(header, time_s, values);
+        // a second sensor at one place, or moments beside forces
+        if signals.iter().any(|other: &Signal| other.name == signal.name) {
+            signal = Signal { name: format!("{}_{number}", signal.name), code: None, ..signal };
+        }
+        signals.push(signal);
     }
     if signals.is_empty() {
         let found = format!("no curve of vehicle {vehicle} beside the test record");

@@ -1,4 +1,4 @@
-//! Rows of a study as tables: Parquet for pyarrow, DuckDB and the like, CSV where asked for.
+//! Rows of a study as tables: Parquet for pyarrow, DuckDB and the like, other forms where asked for.
 //!
 //! `index`, the inputs, `status`, `reason`, `caveats`, the figures, `wall_time_s`, `kernel`. The metadata of a Parquet file hold the
 //! manifest (`occupant.sweep`) and the units (`occupant.units`: a JSON object, column → unit).
@@ -18,11 +18,15 @@ pub(crate) struct StudyTable {
 }
 
 impl StudyTable {
-    /// Begins the files; those that are there are replaced when the new ones are complete.
+    /// Begins the files.
     ///
     /// # Errors
-    /// The operating system refuses.
-    pub(crate) fn create(parquet: PathBuf, csv: Option<PathBuf>, manifest: &Manifest) -> Result<Self, Failure> {
+    /// A file is there and may not be replaced; the operating system refuses.
+    pub(crate) fn create(
+        files: impl IntoIterator<Item = (PathBuf, Form)>,
+        existing: Existing,
+        manifest: &Manifest,
+    ) -> Result<Self, Failure> {
         let inputs = manifest.columns.iter().filter(|c| c.role != Role::Figure).count();
         let columns = columns(manifest, inputs);
         let units: serde_json::Map<String, serde_json::Value> =
@@ -32,9 +36,13 @@ impl StudyTable {
             ("occupant.sweep", String::from_utf8_lossy(&whole).into_owned()),
             ("occupant.units", serde_json::Value::Object(units).to_string()),
         ];
-        let asked = std::iter::once((parquet, Form::Parquet)).chain(csv.map(|path| (path, Form::Csv)));
-        let files = asked.map(|(path, form)| TableFile::create(path, form, Existing::Replace, &columns, &about));
-        Ok(StudyTable { files: files.collect::<Result<_, _>>()?, inputs })
+        let create = |(path, form)| {
+            let mut file = TableFile::create(path, form, existing, &columns, &about)?;
+            file.beside("columns", &COLUMNS, described(manifest));
+            Ok(file)
+        };
+        let files = files.into_iter().map(create).collect::<Result<_, Failure>>()?;
+        Ok(StudyTable { files, inputs })
     }
 
     /// Adds a row.
@@ -74,17 +82,22 @@ fn columns(manifest: &Manifest, inputs: usize) -> Vec<(&str, Kind)> {
     [&[("index", Kind::Count)][..], inputs, &ending, figures, &work].concat()
 }
 
+/// What a table of the columns has.
+const COLUMNS: [(&str, Kind); 3] = [("column", Kind::Text), ("unit", Kind::Text), ("role", Kind::Text)];
+
+/// Names, units and roles of the columns.
+fn described(manifest: &Manifest) -> impl Iterator<Item = Vec<Cell>> {
+    let role = |column: &Column| if column.role == Role::Figure { "figure" } else { "input" };
+    let columns = manifest.columns.iter().map(move |column| [column.name.as_str(), &column.unit, role(column)]);
+    columns.chain([["wall_time_s", "s", "work"]]).map(|row| row.map(Cell::text).into())
+}
+
 /// Writes names, units and roles of the columns.
 ///
 /// # Errors
 /// The operating system refuses.
 pub(crate) fn write_columns(path: PathBuf, manifest: &Manifest) -> Result<PathBuf, Failure> {
-    let headings = [("column", Kind::Text), ("unit", Kind::Text), ("role", Kind::Text)];
-    let mut table = TableFile::create(path, Form::Csv, Existing::Replace, &headings, &[])?;
-    for column in &manifest.columns {
-        let role = if column.role == Role::Figure { "figure" } else { "input" };
-        table.row([column.name.as_str(), &column.unit, role].map(Cell::text).into())?;
-    }
-    table.row(["wall_time_s", "s", "work"].map(Cell::text).into())?;
+    let mut table = TableFile::create(path, Form::Csv, Existing::Replace, &COLUMNS, &[])?;
+    described(manifest).try_for_each(|row| table.row(row))?;
     table.publish()
 }

@@ -10,7 +10,7 @@ use placed_text::shown;
 
 use super::{Bands, Left, Members, Report, plot};
 use crate::base::progress::{bar, counted};
-use crate::base::{Existing, Failure, Interrupt, program, write_whole};
+use crate::base::{Existing, Failure, Interrupt, Units, program, write_whole};
 use crate::files::scenario::Opened;
 use crate::files::table::{Form, TableFile};
 use crate::pictures::Format;
@@ -30,6 +30,8 @@ pub(crate) struct Wanted {
     pub(crate) channels: Vec<Channel>,
     pub(crate) files: Vec<(PathBuf, BandFile)>,
     pub(crate) existing: Existing,
+    /// Of pictures.
+    pub(crate) units: Units,
 }
 
 /// What a file of bands holds.
@@ -91,7 +93,7 @@ impl Wanted {
                 table.publish()?
             }
             BandFile::Picture(format) => {
-                let drawing = plot::svg(&report.bands, title, &words);
+                let drawing = plot::svg(&report.bands, title, &words, self.units);
                 let unmade = |e| Failure::broke_off(format!("{} cannot be made: {e}", path.display()));
                 let bytes = format.encode(&drawing, PIXELS).map_err(unmade)?;
                 write_whole(path, self.existing, &bytes).map_err(Failure::broke_off)?

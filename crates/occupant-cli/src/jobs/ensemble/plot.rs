@@ -3,8 +3,8 @@
 //! The middle 90 % is pale, the middle half darker, the median a line, the unchanged run a dashed one; a red line stands
 //! where the members part.
 
-use super::text::shown_unit;
 use super::{Bands, ChannelBand};
+use crate::base::Units;
 use crate::pictures::plot::{Axis, Curve, Figure, Sheet, Style, sheet};
 
 const BLUE: &str = "#0072b2";
@@ -13,13 +13,13 @@ const AREAS: [&str; 2] = ["#a6cbe3", "#5b9fcb"];
 const RED: &str = "#c00000";
 
 /// The drawing as SVG; `title` and `words` stand above the figures.
-pub(crate) fn svg(bands: &Bands, title: &str, words: &str) -> String {
-    let figures: Vec<Figure> = bands.channels.iter().map(|band| figure(band, &bands.time_s)).collect();
+pub(crate) fn svg(bands: &Bands, title: &str, words: &str, units: Units) -> String {
+    let figures: Vec<Figure> = bands.channels.iter().map(|band| figure(band, &bands.time_s, units)).collect();
     sheet(&Sheet { title: title.to_owned(), lines: vec![words.to_owned()], columns: 2 }, &figures)
 }
 
-fn figure(channel: &ChannelBand, time_s: &[f64]) -> Figure {
-    let (per, unit) = shown_unit(channel.unit);
+fn figure(channel: &ChannelBand, time_s: &[f64], units: Units) -> Figure {
+    let (per, unit) = units.told(channel.unit).shown;
     let points = |values: &[f64]| -> Vec<[f64; 2]> {
         let timed = time_s.iter().zip(values).filter(|(_, value)| value.is_finite());
         timed.map(|(t, value)| [t * 1e3, value / per]).collect()

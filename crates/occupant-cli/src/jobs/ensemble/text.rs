@@ -1,10 +1,10 @@
 //! An ensemble in words: what was changed, which figures hold, when the members part.
 
-use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
 use occupant_study::Tolerances;
 use occupant_study::spread::Verdict;
 
 use super::{Failed, Judged, Report};
+use crate::base::Units;
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table, facts, number, trimmed};
 
@@ -36,16 +36,16 @@ const LISTED: usize = 12;
 const ENOUGH: u64 = 10;
 
 /// Everything about an ensemble that a person at a terminal wants to know.
-pub(crate) fn text(report: &Report) -> String {
-    let mut parts = vec![what(report), figure_table(&report.figures)];
+pub(crate) fn text(report: &Report, units: Units) -> String {
+    let mut parts = vec![what(report, units), figure_table(&report.figures, units)];
     if !report.bands.channels.is_empty() {
-        parts.push(channels(report));
+        parts.push(channels(report, units));
     }
     parts.push(conclusion(report));
     parts.join("\n")
 }
 
-fn what(report: &Report) -> String {
+fn what(report: &Report, units: Units) -> String {
     let failed = report.failed.len();
     let mut ended = format!("{} runs, the unchanged one included", report.members);
     if failed > 0 {
@@ -55,7 +55,7 @@ fn what(report: &Report) -> String {
     for Failed { member, reason } in report.failed.iter().take(NAMED) {
         lines.push(("", format!("member {member}: {reason}")));
     }
-    lines.push(("changed by up to", changes(&report.changes, report.seed)));
+    lines.push(("changed by up to", changes(&report.changes, report.seed, units)));
     lines.push((
         "stable",
         format!(
@@ -66,12 +66,14 @@ fn what(report: &Report) -> String {
     facts(&lines)
 }
 
-fn changes(most: &Tolerances, seed: u64) -> String {
+fn changes(most: &Tolerances, seed: u64, units: Units) -> String {
     let segments = (most.segments > 0.0).then(|| format!(", {} % of each segment", percent(most.segments)));
+    let (per, unit) = units.told("m").shown;
+    let place = format!("{} {unit}", trimmed(most.place_m / per, 3));
     format!(
-        "{}° of each angle, {} mm of place, {} % of the pulse, {} % of each stiffness{} (seed {seed})",
+        "{}° of each angle, {} of place, {} % of the pulse, {} % of each stiffness{} (seed {seed})",
         trimmed(most.posture_rad.to_degrees(), 3),
-        trimmed(most.place_m * 1e3, 3),
+        place,
         percent(most.path),
         percent(most.stiffness),
         segments.unwrap_or_default()
@@ -83,11 +85,11 @@ fn percent(part: f64) -> String {
 }
 
 /// The figures that are shown, as a table.
-pub(crate) fn figure_table(figures: &[Judged]) -> String {
+pub(crate) fn figure_table(figures: &[Judged], units: Units) -> String {
     let mut table =
         Table::new(&[(Left, &["figure"]), (Right, &["unchanged", "median", "5 %", "95 %"]), (Left, &["", ""])]);
     for figure in figures.iter().filter(|f| is_shown(&f.name)) {
-        let (s, (per, unit)) = (&figure.spread, shown_unit(&figure.unit));
+        let (s, (per, unit)) = (&figure.spread, units.told(&figure.unit).shown);
         let shown = |x: f64| number(x / per, decimals(s.median / per));
         let verdict = match (figure.verdict, s.missing) {
             (Verdict::Stable, _) => "stable".to_owned(),
@@ -97,27 +99,16 @@ pub(crate) fn figure_table(figures: &[Judged]) -> String {
         };
         let unchanged = figure.nominal.map_or(NONE.to_owned(), shown);
         let [median, q05, q95] = [s.median, s.q05, s.q95].map(shown);
-        table.row([figure.name.clone(), unchanged, median, q05, q95, unit.to_owned(), verdict]);
+        table.row([figure.name.clone(), unchanged, median, q05, q95, unit, verdict]);
     }
     table.text()
 }
 
 /// Two values of a figure as the tables show them, and their unit.
-pub(crate) fn ranged(values: [f64; 2], unit: &str) -> ([String; 2], &str) {
-    let (per, unit) = shown_unit(unit);
+pub(crate) fn ranged(values: [f64; 2], unit: &str, units: Units) -> ([String; 2], String) {
+    let (per, unit) = units.told(unit).shown;
     let greatest = values.iter().fold(0.0_f64, |m, x| m.max((x / per).abs()));
     (values.map(|x| number(x / per, decimals(greatest))), unit)
-}
-
-/// SI units in one unit of the tables, and its name there.
-pub(crate) fn shown_unit(unit: &str) -> (f64, &str) {
-    match unit {
-        "m/s^2" | "m/s²" => (STANDARD_GRAVITY_M_S2, "g"),
-        "s" => (1e-3, "ms"),
-        "m" => (1e-3, "mm"),
-        "1" => (1.0, ""),
-        unit => (1.0, unit),
-    }
 }
 
 fn decimals(size: f64) -> usize {
@@ -128,7 +119,7 @@ fn decimals(size: f64) -> usize {
     }
 }
 
-fn channels(report: &Report) -> String {
+fn channels(report: &Report, units: Units) -> String {
     let mut table = Table::new(&[
         (Left, &["channel"]),
         (Right, &["members part at, ms", "by more than", "widest", "at, ms"]),
@@ -136,7 +127,7 @@ fn channels(report: &Report) -> String {
     ]);
     let ms = |t: f64| format!("{:.1}", t * 1e3);
     for band in &report.bands.channels {
-        let (per, unit) = shown_unit(band.unit);
+        let (per, unit) = units.told(band.unit).shown;
         let size = |x: f64| number(x / per, decimals(x / per));
         table.row([
             band.name.clone(),
@@ -144,7 +135,7 @@ fn channels(report: &Report) -> String {
             size(band.tolerance),
             band.widest.map_or(NONE.to_owned(), size),
             band.widest_at_s.map_or(NONE.to_owned(), ms),
-            unit.to_owned(),
+            unit,
         ]);
     }
     table.text()

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use super::progress::words_of;
 use super::{Fitting, Record};
-use crate::base::Failure;
+use crate::base::{Existing, Failure};
 use crate::files::study_folder::{Column, Folder, Manifest, Role, Row, Status, StudyTable};
-use crate::files::table::Cell;
+use crate::files::table::{Cell, Form};
 use occupant_study::search::Stage;
 
 /// Writes both tables; their names.
@@ -14,8 +14,9 @@ use occupant_study::search::Stage;
 /// # Errors
 /// The operating system refuses.
 pub(crate) fn write(folder: &Folder, fitting: &Fitting, records: &[Record]) -> Result<Vec<PathBuf>, Failure> {
-    let [parquet, csv] = ["history.parquet", "history.csv"].map(|name| folder.path.join(name));
-    let mut table = StudyTable::create(parquet, Some(csv), &manifest(fitting))?;
+    let files = [("history.parquet", Form::Parquet), ("history.csv", Form::Csv)];
+    let files = files.map(|(name, form)| (folder.path.join(name), form));
+    let mut table = StudyTable::create(files, Existing::Replace, &manifest(fitting))?;
     rows(fitting, records).iter().try_for_each(|row| table.row(row))?;
     table.publish()
 }

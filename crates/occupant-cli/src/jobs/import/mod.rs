@@ -42,7 +42,8 @@ pub(crate) fn import(imported: &Imported, request: &Request) -> Result<Made, Fai
     if recording.signals.is_empty() {
         return Err(Failure::plain("no sample lies between --from and --to"));
     }
-    let mut notes = recording.notes.clone();
+    let is_done = |note: &str| request.cg.is_some() && note.contains("--cg");
+    let mut notes: Vec<String> = recording.notes.iter().filter(|note| !is_done(note)).cloned().collect();
     let path = path::of(&recording, imported, request, &mut notes)?;
     let used = path.as_ref().map_or(&[][..], |path| &path.signals);
     let others: Vec<_> = recording.signals.iter().filter(|signal| !used.contains(&signal.name)).collect();

@@ -163,7 +163,7 @@ fn keys(
     let has = |name: &str| columns.iter().any(|(own, _)| *own == name);
     let text = |words: &str| toml_edit::Value::from(words).to_string();
     if OF_PLACES.iter().any(|name| has(name)) {
-        return keys_of_places(imported, request, notes);
+        return keys_of_places(imported, request);
     }
     let known = imported.record.speed_km_h.map(|speed| format!("{speed} km/h"));
     let speed = request.speed.map(str::to_owned).or(known).unwrap_or_else(|| {
@@ -188,16 +188,10 @@ fn keys(
 }
 
 /// The keys of the section of a path of places and angles.
-fn keys_of_places(imported: &Imported, request: &Request, notes: &mut Vec<String>) -> Vec<String> {
+fn keys_of_places(imported: &Imported, request: &Request) -> Vec<String> {
     let text = |words: &str| toml_edit::Value::from(words).to_string();
     let axes = imported.z_up.then(|| "axes = \"z_up\"               # x forward, y left, z up".to_owned());
     let offset = request.cg.map(|cg| format!("offset = [{}, 0, 0]", text(&format!("-{}", cg.trim()))));
-    if imported.z_up && offset.is_none() {
-        notes.push(
-            "a trajectory follows the middle of the rear axle; --cg says how far ahead the centre of gravity is"
-                .to_owned(),
-        );
-    }
     let after = "after = \"coast\"             # beyond the last row".to_owned();
     ["kind = \"table\"".to_owned()].into_iter().chain(axes).chain(offset).chain([after]).collect()
 }

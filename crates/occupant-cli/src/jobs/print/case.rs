@@ -10,7 +10,6 @@ use occupant_scenario::Loaded;
 
 use cardio_legacy::{CompartmentLayout, passed_pairs};
 
-use super::Units;
 use crate::base::{Failure, input_file};
 use crate::files::mcap::StoredRun;
 use crate::files::mcap::about::RUN;
@@ -73,11 +72,6 @@ impl Case {
             loaded,
             model,
         })
-    }
-
-    /// The units of the scenario.
-    pub(crate) fn units(&self) -> Units {
-        self.loaded.scenario.units.unwrap_or_default().into()
     }
 
     /// A fact about the run from its record; `-` where it has none.

@@ -5,6 +5,8 @@ use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, Series, channels, star};
 use serde::Serialize;
 
+use crate::base::Units;
+
 use super::array::Array;
 
 /// Spheres with the greatest contact forces that are plotted.
@@ -13,7 +15,7 @@ const MOST_SPHERES: usize = 8;
 #[derive(Debug, Serialize)]
 pub(crate) struct Plot {
     title: &'static str,
-    unit: &'static str,
+    unit: String,
     curves: Vec<Curve>,
 }
 
@@ -49,13 +51,14 @@ pub(crate) fn series(model: &Model) -> Series {
 }
 
 /// The plots, without those that would be empty.
-pub(crate) fn plots(series: &Series) -> Vec<Plot> {
+pub(crate) fn plots(series: &Series, units: Units) -> Vec<Plot> {
     let plots = RECIPES.into_iter().map(|(title, unit, wanted)| {
         let mut found = find(wanted, series);
         if title == CONTACT_FORCE {
             keep_greatest(&mut found);
         }
-        Plot { title, unit, curves: found.into_iter().map(|f| curve(f, unit)).collect() }
+        let (per, shown) = units.over(unit);
+        Plot { title, unit: shown, curves: found.into_iter().map(|f| curve(f, unit, per)).collect() }
     });
     plots.filter(|p| !p.curves.is_empty()).collect()
 }
@@ -76,8 +79,9 @@ fn find<'a>(wanted: &Curves, series: &'a Series) -> Vec<Found<'a>> {
     found
 }
 
-fn curve((name, channel, values): Found<'_>, unit: &'static str) -> Curve {
-    let per_si = channel.unit.shown_in(unit).per_si();
+/// The curve in a unit of which so many are one of what is shown.
+fn curve((name, channel, values): Found<'_>, unit: &'static str, per: f64) -> Curve {
+    let per_si = channel.unit.shown_in(unit).per_si() / per;
     let mut shown = Array::default();
     shown.float32(values.iter().map(|v| v * per_si));
     Curve { name, meaning: format!("{}: {}", channel.name, channel.meaning), values: shown }

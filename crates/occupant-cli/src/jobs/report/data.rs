@@ -11,7 +11,7 @@ use super::curves::Plot;
 use super::measures::Measure;
 use super::motion::Motion;
 use super::{curves, measures, provenance};
-use crate::base::{Failure, file_name};
+use crate::base::{Failure, Units, file_name};
 use crate::files::mcap::scene::compartment::{corners_m, square_m};
 use crate::files::results::Results;
 use crate::pictures::body::{Lump, PATCH_M, Part, Tone, parts, sphere_centre_m};
@@ -105,7 +105,7 @@ impl Run {
     ///
     /// # Errors
     /// None for a file that was opened.
-    pub(crate) fn of(results: &Results) -> Result<Self, Failure> {
+    pub(crate) fn of(results: &Results, units: Units) -> Result<Self, Failure> {
         let model = &results.model;
         let (mut motion, mut series, mut times) = (Motion::default(), curves::series(model), Array::default());
         results.replay((&mut motion, &mut series))?;
@@ -125,8 +125,8 @@ impl Run {
             spheres: spheres(results),
             surfaces: surfaces(results).into_iter().chain(sides(results)).collect(),
             motion,
-            plots: curves::plots(&series),
-            measures: measures::measures(&summary),
+            plots: curves::plots(&series, units),
+            measures: measures::measures(&summary, units),
             first_contacts: summary.contacts.clone(),
             provenance: provenance::lines(results, &summary),
             scenario: results.scenario_text.clone().unwrap_or_default(),

@@ -4,7 +4,10 @@ use crash_measures::injury;
 use crash_measures::unit::{Shown, Unit};
 use occupant_core::forces::table::{Holds, Table};
 use occupant_core::results::summary::{Caveat, Peak, Person, Summary, word};
+use occupant_scenario::kind::UnitSystem;
 use serde::Serialize;
+
+use crate::base::Units;
 
 /// A row of the table.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -43,9 +46,9 @@ impl Measure {
 }
 
 /// All rows, group by group.
-pub(crate) fn measures(summary: &Summary) -> Vec<Measure> {
+pub(crate) fn measures(summary: &Summary, units: Units) -> Vec<Measure> {
     let own = |(prefix, person): (String, Person)| {
-        let rows: Vec<_> = person.measures.iter().flat_map(injury_rows).collect();
+        let rows: Vec<_> = person.measures.iter().flat_map(|m| injury_rows(m, units)).collect();
         rows.into_iter().map(move |row| Measure {
             name: format!("{prefix}{}", row.name),
             figure: format!("{prefix}{}", row.figure),
@@ -53,8 +56,8 @@ pub(crate) fn measures(summary: &Summary) -> Vec<Measure> {
         })
     };
     let mut rows: Vec<_> = summary.people().into_iter().flat_map(own).collect();
-    add_loads(&mut rows, summary);
-    add_excursion(&mut rows, summary);
+    add_loads(&mut rows, summary, units);
+    add_excursion(&mut rows, summary, units);
     let energy = &summary.energy;
     let group = "Energy";
     let mut add = |name: &str, figure: &str, value: f64, unit| {
@@ -64,13 +67,14 @@ pub(crate) fn measures(summary: &Summary) -> Vec<Measure> {
     let imbalance = format!("Greatest imbalance, of the {}", energy.reference);
     add(&imbalance, "energy.balance_error", 100.0 * energy.balance_error, percent);
     let kinetic = "Greatest kinetic energy, in the vehicle";
-    add(kinetic, "energy.greatest_kinetic", energy.greatest_kinetic_j, Unit::Joule.shown());
+    let joule = engineering(Unit::Joule, units);
+    add(kinetic, "energy.greatest_kinetic", energy.greatest_kinetic_j * joule.per_si(), joule);
     rows.into_iter().map(|row| row.judged(&summary.caveats)).collect()
 }
 
 /// A row for each limit of an injury measure, or one without.
-fn injury_rows(m: &injury::Measure) -> Vec<Measure> {
-    let unit = engineering(m.unit);
+fn injury_rows(m: &injury::Measure, units: Units) -> Vec<Measure> {
+    let unit = engineering(m.unit, units);
     let first = Measure {
         value: m.value.map(|v| v * unit.per_si()),
         time_s: m.from_s,
@@ -94,31 +98,32 @@ fn injury_rows(m: &injury::Measure) -> Vec<Measure> {
 }
 
 /// The unit that engineers read.
-fn engineering(unit: Unit) -> Shown {
+fn engineering(unit: Unit, units: Units) -> Shown {
     match unit {
+        _ if units.system == UnitSystem::InchPound => unit.shown_to_people(true),
         Unit::MetrePerSecondSquared => unit.shown_in("g"),
         Unit::Newton => unit.shown_in("kN"),
         other => other.shown(),
     }
 }
 
-fn add_loads(rows: &mut Vec<Measure>, summary: &Summary) {
-    rows.extend(summary.elements.iter().flat_map(|(of, table)| element_rows(of, table)));
+fn add_loads(rows: &mut Vec<Measure>, summary: &Summary, units: Units) {
+    rows.extend(summary.elements.iter().flat_map(|(of, table)| element_rows(of, table, units)));
     rows.extend(summary.sphere_forces.iter().map(|s| {
         let figure = format!("contacts.{}.peak", word(&s.sphere));
-        load(format!("{} against {}", s.sphere, s.surface), figure, Some(s.force_n), Some(s.time_s))
+        load(format!("{} against {}", s.sphere, s.surface), figure, Some(s.force_n), Some(s.time_s), units)
     }));
 }
 
 /// The row of a force.
-fn load(name: String, figure: String, force_n: Option<f64>, time_s: Option<f64>) -> Measure {
-    let unit = engineering(Unit::Newton);
+fn load(name: String, figure: String, force_n: Option<f64>, time_s: Option<f64>, units: Units) -> Measure {
+    let unit = engineering(Unit::Newton, units);
     let value = force_n.map(|force_n| force_n / unit.si);
     Measure { value, time_s, ..Measure::new("Loads", name, figure, unit) }
 }
 
 /// Peaks of force elements that were reached at a time: `Belt lap, loop force`, `Joint neck, stop moment`.
-fn element_rows(list: &str, table: &Table) -> impl Iterator<Item = Measure> {
+fn element_rows(list: &str, table: &Table, units: Units) -> impl Iterator<Item = Measure> {
     let of = table.columns[0].heading;
     let of = of[..1].to_uppercase() + &of[1..];
     let peaks = table.columns.windows(2).filter(|both| both[1].holds == Holds::Time);
@@ -131,17 +136,19 @@ fn element_rows(list: &str, table: &Table) -> impl Iterator<Item = Measure> {
         let figure = format!("{list}.{}.{}", word(element), peak.measure.map_or(peak.key, |(measure, _)| measure));
         let value = row[peak.key].number();
         if unit == "N" {
-            return Some(load(name, figure, value, Some(time_s)));
+            return Some(load(name, figure, value, Some(time_s), units));
         }
+        let (per, unit) = units.over(unit);
         let own = Measure::new("Loads", name, figure, Unit::One.shown());
-        Some(Measure { value: value.map(|x| x * peak.scale), time_s: Some(time_s), unit: unit.to_owned(), ..own })
+        Some(Measure { value: value.map(|x| x * peak.scale / per), time_s: Some(time_s), unit, ..own })
     })
 }
 
-fn add_excursion(rows: &mut Vec<Measure>, summary: &Summary) {
+fn add_excursion(rows: &mut Vec<Measure>, summary: &Summary, units: Units) {
+    let is_inch_pound = units.system == UnitSystem::InchPound;
     for (prefix, Person { head_excursion, .. }) in summary.people() {
         for (way, Peak { value, time_s }) in head_excursion.iter().flat_map(|e| e.ways()) {
-            let (group, unit) = ("Head excursion in the vehicle", Unit::Metre.shown_in("mm"));
+            let (group, unit) = ("Head excursion in the vehicle", Unit::Metre.shown_to_people(is_inch_pound));
             let figure = format!("{prefix}head_excursion.{way}");
             let (value, time_s) = (Some(value * unit.per_si()), Some(time_s));
             rows.push(Measure { value, time_s, ..Measure::new(group, format!("{prefix}{way}"), figure, unit) });

@@ -11,7 +11,7 @@ mod motion;
 mod page;
 mod provenance;
 
-use crate::base::{Failure, program};
+use crate::base::{Failure, Units, program};
 use crate::files::results::Results;
 
 pub(crate) use data::{Report, subject};
@@ -20,7 +20,7 @@ pub(crate) use data::{Report, subject};
 ///
 /// # Errors
 /// None for files that were opened.
-pub(crate) fn page(run: &Results, against: Option<&Results>) -> Result<String, Failure> {
-    let runs = std::iter::once(run).chain(against).map(data::Run::of).collect::<Result<_, _>>()?;
+pub(crate) fn page(run: &Results, against: Option<&Results>, units: Units) -> Result<String, Failure> {
+    let runs = std::iter::once(run).chain(against).map(|run| data::Run::of(run, units)).collect::<Result<_, _>>()?;
     page::fill(&Report { program: program(), runs })
 }

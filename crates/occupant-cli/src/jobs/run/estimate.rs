@@ -11,7 +11,7 @@ use occupant_core::run::simulate::simulate;
 use serde::Serialize;
 
 use crate::base::text_table::{facts, number};
-use crate::base::{Failure, Interrupt};
+use crate::base::{Failure, Interrupt, Units};
 use crate::files::scenario::Opened;
 
 /// A figure that differs by more than this part of itself is named in the table.
@@ -118,7 +118,7 @@ fn differences(run: Vec<Figure>, finer: Vec<Figure>) -> Vec<FigureError> {
 
 impl ErrorEstimate {
     /// A fact for the table of the run.
-    pub(crate) fn text(&self) -> String {
+    pub(crate) fn text(&self, units: Units) -> String {
         let mut off: Vec<&FigureError> = self.figures.iter().filter(|f| f.relative() > NAMED).collect();
         off.sort_by(|a, b| b.relative().total_cmp(&a.relative()));
         let named = off.iter().take(MOST_NAMED).map(|f| format!("{} {} %", f.name, number(100.0 * f.relative(), 1)));
@@ -128,7 +128,7 @@ impl ErrorEstimate {
             (some, more) => format!("{some} and {more} more above 0.1 %"),
         };
         let mut lines = vec![
-            ("integration error", format!("head path {} mm; {figures}", number(self.head_path_m * 1e3, 3))),
+            ("integration error", format!("head path {}; {figures}", units.say(self.head_path_m * 1e3, "mm", 3))),
             ("", format!("estimated against {}, {} evaluations", self.against, self.evaluations)),
         ];
         if self.head_path_m > CHAOTIC_M {

@@ -55,5 +55,6 @@ pub(crate) fn about(model: &Model, asked: &Asked<'_>, analysis: &Analysis, [sour
         filter_coefficients: None,
         notes,
         columns,
+        figures: Vec::new(),
     }
 }

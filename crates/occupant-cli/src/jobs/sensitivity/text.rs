@@ -6,6 +6,7 @@ use occupant_study::sensitivity::finite::Verdict;
 
 use super::analysis::{Analysis, Asked, relative};
 use super::units::per;
+use crate::base::Units;
 use crate::base::text_table::{Align, NONE, Table, facts, trimmed};
 
 /// Distance of two extrapolations of the vehicle's motion that counts as a kink.
@@ -14,18 +15,18 @@ const KINK: f64 = 1e-2;
 const LISTED: usize = 30;
 
 /// The whole answer.
-pub(crate) fn text(model: &Model, asked: &Asked<'_>, analysis: &Analysis) -> String {
+pub(crate) fn text(model: &Model, asked: &Asked<'_>, analysis: &Analysis, units: Units) -> String {
     let mut text = heading(model, asked, analysis);
     if !asked.request.figures.is_empty() {
         text.push('\n');
-        text.push_str(&table(asked, analysis));
+        text.push_str(&table(asked, analysis, units));
         text.push_str(
             "\nrelative: % of the measure per % of the parameter. holds: finite changes, run in full, differ from the\n\
              derivative by no more than this part of it, for changes of the parameter up to that part of its value.\n",
         );
     }
     text.push('\n');
-    text.push_str(&events(model, &analysis.trajectory.events));
+    text.push_str(&events(model, &analysis.trajectory.events, units));
     if analysis.trajectory.dropped_events > 0 {
         text.push_str(&format!("and {} more\n", analysis.trajectory.dropped_events));
     }
@@ -80,7 +81,7 @@ fn heading(model: &Model, asked: &Asked<'_>, analysis: &Analysis) -> String {
     ])
 }
 
-fn table(asked: &Asked<'_>, analysis: &Analysis) -> String {
+fn table(asked: &Asked<'_>, analysis: &Analysis, units: Units) -> String {
     let mut table = Table::new(&[
         (Align::Left, &["measure"]),
         (Align::Right, &["value"]),
@@ -91,17 +92,18 @@ fn table(asked: &Asked<'_>, analysis: &Analysis) -> String {
         (Align::Left, &["holds"]),
     ]);
     for (i, measure) in asked.request.figures.iter().enumerate() {
-        let (value, unit) = (analysis.values.figures[i], asked.units[i]);
+        let (value, (per_value, unit)) = (analysis.values.figures[i], units.over(asked.units[i]));
         for (k, parameter) in asked.parameters.iter().enumerate() {
             let slope = analysis.derivatives[k].figures[i];
+            let (per_parameter, by) = units.over(&parameter.unit);
             let relative = relative(slope.value, value, parameter.nominal);
             table.row([
                 measure.clone(),
-                with_unit(value, unit),
+                with_unit(value / per_value, &unit),
                 parameter.name.clone(),
-                with_unit(parameter.nominal, &parameter.unit),
-                number(slope.value),
-                per(unit, &parameter.unit),
+                with_unit(parameter.nominal / per_parameter, &by),
+                number(slope.value * per_parameter / per_value),
+                per(&unit, &by),
                 relative.map_or_else(|| NONE.to_owned(), |r| format!("{r:+.3}")),
                 words(&analysis.comparisons[k][i].verdict, parameter.nominal == 0.0),
             ]);
@@ -163,7 +165,7 @@ const MINOR: [(Touching, &str); 4] = [
 ];
 
 /// Jumps and what begins or ends, one by one; what only bends a force, by number.
-fn events(model: &Model, events: &[Event]) -> String {
+fn events(model: &Model, events: &[Event], units: Units) -> String {
     let is =
         |event: &Event, minor: Touching| matches!(event.happening, Happening::Contact { what, .. } if what == minor);
     let is_listed = |e: &&Event| e.change == Change::Jump || MINOR.iter().all(|(minor, _)| !is(e, *minor));
@@ -176,7 +178,7 @@ fn events(model: &Model, events: &[Event]) -> String {
     let listed: Vec<&Event> = events.iter().filter(is_listed).collect();
     for event in listed.iter().take(LISTED) {
         let jump = match event.change {
-            Change::Jump => format!(": a force jumps by {:.0} N", event.jump_n),
+            Change::Jump => format!(": a force jumps by {}", units.say(event.jump_n, "N", 0)),
             Change::Kink => String::new(),
         };
         text.push_str(&format!("{:9.2} ms  {}{jump}\n", event.time_s * 1e3, event.happening.words(model)));

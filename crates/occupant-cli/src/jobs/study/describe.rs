@@ -3,6 +3,7 @@
 use occupant_study::{ApplyChoice, Design, Distribution, Law, Parameter, Study, Value};
 
 use super::shown::{given, given_with_unit};
+use crate::base::Told;
 
 /// So many values of a list, or places of a parameter, are named.
 const NAMED: usize = 6;
@@ -30,8 +31,7 @@ pub(crate) fn design(study: &Study) -> String {
 }
 
 /// How the values of a parameter are spread, in words.
-pub(crate) fn law(parameter: &Parameter) -> String {
-    let unit = parameter.unit;
+pub(crate) fn law(parameter: &Parameter, unit: &Told) -> String {
     let range = |from: f64, to: f64| format!("{} to {}", given(from, unit), given_with_unit(to, unit));
     let text = match &parameter.law {
         Law::List(values) => {
@@ -63,7 +63,7 @@ pub(crate) fn law(parameter: &Parameter) -> String {
     }
 }
 
-fn value(value: &Value, unit: &str) -> String {
+fn value(value: &Value, unit: &Told) -> String {
     match value {
         Value::Number(x) => given_with_unit(*x, unit),
         Value::Text(text) => text.clone(),
@@ -82,9 +82,6 @@ pub(crate) fn places(parameter: &Parameter) -> String {
 }
 
 /// What the base scenario says of a parameter.
-pub(crate) fn nominal(parameter: &Parameter) -> String {
-    match parameter.nominal() {
-        Value::Number(x) if parameter.unit.is_empty() => given(x, ""),
-        nominal => value(&nominal, parameter.unit),
-    }
+pub(crate) fn nominal(parameter: &Parameter, unit: &Told) -> String {
+    value(&parameter.nominal(), unit)
 }

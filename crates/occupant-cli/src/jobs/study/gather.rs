@@ -7,7 +7,7 @@ use occupant_study::spread::{Rule, Verdict, median};
 use occupant_study::{Law, Study, Value};
 
 use super::Samples;
-use crate::base::Failure;
+use crate::base::{Failure, Units};
 use crate::files::study_folder::{Role, Row};
 use crate::files::table::Cell;
 use crate::jobs::ensemble::Judged;
@@ -44,7 +44,7 @@ pub(crate) struct Spoiled {
 ///
 /// # Errors
 /// A journal that cannot be read.
-pub(crate) fn gather(opened: &Stored, figures: &[usize]) -> Result<Gathered, Failure> {
+pub(crate) fn gather(opened: &Stored, figures: &[usize], units: Units) -> Result<Gathered, Failure> {
     let study = &opened.plan.study;
     let columns = &opened.manifest.columns;
     let named: Vec<(String, String)> =
@@ -53,7 +53,7 @@ pub(crate) fn gather(opened: &Stored, figures: &[usize]) -> Result<Gathered, Fai
         study,
         figures,
         gathered: Gathered {
-            samples: Samples::new(study, &named),
+            samples: Samples::told_in(units, study, &named),
             extremes: vec![Extremes::new(EXTREMES); figures.len()],
             spoiled: vec![Spoiled::default(); figures.len()],
             ends: Census::new(&opened.manifest),
@@ -148,7 +148,7 @@ impl Gathering<'_> {
             let there = members.iter().filter(|x| x.is_finite()).count();
             let value = median(members).filter(|_| 2 * there >= members.len());
             response.values.push(value.unwrap_or(f64::NAN));
-            let judged = Judged::of(&response.name, &response.unit, members, Rule::default().relative);
+            let judged = Judged::of(&response.name, &response.unit.si, members, Rule::default().relative);
             match judged.map(|j| j.verdict).filter(|_| members.len() > 1) {
                 Some(Verdict::Stable) => response.stable[0] += 1,
                 Some(Verdict::NotStable) => response.stable[1] += 1,

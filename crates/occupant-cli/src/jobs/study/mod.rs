@@ -26,7 +26,7 @@ pub(crate) use matrix::text as matrix_text;
 pub(crate) use page::{page, subject};
 pub(crate) use tables::{Tables, write as write_tables};
 
-use crate::base::Failure;
+use crate::base::{Failure, Units};
 use crate::jobs::sweep::Stored;
 use analysis::{Analysis, ByDesign, Linear};
 use gather::Gathered;
@@ -78,9 +78,9 @@ impl Report {
     ///
     /// # Errors
     /// A name that is none; a journal that cannot be read.
-    pub(crate) fn of(opened: Stored, names: &[String]) -> Result<Report, Failure> {
+    pub(crate) fn of(opened: Stored, names: &[String], units: Units) -> Result<Report, Failure> {
         let candidates = responses::candidates(&opened.manifest, names)?;
-        let mut gathered = gather::gather(&opened, &candidates)?;
+        let mut gathered = gather::gather(&opened, &candidates, units)?;
         if names.is_empty() {
             responses::keep_telling(&mut gathered);
         }

@@ -2,6 +2,8 @@
 
 use occupant_study::{Role, Study};
 
+use crate::base::{Told, Units};
+
 /// A table of samples, in the order of their numbers.
 #[derive(Clone, Debug, Default)]
 pub struct Samples {
@@ -19,8 +21,8 @@ pub struct Samples {
 #[derive(Clone, Debug, Default)]
 pub struct Input {
     pub(crate) name: String,
-    /// SI unit, empty for plain numbers and words.
-    pub(crate) unit: String,
+    /// Its SI unit is empty for plain numbers and words.
+    pub(crate) unit: Told,
     /// Its values, NaN where a sample has none; of words, their places in `words`.
     pub values: Vec<f64>,
     /// The words of a parameter that has words for values; none for one with numbers.
@@ -33,7 +35,7 @@ pub struct Input {
 #[derive(Clone, Debug, Default)]
 pub struct Response {
     pub(crate) name: String,
-    pub(crate) unit: String,
+    pub(crate) unit: Told,
     /// Its values, NaN where a run failed or has none.
     pub values: Vec<f64>,
     /// With an ensemble: samples whose members agree, and samples whose members do not.
@@ -41,17 +43,22 @@ pub struct Response {
 }
 
 impl Samples {
-    /// A table without rows, for a study and responses by name and unit.
+    /// A table without rows, for a study and responses by name and unit; they are told in the units of the base scenario.
     pub fn new(study: &Study, responses: &[(String, String)]) -> Self {
+        Samples::told_in(Units::of_scenario(study.base.units()), study, responses)
+    }
+
+    /// The same, told in these units.
+    pub(crate) fn told_in(units: Units, study: &Study, responses: &[(String, String)]) -> Self {
         let input = |parameter: &occupant_study::Parameter| Input {
             name: parameter.name.clone(),
-            unit: parameter.unit.to_owned(),
+            unit: units.told_of(parameter, &study.base),
             by_ratios: parameter.law.goes_by_ratios(),
             ..Input::default()
         };
         let response = |(name, unit): &(String, String)| Response {
             name: name.clone(),
-            unit: unit.clone(),
+            unit: units.told(unit),
             ..Response::default()
         };
         Samples {

@@ -35,11 +35,12 @@ pub(crate) fn varied(html: &mut Html, report: &Report) {
         return;
     }
     html.fold("What is varied");
-    let rows = study.parameters.iter().map(|p| {
+    let inputs = &report.gathered.samples.inputs;
+    let rows = study.parameters.iter().zip(inputs).map(|(p, input)| {
         vec![
             Cell::Words(p.name.clone()),
-            Cell::Words(describe::law(p)),
-            Cell::Words(describe::nominal(p)),
+            Cell::Words(describe::law(p, &input.unit)),
+            Cell::Words(describe::nominal(p, &input.unit)),
             Cell::Words(describe::places(p)),
         ]
     });

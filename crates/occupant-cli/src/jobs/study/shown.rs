@@ -1,33 +1,29 @@
 //! Numbers as people read them.
 
+use crate::base::Told;
 use crate::base::text_table::without_zeros;
-use crate::jobs::ensemble::text::shown_unit as shown_figure_unit;
 
 /// SI units in one unit that is shown, and its symbol; empty for a plain number.
-pub(crate) fn shown_unit(unit: &str) -> (f64, &str) {
-    match unit {
-        "rad" => (1.0_f64.to_radians(), "°"),
-        "rad/s" => (1.0_f64.to_radians(), "°/s"),
-        unit => shown_figure_unit(unit),
-    }
+pub(crate) fn shown_unit(unit: &Told) -> (f64, &str) {
+    (unit.shown.0, &unit.shown.1)
 }
 
 /// A number in its shown unit.
-pub(crate) fn shown(value: f64, unit: &str) -> String {
-    significant(value / shown_unit(unit).0)
+pub(crate) fn shown(value: f64, unit: &Told) -> String {
+    significant(value / unit.shown.0)
 }
 
 /// A number with its shown unit.
-pub(crate) fn with_unit(value: f64, unit: &str) -> String {
+pub(crate) fn with_unit(value: f64, unit: &Told) -> String {
     unit_after(shown(value, unit), unit)
 }
 
 /// A given number with its shown unit.
-pub(crate) fn given_with_unit(value: f64, unit: &str) -> String {
+pub(crate) fn given_with_unit(value: f64, unit: &Told) -> String {
     unit_after(given(value, unit), unit)
 }
 
-fn unit_after(number: String, unit: &str) -> String {
+fn unit_after(number: String, unit: &Told) -> String {
     match shown_unit(unit).1 {
         "" => number,
         "°" => format!("{number}°"),
@@ -51,7 +47,7 @@ pub(crate) fn significant(value: f64) -> String {
 }
 
 /// The same without zeros at the end: of numbers that somebody gave.
-pub(crate) fn given(value: f64, unit: &str) -> String {
+pub(crate) fn given(value: f64, unit: &Told) -> String {
     let text = shown(value, unit);
     if text.contains('.') && !text.contains('e') { without_zeros(&text).to_owned() } else { text }
 }
@@ -64,6 +60,7 @@ pub(crate) fn part(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::base::Units;
 
     #[test]
     fn four_digits_are_shown() {
@@ -78,10 +75,11 @@ mod tests {
         for (value, text) in cases {
             assert_eq!(significant(value), text);
         }
-        assert_eq!(with_unit(0.5, "m"), "500.0 mm");
-        assert_eq!(given_with_unit(0.5, "m"), "500 mm");
-        assert_eq!((given(100.0, ""), given(3e7, "")), ("100".to_owned(), "3.000e7".to_owned()));
-        assert_eq!(with_unit(std::f64::consts::PI, "rad"), "180.0°");
+        let [m, rad, none] = ["m", "rad", ""].map(|unit| Units::default().told(unit));
+        assert_eq!(with_unit(0.5, &m), "500.0 mm");
+        assert_eq!(given_with_unit(0.5, &m), "500 mm");
+        assert_eq!((given(100.0, &none), given(3e7, &none)), ("100".to_owned(), "3.000e7".to_owned()));
+        assert_eq!(with_unit(std::f64::consts::PI, &rad), "180.0°");
         assert_eq!((part(-0.25), part(f64::NAN)), ("−0.250".to_owned(), "–".to_owned()));
     }
 }

@@ -62,7 +62,7 @@ fn row(of: &Finding<'_>, number: &Number) -> Vec<Cell> {
     ];
     row.extend([e.value, e.low, e.high].map(Cell::finite));
     row.extend([
-        Cell::text(if number.in_unit { &of.response.unit } else { "1" }),
+        Cell::text(if number.in_unit { &of.response.unit.si } else { "1" }),
         Cell::count(number.rows as u64),
         Cell::text(number.mark.as_deref().unwrap_or_default()),
         Cell::text(run.and_then(|run| run.command.as_deref()).unwrap_or_default()),
@@ -78,12 +78,12 @@ fn samples(report: &Report, path: &Path, existing: Existing) -> Result<(), Failu
     for input in &samples.inputs {
         let kind = if input.is_number() { Kind::MaybeNumber } else { Kind::Text };
         let name = format!("input.{}", input.name);
-        let unit = if input.unit.is_empty() && input.is_number() { "1" } else { &input.unit };
+        let unit = if input.unit.si.is_empty() && input.is_number() { "1" } else { &input.unit.si };
         units.insert(name.clone(), unit.into());
         columns.push((name, kind));
     }
     for response in &samples.responses {
-        units.insert(response.name.clone(), response.unit.clone().into());
+        units.insert(response.name.clone(), response.unit.si.clone().into());
         columns.push((response.name.clone(), Kind::MaybeNumber));
     }
     let about = [

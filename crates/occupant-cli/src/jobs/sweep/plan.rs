@@ -202,7 +202,15 @@ pub(crate) fn study_text(name: &Path, texts: &Texts) -> Result<StudyText, Failur
     let shown = name.display().to_string();
     let bytes = texts.get(NamedBy::CommandLine, &file_name(name));
     let bytes = bytes.map_err(|e| Failure::plain(format!("the study {shown} cannot be read: {e}")))?;
-    StudyText::read_bytes(&bytes, format_of(name), &shown).map_err(|problems| refused(&shown, &problems))
+    StudyText::read_bytes(&bytes, format_of(name), &shown).map_err(|problems| {
+        // a key of scenarios that no study has
+        let draft = Draft::read_bytes(&bytes, format_of(name), &shown);
+        if draft.is_ok_and(|mut draft| draft.get("time").is_ok() && draft.get("base").is_err()) {
+            let help = format!("occupant run {shown} runs it; a study names it as its `base`");
+            return Failure::with_help(format!("{shown} is a scenario, not a study"), &help);
+        }
+        refused(&shown, &problems)
+    })
 }
 
 /// What is wrong with a study that names, at this place, a file that cannot be read.

@@ -6,12 +6,11 @@ use occupant_core::results::summary::Summarizer;
 use occupant_core::run::simulate::simulate;
 
 use super::job::Sweep;
-use crate::base::Failure;
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table, facts};
+use crate::base::{Failure, Told};
 use crate::files::study_folder::Role;
 use crate::files::table::Cell;
-use crate::jobs::ensemble::text::shown_unit;
 
 /// Samples that are shown.
 const SHOWN: u64 = 5;
@@ -57,7 +56,10 @@ impl Sweep {
             "" => name.to_owned(),
             unit => format!("{name}, {unit}"),
         };
-        let shown: Vec<(f64, &str)> = inputs.iter().map(|column| shown_unit(&column.unit)).collect();
+        let study = &self.plan.study;
+        let told =
+            |i: usize| study.parameters.get(i).map_or_else(Told::default, |p| self.units.told_of(p, &study.base));
+        let shown: Vec<(f64, String)> = (0..inputs.len()).map(|i| told(i).shown).collect();
         let heads: Vec<String> = inputs
             .iter()
             .zip(&shown)
@@ -67,7 +69,7 @@ impl Sweep {
         let mut table = Table::new(&[(Left, &["sample"]), (Right, &heads)]);
         for index in samples {
             let cells = self.plan.inputs(index);
-            let text = |(cell, (per, _)): (&Cell, &(f64, &str))| match cell {
+            let text = |(cell, (per, _)): (&Cell, &(f64, String))| match cell {
                 Cell::Number(x) => crate::base::text_table::trimmed(x / per, 4),
                 Cell::Text(text) => text.to_string(),
                 Cell::Absent => NONE.to_owned(),

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use occupant_study::Keep;
 
 use super::{Census, Ensembles, Extremes, Stable};
-use crate::base::Failure;
+use crate::base::{Existing, Failure};
 use crate::files::study_folder::table::write_columns;
 use crate::files::study_folder::{Checksums, Folder, Journal, Manifest, Problem, Role, StudyTable};
-use crate::files::table::Cell;
+use crate::files::table::{Cell, Form};
 use crate::jobs::ensemble::text::is_shown;
 
 /// What a sweep came to.
@@ -77,7 +77,8 @@ fn write_files(
     let mut census = Census::new(manifest);
     let mut ranges = ranges(manifest);
     let mut stable = Stable::begin(folder, manifest, csv)?;
-    let mut table = StudyTable::create(folder.parquet(), csv.then(|| folder.csv()), manifest)?;
+    let asked = std::iter::once((folder.parquet(), Form::Parquet)).chain(csv.then(|| (folder.csv(), Form::Csv)));
+    let mut table = StudyTable::create(asked, Existing::Replace, manifest)?;
     journal.each_row(|row| {
         let counts = census.see(&row);
         let value = figure.and_then(|at| row.cells.get(at)).and_then(Cell::number);

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::{Ensembles, Results};
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{Table, facts};
-use crate::base::{Done, Failure, talk};
+use crate::base::{Done, Failure, Units, talk};
 use crate::files::study_folder::Held;
 use crate::jobs::ensemble::text::{figure_table, is_shown, ranged};
 
@@ -26,7 +26,7 @@ pub(crate) fn tell_damaged(files: &[PathBuf]) {
 }
 
 /// What it came to.
-pub(crate) fn tell(results: &Results, work: Option<String>, next: &str) -> Result<Done, Failure> {
+pub(crate) fn tell(results: &Results, work: Option<String>, next: &str, units: Units) -> Result<Done, Failure> {
     let census = &results.census;
     let mut ended = vec![format!("{} completed", census.completed)];
     for (count, word) in
@@ -47,27 +47,27 @@ pub(crate) fn tell(results: &Results, work: Option<String>, next: &str) -> Resul
     let names: Vec<String> = results.files.iter().map(|f| f.display().to_string()).collect();
     lines.push(("written", names.join(", ")));
     lines.push(("next", next.to_owned()));
-    let stable = results.ensembles.as_ref().map(|e| format!("\n{}", stable(e)));
-    let ranges = if census.completed > 1 { format!("\n{}", ranges(results)) } else { String::new() };
+    let stable = results.ensembles.as_ref().map(|e| format!("\n{}", stable(e, units)));
+    let ranges = if census.completed > 1 { format!("\n{}", ranges(results, units)) } else { String::new() };
     talk::print(&(facts(&lines) + &ranges + &stable.unwrap_or_default()))?;
     Ok(Done::Well)
 }
 
 /// Least and greatest of each figure, and in which samples.
-fn ranges(results: &Results) -> String {
+fn ranges(results: &Results, units: Units) -> String {
     let mut table =
         Table::new(&[(Left, &["figure"]), (Right, &["least", "in sample", "greatest", "in sample"]), (Left, &[""])]);
     for (name, unit, range) in &results.ranges {
         if let (Some((least, first)), Some((greatest, last))) = (range.best.first(), range.worst.first()) {
-            let ([least, greatest], unit) = ranged([*least, *greatest], unit);
-            table.row([name.clone(), least, first.to_string(), greatest, last.to_string(), unit.to_owned()]);
+            let ([least, greatest], unit) = ranged([*least, *greatest], unit, units);
+            table.row([name.clone(), least, first.to_string(), greatest, last.to_string(), unit]);
         }
     }
     table.text()
 }
 
 /// The ensembles of a study in words.
-fn stable(ensembles: &Ensembles) -> String {
+fn stable(ensembles: &Ensembles, units: Units) -> String {
     let failed = match ensembles.failed {
         0 => String::new(),
         n => format!("; {n} members did not complete, and no figure of their samples counts as stable"),
@@ -78,7 +78,7 @@ fn stable(ensembles: &Ensembles) -> String {
     };
     let lines = [("ensembles", format!("{samples}{failed}"))];
     let table = match ensembles.samples {
-        0 | 1 => figure_table(&ensembles.first),
+        0 | 1 => figure_table(&ensembles.first, units),
         _ => all_samples(ensembles),
     };
     format!("{}\n{table}", facts(&lines))
