@@ -29,7 +29,8 @@ pub(crate) struct Args {
 
 /// Tells of a key.
 pub(crate) fn explain(args: &Args) -> Result<(), Failure> {
-    let root = Key { path: String::new(), variant: None, needed: true, root: args.of.schema(), own: args.of.schema() };
+    let schema = args.of.schema();
+    let root = Key { path: String::new(), variant: None, needed: true, root: schema, table: schema, own: schema };
     if args.markdown {
         return talk::print(&page(&root, args.of));
     }
@@ -49,6 +50,8 @@ struct Key<'a> {
     variant: Option<String>,
     needed: bool,
     root: &'a Json,
+    /// What the schema says of the table that it stands in.
+    table: &'a Json,
     /// What the schema says at its place.
     own: &'a Json,
 }
@@ -63,7 +66,9 @@ impl<'a> Key<'a> {
     /// Its description in one line.
     fn meaning(&self) -> String {
         let words = |schema: &'a Json| schema["description"].as_str();
-        words(self.own).or_else(|| words(self.schema())).unwrap_or_default().replace('\n', " ")
+        // what tells kinds of a table apart means that kind
+        let kind = || self.own.get("const").and_then(|_| words(self.table));
+        words(self.own).or_else(|| words(self.schema())).or_else(kind).unwrap_or_default().replace('\n', " ")
     }
 
     /// The tables that may stand at its place, each with what tells it from the others: one, unless there are kinds of it.
@@ -87,11 +92,11 @@ impl<'a> Key<'a> {
             let needed = |key: &str| table["required"].as_array().is_some_and(|keys| keys.iter().any(|k| k == key));
             for (key, own) in table["properties"].as_object().into_iter().flatten() {
                 let variant = variant.clone();
-                keys.push(Key { path: join(key), variant, needed: needed(key), root: self.root, own });
+                keys.push(Key { path: join(key), variant, needed: needed(key), root: self.root, table, own });
             }
             if table["additionalProperties"].is_object() {
                 let own = &table["additionalProperties"];
-                keys.push(Key { path: join("NAME"), variant, needed: false, root: self.root, own });
+                keys.push(Key { path: join("NAME"), variant, needed: false, root: self.root, table, own });
             }
         }
         let items = &self.schema()["items"];
@@ -137,6 +142,7 @@ impl<'a> Key<'a> {
         let schema = self.schema();
         let mut words = match (schema["x-dimension"].as_str(), names(schema)) {
             (Some(dimension), _) => quantity(dimension, schema),
+            (None, names) if names.len() == 1 => names.concat(),
             (None, names) if !names.is_empty() => format!("one of {}", names.join(", ")),
             _ => plain(schema, self.root),
         };
@@ -211,7 +217,8 @@ fn plain(schema: &Json, root: &Json) -> String {
         Some("integer") => "whole number".into(),
         Some("number") => "number".into(),
         Some("array") => {
-            let item = Key { path: String::new(), variant: None, needed: false, root, own: &schema["items"] };
+            let item =
+                Key { path: String::new(), variant: None, needed: false, root, table: schema, own: &schema["items"] };
             match (&schema["minItems"], &schema["maxItems"]) {
                 (least, most) if least == most && !least.is_null() => format!("list of {least}: {}", item.kind()),
                 (Json::Null, _) => format!("list: {}", item.kind()),
