@@ -29,8 +29,7 @@ pub(crate) struct Args {
 
 /// Tells of a key.
 pub(crate) fn explain(args: &Args) -> Result<(), Failure> {
-    let schema = args.of.schema();
-    let root = Key { path: String::new(), variant: None, needed: true, root: schema, table: schema, own: schema };
+    let root = Key { path: String::new(), variant: None, needed: true, root: args.of.schema(), own: args.of.schema() };
     if args.markdown {
         return talk::print(&page(&root, args.of));
     }
@@ -50,8 +49,6 @@ struct Key<'a> {
     variant: Option<String>,
     needed: bool,
     root: &'a Json,
-    /// What the schema says of the table that it stands in.
-    table: &'a Json,
     /// What the schema says at its place.
     own: &'a Json,
 }
@@ -66,9 +63,7 @@ impl<'a> Key<'a> {
     /// Its description in one line.
     fn meaning(&self) -> String {
         let words = |schema: &'a Json| schema["description"].as_str();
-        // what tells kinds of a table apart means that kind
-        let kind = || self.own.get("const").and_then(|_| words(self.table));
-        words(self.own).or_else(|| words(self.schema())).or_else(kind).unwrap_or_default().replace('\n', " ")
+        words(self.own).or_else(|| words(self.schema())).unwrap_or_default().replace('\n', " ")
     }
 
     /// The tables that may stand at its place, each with what tells it from the others: one, unless there are kinds of it.
@@ -92,11 +87,11 @@ impl<'a> Key<'a> {
             let needed = |key: &str| table["required"].as_array().is_some_and(|keys| keys.iter().any(|k| k == key));
             for (key, own) in table["properties"].as_object().into_iter().flatten() {
                 let variant = variant.clone();
-                keys.push(Key { path: join(key), variant, needed: needed(key), root: self.root, table, own });
+                keys.push(Key { path: join(key), variant, needed: needed(key), root: self.root, own });
             }
             if table["additionalProperties"].is_object() {
                 let own = &table["additionalProperties"];
-                keys.push(Key { path: join("NAME"), variant, needed: false, root: self.root, table, own });
+                keys.push(Key { path: join("NAME"), variant, needed: false, root: self.root, own });
             }
         }
         let items = &self.schema()["items"];
@@ -142,7 +137,6 @@ impl<'a> Key<'a> {
         let schema = self.schema();
         let mut words = match (schema["x-dimension"].as_str(), names(schema)) {
             (Some(dimension), _) => quantity(dimension, schema),
-            (None, names) if names.len() == 1 => names.concat(),
             (None, names) if !names.is_empty() => format!("one of {}", names.join(", ")),
             _ => plain(schema, self.root),
         };
@@ -217,8 +211,7 @@ fn plain(schema: &Json, root: &Json) -> String {
         Some("integer") => "whole number".into(),
         Some("number") => "number".into(),
         Some("array") => {
-            let item =
-                Key { path: String::new(), variant: None, needed: false, root, table: schema, own: &schema["items"] };
+            let item = Key { path: String::new(), variant: None, needed: false, root, own: &schema["items"] };
             match (&schema["minItems"], &schema["maxItems"]) {
                 (least, most) if least == most && !least.is_null() => format!("list of {least}: {}", item.kind()),
                 (Json::Null, _) => format!("list: {}", item.kind()),
