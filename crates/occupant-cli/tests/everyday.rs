@@ -292,7 +292,7 @@ fn units_are_those_of_the_scenario_or_those_asked_for() {
     {
         done(here, &[&["study", "report", "out", "-f"], words].concat());
         let page = fs::read_to_string(here.join("out/report.html")).unwrap();
-        assert!(page.contains(speed) && page.contains("g</h2>") && page.contains(others), "{speed}, {others}");
+        assert!(page.contains(speed) && page.contains("head.peak, g") && page.contains(others), "{speed}, {others}");
     }
 }
 

@@ -15,8 +15,10 @@ pub fn plain(text: &str) -> String {
     escaped(text.chars(), |c| is_hidden(c) && !matches!(c, '\n' | '\t' | '\u{c}'))
 }
 
-/// A number as people write it: with an exponent where it would be a row of zeros, `1e-300`.
+/// A number as people write it: with an exponent where it would be a row of zeros, `1e-300`, and in 15 digits, which show no
+/// traces of its conversion (700 ms are 0.7 s, and not 0.7000000000000001).
 pub fn number(value: f64) -> String {
+    let value = format!("{value:.14e}").parse().unwrap_or(value);
     let is_plain = value == 0.0 || !value.is_finite() || (1e-6..1e12).contains(&value.abs());
     if is_plain { value.to_string() } else { format!("{value:e}") }
 }
@@ -71,5 +73,6 @@ mod tests {
     fn numbers_have_no_rows_of_zeros() {
         let written = [0.0, -0.25, 1e-6, 123_456_789.0, 1e-300, -2.5e300, f64::INFINITY, 1e-7].map(number);
         assert_eq!(written, ["0", "-0.25", "0.000001", "123456789", "1e-300", "-2.5e300", "inf", "1e-7"]);
+        assert_eq!([700.0 * 1e-3, 0.1 + 0.2, f64::NAN].map(number), ["0.7", "0.3", "NaN"]);
     }
 }

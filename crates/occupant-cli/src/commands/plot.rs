@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use placed_text::number;
+
 use super::flags::history::{TestArgs, WindowArgs};
 use crate::base::{Failure, file_name, note, program, publish, refuse_input, said_and_opened, say, with_word};
 use crate::files::history::{AxisChoice, Treatment, UnitChoice};
@@ -130,7 +132,10 @@ fn window(window: WindowArgs) -> Result<[f64; 2], Failure> {
     if from < to {
         return Ok([from, to]);
     }
-    Err(Failure::with_help(format!("--from {from} s is not before --to {to} s"), "--from is the earlier time"))
+    Err(Failure::with_help(
+        format!("--from {} s is not before --to {} s", number(from), number(to)),
+        "--from is the earlier time",
+    ))
 }
 
 /// Runs whose titles stand below the heading.

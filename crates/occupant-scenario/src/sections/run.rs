@@ -10,6 +10,7 @@ use super::quantity::{NOT_NEGATIVE, POSITIVE, si_or};
 use super::{Length, Ratio, Scenario, Speed, Time};
 use occupant_core::body::Body;
 use occupant_core::model::setup::{DEFAULT_OUTPUT_S, Integrator, OutputOptions, TimeSpan};
+use placed_text::number;
 
 /// When the run starts and ends.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -72,7 +73,7 @@ pub(super) fn time(b: &mut Builder, s: &Scenario) -> TimeSpan {
         stops_at_rest: s.time.stop_at_rest.unwrap_or(false),
     };
     if span.end_s <= span.start_s {
-        let found = format!("a run from {} s to {} s", span.start_s, span.end_s);
+        let found = format!("a run from {} s to {} s", number(span.start_s), number(span.end_s));
         b.error("time.end", found, "an end after the start");
     }
     span

@@ -8,6 +8,7 @@ use crash_measures::signal::{
     uniform_interval,
 };
 use occupant_core::vehicle::{AccelerationRecord, Attitude};
+use placed_text::number;
 
 /// Gravity in the vertical channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -61,7 +62,8 @@ pub enum Unprepared {
     },
     /// First contact and end do not lie in the record, in this order.
     #[error(
-        "the window from {start_s} s to {end_s} s does not lie in the record, which goes from {first_s} s to {last_s} s"
+        "the window from {} s to {} s does not lie in the record, which goes from {} s to {} s",
+        number(*start_s), number(*end_s), number(*first_s), number(*last_s)
     )]
     Window {
         /// First contact, s.

@@ -110,7 +110,7 @@ mod tests {
         let text = |text: &str| format!("<c t=\"inlineStr\"><is><t xml:space=\"preserve\">{text}</t></is></c>");
         let heads = [text("time[s]"), text("head.x"), text("8 &amp; &quot;&lt;")].concat();
         let rows = format!(
-            "<row>{heads}</row><row><c><v>0.5</v></c><c/>{}</row><row><c><v>1e-7</v></c><c><v>-2</v></c>{}</row></sheetData>",
+            "<row>{heads}</row><row><c><v>0.5</v></c><c/>{}</row><row><c><v>1e-7</v></c><c><v>-2.0</v></c>{}</row></sheetData>",
             text("=1+1"),
             text("β\\u0001")
         );

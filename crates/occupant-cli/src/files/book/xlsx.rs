@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use crc32fast::Hasher;
 use flate2::Compression;
 use flate2::write::DeflateEncoder;
-use placed_text::{number, shortened};
+use placed_text::shortened;
 
 use super::{Sheet, Values};
 use crate::base::escape;
@@ -73,9 +73,7 @@ fn write_sheet(to: &mut impl Write, sheet: &Sheet) -> io::Result<()> {
         write!(to, "</row><row>")?;
         for column in &sheet.columns {
             match &column.values {
-                Values::Numbers(numbers) if numbers[row].is_finite() => {
-                    write!(to, "<c><v>{}</v></c>", number(numbers[row]))?
-                }
+                Values::Numbers(numbers) if numbers[row].is_finite() => write!(to, "<c><v>{:?}</v></c>", numbers[row])?,
                 Values::Numbers(_) => write!(to, "<c/>")?,
                 Values::Texts(texts) => text(to, &texts[row])?,
             }

@@ -2,6 +2,7 @@
 
 use crash_measures::correlation::{CoraSettings, Iso18571Grade, anova, cora, iso18571, sprague_geers};
 use crash_measures::signal::{Interpolant, Interpolation, whole_steps};
+use placed_text::number;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
@@ -232,8 +233,8 @@ pub(crate) fn overlap(a: Track<'_>, b: Track<'_>, window: Window) -> Result<[f64
                 (None, None) => String::new(),
                 (from, to) => format!(
                     ", the window {} to {}",
-                    from.map_or("the start".to_owned(), |t| format!("{t} s")),
-                    to.map_or("the end".to_owned(), |t| format!("{t} s"))
+                    from.map_or("the start".to_owned(), |t| format!("{} s", number(t))),
+                    to.map_or("the end".to_owned(), |t| format!("{} s", number(t)))
                 ),
             }
         )),

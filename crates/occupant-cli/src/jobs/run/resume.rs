@@ -11,6 +11,7 @@ use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::replay;
 use occupant_scenario::Loaded;
+use placed_text::number;
 use serde::Serialize;
 
 use super::difference::differences;
@@ -59,7 +60,7 @@ impl Resumption {
         let end_s = opened.model.setup().time.end_s;
         if end_s <= last.time_s {
             return Err(Failure::with_help(
-                format!("{name} reaches t = {} s, and the run is to end at {end_s} s", last.time_s),
+                format!("{name} reaches t = {} s, and the run is to end at {} s", number(last.time_s), number(end_s)),
                 "give a later end with --until TIME",
             ));
         }
@@ -84,7 +85,7 @@ impl Resumption {
     /// Says where the run is resumed, and what the summary leaves out.
     pub(crate) fn announce(&self) {
         let (file, at_s) = (self.file.display(), self.checkpoint.time_s);
-        say(&format!("resumed {file} at t = {at_s} s"));
+        say(&format!("resumed {file} at t = {} s", number(at_s)));
         let first = self.earlier.first().unwrap_or(&self.checkpoint);
         if first.index > 0 {
             say(&format!(
