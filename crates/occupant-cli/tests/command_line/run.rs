@@ -287,3 +287,27 @@ fn a_run_that_fails_says_when_and_why_and_leaves_what_it_has() {
     assert!(folder.path().join("case.partial.mcap").exists());
     assert!(!folder.path().join("case.mcap").exists());
 }
+
+/// Beyond 2.785, where the method of a fixed step ends, friction chatters and the energy balance shows it; not from 2 on.
+#[test]
+fn friction_is_too_stiff_where_the_energy_balance_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let ran = |name: &str, step: &str| {
+        let scenario = format!("{}/../../scenarios/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let step = format!("integrator.step=\"{step}\"");
+        let ran = json(&answer(folder.path(), &["run", &scenario, "--no-mcap", "--json", "-q", "--set", &step]));
+        let greatest = ran["unstable_friction"].as_array().unwrap().iter().map(|f| f["number"].as_f64().unwrap());
+        (greatest.fold(0.0, f64::max), ran["energy"]["balance_error"].as_f64().unwrap())
+    };
+    for (name, below, beyond) in [("cart-unbelted", "0.125 ms", "0.16 ms"), ("rear-seat", "0.075 ms", "0.1 ms")] {
+        let ((none, kept), (number, off)) = (ran(name, below), ran(name, beyond));
+        // measured: 2.4e-6 and 3.3e-4, 1.2e-6 and 2.6e-4
+        assert!(none == 0.0 && (2.785..4.0).contains(&number), "{name}: {none}, {number}");
+        assert!(off > 30.0 * kept, "{name}: {kept}, {off}");
+    }
+    for name in ["cart-unbelted", "rear-seat", "rear-seat-solids"] {
+        let scenario = format!("{}/../../scenarios/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let said = err(&answer(folder.path(), &["run", &scenario, "--no-mcap"]));
+        assert!(!said.contains("too stiff"), "{said}");
+    }
+}
