@@ -107,7 +107,7 @@ pub struct Contact {
 impl<'a> Sample<'a> {
     /// The same with the instruments and the summary of a body (index).
     #[must_use]
-    pub(crate) fn of_body(self, of: usize) -> Self {
+    pub fn of_body(self, of: usize) -> Self {
         Sample { of, ..self }
     }
 
