@@ -84,6 +84,9 @@ impl Runs {
             return format!("{done} of {all} {}", self.what);
         }
         let rate = computed as f64 / self.elapsed_s();
+        if done > all {
+            return format!("{done} {}, {rate:.1}/s", self.what);
+        }
         let to_go_s = all.saturating_sub(done) as f64 / rate;
         format!("{done} of {all} {}, {rate:.1}/s, {to_go_s:.0} s to go", self.what)
     }
