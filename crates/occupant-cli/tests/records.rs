@@ -177,7 +177,9 @@ fn headings_tell_which_program_wrote_a_table() {
     let heads = "t[s],x[ft],y[ft],z[ft],roll[deg],pitch[deg],yaw[deg]\n0,0,0.5,-1.25,2,1,3\n0.033,1.452,";
     for name in ["SmacRT1C.csv", "SmacRT2S.asc"] {
         let said = spoken(here, &["import", name]);
-        assert!(said.contains("taken as feet and degrees, y to the right and z down"), "{said}");
+        for words in ["without units: taken as feet and degrees", "taken as y to the right and z down"] {
+            assert!(said.contains(words), "{said}");
+        }
         let stem = &name[..8];
         let path = fs::read_to_string(here.join(format!("{stem}-path.csv"))).unwrap();
         assert!(path.starts_with(heads), "{path}");
@@ -197,6 +199,86 @@ fn headings_tell_which_program_wrote_a_table() {
     fs::write(here.join("cut.csv"), rec_tec(",", "", "\n").replace("0.066,", "0.066,a")).unwrap();
     let found = answer(here, &["import", "cut.csv"]);
     assert!(err(&found).contains("cut.csv:4\n = expected numbers for time, xpos"), "{}", err(&found));
+}
+
+/// Units that stand in the headings, or below them, are those of the path.
+#[test]
+fn headings_of_known_programs_tell_their_units() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let imported = |name: &str, text: &str| {
+        fs::write(here.join(name), text).unwrap();
+        let said = spoken(here, &["import", name, "-f"]);
+        let stem = name.split('.').next().unwrap();
+        assert!(done(here, &["check", &format!("{stem}.toml")]).contains("10.000 m/s at the start"), "{text}");
+        (said, fs::read_to_string(here.join(format!("{stem}-path.csv"))).unwrap())
+    };
+    let heads = "Time[ms],XPos[m],YPos[m],ZPos[m],Pitch (rad),Roll (rad),Yaw (rad)\n";
+    let (said, path) =
+        imported("metric.csv", &format!("{heads}0,0,0,0,0,0,0.1\n100,1,0,0,0,0,0.1\n200,2,0,0,0,0,0.1\n"));
+    assert!(path.starts_with("t[s],x[m],y[m],z[m],roll[rad],pitch[rad],yaw[rad]\n0,0,0,0,0,0,0.1\n0.1,1,"), "{path}");
+    assert!(!said.contains("feet") && said.contains("z down"), "{said}");
+    let below =
+        "Time;XPos;YPos;ZPos;Pitch;Roll;Yaw\ns;m;m;m;deg;deg;deg\n0,0;0;0;0;0;0;1\n0,1;1;0;0;0;0;1\n0,2;2;0;0;0;0;1\n";
+    let (said, path) = imported("below.csv", below);
+    assert!(
+        path.starts_with("t[s],x[m],y[m],z[m],roll[deg],pitch[deg],yaw[deg]\n") && !said.contains("feet"),
+        "{said}{path}"
+    );
+    let car = "Time Car.tx[km] Car.ty Car.tz Car.Yaw [deg] Car.Pitch Car.Roll\n0 0 0 0 5 0 0\n0.1 0.001 0 0 5 0 0\n0.2 0.002 0 0 5 0 0\n";
+    let (_, path) = imported("car.csv", car);
+    assert!(path.starts_with("t[s],x[km],y[m],z[m],roll[rad],pitch[rad],yaw[deg]\n0,0,0,0,0,0,5\n"), "{path}");
+    for (heading, odd) in [("XPos[m]", "XPos[kg]"), ("Time[ms]", "Time[m]"), ("Yaw (rad)", "Yaw (turnips)")] {
+        fs::write(here.join("odd.csv"), heads.replace(heading, odd) + "0,0,0,0,0,0,0\n100,1,0,0,0,0,0\n").unwrap();
+        let found = answer(here, &["import", "odd.csv"]);
+        assert_eq!(found.status.code(), Some(2));
+        assert!(err(&found).contains(&format!("as the unit of `{odd}`\n --> odd.csv:1\n")), "{}", err(&found));
+    }
+}
+
+#[test]
+fn the_vehicle_that_is_asked_for_is_imported() {
+    let folder = files();
+    let here = folder.path();
+    let text = "Time,XPos,YPos,ZPos,Pitch,Roll,Yaw,XPos2,YPos2,ZPos2,Pitch2,Roll2,Yaw2\n\
+                0,0,0,0,0,0,0,90,0,0,0,0,9\n1,10,0,0,0,0,0,80,0,0,0,0,9\n2,20,0,0,0,0,0,70,0,0,0,0,9\n";
+    fs::write(here.join("two.csv"), text).unwrap();
+    let path = || fs::read_to_string(here.join("two-path.csv")).unwrap();
+    let said = spoken(here, &["import", "two.csv"]);
+    assert!(said.contains("the path is that of vehicle 1; --vehicle takes another: 1, 2"), "{said}");
+    assert!(path().contains("\n1,10,0,"), "{}", path());
+    let said = spoken(here, &["import", "two.csv", "-f", "--vehicle", "2"]);
+    assert!(path().contains("\n1,80,0,0,0,0,9\n") && !said.contains("takes another"), "{said}{}", path());
+    for (file, expected) in [
+        ("two.csv", "no vehicle 3\n --> two.csv\n = expected `1` or `2`"),
+        ("recorder.csv", "no vehicle 3"),
+        ("ego.xosc", "no vehicle 3"),
+    ] {
+        let found = answer(here, &["import", file, "-f", "--vehicle", "3"]);
+        assert!(found.status.code() == Some(2) && err(&found).contains(expected), "{}", err(&found));
+    }
+}
+
+/// A car that spins on, written between −180° and 180°, by a program that is known and by one that is not.
+#[test]
+fn angles_that_wrap_go_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    for heads in ["Time,XPos,YPos,ZPos,Pitch,Roll,Yaw", "t[s],x[ft],y[ft],z[ft],pitch[deg],roll[deg],yaw[deg]"] {
+        let yaws = [100.0, 140.0, 179.5, -141.0, -100.0, -60.0, 0.0, 60.0, 120.0, 179.0, -160.0];
+        let line = |(i, yaw): (usize, &f64)| format!("{:.1},{i},0,0,1,-2,{yaw}\n", i as f64 / 10.0);
+        let lines: String = yaws.iter().enumerate().map(line).collect();
+        fs::write(here.join("spin.csv"), format!("{heads}\n{lines}")).unwrap();
+        let said = spoken(here, &["import", "spin.csv", "-f"]);
+        assert!(said.contains("yaw jumped by more than half a turn: turns were added"), "{said}");
+        let path = fs::read_to_string(here.join("spin-path.csv")).unwrap();
+        let last = |line: &str| line.rsplit(',').next().unwrap().parse::<f64>().unwrap();
+        let found: Vec<f64> = path.lines().skip(1).map(last).collect();
+        let whole = [100.0, 140.0, 179.5, 219.0, 260.0, 300.0, 360.0, 420.0, 480.0, 539.0, 560.0];
+        assert!(found.len() == 11 && found.iter().zip(whole).all(|(a, b)| (a - b).abs() < 1e-9), "{path}");
+        assert!(path.lines().nth(4).unwrap().contains(",-2,1,"), "{path}");
+        done(here, &["check", "spin.toml"]);
+    }
 }
 
 /// All sections that a record of NHTSA has, in the order and with the fields of its test reference guide (version 5); two sensors of one

@@ -26,9 +26,9 @@ pub(crate) struct Args {
     #[arg(short, long, value_name = "NAME.toml")]
     output: Option<PathBuf>,
 
-    /// The vehicle, where the test has several
-    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
-    vehicle: u32,
+    /// The vehicle, where the test or table has several; the first, if absent
+    #[arg(long, value_name = "NUMBER")]
+    vehicle: Option<u32>,
 
     /// The object whose trajectory it is, where the file has several
     #[arg(long, value_name = "NAME")]

@@ -35,12 +35,15 @@ pub(crate) struct Imported {
 ///
 /// # Errors
 /// As [`read`].
-pub(crate) fn import(path: &Path, vehicle: u32, object: Option<&str>) -> Result<Imported, Failure> {
+pub(crate) fn import(path: &Path, vehicle: Option<u32>, object: Option<&str>) -> Result<Imported, Failure> {
     if let Some(header) = nhtsa::header(path) {
-        let (record, recording) = nhtsa::read(&header, vehicle)?;
+        let (record, recording) = nhtsa::read(&header, vehicle.unwrap_or(1))?;
         return Ok(Imported { record, recording, z_up: false });
     }
-    let trajectory = if path.is_dir() { None } else { trajectory::read(path, object)? };
+    let trajectory = if path.is_dir() { None } else { trajectory::read(path, vehicle, object)? };
+    if trajectory.is_none() {
+        trajectory::one_vehicle(path, vehicle)?;
+    }
     let (recording, z_up) = trajectory.map_or_else(|| read(path).map(|recording| (recording, false)), Ok)?;
     Ok(Imported { record: TestRecord::default(), recording, z_up })
 }

@@ -3,10 +3,10 @@
 
 use std::path::Path;
 
-use placed_text::{name_and_unit, one_of, shown};
+use placed_text::{Cell, Sources, TextTable, name_and_unit, one_of, shown};
 use roxmltree::{Document, Node};
 
-use super::super::signals::{Recording, Signal, finite, scale_of};
+use super::super::signals::{Recording, Signal, finite, scale_of, seconds_in};
 use super::super::trouble::Trouble;
 use crate::base::{Failure, ending, input_file, sha256};
 
@@ -22,12 +22,14 @@ struct Layout {
     heads: [&'static str; 7],
     /// The heading of the object's name, where a table holds several.
     object: Option<&'static str>,
-    /// Units of lengths and angles.
+    /// Units of lengths and angles whose headings tell none.
     units: [&'static str; 2],
     /// Whether axes are forward, left, up.
     z_up: bool,
     /// What to know of it.
     note: Option<&'static str>,
+    /// What to know where headings tell no units.
+    without_units: Option<&'static str>,
 }
 
 /// Of OpenSCENARIO, and of esmini.
@@ -37,6 +39,7 @@ const OPEN: Layout = Layout {
     units: ["m", "rad"],
     z_up: true,
     note: Some("a trajectory follows the middle of the rear axle; --cg says how far ahead the centre of gravity is"),
+    without_units: None,
 };
 
 const LAYOUTS: [Layout; 3] = [
@@ -55,28 +58,47 @@ const LAYOUTS: [Layout; 3] = [
         units: ["ft", "deg"],
         z_up: false,
         note: Some(
-            "Rec-Tec's table does not tell its units and axes: taken as feet and degrees, y to the right and z down. In a metric \
-             project [ft] in the headings of the path is to be [m]; where a turn to the right has y or yaw below 0, \
-             axes = \"z_up\" belongs into [path]",
+            "Rec-Tec's table does not tell its axes: taken as y to the right and z down; where a turn to the right has y or yaw \
+             below 0, axes = \"z_up\" belongs into [path]",
+        ),
+        without_units: Some(
+            "without units: taken as feet and degrees; in a metric project [ft] in the headings of the path is to be [m]",
         ),
     },
 ];
 
-/// Reads the trajectory of `object` (of the only one, if absent), and whether its axes are forward, left, up; none of a file that
+/// A trajectory as its file has it, with the units of [`COLUMNS`].
+struct Found {
+    rows: Vec<Row>,
+    layout: &'static Layout,
+    units: [String; 6],
+    notes: Vec<String>,
+}
+
+/// Reads the trajectory of `object` (of the only one, if absent) or of the vehicle of this number (of the first, if absent), and whether its axes are forward, left, up; none of a file that
 /// holds none.
 ///
 /// # Errors
 /// What cannot be read, and what is wrong in it.
-pub(super) fn read(path: &Path, object: Option<&str>) -> Result<Option<(Recording, bool)>, Failure> {
+pub(super) fn read(
+    path: &Path,
+    vehicle: Option<u32>,
+    object: Option<&str>,
+) -> Result<Option<(Recording, bool)>, Failure> {
     let is_scenario = matches!(ending(path).as_str(), "xosc" | "xml");
     if !is_scenario && !matches!(ending(path).as_str(), "csv" | "txt" | "tsv" | "asc" | "dat") {
         return Ok(None);
     }
     let bytes = input_file::read(path)?;
     let Ok(text) = std::str::from_utf8(&bytes) else { return Ok(None) };
-    let found =
-        if is_scenario { Some((of_scenario(path, text, object)?, &OPEN)) } else { of_table(path, text, object)? };
-    let Some((rows, layout)) = found else { return Ok(None) };
+    let found = if is_scenario {
+        one_vehicle(path, vehicle)?;
+        let rows = of_scenario(path, text, object)?;
+        Some(Found { rows, layout: &OPEN, units: OPEN.units_of_columns(), notes: Vec::new() })
+    } else {
+        of_table(path, text, vehicle, object)?
+    };
+    let Some(Found { rows, layout, units, mut notes }) = found else { return Ok(None) };
     if let Some(i) = (1..rows.len()).find(|&i| rows[i][0] <= rows[i - 1][0]) {
         let found = format!("time {} s after {} s", rows[i][0], rows[i - 1][0]);
         return Err(Trouble::of(path, found, "times that increase").into());
@@ -85,20 +107,72 @@ pub(super) fn read(path: &Path, object: Option<&str>) -> Result<Option<(Recordin
         return Err(Trouble::of(path, format!("{} places", rows.len()), "a trajectory of two places or more").into());
     }
     let time_s: Vec<f64> = rows.iter().map(|row| row[0]).collect();
-    let unit = |i: usize| layout.units[i / 3];
     let signal = |(i, name): (usize, &&str)| Signal {
         name: (*name).to_owned(),
         code: None,
-        unit: Some(unit(i).to_owned()),
-        scale: scale_of(unit(i)),
+        unit: Some(units[i].clone()),
+        scale: scale_of(&units[i]),
         time_s: time_s.clone(),
         values: rows.iter().map(|row| row[i + 1]).collect(),
         place: path.display().to_string(),
     };
     let signals = COLUMNS.iter().enumerate().map(signal).collect();
-    let notes = layout.note.map(str::to_owned).into_iter().collect();
+    notes.extend(layout.note.map(str::to_owned));
     Ok(Some((Recording { path: path.to_owned(), sha256: sha256(&bytes), signals, notes }, layout.z_up)))
 }
+
+/// Refuses a vehicle that is asked for by another number than 1, where the file numbers none.
+pub(super) fn one_vehicle(path: &Path, vehicle: Option<u32>) -> Result<(), Trouble> {
+    match vehicle {
+        None | Some(1) => Ok(()),
+        Some(number) => Err(Trouble::of(path, format!("no vehicle {number}"), "1, where a file numbers no vehicles")
+            .hint("--object names one of several objects")),
+    }
+}
+
+impl Layout {
+    fn units_of_columns(&self) -> [String; 6] {
+        std::array::from_fn(|i| self.units[i / 3].to_owned())
+    }
+
+    /// The columns of [`Row`] and of the object's name for a vehicle; time and name may be common to all.
+    fn columns(&self, heads: &[(String, Option<u32>)], vehicle: u32) -> Option<Vec<usize>> {
+        let own = |name: &str| heads.iter().position(|(head, of)| head == name && of.unwrap_or(1) == vehicle);
+        let common = |name: &str| heads.iter().position(|(head, _)| head == name);
+        let [time, rest @ ..] = &self.heads;
+        let time = own(time).or_else(|| common(time));
+        let rest = rest.iter().map(|name| own(name));
+        std::iter::once(time).chain(rest).chain(self.object.map(common)).collect()
+    }
+
+    /// Seconds in the unit of the time, and the units of [`COLUMNS`], as the table tells them.
+    fn units_in(&self, path: &Path, table: &TextTable, columns: &[usize], line: usize) -> Result<Units, Trouble> {
+        let told = |i: usize| table.unit(columns[i]).map(|(unit, _)| unit);
+        let heading = |i: usize| table.headings[columns[i]].text;
+        let wrong = |i: usize, unit: &str, expected: &str| {
+            Trouble::at(path, line, format!("`{unit}` as the unit of `{}`", heading(i)), expected)
+        };
+        let second = match told(0) {
+            None => 1.0,
+            Some(unit) => seconds_in(unit).ok_or_else(|| wrong(0, unit, "a unit of time, such as s or ms"))?,
+        };
+        let (mut units, mut without) = (self.units_of_columns(), Vec::new());
+        for (i, own) in (1..).zip(&mut units) {
+            match told(i) {
+                None => without.push(heading(i)),
+                Some(unit) if scale_of(unit).map(|s| s.dimension) == scale_of(own).map(|s| s.dimension) => {
+                    *own = unit.to_owned();
+                }
+                Some(unit) => return Err(wrong(i, unit, &format!("a unit of the kind of {own}"))),
+            }
+        }
+        let note = self.without_units.filter(|_| !without.is_empty());
+        Ok((second, units, note.map(|note| format!("{} {note}", without.join(", ")))))
+    }
+}
+
+/// Seconds in the unit of the time, the units of [`COLUMNS`], and what to know of them.
+type Units = (f64, [String; 6], Option<String>);
 
 /// The object that is asked for, or the only one.
 fn chosen(path: &Path, names: &[String], object: Option<&str>) -> Result<usize, Trouble> {
@@ -115,45 +189,82 @@ fn chosen(path: &Path, names: &[String], object: Option<&str>) -> Result<usize, 
     Err(Trouble::of(path, found, if known.is_empty() { "one".to_owned() } else { one_of(&known, '`') }).hint(hint))
 }
 
-/// The cells of a line: commas or semicolons stand between them, or blanks.
-fn cells(line: &str) -> Vec<&str> {
-    let is_between = |c: char| matches!(c, ',' | ';');
-    if line.contains(is_between) {
-        line.split(is_between).map(str::trim).collect()
-    } else {
-        line.split_whitespace().collect()
-    }
+/// A heading without its unit, and the number of its vehicle.
+fn bare(heading: &str) -> (String, Option<u32>) {
+    let whole = name_and_unit(heading).0;
+    let name = whole.trim_end_matches(|c: char| c.is_ascii_digit());
+    (name.to_lowercase(), whole[name.len()..].parse().ok())
 }
 
-/// A heading without its unit and without the number of its vehicle.
-fn bare(heading: &str) -> String {
-    name_and_unit(heading).0.trim_end_matches(|c: char| c.is_ascii_digit()).to_lowercase()
+/// The program that these headings tell of, and the columns of each vehicle.
+fn layout_of(headings: &[Cell]) -> Option<(&'static Layout, Vec<(u32, Vec<usize>)>)> {
+    let heads: Vec<_> = headings.iter().map(|heading| bare(heading.text)).collect();
+    let mut numbers: Vec<u32> = heads.iter().map(|(_, number)| number.unwrap_or(1)).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    let vehicles =
+        |l: &Layout| -> Vec<_> { numbers.iter().filter_map(|&n| Some((n, l.columns(&heads, n)?))).collect() };
+    LAYOUTS.iter().map(|l| (l, vehicles(l))).find(|(_, vehicles)| !vehicles.is_empty())
 }
 
-/// The program that these headings tell of, and the columns of [`Row`] and of the object's name.
-fn layout_of(headings: &[&str]) -> Option<(&'static Layout, Vec<usize>)> {
-    let heads: Vec<String> = headings.iter().map(|heading| bare(heading)).collect();
-    let at = |name: &&str| heads.iter().position(|head| head == name);
-    LAYOUTS.iter().find_map(|l| Some((l, l.heads.iter().chain(&l.object).map(at).collect::<Option<_>>()?)))
+/// The columns of the vehicle that is asked for, or of the first, and a note on others.
+fn own_columns(
+    path: &Path,
+    vehicles: Vec<(u32, Vec<usize>)>,
+    asked: Option<u32>,
+) -> Result<(Vec<usize>, Option<String>), Trouble> {
+    let numbers: Vec<String> = vehicles.iter().map(|(number, _)| number.to_string()).collect();
+    let note = (asked.is_none() && numbers.len() > 1).then(|| {
+        format!("the path is that of vehicle {}; --vehicle takes another: {}", numbers[0], numbers.join(", "))
+    });
+    let own = vehicles.into_iter().find(|(number, _)| asked.is_none_or(|asked| asked == *number));
+    let own = own.ok_or_else(|| {
+        let known: Vec<&str> = numbers.iter().map(String::as_str).collect();
+        let found = format!("no vehicle {}", asked.unwrap_or_default());
+        Trouble::of(path, found, one_of(&known, '`')).hint("--vehicle names one")
+    })?;
+    Ok((own.1, note))
 }
 
-type Found = (Vec<Row>, &'static Layout);
-
-fn of_table(path: &Path, text: &str, object: Option<&str>) -> Result<Option<Found>, Trouble> {
+fn of_table(path: &Path, text: &str, vehicle: Option<u32>, object: Option<&str>) -> Result<Option<Found>, Trouble> {
+    let mut sources = Sources::new();
     // a line about the log may stand first
-    let lines = || (1..).zip(text.trim_start_matches('\u{feff}').lines());
-    let told = lines().take(2).find_map(|(number, line)| Some((number, layout_of(&cells(line))?)));
-    let Some((head, (layout, columns))) = told else { return Ok(None) };
+    let below = text.split_once('\n').map(|(_, below)| format!("\n{below}")).unwrap_or_default();
+    let texts = [text, &below].map(|text| sources.add_named(path.display().to_string(), text));
+    let told = texts.into_iter().find_map(|id| {
+        let table = TextTable::of(&sources, id, |unit| scale_of(unit).is_some())?;
+        layout_of(&table.headings).map(|found| (table, found))
+    });
+    let Some((table, (layout, vehicles))) = told else { return Ok(None) };
+    let (columns, others) = own_columns(path, vehicles, vehicle)?;
+    let (second, units, note) = layout.units_in(path, &table, &columns, sources.position(table.first).line)?;
+    let mut rows = rows(path, &sources, &table, (layout, &columns), object)?;
+    rows.iter_mut().for_each(|row| row[0] *= second);
+    // esmini logs the same time twice where a scenario restarts a step
+    rows.dedup_by(|next, row| next[0] == row[0]);
+    let notes = others.into_iter().chain(note).collect();
+    Ok(Some(Found { rows, layout, units, notes }))
+}
+
+/// The rows of the object that is asked for, times in the table's own unit.
+fn rows(
+    path: &Path,
+    sources: &Sources,
+    table: &TextTable,
+    (layout, columns): (&Layout, &[usize]),
+    object: Option<&str>,
+) -> Result<Vec<Row>, Trouble> {
     let mut names: Vec<String> = Vec::new();
     let mut rows: Vec<(usize, Row)> = Vec::new();
-    for (number, line) in lines().skip(head).filter(|(_, line)| !line.trim().is_empty()) {
-        let cells = cells(line);
-        let row: Option<Vec<f64>> = columns[..7].iter().map(|&i| cells.get(i).and_then(|cell| finite(cell))).collect();
+    for line in &table.lines {
+        let cells = table.separator.cells(sources, *line);
+        let number = |i: &usize| cells.get(*i).and_then(|cell| table.separator.number(cell).ok());
+        let row: Option<Vec<f64>> = columns[..7].iter().map(number).collect();
         let Some(row) = row.and_then(|row| Row::try_from(row).ok()) else {
             let expected = format!("numbers for {}", layout.heads.join(", "));
-            return Err(Trouble::at(path, number, "a line that is not of this table", expected));
+            return Err(Trouble::at(path, sources.position(*line).line, "a line that is not of this table", expected));
         };
-        let own = columns.get(7).and_then(|&i| cells.get(i)).copied().unwrap_or_default();
+        let own = columns.get(7).and_then(|&i| cells.get(i)).map_or("", |cell| cell.text);
         let name = names.iter().position(|name| name == own).unwrap_or_else(|| {
             names.push(own.to_owned());
             names.len() - 1
@@ -161,10 +272,7 @@ fn of_table(path: &Path, text: &str, object: Option<&str>) -> Result<Option<Foun
         rows.push((name, row));
     }
     let own = chosen(path, &names, object)?;
-    let mut rows: Vec<Row> = rows.into_iter().filter(|(name, _)| *name == own).map(|(_, row)| row).collect();
-    // esmini logs the same time twice where a scenario restarts a step
-    rows.dedup_by(|next, row| next[0] == row[0]);
-    Ok(Some((rows, layout)))
+    Ok(rows.into_iter().filter(|(name, _)| *name == own).map(|(_, row)| row).collect())
 }
 
 fn of_scenario(path: &Path, text: &str, object: Option<&str>) -> Result<Vec<Row>, Trouble> {

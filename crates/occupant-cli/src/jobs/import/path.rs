@@ -1,6 +1,7 @@
 //! Which signals of a record are the motion of its vehicle, and the section of a scenario that makes a path of them.
 
 use crash_measures::signal::STANDARD_GRAVITY_MPS2;
+use occupant_core::vehicle::{Station, unwrap_angles};
 use occupant_scenario::column_named;
 
 use super::Request;
@@ -75,10 +76,36 @@ pub(super) fn of(
     let kept: Vec<usize> = (0..first.time_s.len()).filter(is_whole).collect();
     let time_s: Vec<f64> = kept.iter().map(|&i| first.time_s[i]).collect();
     rows.iter_mut().for_each(|(_, values)| *values = kept.iter().map(|&i| values[i]).collect());
+    unwrap(&columns, &mut rows, notes);
     let csv = written(&time_s, &rows).map_err(|error| Failure::plain(format!("the path cannot be made: {error}")))?;
     let keys = keys(&columns, &time_s, imported, request, notes);
     let signals = columns.iter().map(|(_, signal)| signal.name.clone()).collect();
     Ok(Some(PathTable { csv, words: format!("{words}, {} times", time_s.len()), keys, signals }))
+}
+
+/// Continues angles that were written between −180° and 180°, so that none jumps.
+fn unwrap(columns: &Columns, rows: &mut [(String, Vec<f64>)], notes: &mut Vec<String>) {
+    let angles = ["roll", "pitch", "yaw"].map(|name| columns.iter().position(|(own, _)| *own == name));
+    let factor = |column: usize| columns[column].1.scale.map_or(1.0, |scale| scale.factor);
+    let count = rows.first().map_or(0, |(_, values)| values.len());
+    let told = |i: usize| angles.map(|at| at.map_or(0.0, |column| rows[column].1[i] * factor(column)));
+    let told: Vec<[f64; 3]> = (0..count).map(told).collect();
+    let mut stations: Vec<Station> = told.iter().map(|angles| Station::new(0.0, [0.0; 3], *angles)).collect();
+    unwrap_angles(&mut stations);
+    let mut names = Vec::new();
+    for (i, (station, told)) in stations.iter().zip(&told).enumerate() {
+        let attitude = station.pose.attitude;
+        let whole = [attitude.roll_rad, attitude.pitch_rad, attitude.yaw_rad];
+        for (axis, column) in angles.iter().enumerate().filter_map(|(axis, at)| Some((axis, (*at)?))) {
+            if whole[axis] != told[axis] {
+                rows[column].1[i] += (whole[axis] - told[axis]) / factor(column);
+                names.extend((!names.contains(&columns[column].0)).then_some(columns[column].0));
+            }
+        }
+    }
+    if !names.is_empty() {
+        notes.push(format!("{} jumped by more than half a turn: turns were added", names.join(", ")));
+    }
 }
 
 /// Signals that say themselves which of the columns they are, by code or by heading.
