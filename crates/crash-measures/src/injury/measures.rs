@@ -285,6 +285,8 @@ fn why(error: &SignalError) -> String {
             let every_ms = (5e8 / nyquist_hz).round() / 1e6;
             format!("outputs every {every_ms} ms are too coarse for the filter: run with output.interval = \"0.1 ms\"")
         }
+        // a reading that is none from the first sample on is that of a part which is not there
+        SignalError::NotFinite { index: 0, found, .. } if found.is_nan() => "the body has no such part".to_owned(),
         error => error.to_string(),
     }
 }

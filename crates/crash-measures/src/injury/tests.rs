@@ -97,6 +97,14 @@ fn limits_are_judged_with_their_margins() {
 }
 
 #[test]
+fn a_part_that_is_not_there_is_said_to_be_none() {
+    let mut signals = dummy();
+    signals.pelvis_m_s2.iter_mut().flatten().for_each(|x| *x = f64::NAN);
+    let found = assess(&signals, &Options::default());
+    assert_eq!(of(&found, "pelvis_peak").remark.as_deref(), Some("the body has no such part"));
+}
+
+#[test]
 fn what_a_rigid_thorax_lacks_is_said_and_what_filters_need_too() {
     let found = assess(&dummy(), &Options::default());
     let deflection = of(&found, "chest_deflection");

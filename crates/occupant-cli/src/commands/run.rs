@@ -113,8 +113,12 @@ pub(crate) fn run(args: &Args) -> Result<Done, Failure> {
 fn several(args: &Args) -> Result<Done, Failure> {
     let mut done = Done::Well;
     let mut runs: Vec<(PathBuf, Summary, Units)> = Vec::new();
-    for scenario in std::iter::once(&args.scenario.scenario).chain(&args.more) {
-        let own = ScenarioArgs { scenario: scenario.clone(), ..args.scenario.clone() };
+    let scenarios = std::iter::once(&args.scenario.scenario).chain(&args.more);
+    let of = |scenario: &PathBuf| ScenarioArgs { scenario: scenario.clone(), ..args.scenario.clone() };
+    let all: Vec<ScenarioArgs> = scenarios.map(of).collect();
+    refuse_before(args, &all)?;
+    for own in all {
+        let scenario = own.scenario.clone();
         if !args.quiet {
             say(&format!("{}: running", scenario.display()));
         }
@@ -127,9 +131,25 @@ fn several(args: &Args) -> Result<Done, Failure> {
         if ended == Done::Unwell {
             done = ended;
         }
-        runs.push((scenario.clone(), summary, units));
+        runs.push((scenario, summary, units));
     }
     beside(&runs).map(|()| done)
+}
+
+/// What would stop a later one of several scenarios, or let it take the place of an earlier one's results, before any runs.
+fn refuse_before(args: &Args, all: &[ScenarioArgs]) -> Result<(), Failure> {
+    for (i, own) in all.iter().enumerate() {
+        let name = own.scenario.file_stem();
+        let twin = all[..i].iter().find(|other| other.scenario.file_stem() == name).filter(|_| !args.no_mcap);
+        if let Some(twin) = twin {
+            let found = format!("{} and {} would write the same file", twin.scenario.display(), own.scenario.display());
+            return Err(Failure::with_help(found, "run them one by one with -o, or with --no-mcap"));
+        }
+        if !is_input(&own.scenario) {
+            scenario::draft(own)?;
+        }
+    }
+    Ok(())
 }
 
 /// Prints the measures of runs side by side, in the units of the first.
@@ -198,8 +218,11 @@ fn told<T>(of: &Result<T, Failure>) -> Option<&T> {
 fn existing_at(args: &Args, name: &Path, chosen: &ScenarioArgs, opened: &Opened) -> Existing {
     let unasked = args.output.is_none() && args.resume.is_none() && !args.force;
     let is_earlier = unasked && is_earlier(name, chosen, opened);
-    if is_earlier && !args.quiet {
-        say(&format!("{} is an earlier run of this scenario and is replaced; -o keeps both", name.display()));
+    if is_earlier {
+        say(&format!(
+            "{} is an earlier run of this scenario, to be replaced by this one; -o keeps both",
+            name.display()
+        ));
     }
     Existing::by(args.force || is_earlier)
 }

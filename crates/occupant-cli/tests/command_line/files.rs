@@ -21,7 +21,7 @@ fn an_earlier_run_of_the_same_scenario_is_replaced_and_nothing_else() {
     let at = |name: &str| folder.path().join(name);
     let run = |words: &[&str]| {
         let output = answer(folder.path(), &[&["run", "case.toml", "--until", "10 ms"], words].concat());
-        (code(&output), err(&output).contains("case.mcap is an earlier run of this scenario and is replaced"))
+        (code(&output), err(&output).contains("case.mcap is an earlier run of this scenario"))
     };
     assert_eq!(run(&[]), (0, false));
     let text = std::fs::read_to_string(at("case.toml")).unwrap();
@@ -37,14 +37,37 @@ fn an_earlier_run_of_the_same_scenario_is_replaced_and_nothing_else() {
     std::fs::create_dir(at("there")).unwrap();
     std::fs::copy(at("case.toml"), at("there/case.toml")).unwrap();
     assert_eq!(code(&answer(folder.path(), &["run", "there/case.toml", "--until", "10 ms"])), 2);
+    // a file that may not be written
+    let protect = |is_so: bool| {
+        let mut rights = std::fs::metadata(at("case.mcap")).unwrap().permissions();
+        rights.set_readonly(is_so);
+        std::fs::set_permissions(at("case.mcap"), rights).unwrap();
+    };
+    protect(true);
+    assert_eq!(run(&[]), (2, false));
+    protect(false);
     // what a run that broke off has left can be resumed, and is not taken
     std::fs::write(at("case.partial.mcap"), "half").unwrap();
     assert_eq!(run(&[]), (2, false));
     std::fs::remove_file(at("case.partial.mcap")).unwrap();
     // nor what is damaged
     assert!(after == std::fs::read(at("case.mcap")).unwrap());
+    assert_eq!(run(&["--quiet"]), (0, true), "it is said even so");
     std::fs::write(at("case.mcap"), &after[..after.len() / 2]).unwrap();
     assert_eq!(run(&[]), (2, false));
+}
+
+#[test]
+fn several_scenarios_are_refused_before_any_runs() {
+    let folder = folder_with_case();
+    std::fs::create_dir(folder.path().join("there")).unwrap();
+    std::fs::copy(folder.path().join("case.toml"), folder.path().join("there/case.toml")).unwrap();
+    for (other, said) in [("there/case.toml", "would write the same file"), ("none.toml", "none.toml")] {
+        let output = answer(folder.path(), &["run", "case.toml", other, "--force"]);
+        assert_eq!(code(&output), 2);
+        assert!(err(&output).contains(said), "{}", err(&output));
+        assert!(!folder.path().join("case.mcap").exists());
+    }
 }
 
 #[cfg(unix)]

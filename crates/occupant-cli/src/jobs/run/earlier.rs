@@ -10,14 +10,14 @@ use crate::files::mcap::StoredRun;
 use crate::files::scenario::{Opened, ScenarioArgs};
 
 /// Whether `target` holds a whole run of the scenario file of `args` with the same `--set`, and stands beside it. The title
-/// must be the same: another scenario that took the file's name has another one. What a run that broke off has left, from
+/// must be the same: another scenario that took the file's name has another one. A file that may not be written stays. What a run that broke off has left, from
 /// which one can go on, is no such thing.
 pub(crate) fn is_earlier(target: &Path, args: &ScenarioArgs, opened: &Opened) -> bool {
     let folder = |path: &Path| match path.parent() {
         Some(folder) if folder != Path::new("") => fs::canonicalize(folder).ok(),
         _ => fs::canonicalize(".").ok(),
     };
-    let is_file = fs::symlink_metadata(target).is_ok_and(|found| found.is_file());
+    let is_file = fs::symlink_metadata(target).is_ok_and(|found| found.is_file() && !found.permissions().readonly());
     if !is_file || partial_path(target).exists() || folder(target) != folder(&args.scenario) {
         return false;
     }
