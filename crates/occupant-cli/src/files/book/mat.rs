@@ -88,9 +88,12 @@ fn variable(name: &str, values: &Values) -> Vec<u8> {
     }
 }
 
-/// A text; its size counts letters, not bytes.
+/// A text; its size counts letters, not bytes. Readers count a letter beyond the Basic Multilingual Plane as one or as two, and
+/// refuse the file where they disagree with it: U+FFFD stands for it.
 fn letters(text: &str) -> Vec<u8> {
-    let sizes = [usize::from(!text.is_empty()), text.encode_utf16().count()];
+    let plain = |c: char| if c.len_utf16() == 1 { c } else { char::REPLACEMENT_CHARACTER };
+    let text: String = text.chars().map(plain).collect();
+    let sizes = [usize::from(!text.is_empty()), text.chars().count()];
     matrix("", CHAR, sizes, &element(UTF8, text.as_bytes()))
 }
 
@@ -113,4 +116,18 @@ fn element(of: u32, data: &[u8]) -> Vec<u8> {
     out.extend(data);
     out.resize(out.len().next_multiple_of(8), 0);
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::letters;
+
+    /// The second size of an array stands behind its tag, its flags (16 bytes), and the tag and first of its sizes.
+    #[test]
+    fn every_letter_of_a_text_counts_once_for_every_reader() {
+        for (text, size) in [("car", 3), ("é—", 2), ("a 🚗 b", 5)] {
+            assert_eq!(letters(text)[36..40], i32::to_le_bytes(size), "{text}");
+        }
+        assert_eq!(letters("a 🚗 é"), letters("a \u{fffd} é"));
+    }
 }
