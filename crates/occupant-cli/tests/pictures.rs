@@ -228,6 +228,34 @@ fn peaks_of_all_elements_have_their_own_units() {
     assert!(measures.iter().all(|m| m["group"] != "Loads" || !m["time_s"].is_null()));
 }
 
+/// What each of several occupants' instruments show has a plot that says whose; the page's numbers are in the units asked for.
+#[test]
+fn each_occupant_has_plots_in_the_units_asked_for() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/side-by-side.toml");
+    let run = answer(folder.path(), &["run", scenario, "--quiet", "-o", "run.mcap", "--set", "time.end=5 ms"]);
+    assert_eq!(code(&run), 0, "{}", err(&run));
+    assert_eq!(code(&answer(folder.path(), &["report", "run.mcap", "--units", "in-lbf-s"])), 0);
+    let html = read(folder.path(), "run.html");
+    let data = html.split_once("id=\"report-data\">").and_then(|(_, rest)| rest.split_once("</script>"));
+    let data: serde_json::Value = serde_json::from_str(data.expect("data").0).expect("JSON");
+    let run = &data["runs"][0];
+    let plots = run["plots"].as_array().expect("a list");
+    for (of, curves) in [("Resultant acceleration", 3), ("Neck force on the head", 3), ("Femur axial force", 2)] {
+        for name in ["driver", "passenger"] {
+            let plot = plots.iter().find(|plot| plot["title"] == format!("{of}, {name}"));
+            let plot = plot.unwrap_or_else(|| panic!("{of} {name}"));
+            let found = plot["curves"].as_array().expect("a list");
+            assert_eq!(found.len(), curves);
+            let is_own = |curve: &serde_json::Value| curve["meaning"].as_str().unwrap().starts_with(name);
+            assert!(found.iter().all(is_own), "{of} {name}");
+        }
+    }
+    assert_eq!([&run["force_unit"][1], &run["speed_unit"][1]], ["lbf", "mph"]);
+    let facts = run["facts"].as_str().expect("a text");
+    assert!(facts.contains(" lb") && !facts.contains(" kg"), "{facts}");
+}
+
 #[test]
 fn a_report_against_another_run_holds_both() {
     let folder = folder_with_run();

@@ -103,7 +103,8 @@ function buildToggles(stage, runs) {
   }
   const { greatest } = stage.actors[0].arrows;
   if (greatest > 0) {
-    const text = `longest arrow ${figures(greatest / 1e3, 3)} kN`;
+    const [per, unit] = runs[0].force_unit;
+    const text = `longest arrow ${figures(greatest / 1e3 / per, 3)} ${unit}`;
     row.append(element("span", { class: "hint" }, text));
   }
   return row;

@@ -46,7 +46,8 @@ export class Labels {
 
   placeContacts(size) {
     const { start, sphere, surface, point, force } = this.actor.run.contacts;
-    const { spheres, surfaces } = this.actor.run;
+    const { spheres, surfaces, force_unit } = this.actor.run;
+    const [per, unit] = force_unit;
     const index = this.actor.at.index;
     const count = this.actor.shown.arrows ? start[index + 1] - start[index] : 0;
     while (this.contacts.length < count) {
@@ -61,7 +62,7 @@ export class Labels {
       const load = Math.hypot(force[3 * i], force[3 * i + 1], force[3 * i + 2]);
       label.hidden = load < LEAST_N;
       if (label.hidden) return;
-      label.textContent = `${spheres[sphere[i]].name} – ${surfaces[surface[i]].name}: ${figures(load / 1e3, 3)} kN`;
+      label.textContent = `${spheres[sphere[i]].name} – ${surfaces[surface[i]].name}: ${figures(load / 1e3 / per, 3)} ${unit}`;
       const at = new Vector3().fromArray(point, 3 * i).applyMatrix4(this.actor.car.matrixWorld);
       this.put(label, at, size);
     });

@@ -163,7 +163,9 @@ function contacts(runs, clock) {
         element(
           "td",
           { class: "number" },
-          c.at_start ? "at the start" : `${figures(c.closing_m_s, 3)} m/s`,
+          c.at_start
+            ? "at the start"
+            : `${figures(c.closing_m_s / run.speed_unit[0], 3)} ${run.speed_unit[1]}`,
         ),
       ),
     );

@@ -14,7 +14,7 @@ const MOST_SPHERES: usize = 8;
 
 #[derive(Debug, Serialize)]
 pub(crate) struct Plot {
-    title: &'static str,
+    title: String,
     unit: String,
     curves: Vec<Curve>,
 }
@@ -40,25 +40,39 @@ const RECIPES: [(&str, &str, &Curves); 9] = [
     ("Energy balance error", "J", BALANCE),
 ];
 const CONTACT_FORCE: &str = "Contact force";
+/// What each occupant's own channels show, by title: those of one of several have the occupant's name before theirs.
+const OWN: [&str; 4] = [RECIPES[0].0, RECIPES[3].0, RECIPES[4].0, RECIPES[5].0];
 
 /// A recorder of all channels that the plots need.
 pub(crate) fn series(model: &Model) -> Series {
     let needed = |c: &Channel| {
-        let mut all = RECIPES.iter().flat_map(|(_, _, curves)| *curves);
-        all.any(|(pattern, _)| star(pattern, &c.name).is_some())
+        let after = c.name.split_once('.').map_or("", |(_, after)| after);
+        RECIPES.iter().any(|(title, _, curves)| {
+            let is_in = |name: &str| curves.iter().any(|(pattern, _)| star(pattern, name).is_some());
+            is_in(&c.name) || OWN.contains(title) && is_in(after)
+        })
     };
     Series::new(channels(model).into_iter().filter(needed).collect())
 }
 
-/// The plots, without those that would be empty.
-pub(crate) fn plots(series: &Series, units: Units) -> Vec<Plot> {
-    let plots = RECIPES.into_iter().map(|(title, unit, wanted)| {
-        let mut found = find(wanted, series);
+/// The plots, without those that would be empty. Prefixes are what stands before the names of each occupant's channels.
+pub(crate) fn plots(series: &Series, prefixes: &[String], units: Units) -> Vec<Plot> {
+    let of_each = |recipe: (&'static str, _, _)| {
+        let prefixes = if OWN.contains(&recipe.0) { prefixes } else { &[String::new()] };
+        prefixes.iter().map(move |prefix| (recipe, prefix.clone())).collect::<Vec<_>>()
+    };
+    let plots = RECIPES.into_iter().flat_map(of_each).map(|((title, unit, wanted), prefix)| {
+        let mut found = find(wanted, &prefix, series);
         if title == CONTACT_FORCE {
             keep_greatest(&mut found);
         }
         let (per, shown) = units.over(unit);
-        Plot { title, unit: shown, curves: found.into_iter().map(|f| curve(f, unit, per)).collect() }
+        let whose = prefix.strip_suffix('.').map_or(String::new(), |name| format!(", {}", name.replace('_', " ")));
+        Plot {
+            title: format!("{title}{whose}"),
+            unit: shown,
+            curves: found.into_iter().map(|f| curve(f, unit, per)).collect(),
+        }
     });
     plots.filter(|p| !p.curves.is_empty()).collect()
 }
@@ -66,11 +80,11 @@ pub(crate) fn plots(series: &Series, units: Units) -> Vec<Plot> {
 /// A curve under construction: its name, channel and values.
 type Found<'a> = (String, &'a Channel, &'a Vec<f64>);
 
-fn find<'a>(wanted: &Curves, series: &'a Series) -> Vec<Found<'a>> {
+fn find<'a>(wanted: &Curves, prefix: &str, series: &'a Series) -> Vec<Found<'a>> {
     let mut found = Vec::new();
     for (pattern, label) in wanted {
         for (channel, values) in series.channels.iter().zip(&series.values) {
-            if let Some(stood_for) = star(pattern, &channel.name) {
+            if let Some(stood_for) = channel.name.strip_prefix(prefix).and_then(|name| star(pattern, name)) {
                 let name = label.replace('*', &stood_for.replace('_', " "));
                 found.push((name, channel, values));
             }

@@ -66,6 +66,9 @@ pub(crate) struct Run {
     motion: Motion,
     plots: Vec<Plot>,
     measures: Vec<Measure>,
+    /// Units of forces and closing speeds: kN and m/s in one that is shown, and its symbol.
+    force_unit: (f64, String),
+    speed_unit: (f64, String),
     first_contacts: Vec<occupant_core::results::summary::ContactBegin>,
     provenance: Vec<[String; 2]>,
     scenario: String,
@@ -111,12 +114,13 @@ impl Run {
         results.replay((&mut motion, &mut series))?;
         times.float64(&series.time_s);
         let summary = results.summary()?;
+        let prefixes: Vec<String> = summary.people().into_iter().map(|(prefix, _)| prefix).collect();
         let mut notes = results.notes();
         notes.extend(model.warnings().iter().map(|w| w.to_string()));
         Ok(Run {
             label: file_name(&results.path),
             title: model.setup().title.clone(),
-            facts: provenance::facts(results, &summary),
+            facts: provenance::facts(results, &summary, units),
             notes,
             caveats: summary.caveats.iter().map(|caveat| caveat.text.clone()).collect(),
             times,
@@ -125,8 +129,10 @@ impl Run {
             spheres: spheres(results),
             surfaces: surfaces(results).into_iter().chain(sides(results)).collect(),
             motion,
-            plots: curves::plots(&series, units),
+            plots: curves::plots(&series, &prefixes, units),
             measures: measures::measures(&summary, units),
+            force_unit: units.over("kN"),
+            speed_unit: units.over("m/s"),
             first_contacts: summary.contacts.clone(),
             provenance: provenance::lines(results, &summary),
             scenario: results.scenario_text.clone().unwrap_or_default(),

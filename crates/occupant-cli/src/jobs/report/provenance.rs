@@ -2,18 +2,19 @@
 
 use occupant_core::results::summary::{RunStatus, Summary};
 
+use crate::base::Units;
 use crate::files::results::Results;
 
 /// The run in a line: how far it went, whose body it is, and what its integration is worth.
-pub(crate) fn facts(results: &Results, summary: &Summary) -> String {
+pub(crate) fn facts(results: &Results, summary: &Summary, units: Units) -> String {
     let body = results.run.get("body").map_or("a body", String::as_str);
     let energy = &summary.energy;
     format!(
-        "{:.1} to {:.1} ms; {}, {:.1} kg; {}, {} steps, energy balance off by {:.1e} of the {}",
+        "{:.1} to {:.1} ms; {}, {}; {}, {} steps, energy balance off by {:.1e} of the {}",
         summary.start_s * 1e3,
         summary.reached_s * 1e3,
         body,
-        results.model.setup().body.mass_kg(),
+        units.say(results.model.setup().body.mass_kg(), "kg", 1),
         summary.solver.integrator,
         summary.solver.steps,
         energy.balance_error,

@@ -13,10 +13,10 @@ const MOST: usize = 12;
 /// What a design tells of a parameter: quantity, and words for it.
 fn telling(of: &Finding<'_>) -> (&'static str, &'static str) {
     match of.analysis.by_design {
-        ByDesign::Sobol(_) => ("sobol_total", "total Sobol indices: parts of the variance"),
+        ByDesign::Sobol(_) => ("sobol_total", "total Sobol indices: parts of the variance, without unit"),
         ByDesign::Morris(_) => ("morris_mu_star", "μ*: mean change over a parameter’s whole range"),
         ByDesign::OneAtATime(_) => ("alone_greatest", "reach: greatest less least with this parameter alone"),
-        ByDesign::Plain => ("rank_correlation", "rank correlations"),
+        ByDesign::Plain => ("rank_correlation", "rank correlations, without unit"),
     }
 }
 
@@ -53,8 +53,11 @@ pub(super) fn section(html: &mut Html, report: &Report) {
     html.text("h2", "What matters for what");
     let words = "A measure leads to what stands of it below. † is not to be relied on, its tip says why.";
     html.text("p class=\"remark\"", &format!("In each cell of a parameter {}. {words}", telling(first).1));
-    let link = |(of, head): &(Finding<'_>, String)| {
-        format!("<a href=\"#r{}\">{}</a>", of.analysis.response, breakable(&escape(head)))
+    let link = |(of, _): &(Finding<'_>, String)| {
+        // the rows of the spread have the unit, whatever those of the parameters are
+        let unit = shown_unit(&of.response.unit).1;
+        let head = if unit.is_empty() { of.response.name.clone() } else { format!("{}, {unit}", of.response.name) };
+        format!("<a href=\"#r{}\">{}</a>", of.analysis.response, breakable(&escape(&head)))
     };
     let heads: Vec<String> = std::iter::once("parameter".to_owned()).chain(told.iter().map(link)).collect();
     let spread = ["median", "q05", "q95"].map(|quantity| {

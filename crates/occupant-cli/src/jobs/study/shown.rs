@@ -1,7 +1,7 @@
 //! Numbers as people read them.
 
 use crate::base::Told;
-use crate::base::text_table::without_zeros;
+use crate::base::text_table::{number, without_zeros};
 
 /// SI units in one unit that is shown, and its symbol; empty for a plain number.
 pub(crate) fn shown_unit(unit: &Told) -> (f64, &str) {
@@ -54,7 +54,7 @@ pub(crate) fn given(value: f64, unit: &Told) -> String {
 
 /// Three decimals: parts and correlations.
 pub(crate) fn part(value: f64) -> String {
-    if value.is_finite() { format!("{:.3}", value + 0.0).replace('-', "−") } else { "–".to_owned() }
+    if value.is_finite() { number(value, 3).replace('-', "−") } else { "–".to_owned() }
 }
 
 #[cfg(test)]
@@ -80,6 +80,6 @@ mod tests {
         assert_eq!(given_with_unit(0.5, &m), "500 mm");
         assert_eq!((given(100.0, &none), given(3e7, &none)), ("100".to_owned(), "3.000e7".to_owned()));
         assert_eq!(with_unit(std::f64::consts::PI, &rad), "180.0°");
-        assert_eq!((part(-0.25), part(f64::NAN)), ("−0.250".to_owned(), "–".to_owned()));
+        assert_eq!([-0.25, -1e-4, f64::NAN].map(part), ["−0.250", "0.000", "–"]);
     }
 }
