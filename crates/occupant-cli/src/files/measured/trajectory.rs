@@ -196,8 +196,11 @@ fn bare(heading: &str) -> (String, Option<u32>) {
     (name.to_lowercase(), whole[name.len()..].parse().ok())
 }
 
+/// Vehicles of a table by number, each with the places of its columns.
+type Vehicles = Vec<(u32, Vec<usize>)>;
+
 /// The program that these headings tell of, and the columns of each vehicle.
-fn layout_of(headings: &[Cell]) -> Option<(&'static Layout, Vec<(u32, Vec<usize>)>)> {
+fn layout_of(headings: &[Cell]) -> Option<(&'static Layout, Vehicles)> {
     let heads: Vec<_> = headings.iter().map(|heading| bare(heading.text)).collect();
     let mut numbers: Vec<u32> = heads.iter().map(|(_, number)| number.unwrap_or(1)).collect();
     numbers.sort_unstable();
@@ -208,11 +211,7 @@ fn layout_of(headings: &[Cell]) -> Option<(&'static Layout, Vec<(u32, Vec<usize>
 }
 
 /// The columns of the vehicle that is asked for, or of the first, and a note on others.
-fn own_columns(
-    path: &Path,
-    vehicles: Vec<(u32, Vec<usize>)>,
-    asked: Option<u32>,
-) -> Result<(Vec<usize>, Option<String>), Trouble> {
+fn own_columns(path: &Path, vehicles: Vehicles, asked: Option<u32>) -> Result<(Vec<usize>, Option<String>), Trouble> {
     let numbers: Vec<String> = vehicles.iter().map(|(number, _)| number.to_string()).collect();
     let note = (asked.is_none() && numbers.len() > 1).then(|| {
         format!("the path is that of vehicle {}; --vehicle takes another: {}", numbers[0], numbers.join(", "))
