@@ -343,6 +343,7 @@ fn every_name_of_an_answer_is_in_its_schema() {
         ("check", &["check", "case.toml"]),
         ("check", &["check", "case.toml", "--set", "posture.settle=true"]),
         ("measures", &["measures", "case.mcap", "--filter", "sae-j211"]),
+        ("measures", &["measures", "case.mcap", "case.mcap"]),
         ("compare", &["compare", "case.mcap", "test.csv"]),
         ("risk", &["risk", "case.toml"]),
         (

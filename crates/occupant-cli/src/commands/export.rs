@@ -98,7 +98,7 @@ pub(crate) fn export(args: &Args) -> Result<(), Failure> {
         let bytes = table(&histories, &about, args.units, form).map_err(|error| Failure::plain(error.to_string()))?;
         return print_file(&bytes);
     }
-    let files = TableFiles::begin(&output, form, &args.run, Existing::by(args.force))?;
+    let files = TableFiles::begin(&output, form, &inputs(&args.run, &results.loaded), Existing::by(args.force))?;
     files.write(&histories, &about, args.units)?;
     say(&format!("wrote {} channels: {}", histories.columns.len(), output.display()));
     Ok(())
@@ -118,9 +118,13 @@ fn export_scene(args: &Args, output: &Path) -> Result<(), Failure> {
 
 /// The table of a sweep, whose columns are all written.
 fn export_sweep(args: &Args, output: &Path, form: Form) -> Result<(), Failure> {
-    if is_input(output) || !args.channels.is_empty() || args.interval.is_some() {
+    let is_of_runs = !args.channels.is_empty()
+        || args.interval.is_some()
+        || (args.treatment.filter, args.units, args.axes) != (Filter::None, UnitChoice::Si, AxisChoice::Segment);
+    if is_input(output) || is_of_runs {
         let found = format!("{} is the folder of a sweep, which has a row for each sample", args.run.display());
-        return Err(Failure::with_help(found, "give -o FILE, and neither --channels nor --interval"));
+        let help = "give -o FILE, and none of --channels, --interval, --filter, --units and --axes";
+        return Err(Failure::with_help(found, help));
     }
     let Stored { manifest, journal, .. } = open(std::slice::from_ref(&args.run), MadeBy::AnyProgram)?;
     refuse_gaps(&journal, &manifest)?;

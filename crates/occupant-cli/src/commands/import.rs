@@ -90,6 +90,7 @@ fn stem(source: &Path) -> String {
 fn write(args: &Args, name: &Path, imported: &Imported, made: &Made) -> Result<(), Failure> {
     let beside = |word: &str| name.with_file_name(format!("{}{word}", file_name(&name.with_extension(""))));
     let [path_file, curves_file] = [beside("-path.csv"), beside("-curves.csv")];
+    [name, &path_file, &curves_file].iter().try_for_each(|file| refuse_input(file, &args.source))?;
     if let Some(path) = &made.path {
         publish(&path_file, args.force, &path.csv)?;
         say(&format!("wrote {}: {}", path_file.display(), path.words));

@@ -98,6 +98,14 @@ pub(crate) fn files_beside(scenario: &Path) -> impl Fn(&str) -> Result<Vec<u8>, 
     move |file| input_file::bytes(&folder.join(file)).map_err(|error| error.to_string())
 }
 
+/// What is made from `of`, a scenario or its results, is not to take the place of: itself, and the tables beside it that the
+/// scenario names.
+pub(crate) fn inputs(of: &Path, loaded: &Loaded) -> Vec<PathBuf> {
+    let folder = of.parent().unwrap_or(Path::new(""));
+    let tables = loaded.tables();
+    std::iter::once(of.to_owned()).chain(tables.iter().map(|(table, _)| folder.join(table))).collect()
+}
+
 /// Files that scenarios name, as they were when the work began: names and bytes.
 #[derive(Default)]
 pub(crate) struct Tables(pub(crate) Vec<(String, Vec<u8>)>);

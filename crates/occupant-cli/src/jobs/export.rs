@@ -19,13 +19,13 @@ pub(crate) struct TableFiles {
 }
 
 impl TableFiles {
-    /// Begins the files of a table that is made from `input`.
+    /// Begins the files of a table that is made from `inputs`.
     ///
     /// # Errors
-    /// A name that is taken and may not be replaced, or that of the input.
-    pub(crate) fn begin(path: &Path, form: Form, input: &Path, existing: Existing) -> Result<Self, Failure> {
+    /// A name that is taken and may not be replaced, or that of an input.
+    pub(crate) fn begin(path: &Path, form: Form, inputs: &[PathBuf], existing: Existing) -> Result<Self, Failure> {
         let create = |path: &Path| {
-            refuse_input(path, input)?;
+            inputs.iter().try_for_each(|input| refuse_input(path, input))?;
             PartialFile::create(path, existing)
         };
         let table = create(path)?;

@@ -74,7 +74,7 @@ impl EnsembleArgs {
         let channels = choose(&opened.model, &self.channels)?;
         refuse_too_much(members, channels.len(), opened.model.output_count())?;
         let files = self.bands.iter().map(|path| {
-            refuse_input(path, scenario).map_err(|e| Failure::plain(e.to_string()))?;
+            inputs(scenario, &opened.loaded).iter().try_for_each(|input| refuse_input(path, input))?;
             if existing == Existing::Keep && path.exists() {
                 let found = format!("{} exists", path.display());
                 return Err(Failure::with_help(found, "--force replaces it"));
@@ -102,7 +102,7 @@ fn band_file(path: &Path) -> Result<BandFile, Failure> {
         (None, Some(format)) => Ok(BandFile::Picture(format)),
         (None, None) => Err(Failure::with_help(
             format!("--bands {}: its ending says no kind of file", path.display()),
-            "give NAME.csv, NAME.parquet, NAME.svg or NAME.png",
+            "give NAME.csv, .parquet, .xlsx, .mat, .svg or .png",
         )),
     }
 }

@@ -72,10 +72,8 @@ impl Recording {
             from.keep_from(name, &partial_path(name))?;
             about.notes.extend(from.notes());
         }
-        refuse_input(name, &args.scenario)?;
-        let folder = args.scenario.parent().unwrap_or(Path::new(""));
+        inputs(&args.scenario, &opened.loaded).iter().try_for_each(|input| refuse_input(name, input))?;
         let tables = opened.loaded.tables();
-        tables.iter().try_for_each(|(table, _)| refuse_input(name, &folder.join(table)))?;
         let file = PartialFile::create(name, existing)?.that_stays();
         let partial = file.partial_path().to_owned();
         let recorder = McapRecorder::new(file, about, McapOptions::default());
