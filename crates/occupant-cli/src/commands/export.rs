@@ -9,6 +9,7 @@ use crate::files::export::{About, table};
 use crate::files::history::{AxisChoice, Filter, Histories, Treatment, UnitChoice, choose, family_name, load};
 use crate::files::mme::{Labels, files};
 use crate::files::results::Results;
+use crate::files::scenario::inputs;
 use crate::files::study_folder::StudyTable;
 use crate::files::table::Form;
 use crate::jobs::export::{TableFiles, publish_folder};

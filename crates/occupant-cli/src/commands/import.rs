@@ -6,7 +6,7 @@ use occupant_scenario::kind::{KINDS, LENGTH, SPEED};
 
 use super::flags::history::WindowArgs;
 use super::new::with_path;
-use crate::base::{Failure, file_name, file_stem, note, publish, say};
+use crate::base::{Failure, file_name, file_stem, note, publish, refuse_input, say};
 use crate::files::measured::{self, Imported};
 use crate::jobs::import::{Made, PathTable, Request, import as made};
 

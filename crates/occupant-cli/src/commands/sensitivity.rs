@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::base::{Existing, Failure, UnitsArg, file_name, print, sha256, talk};
 use crate::files::history::UnitChoice;
-use crate::files::scenario::{ScenarioArgs, draft, files_beside, open_draft, warn};
+use crate::files::scenario::{ScenarioArgs, draft, files_beside, inputs, open_draft, warn};
 use crate::files::table::Form;
 use crate::jobs::export::TableFiles;
 use crate::jobs::sensitivity::{Words, about, analyse, answer, ask, histories, text};
@@ -61,7 +61,8 @@ pub(crate) fn sensitivity(args: &Args) -> Result<(), Failure> {
     let resolver = files_beside(scenario);
     let words = Words { to: &args.to, of: &args.of, channels: &args.channels };
     // names that are taken are refused before the work
-    let begin = |(path, form): (&PathBuf, Form)| TableFiles::begin(path, form, scenario, Existing::by(args.force));
+    let kept = inputs(scenario, &opened.loaded);
+    let begin = |(path, form): (&PathBuf, Form)| TableFiles::begin(path, form, &kept, Existing::by(args.force));
     let files = args.output.as_ref().zip(form).map(begin).transpose()?;
     let asked = ask(&base, &opened.model, &resolver, &words)?;
     let analysis = analyse(&opened.model, &asked)?;

@@ -12,7 +12,7 @@ use placed_text::Value;
 
 use super::sweep::engine;
 use crate::base::{Existing, Failure, Units, refuse_input};
-use crate::files::scenario::Opened;
+use crate::files::scenario::{Opened, inputs};
 use crate::files::table::Form;
 use crate::jobs::ensemble::bands::{choose, refuse_too_much};
 use crate::jobs::ensemble::beside_run::{BandFile, Wanted};

@@ -13,7 +13,7 @@ use super::resume::Resumption;
 use crate::base::{Existing, Failure, PartialFile, file_name, input_file, partial_path, program, refuse_input};
 use crate::files::mcap::about::RESOLVED;
 use crate::files::mcap::{About, Document, McapOptions, McapRecorder};
-use crate::files::scenario::{Opened, ScenarioArgs};
+use crate::files::scenario::{Opened, ScenarioArgs, inputs};
 
 /// A recorder that writes a file, or none.
 pub(crate) struct Recording(Option<Open>);
