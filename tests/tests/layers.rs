@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 /// Crates with their rooms from the lowest to the highest.
 const ROOMS: [(&str, &[&str]); 5] = [
     ("crash-measures", &["trig", "nearest", "unit", "signal", "correlation", "measure", "injury"]),
+    ("vehicle-motion", &["tyre", "ground", "car", "driver", "chassis", "integrate", "run"]),
     ("placed-text", &["shown", "problem", "source", "diagnostic", "node", "path", "reader", "csv", "json", "toml"]),
     (
         "occupant-core",
@@ -39,6 +40,7 @@ const ROOMS: [(&str, &[&str]); 5] = [
 /// Crates that a crate of the workspace may depend on, outside its tests.
 const CRATES: [(&str, &[&str]); 7] = [
     ("crash-measures", &[]),
+    ("vehicle-motion", &[]),
     ("placed-text", &["crash-measures"]),
     ("occupant-core", &["crash-measures", "placed-text"]),
     ("occupant-scenario", &["crash-measures", "placed-text", "occupant-core"]),

@@ -1,0 +1,373 @@
+//! A vehicle as data: masses, axles, tyres, brakes. Classes and the rules by which their numbers follow.
+
+use crate::tyre::Tyre;
+use crate::{GRAVITY_M_S2, V3, WHEELS};
+use nalgebra::Matrix3;
+
+/// A vehicle with four wheels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Car {
+    /// Mass with load and wheels, kg.
+    pub mass_kg: f64,
+    /// Inertia about the centre of gravity, body axes, kg·m².
+    pub inertia_kg_m2: Matrix3<f64>,
+    /// Height of the centre of gravity over the road at rest, m.
+    pub height_m: f64,
+    /// Front axle.
+    pub front: Axle,
+    /// Rear axle.
+    pub rear: Axle,
+    /// Tyres.
+    pub tyre: Tyre,
+    /// ½ρ C_d A, N·s²/m².
+    pub drag_n_s2_per_m2: f64,
+    /// Shares of the brake torque by wheel; they sum to 1.
+    pub brake_share: [f64; WHEELS],
+    /// Shares of the drive torque by wheel; they sum to 1.
+    pub drive_share: [f64; WHEELS],
+    /// Share of Ackermann's difference between the angles of the front wheels.
+    pub ackermann: f64,
+}
+
+/// Two wheels on slides, mirrored about the middle plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axle {
+    /// Ahead of the centre of gravity, m; negative behind.
+    pub ahead_m: f64,
+    /// Track width, m.
+    pub track_m: f64,
+    /// Mass that moves with each wheel, kg.
+    pub wheel_kg: f64,
+    /// Inertia of each wheel about its axle, kg·m².
+    pub spin_kg_m2: f64,
+    /// Rate at the wheel, N/m.
+    pub rate_n_per_m: f64,
+    /// Damping in jounce at the wheel, N·s/m.
+    pub jounce_n_s_per_m: f64,
+    /// Damping in rebound at the wheel, N·s/m.
+    pub rebound_n_s_per_m: f64,
+    /// Further force per difference of the two wheels' ways, N/m.
+    pub anti_roll_n_per_m: f64,
+    /// Height of the roll centre over the road, m.
+    pub roll_centre_m: f64,
+    /// Way ahead of a wheel for each metre of jounce: positive is anti-dive in front, negative anti-lift at the rear.
+    pub anti_pitch: f64,
+    /// Jounce at which the stop begins, m.
+    pub jounce_stop_m: f64,
+    /// Rebound at which the stop begins, m.
+    pub rebound_stop_m: f64,
+    /// Stiffness of the stops, N/m; it doubles over the first 0.1 m.
+    pub stop_n_per_m: f64,
+    /// Toe-in for each metre of jounce, rad/m; mirrored.
+    pub bump_steer_rad_per_m: f64,
+    /// Camber for each metre of jounce, rad/m: positive leans the tops inward; mirrored.
+    pub bump_camber_rad_per_m: f64,
+    /// Whether the wheels are steered.
+    pub is_steered: bool,
+}
+
+/// Vehicle classes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Class {
+    /// 1100 kg, as MASH's 1100C.
+    Small,
+    /// 1500 kg.
+    Sedan,
+    /// 2000 kg.
+    Suv,
+    /// 2150 kg.
+    Van,
+    /// 2270 kg, as MASH's 2270P.
+    Pickup,
+    /// 900 kg of EN 1317.
+    En900,
+    /// 1500 kg of EN 1317.
+    En1500,
+}
+
+/// Mass, wheelbase, c.g. behind the front axle, track, height of the c.g.; kg and m. Typical sizes, not measurements of a car.
+struct Sizes(f64, f64, f64, f64, f64);
+
+impl Class {
+    /// All classes.
+    pub const ALL: [Class; 7] =
+        [Class::Small, Class::Sedan, Class::Suv, Class::Van, Class::Pickup, Class::En900, Class::En1500];
+
+    fn sizes(self) -> Sizes {
+        match self {
+            Class::Small => Sizes(1100.0, 2.50, 1.000, 1.43, 0.53),
+            Class::Sedan => Sizes(1500.0, 2.70, 1.100, 1.54, 0.55),
+            Class::Suv => Sizes(2000.0, 2.75, 1.250, 1.58, 0.67),
+            Class::Van => Sizes(2150.0, 3.05, 1.350, 1.66, 0.70),
+            Class::Pickup => Sizes(2270.0, 3.57, 1.575, 1.70, 0.71),
+            Class::En900 => Sizes(900.0, 2.35, 0.900, 1.35, 0.49),
+            Class::En1500 => Sizes(1500.0, 2.65, 1.240, 1.50, 0.53),
+        }
+    }
+}
+
+/// Undamped natural frequencies of the body on its springs in front and at the rear, Hz.
+const RIDE_HZ: [f64; 2] = [1.25, 1.4];
+/// Roll for each g of lateral acceleration, and the share of it that the front axle resists.
+const ROLL_RAD_PER_G: f64 = 0.0873;
+const FRONT_ROLL_SHARE: f64 = 0.6;
+/// Heights of the roll centres, m.
+const ROLL_CENTRES_M: [f64; 2] = [0.05, 0.10];
+const WHEEL_KG: f64 = 40.0;
+
+impl Car {
+    /// A vehicle of a class. Masses and sizes are typical of the class. All else follows by rule: inertias from eight measured
+    /// cars (I_z = Mab within −3 to +11 %, I_y = 0.9 I_z, I_x = M(0.38 T)²), springs from ride frequencies, anti-roll from 5° of
+    /// roll per g.
+    pub fn of_class(class: Class) -> Self {
+        let Sizes(mass_kg, base_m, a, track_m, height_m) = class.sizes();
+        let b = base_m - a;
+        let yaw = mass_kg * a * b;
+        let roll = mass_kg * (0.38 * track_m) * (0.38 * track_m);
+        let shares = [b / base_m, a / base_m];
+        let moment_per_g = mass_kg * GRAVITY_M_S2 * (height_m - 0.5 * (ROLL_CENTRES_M[0] + ROLL_CENTRES_M[1]));
+        let resisted = [FRONT_ROLL_SHARE, 1.0 - FRONT_ROLL_SHARE].map(|share| share * moment_per_g / ROLL_RAD_PER_G);
+        let axle = |i: usize| {
+            let corner_kg = 0.5 * mass_kg * shares[i] - WHEEL_KG;
+            let pulse = 2.0 * core::f64::consts::PI * RIDE_HZ[i];
+            let rate = corner_kg * pulse * pulse;
+            let damping = 2.0 * 0.3 * (rate * corner_kg).sqrt();
+            // ½kT² of the springs and k_aT² of the bar resist roll
+            let bar = (resisted[i] / (track_m * track_m) - 0.5 * rate).max(0.0);
+            Axle {
+                ahead_m: [a, -b][i],
+                track_m,
+                wheel_kg: WHEEL_KG,
+                spin_kg_m2: 1.0,
+                rate_n_per_m: rate,
+                jounce_n_s_per_m: 0.7 * damping,
+                rebound_n_s_per_m: 1.3 * damping,
+                anti_roll_n_per_m: bar,
+                roll_centre_m: ROLL_CENTRES_M[i],
+                anti_pitch: 0.0,
+                jounce_stop_m: 0.08,
+                rebound_stop_m: 0.09,
+                stop_n_per_m: 2e5,
+                bump_steer_rad_per_m: 0.0,
+                bump_camber_rad_per_m: 0.0,
+                is_steered: i == 0,
+            }
+        };
+        Car {
+            mass_kg,
+            inertia_kg_m2: Matrix3::from_diagonal(&V3::new(roll, 0.9 * yaw, yaw)),
+            height_m,
+            front: axle(0),
+            rear: axle(1),
+            tyre: Tyre::usual(),
+            drag_n_s2_per_m2: 0.4,
+            brake_share: [0.35, 0.35, 0.15, 0.15],
+            drive_share: [0.5, 0.5, 0.0, 0.0],
+            ackermann: 1.0,
+        }
+    }
+
+    /// Axle of a wheel.
+    pub fn axle(&self, wheel: usize) -> &Axle {
+        if wheel < 2 { &self.front } else { &self.rear }
+    }
+
+    /// Wheelbase, m.
+    pub fn wheelbase_m(&self) -> f64 {
+        self.front.ahead_m - self.rear.ahead_m
+    }
+
+    /// Static stability factor T/2h, with the mean track.
+    pub fn stability(&self) -> f64 {
+        0.25 * (self.front.track_m + self.rear.track_m) / self.height_m
+    }
+
+    /// Load of each wheel of an axle at rest on level ground, N: front, rear.
+    pub fn static_loads_n(&self) -> [f64; 2] {
+        let weight = 0.5 * self.mass_kg * GRAVITY_M_S2 / self.wheelbase_m();
+        [-self.rear.ahead_m * weight, self.front.ahead_m * weight]
+    }
+
+    /// This vehicle with a further load at a place in body axes, seen from the present centre of gravity, and the shift of the
+    /// centre of gravity, m. Heights and axles are then counted from the new one.
+    pub fn with_load(&self, mass_kg: f64, place_m: V3) -> (Self, V3) {
+        let all_kg = self.mass_kg + mass_kg;
+        let shift_m = place_m * (mass_kg / all_kg);
+        let reduced_kg = self.mass_kg * mass_kg / all_kg;
+        let steiner = (Matrix3::identity() * place_m.norm_squared() - place_m * place_m.transpose()) * reduced_kg;
+        let mut loaded = self.clone();
+        loaded.mass_kg = all_kg;
+        loaded.inertia_kg_m2 += steiner;
+        loaded.height_m -= shift_m.z;
+        for axle in [&mut loaded.front, &mut loaded.rear] {
+            axle.ahead_m -= shift_m.x;
+        }
+        (loaded, shift_m)
+    }
+
+    /// What is wrong with it.
+    ///
+    /// # Errors
+    /// The first number that no car can have.
+    pub fn check(&self) -> Result<(), CarError> {
+        let Car { tyre, .. } = self;
+        let mut positive = vec![
+            ("mass", self.mass_kg),
+            ("height of the centre of gravity", self.height_m),
+            ("tyre radius", tyre.radius_m),
+            ("tyre stiffness", tyre.stiffness_n_per_m),
+            ("relaxation length", tyre.relaxation_m),
+            ("cornering stiffness", tyre.cornering_per_rad),
+            ("slip stiffness", tyre.slip_stiffness),
+            ("reference load", tyre.reference_load_n),
+            ("load of the greatest cornering stiffness", tyre.greatest_at),
+            ("sliding speed", tyre.sliding_speed_m_s),
+        ];
+        for axle in [&self.front, &self.rear] {
+            positive.extend([
+                ("track width", axle.track_m),
+                ("wheel mass", axle.wheel_kg),
+                ("wheel inertia", axle.spin_kg_m2),
+                ("spring rate", axle.rate_n_per_m),
+                ("stiffness of the stops", axle.stop_n_per_m),
+            ]);
+        }
+        if let Some(&(what, value)) = positive.iter().find(|(_, value)| !(*value > 0.0 && value.is_finite())) {
+            return Err(CarError::NotPositive { what, value });
+        }
+        let at_least_zero = [
+            ("friction", tyre.friction),
+            ("tyre damping", tyre.damping_n_s_per_m),
+            ("rolling resistance", tyre.rolling),
+            ("share of sliding friction", tyre.sliding_share),
+            ("drag", self.drag_n_s2_per_m2),
+            ("crown radius", tyre.crown_m),
+            ("front damping", self.front.jounce_n_s_per_m.min(self.front.rebound_n_s_per_m)),
+            ("rear damping", self.rear.jounce_n_s_per_m.min(self.rear.rebound_n_s_per_m)),
+            ("anti-roll rate", self.front.anti_roll_n_per_m.min(self.rear.anti_roll_n_per_m)),
+        ];
+        if let Some(&(what, value)) = at_least_zero.iter().find(|(_, value)| !(*value >= 0.0 && value.is_finite())) {
+            return Err(CarError::Negative { what, value });
+        }
+        if tyre.crown_m >= tyre.radius_m {
+            return Err(CarError::Crown { crown_m: tyre.crown_m, radius_m: tyre.radius_m });
+        }
+        if !(self.front.ahead_m > 0.0 && self.rear.ahead_m < 0.0) {
+            return Err(CarError::Axles { front_m: self.front.ahead_m, rear_m: self.rear.ahead_m });
+        }
+        let moments = self.inertia_kg_m2.symmetric_eigenvalues();
+        let [x, y, z] = [moments.x, moments.y, moments.z];
+        let is_inertia = x > 0.0 && y > 0.0 && z > 0.0 && x + y >= z && y + z >= x && z + x >= y;
+        if !(is_inertia && (self.inertia_kg_m2 - self.inertia_kg_m2.transpose()).norm() < 1e-9 * x.max(y).max(z)) {
+            return Err(CarError::Inertia);
+        }
+        for (what, shares) in [("brake", self.brake_share), ("drive", self.drive_share)] {
+            let sum: f64 = shares.iter().sum();
+            if shares.iter().any(|share| *share < 0.0) || (sum - 1.0).abs() > 1e-6 {
+                return Err(CarError::Shares { what, sum });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What is wrong with a vehicle.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CarError {
+    /// A number that must be above zero.
+    #[error("the {what} is {value}; expected a number above 0")]
+    NotPositive {
+        /// Of what.
+        what: &'static str,
+        /// The number, SI.
+        value: f64,
+    },
+    /// A number that must not be below zero.
+    #[error("the {what} is {value}; expected a number of at least 0")]
+    Negative {
+        /// Of what.
+        what: &'static str,
+        /// The number, SI.
+        value: f64,
+    },
+    /// A crown as large as the tyre.
+    #[error("the crown radius of {crown_m} m must be below the tyre's radius of {radius_m} m")]
+    Crown {
+        /// Crown radius, m.
+        crown_m: f64,
+        /// Tyre radius, m.
+        radius_m: f64,
+    },
+    /// Axles that do not stand on both sides of the centre of gravity.
+    #[error(
+        "the axles stand {front_m} m and {rear_m} m ahead of the centre of gravity; expected the front ahead, the rear behind"
+    )]
+    Axles {
+        /// Front, m.
+        front_m: f64,
+        /// Rear, m.
+        rear_m: f64,
+    },
+    /// Moments that no body has.
+    #[error(
+        "the inertia is that of no body: it must be symmetric, its moments positive, none above the sum of the others"
+    )]
+    Inertia,
+    /// The body without its wheels has no mass or inertia left.
+    #[error("the wheels take all of the vehicle's mass or inertia")]
+    Wheels,
+    /// Shares that do not sum to one.
+    #[error("the {what} shares sum to {sum}; expected four shares of at least 0 that sum to 1")]
+    Shares {
+        /// Brake or drive.
+        what: &'static str,
+        /// Their sum.
+        sum: f64,
+    },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_class_is_a_sound_car_that_rolls_five_degrees_per_g() {
+        for class in Class::ALL {
+            let car = Car::of_class(class);
+            car.check().unwrap();
+            let stiffness =
+                |axle: &Axle| (0.5 * axle.rate_n_per_m + axle.anti_roll_n_per_m) * axle.track_m * axle.track_m;
+            let roll =
+                car.mass_kg * GRAVITY_M_S2 * (car.height_m - 0.075) / (stiffness(&car.front) + stiffness(&car.rear));
+            // stiff springs of the tall ones resist more than asked
+            assert!((3.0..5.1).contains(&roll.to_degrees()), "{class:?}: {}", roll.to_degrees());
+        }
+    }
+
+    #[test]
+    fn mistakes_are_named() {
+        let sedan = Car::of_class(Class::Sedan);
+        let mut car = sedan.clone();
+        car.rear.ahead_m = 0.5;
+        assert_eq!(car.check(), Err(CarError::Axles { front_m: 1.1, rear_m: 0.5 }));
+        let mut car = sedan.clone();
+        car.inertia_kg_m2[(0, 0)] = 9000.0;
+        assert_eq!(car.check(), Err(CarError::Inertia));
+        let mut car = sedan.clone();
+        car.mass_kg = f64::NAN;
+        assert!(matches!(car.check(), Err(CarError::NotPositive { what: "mass", .. })));
+        let mut car = sedan;
+        car.brake_share = [0.5, 0.5, 0.5, 0.5];
+        assert_eq!(car.check(), Err(CarError::Shares { what: "brake", sum: 2.0 }));
+    }
+
+    #[test]
+    fn a_load_moves_the_centre_of_gravity() {
+        let car = Car::of_class(Class::Sedan);
+        let (loaded, shift_m) = car.with_load(300.0, V3::new(-0.3, 0.0, -0.1));
+        assert!((shift_m.x + 0.05).abs() < 1e-12 && (loaded.front.ahead_m - 1.15).abs() < 1e-12);
+        assert!((loaded.wheelbase_m() - car.wheelbase_m()).abs() < 1e-12);
+        assert!((loaded.height_m - car.height_m - 0.1 / 6.0).abs() < 1e-12);
+        loaded.check().unwrap();
+    }
+}

@@ -1,0 +1,234 @@
+//! Steering, brake and drive over time; a driver who follows a line.
+
+use core::cmp::Ordering;
+
+use crate::V3;
+use libm::{atan, atan2, sin, tan};
+
+/// A number over time, linear between points and held before and behind.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    times_s: Vec<f64>,
+    values: Vec<f64>,
+}
+
+/// What is wrong with a table or a line.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TableError {
+    /// Lists of unlike length, or empty.
+    #[error("{times} times and {values} values; expected as many of each, at least one")]
+    Lengths {
+        /// Number of times.
+        times: usize,
+        /// Number of values.
+        values: usize,
+    },
+    /// Times that do not rise.
+    #[error("time {number} is {time_s} s; expected a number above {before_s} s")]
+    Order {
+        /// Its number, counted from 1.
+        number: usize,
+        /// The time, s.
+        time_s: f64,
+        /// The time before, s.
+        before_s: f64,
+    },
+    /// A value that is no number.
+    #[error("value {0} is not a finite number")]
+    NotFinite(usize),
+    /// A line of one point, or of two that coincide.
+    #[error("a line needs at least two points, and no two in a row at one place")]
+    Line,
+}
+
+impl Table {
+    /// Values at times, s.
+    ///
+    /// # Errors
+    /// Unlike lengths, times that do not rise, numbers that are not finite.
+    pub fn new(times_s: Vec<f64>, values: Vec<f64>) -> Result<Self, TableError> {
+        if times_s.len() != values.len() || times_s.is_empty() {
+            return Err(TableError::Lengths { times: times_s.len(), values: values.len() });
+        }
+        if let Some(i) =
+            (1..times_s.len()).find(|&i| times_s[i].partial_cmp(&times_s[i - 1]) != Some(Ordering::Greater))
+        {
+            return Err(TableError::Order { number: i + 1, time_s: times_s[i], before_s: times_s[i - 1] });
+        }
+        if let Some(i) = (0..values.len()).find(|&i| !(values[i].is_finite() && times_s[i].is_finite())) {
+            return Err(TableError::NotFinite(i + 1));
+        }
+        Ok(Table { times_s, values })
+    }
+
+    /// One value at all times.
+    pub fn constant(value: f64) -> Self {
+        Table { times_s: vec![0.0], values: vec![value] }
+    }
+
+    /// Value at a time.
+    pub fn at(&self, time_s: f64) -> f64 {
+        let next = self.times_s.partition_point(|t| *t <= time_s);
+        if next == 0 || next == self.times_s.len() {
+            return self.values[next.saturating_sub(1)];
+        }
+        let [from_s, to_s] = [self.times_s[next - 1], self.times_s[next]];
+        let [from, to] = [self.values[next - 1], self.values[next]];
+        from + (to - from) * (time_s - from_s) / (to_s - from_s)
+    }
+
+    /// Times at which its slope may jump, s.
+    pub fn corners_s(&self) -> &[f64] {
+        if self.times_s.len() < 2 { &[] } else { &self.times_s }
+    }
+}
+
+/// Who drives. Torques are sums over the wheels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Driver {
+    /// Steering.
+    pub steering: Steering,
+    /// Brake torque, N·m.
+    pub brake_n_m: Table,
+    /// Drive torque, N·m; negative brakes by the engine.
+    pub drive_n_m: Table,
+    /// Wheels that are locked from a time on, s.
+    pub locked_from_s: [Option<f64>; crate::WHEELS],
+}
+
+/// Mean angle of the front wheels; positive to the right.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Steering {
+    /// Road-wheel angle over time, rad.
+    Table(Table),
+    /// A driver who follows a line.
+    Follow(Follower),
+}
+
+impl Driver {
+    /// Hands and feet off.
+    pub fn coasting() -> Self {
+        Driver {
+            steering: Steering::Table(Table::constant(0.0)),
+            brake_n_m: Table::constant(0.0),
+            drive_n_m: Table::constant(0.0),
+            locked_from_s: [None; crate::WHEELS],
+        }
+    }
+
+    /// Times at which an input may turn, s, in order.
+    pub(crate) fn corners_s(&self) -> Vec<f64> {
+        let mut all: Vec<f64> =
+            [&self.brake_n_m, &self.drive_n_m].iter().flat_map(|table| table.corners_s()).copied().collect();
+        if let Steering::Table(table) = &self.steering {
+            all.extend(table.corners_s());
+        }
+        all.extend(self.locked_from_s.iter().flatten());
+        all.sort_by(f64::total_cmp);
+        all.dedup();
+        all
+    }
+}
+
+/// A driver who aims at the point of a line some way ahead (pure pursuit), looks every 10 ms, and acts after a delay.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Follower {
+    /// Corners of the line, X and Y, m.
+    line_m: Vec<[f64; 2]>,
+    /// Time from seeing to acting, s.
+    pub delay_s: f64,
+    /// Greatest rate of the road-wheel angle, rad/s.
+    pub rate_rad_s: f64,
+    /// Greatest road-wheel angle, rad.
+    pub most_rad: f64,
+    /// Time at which he lets go, s; the angle then stays.
+    pub until_s: f64,
+}
+
+/// How often a driver looks, s.
+pub const LOOK_S: f64 = 0.01;
+/// Preview: at least this far, m, or this long, s.
+const PREVIEW_M: f64 = 6.0;
+const PREVIEW_S: f64 = 0.6;
+
+impl Follower {
+    /// Along a line with 0.1 s of delay and 600 °/s at a steering wheel of ratio 16.
+    ///
+    /// # Errors
+    /// A line of fewer than two points, or with two in a row at one place.
+    pub fn new(line_m: Vec<[f64; 2]>) -> Result<Self, TableError> {
+        let is_line = line_m.len() >= 2 && line_m.windows(2).all(|pair| pair[0] != pair[1]);
+        if !is_line || line_m.iter().flatten().any(|x| !x.is_finite()) {
+            return Err(TableError::Line);
+        }
+        let rate_rad_s = 600f64.to_radians() / 16.0;
+        Ok(Follower { line_m, delay_s: 0.1, rate_rad_s, most_rad: 0.5, until_s: f64::INFINITY })
+    }
+
+    /// The point of the line nearest to a place, m.
+    fn nearest_m(&self, place: [f64; 2]) -> [f64; 2] {
+        let on = |pair: &[[f64; 2]]| {
+            let way = [0, 1].map(|j| pair[1][j] - pair[0][j]);
+            let square = way[0] * way[0] + way[1] * way[1];
+            let share = [0, 1].map(|j| (place[j] - pair[0][j]) * way[j]).iter().sum::<f64>() / square;
+            [0, 1].map(|j| pair[0][j] + share.clamp(0.0, 1.0) * way[j])
+        };
+        let far = |p: &[f64; 2]| (p[0] - place[0]) * (p[0] - place[0]) + (p[1] - place[1]) * (p[1] - place[1]);
+        let points = self.line_m.windows(2).map(on);
+        points.min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(self.line_m[0])
+    }
+
+    /// Road-wheel angle that he wants, rad, with the car at `position_m`, heading `yaw_rad`, at `speed_m_s`.
+    pub fn wants_rad(&self, position_m: V3, yaw_rad: f64, speed_m_s: f64, rear_m: f64, wheelbase_m: f64) -> f64 {
+        let preview_m = PREVIEW_M.max(PREVIEW_S * speed_m_s);
+        let (sine, cosine) = libm::sincos(yaw_rad);
+        let ahead = |way_m: f64| [position_m.x + way_m * cosine, position_m.y + way_m * sine];
+        let [x, y] = self.nearest_m(ahead(preview_m));
+        let [rear_x, rear_y] = ahead(rear_m);
+        let (to_x, to_y) = (x - rear_x, y - rear_y);
+        let bearing = atan2(to_y, to_x) - yaw_rad;
+        // δ = atan(2L sin η/d)
+        let distance_m = (to_x * to_x + to_y * to_y).sqrt().max(1e-3);
+        atan(2.0 * wheelbase_m * sin(bearing) / distance_m).clamp(-self.most_rad, self.most_rad)
+    }
+}
+
+/// Angles of the left and right front wheel, rad, for a mean angle: cot δ_out − cot δ_in = A T/L.
+pub fn ackermann_rad(mean_rad: f64, share: f64, track_m: f64, wheelbase_m: f64) -> [f64; 2] {
+    let slope = tan(mean_rad);
+    let half = 0.5 * share * track_m * slope / wheelbase_m;
+    // cot δ_left = cot δ + AT/2L: a turn to the right has the left wheel outside
+    [slope / (1.0 + half), slope / (1.0 - half)].map(atan)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_hold_their_ends_and_refuse_disorder() {
+        let table = Table::new(vec![1.0, 2.0], vec![0.0, 10.0]).unwrap();
+        assert_eq!([0.0, 1.5, 3.0].map(|t| table.at(t)), [0.0, 5.0, 10.0]);
+        assert_eq!(
+            Table::new(vec![1.0, 1.0], vec![0.0, 1.0]),
+            Err(TableError::Order { number: 2, time_s: 1.0, before_s: 1.0 })
+        );
+        assert_eq!(Table::new(vec![], vec![]), Err(TableError::Lengths { times: 0, values: 0 }));
+        assert_eq!(Table::new(vec![0.0], vec![f64::NAN]), Err(TableError::NotFinite(1)));
+        assert_eq!(Follower::new(vec![[0.0, 0.0], [0.0, 0.0]]), Err(TableError::Line));
+    }
+
+    #[test]
+    fn ackermanns_wheels_turn_about_one_point() {
+        let [left, right] = ackermann_rad(0.2, 1.0, 1.5, 2.7);
+        assert!((1.0 / tan(left) - 1.0 / tan(right) - 1.5 / 2.7).abs() < 1e-12 && left < right);
+        assert_eq!(ackermann_rad(0.0, 1.0, 1.5, 2.7), [0.0; 2]);
+    }
+
+    #[test]
+    fn on_the_line_he_steers_straight() {
+        let line = Follower::new(vec![[0.0, 0.0], [100.0, 0.0]]).unwrap();
+        assert!(line.wants_rad(V3::new(10.0, 0.0, 0.0), 0.0, 20.0, -1.6, 2.7).abs() < 1e-15);
+        assert!(line.wants_rad(V3::new(10.0, -1.0, 0.0), 0.0, 20.0, -1.6, 2.7) > 0.0);
+    }
+}
