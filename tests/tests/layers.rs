@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Crates with their rooms from the lowest to the highest.
-const ROOMS: [(&str, &[&str]); 5] = [
+const ROOMS: [(&str, &[&str]); 6] = [
     ("crash-measures", &["trig", "nearest", "unit", "signal", "correlation", "measure", "injury"]),
     ("vehicle-motion", &["tyre", "ground", "car", "driver", "chassis", "integrate", "run"]),
     ("placed-text", &["shown", "problem", "source", "diagnostic", "node", "path", "reader", "csv", "json", "toml"]),
@@ -38,7 +38,7 @@ const ROOMS: [(&str, &[&str]); 5] = [
 ];
 
 /// Crates that a crate of the workspace may depend on, outside its tests.
-const CRATES: [(&str, &[&str]); 7] = [
+const CRATES: [(&str, &[&str]); 8] = [
     ("crash-measures", &[]),
     ("vehicle-motion", &[]),
     ("placed-text", &["crash-measures"]),
