@@ -4,6 +4,7 @@ use std::fmt::Debug;
 
 use crate::body::Body;
 use crate::forces::list::STORES;
+use crate::forces::pace::Pace;
 use crate::forces::rate::Rate;
 use crate::forces::sphere::Site;
 use crate::motion::dynamics::Wrench;
@@ -82,6 +83,11 @@ pub trait Element: Copy + Debug {
 
     /// Hints that leave nothing out.
     fn hints<S: Scalar>(law: &Self::Law<S>) -> Self::Hints<S>;
+
+    /// How long the step may be that begins at the commit which left these hints.
+    fn pace<S: Scalar>(_hints: &Self::Hints<S>) -> Pace<S> {
+        Pace::any()
+    }
 
     /// How many there are that remember something.
     fn count<S>(law: &Self::Law<S>) -> usize;

@@ -9,6 +9,7 @@ use super::element::{Element, Hints as _, Instant, Load, Misfit, StoredEnergy, U
 use super::joint::JointMoments;
 use super::joint::limit::JointLimits;
 use super::joint::muscle::Muscles;
+use super::pace::Pace;
 use super::rate::Rate;
 use super::shown::Reported;
 use super::stored::Archive;
@@ -376,6 +377,11 @@ macro_rules! kinds {
             fn look_again(&mut self) {
                 $(self.$kind.look_again();)+
             }
+
+            #[inline(always)]
+            fn pace(&self) -> Pace<S> {
+                Pace::any()$(.and($Kind::pace(&self.$kind)))+
+            }
         }
     };
 }
@@ -428,6 +434,12 @@ impl<S: Scalar> History<S> {
     pub fn take_over(&mut self, other: &History<S>) {
         self.memory.take_over(&other.memory);
         self.hints.take_over(&other.hints);
+    }
+
+    /// How long the step may be that begins at the latest commit, of one that was to be `h`, s.
+    #[inline(always)]
+    pub(crate) fn step(&self, h: S) -> S {
+        self.hints.pace().step(h)
     }
 
     /// Lets the next commit look at everything, as it must where the remembered numbers are those of another place.

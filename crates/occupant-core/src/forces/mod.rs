@@ -19,6 +19,7 @@ mod element;
 pub mod function;
 pub mod joint;
 mod list;
+mod pace;
 pub(crate) mod rate;
 pub mod shown;
 pub mod sphere;
@@ -28,3 +29,4 @@ pub mod table;
 
 pub use element::*;
 pub use list::*;
+pub use pace::Pace;

@@ -94,13 +94,14 @@ impl Run {
             let wanted_s = self.control.wanted_s.min(control.max_step_s);
             let located = behind_s.take();
             let end_s = located.unwrap_or_else(|| end_of_step(start_s, wanted_s, stop_s));
-            let step = Step { start_s, end_s };
+            let mut step = Step { start_s, end_s };
+            front.look(model, step, follows, &mut self.cursor);
+            step = front.part_that_sees(step);
             let h = step.length_s();
             if h <= 0.0 {
                 // the clock no longer tells the step's ends apart
                 return Err(too_small(start_s, wanted_s, control, 0.0));
             }
-            front.look(model, step, follows, &mut self.cursor);
             let trial = front.attempt(model, step, &control.tolerance, &mut self.cursor);
             self.effort.evaluations += EVALUATIONS;
             if located.is_none() && trial.error.is_finite() {
@@ -117,7 +118,7 @@ impl Run {
                 let is_full = located.is_none() && h >= wanted_s * 0.99;
                 self.control.accept(h, trial.error, is_full, was_rejected);
                 self.count(step);
-                front.take_over(trial, step, end_s >= stop_s);
+                front.take_over(trial, step, step.end_s >= stop_s);
                 return Ok(());
             }
             was_rejected = true;

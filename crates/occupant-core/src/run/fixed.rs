@@ -4,7 +4,7 @@ use super::Run;
 use crate::kernel::{Scratch, Situation};
 use crate::model::Model;
 use crate::motion::frame::Frames;
-use crate::motion::integrate::rk4::{Stage, Stages};
+use crate::motion::integrate::rk4::Stages;
 use crate::results::outcome::StepError;
 use crate::run::observers::Met;
 use crate::vehicle::PathCursor;
@@ -73,42 +73,77 @@ impl Step {
         [self.start_s, 0.5 * (self.start_s + self.end_s), self.end_s]
     }
 
-    /// Frames at its start, middle and end.
+    /// Frames at its middle and end, behind those of its start.
     #[inline]
     pub(crate) fn move_frames(self, frames: &mut [Frames<f64>; 3], model: &Model, cursor: &mut PathCursor) {
         let times_s = self.times_s();
-        for (frames, t_s) in frames.iter_mut().zip(times_s) {
+        for (frames, t_s) in frames.iter_mut().zip(times_s).skip(1) {
             model.move_frames(frames, t_s, times_s[1], cursor);
         }
+    }
+
+    /// Its first part, of the length that a step of this length may have; all of it, as a rule.
+    #[inline]
+    pub(crate) fn first_part(self, bears: impl FnOnce(f64) -> f64) -> Step {
+        let whole_s = self.length_s();
+        let length_s = bears(whole_s);
+        let end_s = self.start_s + length_s;
+        // a rest that the clock can hardly tell is no step
+        if length_s < whole_s && end_s < self.end_s - 1e-3 * length_s { Step { end_s, ..self } } else { self }
     }
 }
 
 impl Run {
-    /// All steps of `stretch`.
-    pub(crate) fn advance_rk4(&mut self, model: &Model, stretch: Stretch) -> Result<(), StepError> {
-        let system = model.system();
-        let (scratch, stages) = (&mut Scratch::blank(system), &mut Stages::new(self.state.shape()));
+    /// What is left of a step, if anything, and all steps of `stretch`.
+    pub(crate) fn advance_rk4(
+        &mut self,
+        model: &Model,
+        left: Option<Step>,
+        stretch: Stretch,
+    ) -> Result<(), StepError> {
+        let (scratch, stages) = (&mut Scratch::blank(model.system()), &mut Stages::new(self.state.shape()));
         let mut frames = [Frames::still(self.time_s); 3];
-        for step in stretch {
-            step.move_frames(&mut frames, model, &mut self.cursor);
-            self.met.clear();
-            let (history, mut met) = (&mut self.history, Met(&mut self.met));
-            let peaks = &mut self.seen.peaks;
-            // one call: each would be a whole kernel
-            let next = *stages.step(&self.state, step.length_s(), |stage, state, rate| {
-                let accepted = stage == Stage::Start;
-                let situation = Situation { state, frames: &frames[stage as usize], accepted };
-                system.rate_alone(scratch, situation, history, &mut accepted.then_some(&mut met), rate);
-                if accepted {
-                    peaks.see(system.readings(scratch));
+        for whole in left.into_iter().chain(stretch) {
+            let mut rest = whole;
+            loop {
+                let step = self.step_rk4(model, rest, (scratch, stages, &mut frames))?;
+                if step.end_s >= whole.end_s {
+                    break;
                 }
-            });
-            for touching in &self.met {
-                self.seen.note(model, step.start_s, touching.meeting);
+                rest.start_s = step.end_s;
             }
-            self.effort.evaluations += 4;
-            self.accept(model, next, step)?;
         }
         Ok(())
+    }
+
+    /// A step of the length of `rest`, or of the part of it that what is near bears; returns it.
+    fn step_rk4(
+        &mut self,
+        model: &Model,
+        rest: Step,
+        (scratch, stages, frames): (&mut Scratch<f64>, &mut Stages<f64>, &mut [Frames<f64>; 3]),
+    ) -> Result<Step, StepError> {
+        let system = model.system();
+        let [start_s, middle_s, _] = rest.times_s();
+        model.move_frames(&mut frames[0], start_s, middle_s, &mut self.cursor);
+        self.met.clear();
+        stages.begin(&self.state, |_, state, rate| {
+            let situation = Situation::accepted(state, &frames[0]);
+            let met = &mut Some(&mut Met(&mut self.met));
+            system.rate_alone(scratch, situation, &mut self.history, met, rate);
+        });
+        self.seen.peaks.see(system.readings(scratch));
+        let step = rest.first_part(|h| self.history.step(h));
+        step.move_frames(frames, model, &mut self.cursor);
+        let next = *stages.go(&self.state, step.length_s(), |stage, state, rate| {
+            let situation = Situation::within(state, &frames[stage as usize]);
+            system.rate_alone(scratch, situation, &mut self.history, &mut None::<&mut Met<'_>>, rate);
+        });
+        for touching in &self.met {
+            self.seen.note(model, step.start_s, touching.meeting);
+        }
+        self.effort.evaluations += 4;
+        self.accept(model, next, step)?;
+        Ok(step)
     }
 }

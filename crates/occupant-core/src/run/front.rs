@@ -100,6 +100,11 @@ impl Front {
         system.rate_alone(&mut self.scratch, situation, &mut self.after, &mut Some(&mut met), &mut self.rates[1]);
     }
 
+    /// The part of `step`, which begins where the front stands, in which nothing is passed unseen: all of it, as a rule.
+    pub(super) fn part_that_sees(&self, step: Step) -> Step {
+        step.first_part(|h| self.after.step(h))
+    }
+
     /// Tries `step`, which begins where the front stands.
     pub(super) fn attempt(
         &mut self,

@@ -213,7 +213,7 @@ impl Run {
         match model.setup().integrator {
             Integrator::Rk4 { step_s } => {
                 let stretch = Stretch::new(self.time_s, target_s, step_s);
-                self.advance_rk4(model, stretch)
+                self.advance_rk4(model, None, stretch)
             }
             Integrator::Adaptive { relative, absolute_m, absolute_m_s, min_step_s, max_step_s } => {
                 let control =

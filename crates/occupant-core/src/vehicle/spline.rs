@@ -1,4 +1,4 @@
-//! Natural cubic splines, and their straight-line little sister, through the stations of a table.
+//! Cubic splines, and their straight-line little sister, through the stations of a table.
 //!
 //! One piece between two stations is a cubic in s = t − t_i with six channels at once: x, y, z, roll, pitch, yaw.
 
@@ -40,10 +40,19 @@ pub(super) fn linear_pieces(times_s: &[f64], values: &[Vector6<f64>]) -> Vec<Pie
     pieces(times_s, values, &vec![Vector6::zeros(); values.len()])
 }
 
-/// The natural cubic spline through the stations: twice continuously differentiable, second derivative zero at both
-/// ends. Times increase; two stations give a straight line.
-pub(super) fn spline_pieces(times_s: &[f64], values: &[Vector6<f64>]) -> Vec<Piece> {
-    pieces(times_s, values, &second_derivatives(times_s, values))
+/// How a spline ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum End {
+    /// Without curvature.
+    Natural,
+    /// At rest: what is held there does not jump.
+    AtRest,
+}
+
+/// The cubic spline through the stations: twice continuously differentiable, second derivative zero at its first end and, if
+/// natural, at its last. Times increase; two stations give a straight line then.
+pub(super) fn spline_pieces(times_s: &[f64], values: &[Vector6<f64>], end: End) -> Vec<Piece> {
+    pieces(times_s, values, &second_derivatives(times_s, values, end))
 }
 
 /// Pieces between stations with the given second derivatives at the stations.
@@ -64,9 +73,10 @@ fn pieces(times_s: &[f64], values: &[Vector6<f64>], seconds: &[Vector6<f64>]) ->
         .collect()
 }
 
-/// Second derivatives M_i of the natural spline at its stations: M_0 = M_n = 0 and, between,
-/// h_{i−1} M_{i−1} + 2 (h_{i−1} + h_i) M_i + h_i M_{i+1} = 6 (slope_i − slope_{i−1}).
-fn second_derivatives(times_s: &[f64], values: &[Vector6<f64>]) -> Vec<Vector6<f64>> {
+/// Second derivatives M_i of the spline at its stations: M_0 = 0, between
+/// h_{i−1} M_{i−1} + 2 (h_{i−1} + h_i) M_i + h_i M_{i+1} = 6 (slope_i − slope_{i−1}), and at the end M_n = 0 or, of one at
+/// rest, h_{n−1} M_{n−1} + 2 h_{n−1} M_n = 6 (0 − slope_{n−1}).
+fn second_derivatives(times_s: &[f64], values: &[Vector6<f64>], end: End) -> Vec<Vector6<f64>> {
     let count = values.len();
     let length = |i: usize| times_s[i + 1] - times_s[i];
     let slope = |i: usize| (values[i + 1] - values[i]) / length(i);
@@ -77,6 +87,10 @@ fn second_derivatives(times_s: &[f64], values: &[Vector6<f64>]) -> Vec<Vector6<f
         let pivot = 2.0 * (length(i - 1) + length(i)) - length(i - 1) * ratios[i - 1];
         ratios[i] = length(i) / pivot;
         seconds[i] = ((slope(i) - slope(i - 1)) * 6.0 - seconds[i - 1] * length(i - 1)) / pivot;
+    }
+    if let (End::AtRest, Some(last)) = (end, count.checked_sub(1).filter(|last| *last > 0)) {
+        let h = length(last - 1);
+        seconds[last] = (slope(last - 1) * -6.0 - seconds[last - 1] * h) / (h * (2.0 - ratios[last - 1]));
     }
     for i in (1..count.saturating_sub(1)).rev() {
         let next = seconds[i + 1];

@@ -8,7 +8,7 @@ use super::attitude::Attitude;
 use super::cursor::PathCursor;
 use super::frame::FrameMotion;
 use super::problem::PathProblem;
-use super::spline::{Piece, linear_pieces, spline_pieces};
+use super::spline::{End, Piece, linear_pieces, spline_pieces};
 use super::station::{Station, problems_of};
 use super::{TIME_SLACK, VehiclePose, VehicleState};
 
@@ -19,7 +19,7 @@ use super::{TIME_SLACK, VehiclePose, VehicleState};
 pub enum Interpolation {
     /// Straight lines, as in the report; velocities jump at every time.
     Linear,
-    /// Natural cubic splines.
+    /// Cubic splines; they end without curvature, or at rest where the vehicle or panel is held after the last time.
     #[default]
     Spline,
 }
@@ -34,11 +34,16 @@ pub enum AfterEnd {
     Error,
     /// It goes on with constant velocity.
     Coast,
-    /// It stands still.
+    /// It stands still; a spline comes to rest there.
     Hold,
 }
 
 impl AfterEnd {
+    /// How a spline ends that is followed by this.
+    fn end(self) -> End {
+        if self == AfterEnd::Hold { End::AtRest } else { End::Natural }
+    }
+
     /// Whether a path given from `first_s` to `last_s` has an answer from `start_s` to `end_s`.
     ///
     /// # Errors
@@ -92,7 +97,7 @@ impl TablePath {
         let values: Vec<Vector6<f64>> = stations.iter().map(Station::channels).collect();
         let pieces = match interpolation {
             Interpolation::Linear => linear_pieces(&times_s, &values),
-            Interpolation::Spline => spline_pieces(&times_s, &values),
+            Interpolation::Spline => spline_pieces(&times_s, &values, after.end()),
         };
         let (first, last) = (&pieces[0], &pieces[pieces.len() - 1]);
         let (first_s, last_s) = (times_s[0], times_s[times_s.len() - 1]);

@@ -151,12 +151,12 @@ impl Scenario {
     }
 
     /// Whether a body at home meets what is fixed to a frame.
-    pub(super) fn is_met(&self, meets: Option<Meets>, frame: Frame, home: Frame) -> bool {
+    pub(super) fn is_met(&self, meets: Meets, frame: Frame, home: Frame) -> bool {
         let of = self.vehicle_of(frame);
         match meets {
-            None | Some(Meets::Own) => of.is_none_or(|vehicle| vehicle == home),
-            Some(Meets::Others) => of != Some(home),
-            Some(Meets::All) => true,
+            Meets::Own => of.is_none_or(|vehicle| vehicle == home),
+            Meets::Others => of != Some(home),
+            Meets::All => true,
         }
     }
 

@@ -27,7 +27,7 @@ use occupant_core::forces::contact::surface::Frame;
 use occupant_core::forces::joint::Joints;
 use occupant_core::model::seating::{InitialPosture, InitialVelocity, Mounting, Placing};
 use occupant_core::model::setup::{LOOSE, Member, Setup};
-use placed_text::{Diagnostics, Document, Node, with_key};
+use placed_text::{Diagnostics, Document, Node, Problem, with_key};
 
 /// One of several occupants.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -229,8 +229,10 @@ fn joined(b: &mut Builder, s: &Scenario, mut world: Setup, members: Vec<(String,
     };
     world.surfaces.iter_mut().for_each(|surface| surface.frame = settled(surface.frame));
     world.solids.iter_mut().for_each(|solid| solid.frame = settled(solid.frame));
-    let meets = s.surfaces.values().map(|own| own.meets).chain(s.ground.iter().map(|_| None));
-    let meets: Vec<Option<Meets>> = meets.chain(s.solids.values().map(SolidSection::meets)).collect();
+    warn_of_unmet(b, s, &world, &members);
+    let meets = s.surfaces.values().map(|own| own.meets.unwrap_or(Meets::Own));
+    let meets = meets.chain(s.ground.iter().map(|_| Meets::All));
+    let meets: Vec<Meets> = meets.chain(s.solids.values().map(SolidSection::meets)).collect();
     let own = |(name, home, mut setup): (String, Frame, Setup)| {
         let frames = world.surfaces.iter().map(|own| own.frame).chain(world.solids.iter().map(|own| own.frame));
         let lists = setup.surfaces.iter_mut().map(|own| &mut own.spheres);
@@ -255,6 +257,23 @@ fn joined(b: &mut Builder, s: &Scenario, mut world: Setup, members: Vec<(String,
     world.chains.clear();
     world.output.markers.clear();
     world.together(members, &pairs, &skins)
+}
+
+/// Tells who passes through surfaces of a vehicle that he is not in, of which nothing is said.
+fn warn_of_unmet(b: &mut Builder, s: &Scenario, world: &Setup, members: &[(String, Frame, Setup)]) {
+    let surfaces = s.surfaces.iter().zip(&world.surfaces).filter(|((_, own), _)| own.meets.is_none());
+    let surfaces: Vec<_> = surfaces.map(|((name, _), surface)| (name, surface.frame)).collect();
+    for (name, home, _) in members.iter().filter(|(.., setup)| !setup.body.spheres.is_empty()) {
+        let unmet = surfaces.iter().filter(|(_, frame)| !s.is_met(Meets::Own, *frame, *home));
+        let unmet: Vec<&str> = unmet.map(|(name, _)| name.as_str()).collect();
+        let Some((first, others)) = unmet.split_first() else { continue };
+        let more = if others.is_empty() { String::new() } else { format!(" and {} more", others.len()) };
+        let name = if name.is_empty() { "the occupant" } else { name };
+        let found = format!("{name} passes through {first}{more}: a surface is met by those who begin in its vehicle");
+        let expected = "meets = \"all\" where others can come in front of it, \"own\" where not";
+        let problem = Problem::warning(with_key("surfaces", first), found, expected);
+        b.report(problem.with_hint(Some("a solid holds off whoever comes, from all sides")));
+    }
 }
 
 /// Spheres of different bodies that can touch, by member and index, and the skins of members that have no other.

@@ -36,7 +36,7 @@ macro_rules! kinds {
                 pub(crate) material: String,
                 /// What it is fixed to; "vehicle" if absent.
                 pub(crate) frame: Option<String>,
-                /// Of several bodies, who can touch it, as of a surface.
+                /// Of several bodies, who can touch it, as of a surface; "all" if absent.
                 pub(crate) meets: Option<Meets>,
                 /// Solids of one group are met as one body without seams; they have one frame and one material.
                 pub(crate) group: Option<String>,
@@ -52,11 +52,12 @@ macro_rules! kinds {
                 if let SolidSection::Prism(prism) = self { prism.profile.as_deref() } else { None }
             }
 
-            /// Who meets it.
-            pub(super) fn meets(&self) -> Option<Meets> {
-                match self {
+            /// Who meets it: a solid holds off from all sides, so whoever comes there.
+            pub(super) fn meets(&self) -> Meets {
+                let said = match self {
                     $(SolidSection::$Kind(s) => s.meets,)*
-                }
+                };
+                said.unwrap_or(Meets::All)
             }
 
             /// Its frame by name.

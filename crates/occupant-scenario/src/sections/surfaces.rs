@@ -27,7 +27,8 @@ pub(crate) struct SurfaceSection {
     /// absent.
     pub(crate) frame: Option<String>,
     /// Of several bodies, who can touch it: "own", those that begin in its vehicle; "others", all but those; "all". "own" if
-    /// absent; what belongs to no vehicle all can touch.
+    /// absent, as a surface has one side alone; `check` then names those who pass through it. What belongs to no vehicle all
+    /// can touch.
     pub(crate) meets: Option<Meets>,
     /// Corners [x, y, z] in order round a convex plane polygon.
     #[schemars(extend("minItems" = 3))]

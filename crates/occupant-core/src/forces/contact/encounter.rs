@@ -1,5 +1,6 @@
 //! One sphere against the faces of one frame, within one evaluation.
 
+use crate::forces::contact::ahead::Way;
 use crate::forces::contact::solid::lever;
 use crate::forces::contact::{ContactSystem, FRICTION, Group, PASSED, PRESS, PairHistory, Touch};
 use crate::forces::element::{Instant, Load as AllLoads};
@@ -178,6 +179,14 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         let vehicle = &mut all.power_at(self.site.segment).vehicle;
         *vehicle = S::select(load.lanes, *vehicle + carrying, *vehicle);
         all.push(self.group.frame, self.site.segment, force, load.lanes);
+    }
+
+    /// Its way straight ahead relative to the frame, in the frame's axes, for as long as a step can be.
+    #[inline(always)]
+    pub(super) fn way(&self, longest: S) -> Way<S> {
+        let (n, k, frame) = (self.site.segment, self.k, self.frame);
+        let velocity = k.joint_velocity[n] + k.omega[n].cross(self.arm) - frame.velocity_at(self.centre);
+        Way::new(self.centre_f, frame.axes.into_frame(velocity), self.site.radius, longest)
     }
 
     /// How the sphere moves relative to the frame.

@@ -10,6 +10,7 @@ use std::ops::Range;
 
 use crate::forces::contact::{ContactSystem, Group, OPEN, PASSED, PairHistory};
 use crate::forces::element::Hints;
+use crate::forces::pace::Pace;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
@@ -29,6 +30,8 @@ pub struct ContactHints<S: Scalar> {
     /// By group of pairs.
     looks: Vec<Look<S>>,
     pub(super) own: OwnHints<S>,
+    /// How long the step may be that begins at the latest commit.
+    pub(super) pace: Pace<S>,
 }
 
 /// Which pairs of spheres of the body are worth looking at.
@@ -39,12 +42,15 @@ pub(super) struct OwnHints<S: Scalar> {
     pub count: usize,
     /// Room for the centres of all spheres.
     pub centres: Vec<V3<S>>,
+    /// And for their velocities.
+    pub velocities: Vec<V3<S>>,
 }
 
 impl<S: Scalar> OwnHints<S> {
     fn new(pairs: usize, spheres: usize) -> Self {
         let near: Vec<_> = (0..pairs as u32).map(|pair| Near { pair, lanes: S::truth(true) }).collect();
-        OwnHints { near, count: pairs, centres: vec![V3::zero(); if pairs > 0 { spheres } else { 0 }] }
+        let room = vec![V3::zero(); if pairs > 0 { spheres } else { 0 }];
+        OwnHints { near, count: pairs, centres: room.clone(), velocities: room }
     }
 
     /// Adds pair `i` in these lanes.
@@ -94,6 +100,7 @@ impl<S: Scalar> ContactHints<S> {
             near: all.map(|pair| Near { pair, lanes }).collect(),
             looks: looks.collect(),
             own: OwnHints::new(contacts.own.pairs.len(), contacts.own.spheres),
+            pace: Pace::any(),
         }
     }
 
@@ -136,12 +143,14 @@ impl<S: Scalar> Hints for ContactHints<S> {
         self.looks.copy_from_slice(&other.looks);
         self.own.near.copy_from_slice(&other.own.near);
         self.own.count = other.own.count;
+        self.pace = other.pace;
     }
 
     fn look_again(&mut self) {
         for look in &mut self.looks {
             look.reach_squared = -S::one();
         }
+        self.pace = Pace::any();
     }
 }
 
@@ -163,11 +172,12 @@ impl Nearing {
         &mut self,
         i: usize,
         depth: S,
-        contacts: &ContactSystem<S>,
+        reach: S,
         pair: &PairHistory<S>,
         hints: &mut ContactHints<S>,
     ) {
-        let lanes = contacts.is_near(depth, pair);
+        // not passed, and within reach of a step
+        let lanes = (-reach).lt(depth) & pair.phase.lt(S::of(PASSED));
         if S::any(lanes) {
             let pair = i as u32;
             hints.near[self.first + self.count] = Near { pair, lanes };
@@ -203,13 +213,13 @@ impl<S: Scalar> Looking<S> {
         &mut self,
         i: usize,
         depth: S,
-        contacts: &ContactSystem<S>,
+        reach: S,
         pair: &PairHistory<S>,
         hints: &mut ContactHints<S>,
     ) {
         let phase = pair.phase;
         let touches = phase.gt(S::of(OPEN)) & phase.lt(S::of(PASSED));
-        let (off, enough) = (depth.abs(), contacts.reach_of_a_step + S::of(LEAST_WAY_M));
+        let (off, enough) = (depth.abs(), reach + S::of(LEAST_WAY_M));
         self.watch(i, touches | off.lt(enough), off, hints);
     }
 

@@ -1,5 +1,6 @@
 //! Contact of spheres with bounded plane surfaces, with solids, and with each other.
 
+mod ahead;
 mod assembly;
 mod check;
 mod encounter;
@@ -29,6 +30,7 @@ use crate::forces::contact::solid::Solid;
 use crate::forces::contact::surface::Surface;
 use crate::forces::element::{Element, HeldBy, Instant, Load, StoredEnergy, Unlike, WorkSum};
 use crate::forces::list::STORES;
+use crate::forces::pace::Pace;
 use crate::forces::sphere::Site;
 use crate::motion::frame::MOST_FRAMES;
 use crate::motion::scalar::Scalar;
@@ -131,6 +133,10 @@ impl Element for Contacts {
         ContactHints::new(law)
     }
 
+    fn pace<S: Scalar>(hints: &ContactHints<S>) -> Pace<S> {
+        hints.pace
+    }
+
     fn count<S>(law: &ContactSystem<S>) -> usize {
         law.own.first + law.own.pairs.len()
     }
@@ -191,21 +197,26 @@ impl Element for Contacts {
         load: &mut Load<S>,
         show: &mut impl FnMut(&Touch<S>),
     ) {
+        let mut reach = law.reach_of_a_step;
+        if at.accepted {
+            hints.pace = Pace::any();
+            reach = law.reach(at);
+        }
         for (g, group) in law.groups.iter().enumerate() {
             let aside = law.aside(group, at, load);
-            meet_all::<S, false>(law, g, group, at, past, hints, load, show);
+            meet_all::<S, false>(law, (g, group), reach, at, past, hints, load, show);
             if let Some(aside) = aside {
                 aside.react(at.k, load);
             }
         }
         for (g, group) in (law.groups.len()..).zip(&law.solids.groups) {
             let aside = law.aside(group, at, load);
-            meet_all::<S, true>(law, g, group, at, past, hints, load, show);
+            meet_all::<S, true>(law, (g, group), reach, at, past, hints, load, show);
             if let Some(aside) = aside {
                 aside.react(at.k, load);
             }
         }
-        law.own.apply(at, past, &mut hints.own, law.reach_of_a_step, load, show);
+        law.own.apply(at, past, hints, [reach, law.longest_step()], load, show);
     }
 
     fn segment(_law: &ContactSystem<f64>, spheres: &[Site<f64>], _number: usize, touch: &Touch<f64>) -> usize {
@@ -217,13 +228,13 @@ impl Element for Contacts {
     }
 }
 
-/// A sphere and all pairs of a group, number `g`: of faces, or of solids.
+/// A sphere and all pairs of a group, number `g`: of faces, or of solids. Within a step it comes no farther than `reach`.
 #[inline(always)]
 #[expect(clippy::too_many_arguments, reason = "two calls, both inlined")]
 fn meet_all<S: Scalar, const SOLID: bool>(
     law: &ContactSystem<S>,
-    g: usize,
-    group: &Group,
+    (g, group): (usize, &Group),
+    reach: S,
     at: &Instant<'_, S>,
     past: &mut [PairHistory<S>],
     hints: &mut ContactHints<S>,
@@ -236,7 +247,8 @@ fn meet_all<S: Scalar, const SOLID: bool>(
     }
     let mut sphere = Sphere::new(law, group, at);
     let power = load.power_at(at.spheres[group.sphere].segment);
-    let looks = at.accepted && hints.must_look(g, sphere.centre_f);
+    let is_fast = || S::any(law.reach_of_a_step.lt(reach));
+    let looks = at.accepted && (hints.must_look(g, sphere.centre_f) || is_fast());
     let places = if looks {
         group.pairs.clone()
     } else if at.accepted {
@@ -256,17 +268,18 @@ fn meet_all<S: Scalar, const SOLID: bool>(
         };
         let depth = sphere.look_at::<SOLID>(i, lanes, past, power, show);
         if looks {
-            look.at(i, depth, law, &past[i], hints);
+            look.at(i, depth, reach, &past[i], hints);
         }
         if at.accepted {
-            near.at(i, depth, law, &past[i], hints);
+            near.at(i, depth, reach, &past[i], hints);
         }
     }
     if looks {
-        look.end(g, sphere.centre_f, law.reach_of_a_step, hints);
+        look.end(g, sphere.centre_f, reach, hints);
     }
     if at.accepted {
         near.end(g, hints);
+        law.look_ahead::<SOLID>((g, group), &sphere, past, hints);
     }
     sphere.load(load);
 }

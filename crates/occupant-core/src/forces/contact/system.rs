@@ -153,17 +153,11 @@ pub struct ContactSystem<S> {
     pub(crate) own: SelfPairs<S>,
     /// Segments that carry faces, whose frames stand behind all others.
     pub(crate) carriers: Vec<usize>,
-    /// A face farther than this, m, cannot be met within one step.
+    /// A face farther than this, m, cannot be met within one step unless something goes faster than any crash.
     pub(crate) reach_of_a_step: S,
 }
 
 impl<S: Scalar> ContactSystem<S> {
-    /// True if the pair can exert a force before the next commit: not passed, and within reach of a step.
-    #[inline(always)]
-    pub(crate) fn is_near(&self, depth: S, history: &PairHistory<S>) -> S::Mask {
-        (-self.reach_of_a_step).lt(depth) & history.phase.lt(S::of(PASSED))
-    }
-
     /// Forces of pair `i` on its sphere in the lanes where it is `live`: in contact and not passed; `None` if there are none
     /// in any lane. At an accepted step the pair's history first takes over the present position.
     #[inline(always)]

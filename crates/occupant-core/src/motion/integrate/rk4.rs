@@ -36,10 +36,27 @@ impl<S: Scalar> Stages<S> {
     /// its last argument.
     #[inline(always)]
     pub fn step(&mut self, from: &State<S>, h: S, mut rate: impl FnMut(Stage, &State<S>, &mut State<S>)) -> &State<S> {
+        self.begin(from, &mut rate);
+        self.go(from, h, rate)
+    }
+
+    /// The first call of `rate` of a step, on which its length may depend.
+    #[inline(always)]
+    pub(crate) fn begin(&mut self, from: &State<S>, rate: impl FnOnce(Stage, &State<S>, &mut State<S>)) {
+        rate(Stage::Start, from, &mut self.sum); // (115), (116)
+    }
+
+    /// The rest of a step `h` (s) that has begun there.
+    #[inline(always)]
+    pub(crate) fn go(
+        &mut self,
+        from: &State<S>,
+        h: S,
+        mut rate: impl FnMut(Stage, &State<S>, &mut State<S>),
+    ) -> &State<S> {
         let Stages { at, k, sum } = self;
         let half = h * S::of(0.5);
         let two = S::of(2.0);
-        rate(Stage::Start, from, sum); // (115), (116)
         at.advance(from, half, sum);
         rate(Stage::Middle, at, k); // k₂ (117), (118)
         at.advance(from, half, k);

@@ -12,8 +12,9 @@ use crate::forces::History;
 use crate::kernel::Scratch;
 use crate::model::Model;
 use crate::model::setup::Integrator;
-use crate::motion::frame::VEHICLE;
+use crate::motion::frame::{Frames, VEHICLE};
 use crate::motion::integrate::rk4::Stages;
+use crate::motion::lanes::Lanes;
 use crate::motion::state::State;
 use crate::results::outcome::{RecordingFailed, Status};
 use crate::run::{Run, broken};
@@ -93,24 +94,25 @@ impl<L: Machine> Group<L> {
         for (i, place) in self.places.iter_mut().enumerate() {
             // an idle lane stands still: h = 0
             let Some(place) = place else { continue };
-            let Some(step) = place.stretch.next() else {
+            let Some(step) = place.next_step() else {
                 continue;
             };
             place.step = step;
             h.set_lane(i, step.length_s());
-            let times_s = step.times_s();
-            for (lanes, t_s) in bench.around.frames.iter_mut().zip(times_s) {
-                // space stands still
-                let frames = &mut place.frames;
-                place.model.move_frames(frames, t_s, times_s[1], &mut place.run.cursor);
-                lanes.time.set_lane(i, t_s);
-                for frame in VEHICLE..=VEHICLE + place.model.setup().frames.len() {
-                    lanes[frame].each(&frames[frame], &mut |lanes: &mut L, x: f64| lanes.set_lane(i, x));
-                }
-            }
+            let [start_s, middle_s, _] = step.times_s();
+            move_frames(i, place, &mut bench.around.frames[0], [start_s, middle_s]);
         }
-        let mut witness = Witness(&mut self.places);
-        let finite = L::step(bench, h, &mut witness);
+        let bears = L::begin(bench, h, &mut Witness(&mut self.places));
+        for (i, place) in self.places.iter_mut().enumerate() {
+            let Some(place) = place.as_mut().filter(|_| h.lane(i) > 0.0) else { continue };
+            place.step = place.step.first_part(|_| bears.lane(i));
+            h.set_lane(i, place.step.length_s());
+            let [_, middle_s, end_s] = place.step.times_s();
+            let [_, middle, end] = &mut bench.around.frames;
+            move_frames(i, place, middle, [middle_s, middle_s]);
+            move_frames(i, place, end, [end_s, middle_s]);
+        }
+        let finite = L::go(bench, h, &mut Witness(&mut self.places));
         for i in 0..L::COUNT {
             if let Some(place) = self.places[i].take() {
                 self.settle(i, place, finite.lane(i) > 0.0, jobs)?;
@@ -122,7 +124,7 @@ impl<L: Machine> Group<L> {
     /// Accepts the step of the run of place `i`, if it led to numbers, and records an output that it reached.
     fn settle(&mut self, i: usize, mut place: Box<Place>, finite: bool, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         place.run.effort.evaluations += 4;
-        if finite && !place.stretch.is_over() {
+        if finite && !place.is_at_output() {
             place.run.accept_time(place.step);
             self.places[i] = Some(place);
             return ControlFlow::Continue(());
@@ -196,6 +198,17 @@ impl<L: Machine> Group<L> {
             self.hand_out(i, *place, status, jobs)?;
         }
         ControlFlow::Continue(())
+    }
+}
+
+/// Moves the frames of lane `i` to a time of its step, whose middle is told too.
+fn move_frames<L: Lanes>(i: usize, place: &mut Place, lanes: &mut Frames<L>, [t_s, middle_s]: [f64; 2]) {
+    // space stands still
+    let Place { frames, model, run, .. } = place;
+    model.move_frames(frames, t_s, middle_s, &mut run.cursor);
+    lanes.time.set_lane(i, t_s);
+    for frame in VEHICLE..=VEHICLE + model.setup().frames.len() {
+        lanes[frame].each(&frames[frame], &mut |lanes: &mut L, x: f64| lanes.set_lane(i, x));
     }
 }
 

@@ -32,9 +32,12 @@ pub(crate) struct Around<L: Lanes> {
 
 /// Lanes that some processors can compute with.
 pub(crate) trait Machine: Lanes {
-    /// Takes a step; a 1 for every lane in which the state is one of finite numbers then. Each lane has its length of step;
-    /// `witness` sees the first evaluation.
-    fn step(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> Self;
+    /// Begins steps, of which each lane has its length; returns the lengths that what is near bears. `witness` sees the
+    /// evaluation.
+    fn begin(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> Self;
+
+    /// Takes the rest of the steps; a 1 for every lane in which the state is one of finite numbers then.
+    fn go(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> Self;
 }
 
 impl<L: Lanes> Around<L> {
@@ -52,11 +55,19 @@ impl<L: Lanes> Around<L> {
 }
 
 impl<L: Lanes> Bench<L> {
-    /// One step, in the instructions of the caller; `rate` is [`Around::rate`] compiled for them.
+    /// The first evaluation of a step, in the instructions of the caller; `rate` is [`Around::rate`] compiled for them.
     #[inline(always)]
-    fn step(&mut self, h: L, mut rate: impl FnMut(&mut Around<L>, Stage, &State<L>, &mut State<L>)) -> L {
+    fn begin(&mut self, h: L, mut rate: impl FnMut(&mut Around<L>, Stage, &State<L>, &mut State<L>)) -> L {
         let Bench { state, stages, around } = self;
-        *state = *stages.step(state, h, |stage, state, k| rate(around, stage, state, k));
+        stages.begin(state, |stage, state, k| rate(around, stage, state, k));
+        around.history.step(h)
+    }
+
+    /// The rest of it.
+    #[inline(always)]
+    fn go(&mut self, h: L, mut rate: impl FnMut(&mut Around<L>, Stage, &State<L>, &mut State<L>)) -> L {
+        let Bench { state, stages, around } = self;
+        *state = *stages.go(state, h, |stage, state, k| rate(around, stage, state, k));
         L::select(self.state.finite(), L::one(), L::zero())
     }
 }
@@ -71,15 +82,25 @@ macro_rules! machine {
             use crate::motion::lanes::$lanes;
 
             impl Machine for $lanes {
-                fn step(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> Self {
+                fn begin(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> Self {
                     // SAFETY: `h` exists, so the processor has the instructions
-                    unsafe { step(bench, h, witness) }
+                    unsafe { begin(bench, h, witness) }
+                }
+
+                fn go(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> Self {
+                    // SAFETY: `h` exists, so the processor has the instructions
+                    unsafe { go(bench, h, witness) }
                 }
             }
 
             #[target_feature(enable = $features)]
-            fn step(bench: &mut Bench<$lanes>, h: $lanes, witness: &mut Witness<'_>) -> $lanes {
-                bench.step(h, |around, stage, state, k| rate(around, stage, state, witness, k))
+            fn begin(bench: &mut Bench<$lanes>, h: $lanes, witness: &mut Witness<'_>) -> $lanes {
+                bench.begin(h, |around, stage, state, k| rate(around, stage, state, witness, k))
+            }
+
+            #[target_feature(enable = $features)]
+            fn go(bench: &mut Bench<$lanes>, h: $lanes, witness: &mut Witness<'_>) -> $lanes {
+                bench.go(h, |around, stage, state, k| rate(around, stage, state, witness, k))
             }
 
             #[inline(never)]
@@ -107,8 +128,12 @@ mod tests {
     use super::*;
 
     impl<const N: usize> Machine for crate::motion::lanes::Plain<N> {
-        fn step(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> Self {
-            bench.step(h, |around, stage, state, k| around.rate(stage, state, witness, k))
+        fn begin(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> Self {
+            bench.begin(h, |around, stage, state, k| around.rate(stage, state, witness, k))
+        }
+
+        fn go(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> Self {
+            bench.go(h, |around, stage, state, k| around.rate(stage, state, witness, k))
         }
     }
 }

@@ -17,9 +17,11 @@ pub(super) struct Place {
     pub model: Model,
     pub run: Run,
     /// Steps to the next output.
-    pub stretch: Stretch,
+    stretch: Stretch,
     step_s: f64,
-    /// The step under way.
+    /// The step of this length that is under way.
+    whole: Step,
+    /// All of it, or a part that what is near bears.
     pub step: Step,
     /// Room for the frames of one instant.
     pub frames: Frames<f64>,
@@ -42,7 +44,8 @@ impl Place {
     pub(super) fn new(model: Model, step_s: f64) -> Self {
         let run = Run::new(&model);
         let stretch = Stretch::new(run.time_s, run.time_s, step_s);
-        Place { frames: Frames::still(run.time_s), model, stretch, run, step_s, step: Step::default() }
+        let (whole, step) = (Step::default(), Step::default());
+        Place { frames: Frames::still(run.time_s), model, stretch, run, step_s, whole, step }
     }
 
     /// The first output.
@@ -67,9 +70,29 @@ impl Place {
         Next::GoesOn
     }
 
+    /// What is left of the step under way; none behind its end.
+    fn left(&self) -> Option<Step> {
+        let start_s = self.step.end_s;
+        (start_s < self.whole.end_s).then_some(Step { start_s, ..self.whole })
+    }
+
+    /// The step to be taken next, which may have to end earlier; none at an output.
+    pub(super) fn next_step(&mut self) -> Option<Step> {
+        if let Some(left) = self.left() {
+            return Some(left);
+        }
+        self.whole = self.stretch.next()?;
+        Some(self.whole)
+    }
+
+    /// Whether an output is reached.
+    pub(super) fn is_at_output(&self) -> bool {
+        self.left().is_none() && self.stretch.is_over()
+    }
+
     /// The rest of the run, alone.
     pub(super) fn finish(&mut self, recorder: &mut dyn Recorder) -> Result<Status, RecordingFailed> {
-        match self.run.advance_rk4(&self.model, self.stretch) {
+        match self.run.advance_rk4(&self.model, self.left(), self.stretch) {
             Err(error) => Ok(Status::Failed(error)),
             Ok(()) => go_on(&self.model, &mut self.run, recorder),
         }

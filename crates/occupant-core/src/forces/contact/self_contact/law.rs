@@ -4,11 +4,13 @@ use super::SelfContact;
 use super::series::series;
 use crate::body::Body;
 use crate::forces::contact::encounter::Approach;
-use crate::forces::contact::hints::OwnHints;
+use crate::forces::contact::ahead::Way;
+use crate::forces::contact::hints::ContactHints;
 use crate::forces::contact::material::{Material, Memory};
 use crate::forces::contact::zip::OTHER_PAIRS;
 use crate::forces::contact::{FRICTION, MaterialLaw, OPEN, PASSED, PRESS, PairHistory, TOUCHING, Touch};
 use crate::forces::element::{Instant, Load, Unlike};
+use crate::forces::pace::Pace;
 use crate::forces::sphere::Site;
 use crate::motion::frame::SPACE;
 use crate::motion::scalar::Scalar;
@@ -78,17 +80,19 @@ impl<S: Scalar> SelfPairs<S> {
         self.pairs.get(number.checked_sub(self.first)?)
     }
 
-    /// Adds the forces of all pairs. At an accepted step what they remember first takes over the present position.
+    /// Adds the forces of all pairs. At an accepted step what they remember first takes over the present position; until the
+    /// next, which is no later than `longest`, none comes nearer than by `reach`.
     #[inline(always)]
     pub(in crate::forces::contact) fn apply(
         &self,
         at: &Instant<'_, S>,
         past: &mut [PairHistory<S>],
-        hints: &mut OwnHints<S>,
-        reach: S,
+        hints: &mut ContactHints<S>,
+        [reach, longest]: [S; 2],
         load: &mut Load<S>,
         show: &mut impl FnMut(&Touch<S>),
     ) {
+        let ContactHints { own: hints, pace, .. } = hints;
         if !at.accepted {
             for place in 0..hints.count {
                 let near = hints.near[place];
@@ -101,8 +105,8 @@ impl<S: Scalar> SelfPairs<S> {
             }
             return;
         }
-        for (centre, site) in hints.centres.iter_mut().zip(at.spheres) {
-            *centre = site.place(at.k).1;
+        for ((centre, velocity), site) in hints.centres.iter_mut().zip(&mut hints.velocities).zip(at.spheres) {
+            (_, *centre, *velocity) = site.place(at.k);
         }
         hints.count = 0;
         for (i, pair) in self.pairs.iter().enumerate() {
@@ -113,7 +117,12 @@ impl<S: Scalar> SelfPairs<S> {
             let is_here = past.phase.lt(S::of(PASSED));
             let live = depth.gt(S::zero()) & is_here;
             pair.press(self.first + i, depth, normal, live, past.greatest, at, load, show);
-            hints.note(i, (-reach).lt(depth) & is_here);
+            let near = (-reach).lt(depth) & is_here;
+            hints.note(i, near);
+            if S::any(near) {
+                let [from, to] = pair.spheres.map(|sphere| hints.velocities[sphere]);
+                pair.look_ahead(at.spheres, centres, to - from, longest, near, pace);
+            }
         }
     }
 }
@@ -134,6 +143,33 @@ impl<S: Scalar> SelfPair<S> {
         let depth = one + other - S::select(has_way, distance, S::zero());
         let up = V3 { z: S::one(), ..V3::zero() };
         (depth, V3::select(has_way, way * (S::one() / distance), up))
+    }
+
+    /// Bounds the pace where the second sphere comes fast, as seen from the first.
+    #[inline(always)]
+    fn look_ahead(
+        &self,
+        sites: &[Site<S>],
+        [from, to]: [V3<S>; 2],
+        velocity: V3<S>,
+        longest: S,
+        near: S::Mask,
+        pace: &mut Pace<S>,
+    ) {
+        let [one, other] = self.spheres.map(|sphere| sites[sphere].radius);
+        let way = Way::new(to - from, velocity, one + other, longest);
+        let fast = near & way.is_fast();
+        if !S::any(fast) {
+            return;
+        }
+        let gap = |place| {
+            let (depth, normal) = self.overlap(sites, [V3::zero(), place]);
+            (-depth, normal)
+        };
+        let (here, normal) = gap(way.centre);
+        let touches = here.lt(S::zero());
+        way.in_touch(fast & touches, normal, pace);
+        way.until_touch(fast & !touches, pace, gap);
     }
 
     /// Takes the depth at an accepted step over.
