@@ -124,6 +124,30 @@ pub trait Element: Copy + Debug {
         None
     }
 
+    /// Whether what they remember can jump: whether anything of them can switch in a run. What only changes its slope does
+    /// not.
+    fn can_switch(_law: &Self::Law<f64>) -> bool {
+        false
+    }
+
+    /// What of one's memory jumps when it switches, as a number: another wherever anything has switched.
+    #[inline(always)]
+    fn switches<S: Scalar>(_past: &Self::Past<S>) -> S {
+        S::zero()
+    }
+
+    /// Where between `before` and `now`, of the times `times_s`, the first switch of the one of this number was due, as a part
+    /// of the way; none where it cannot be told. Up to 0 it was due before.
+    fn due(
+        _law: &Self::Law<f64>,
+        _number: usize,
+        _before: &Self::Past<f64>,
+        _now: &Self::Past<f64>,
+        _times_s: [f64; 2],
+    ) -> Option<f64> {
+        None
+    }
+
     /// Brings what one remembers back into range after its numbers were changed a little.
     fn confine(_past: &mut Self::Past<f64>) {}
 
@@ -154,6 +178,11 @@ pub trait Element: Copy + Debug {
 
     /// Writes the energies of [`Element::STORED`], from all that they do at one instant, to their places, J.
     fn stored_j(actions: &[Self::Action<f64>], stored_j: &mut [f64; STORES]);
+}
+
+/// Where on the straight way from one number to another, greater one a level is reached, as a part of the way.
+pub(crate) fn passes(level: f64, before: f64, now: f64) -> f64 {
+    if now > before { (level - before) / (now - before) } else { 0.0 }
 }
 
 /// What spares an evaluation needless work.

@@ -289,6 +289,54 @@ macro_rules! kinds {
             }
         }
 
+        impl Forces<f64> {
+            /// Whether anything can switch; see [`Element::can_switch`].
+            pub(crate) fn can_switch(&self) -> bool {
+                false $(|| $Kind::can_switch(&self.$kind))+
+            }
+        }
+
+        impl<S: Scalar> Memory<S> {
+            /// Where something has switched between this and `now`, of the same elements.
+            #[inline(always)]
+            pub(crate) fn has_switched(&self, now: &Self) -> S::Mask {
+                let mut mask = S::truth(false);
+                $(
+                    for (before, now) in self.$kind.iter().zip(&now.$kind) {
+                        let [before, now] = [before, now].map($Kind::switches::<S>);
+                        mask = mask | before.lt(now) | now.lt(before);
+                    }
+                )+
+                mask
+            }
+        }
+
+        impl Memory<f64> {
+            /// What has switched between this and `now`, of the same elements: what such an element is called, and its number.
+            pub fn switched(&self, now: &Self) -> Vec<(&'static str, usize)> {
+                let mut list = Vec::new();
+                $(
+                    let both = self.$kind.iter().zip(&now.$kind).enumerate();
+                    let switched = both.filter(|(_, (a, b))| $Kind::switches::<f64>(a) != $Kind::switches::<f64>(b));
+                    list.extend(switched.map(|(i, _)| ($Kind::NAMES[0], i)));
+                )+
+                list
+            }
+
+            /// Where between this and `now` the first switch was due; see [`Element::due`].
+            pub(crate) fn due(&self, now: &Self, forces: &Forces<f64>, times_s: [f64; 2]) -> Due {
+                let mut due = Due { share: f64::INFINITY, is_known: true };
+                $(
+                    for (i, (before, now)) in self.$kind.iter().zip(&now.$kind).enumerate() {
+                        if $Kind::switches::<f64>(before) != $Kind::switches::<f64>(now) {
+                            due.see($Kind::due(&forces.$kind, i, before, now, times_s));
+                        }
+                    }
+                )+
+                due
+            }
+        }
+
         impl<S> Memory<S> {
             /// That of no elements.
             pub fn none() -> Self {
@@ -311,7 +359,7 @@ macro_rules! kinds {
                 Memory { $($kind: self.$kind.iter().map(|past| $Kind::map(past, f)).collect()),+ }
             }
 
-            fn take_over(&mut self, other: &Self) {
+            pub(crate) fn take_over(&mut self, other: &Self) {
                 $(self.$kind.copy_from_slice(&other.$kind);)+
             }
         }
@@ -415,6 +463,22 @@ pub trait Visitor {
 
 /// Sees nothing.
 impl<S> Observer<S> for () {}
+
+/// When the first of several switches was due.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Due {
+    /// As a part of the way between two memories; of one that cannot tell, the middle.
+    pub share: f64,
+    /// Whether all can tell.
+    pub is_known: bool,
+}
+
+impl Due {
+    fn see(&mut self, share: Option<f64>) {
+        self.is_known &= share.is_some();
+        self.share = self.share.min(share.unwrap_or(0.5));
+    }
+}
 
 /// What force elements remember between steps, changed only at accepted steps, and what spares them work.
 #[derive(Clone, Debug)]

@@ -1,5 +1,6 @@
 //! Steps with error control.
 
+use super::front::Asks;
 use super::{Front, Run, Step};
 use crate::model::Model;
 use crate::motion::integrate::bogacki_shampine::{ERROR_ORDER, EVALUATIONS, Tolerance};
@@ -87,9 +88,10 @@ impl Run {
         // the rate is then that of the end of the step before
         let follows = self.effort.steps > 0 && !self.breaks_s.contains(&start_s);
         self.effort.evaluations += u64::from(!follows);
-        let mut was_rejected = false;
-        // the end of the step, where it is to end behind a corner
+        let (mut was_rejected, last_s) = (false, self.effort.step_s);
+        // the end of the step, where it is to end at a switch or behind a corner
         let mut behind_s = None;
+        front.begin_step();
         loop {
             let wanted_s = self.control.wanted_s.min(control.max_step_s);
             let located = behind_s.take();
@@ -104,31 +106,35 @@ impl Run {
             }
             let trial = front.attempt(model, step, &control.tolerance, &mut self.cursor);
             self.effort.evaluations += EVALUATIONS;
-            if located.is_none() && trial.error.is_finite() {
-                behind_s = front.end_behind_corner(model, step, &control.tolerance);
+            let jumps = trial.error.is_finite() && front.has_switched();
+            let error = if jumps { trial.error.min(trial.error_within) } else { trial.error };
+            if error.is_finite() {
+                let asks = Asks { corners: located.is_none(), tolerance: &control.tolerance, last_s };
+                behind_s = front.end_earlier(model, step, &asks);
             }
             if behind_s.is_some() {
                 self.effort.rejected += 1;
-                if trial.error > 1.0 {
-                    self.control.reject(h, trial.error);
+                if error > 1.0 && located.is_none() {
+                    self.control.reject(h, error);
                 }
                 continue;
             }
-            if trial.error <= 1.0 {
+            if error <= 1.0 {
                 let is_full = located.is_none() && h >= wanted_s * 0.99;
-                self.control.accept(h, trial.error, is_full, was_rejected);
+                self.control.accept(h, error, is_full, was_rejected);
                 self.count(step);
                 front.take_over(trial, step, step.end_s >= stop_s);
                 return Ok(());
             }
             was_rejected = true;
             self.effort.rejected += 1;
-            self.control.reject(h, trial.error);
+            self.control.reject(h, error);
+            front.begin_step();
             let wanted_s = self.control.wanted_s;
             if wanted_s < control.min_step_s {
-                let failure = front.failure(model).filter(|_| !trial.error.is_finite());
+                let failure = front.failure(model).filter(|_| !error.is_finite());
                 return Err(failure.map_or_else(
-                    || too_small(start_s, wanted_s, control, trial.error),
+                    || too_small(start_s, wanted_s, control, error),
                     |why| StepError::Unsolved { time_s: start_s, step_s: h, why },
                 ));
             }

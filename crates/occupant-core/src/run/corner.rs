@@ -27,6 +27,13 @@ pub(super) struct Touching {
     depth_m: f64,
 }
 
+impl Touching {
+    /// A meeting this deep, m.
+    pub(super) fn new(meeting: Meeting, depth_m: f64) -> Self {
+        Touching { meeting, depth_m }
+    }
+}
+
 impl From<&Touch<f64>> for Touching {
     #[inline(always)]
     fn from(touch: &Touch<f64>) -> Self {

@@ -1,13 +1,20 @@
 //! Whole steps from output to output.
 
 use super::Run;
+use super::corner::Touching;
+use super::switch::Search;
+use crate::forces::History;
 use crate::kernel::{Scratch, Situation};
 use crate::model::Model;
 use crate::motion::frame::Frames;
 use crate::motion::integrate::rk4::Stages;
+use crate::motion::state::State;
 use crate::results::outcome::StepError;
 use crate::run::observers::Met;
 use crate::vehicle::PathCursor;
+
+/// In most parts a step is taken in which something switches, each up to its next switch.
+const MOST_PARTS: u32 = 16;
 
 /// The steps from one output to the next: all of one length but the last, which ends at the output.
 #[derive(Clone, Copy, Debug)]
@@ -93,6 +100,69 @@ impl Step {
     }
 }
 
+/// What a run of fixed steps takes them with, and room for what each writes.
+struct Stepper<'a> {
+    model: &'a Model,
+    scratch: Scratch<f64>,
+    stages: Stages<f64>,
+    frames: [Frames<f64>; 3],
+    /// What accelerometers read at the start of the step.
+    readings: [f64; 3],
+}
+
+impl<'a> Stepper<'a> {
+    fn new(model: &'a Model, state: &State<f64>) -> Self {
+        let (scratch, stages) = (Scratch::blank(model.system()), Stages::new(state.shape()));
+        Stepper { model, scratch, stages, frames: [Frames::still(0.0); 3], readings: [0.0; 3] }
+    }
+
+    /// Begins a step at the start of `rest`, which `history` takes over and where `met` is what touches: all of it, or the part
+    /// that what is near bears.
+    fn begin(
+        &mut self,
+        rest: Step,
+        from: &State<f64>,
+        (history, met): (&mut History<f64>, &mut Vec<Touching>),
+        cursor: &mut PathCursor,
+    ) -> Step {
+        let Stepper { model, scratch, stages, frames, readings } = self;
+        let [start_s, middle_s, _] = rest.times_s();
+        model.move_frames(&mut frames[0], start_s, middle_s, cursor);
+        met.clear();
+        let (system, mut met) = (model.system(), Met(met));
+        stages.begin(from, |_, state, rate| {
+            let situation = Situation::accepted(state, &frames[0]);
+            system.rate_alone(scratch, situation, history, &mut Some(&mut met), rate);
+        });
+        *readings = system.readings(scratch);
+        rest.first_part(|h| history.step(h))
+    }
+
+    /// The state after the rest of `step`.
+    fn go(
+        &mut self,
+        step: Step,
+        from: &State<f64>,
+        history: &mut History<f64>,
+        cursor: &mut PathCursor,
+    ) -> State<f64> {
+        let Stepper { model, scratch, stages, frames, .. } = self;
+        step.move_frames(frames, model, cursor);
+        *stages.go(from, step.length_s(), |stage, state, rate| {
+            let situation = Situation::within(state, &frames[stage as usize]);
+            model.system().rate_alone(scratch, situation, history, &mut None::<&mut Met<'_>>, rate);
+        })
+    }
+
+    /// Lets `history` take over a state at the end of a step.
+    fn commit(&mut self, time_s: f64, state: &State<f64>, history: &mut History<f64>, cursor: &mut PathCursor) {
+        let frames = &mut self.frames[0];
+        self.model.move_frames(frames, time_s, time_s, cursor);
+        let (situation, mut rate) = (Situation::accepted(state, frames), State::zero(state.shape()));
+        self.model.system().rate_alone(&mut self.scratch, situation, history, &mut None::<&mut Met<'_>>, &mut rate);
+    }
+}
+
 impl Run {
     /// What is left of a step, if anything, and all steps of `stretch`.
     pub(crate) fn advance_rk4(
@@ -101,49 +171,183 @@ impl Run {
         left: Option<Step>,
         stretch: Stretch,
     ) -> Result<(), StepError> {
-        let (scratch, stages) = (&mut Scratch::blank(model.system()), &mut Stages::new(self.state.shape()));
-        let mut frames = [Frames::still(self.time_s); 3];
+        let stepper = &mut Stepper::new(model, &self.state);
         for whole in left.into_iter().chain(stretch) {
             let mut rest = whole;
-            loop {
-                let step = self.step_rk4(model, rest, (scratch, stages, &mut frames))?;
-                if step.end_s >= whole.end_s {
-                    break;
-                }
-                rest.start_s = step.end_s;
+            while rest.start_s < whole.end_s {
+                rest.start_s = self.step_rk4(stepper, rest)?;
             }
         }
-        Ok(())
+        // who follows the steps must not see one that is taken back later
+        if self.taken.is_some() { self.look_back(stepper) } else { Ok(()) }
     }
 
-    /// A step of the length of `rest`, or of the part of it that what is near bears; returns it.
-    fn step_rk4(
-        &mut self,
-        model: &Model,
-        rest: Step,
-        (scratch, stages, frames): (&mut Scratch<f64>, &mut Stages<f64>, &mut [Frames<f64>; 3]),
-    ) -> Result<Step, StepError> {
-        let system = model.system();
-        let [start_s, middle_s, _] = rest.times_s();
-        model.move_frames(&mut frames[0], start_s, middle_s, &mut self.cursor);
-        self.met.clear();
-        stages.begin(&self.state, |_, state, rate| {
-            let situation = Situation::accepted(state, &frames[0]);
-            let met = &mut Some(&mut Met(&mut self.met));
-            system.rate_alone(scratch, situation, &mut self.history, met, rate);
-        });
-        self.seen.peaks.see(system.readings(scratch));
-        let step = rest.first_part(|h| self.history.step(h));
-        step.move_frames(frames, model, &mut self.cursor);
-        let next = *stages.go(&self.state, step.length_s(), |stage, state, rate| {
-            let situation = Situation::within(state, &frames[stage as usize]);
-            system.rate_alone(scratch, situation, &mut self.history, &mut None::<&mut Met<'_>>, rate);
-        });
-        for touching in &self.met {
-            self.seen.note(model, step.start_s, touching.meeting);
+    /// A step of the length of `rest`, or of the part of it that what is near bears; where it ends. It ends where it begins if
+    /// something had switched within the step before: that was taken again.
+    fn step_rk4(&mut self, stepper: &mut Stepper<'_>, rest: Step) -> Result<f64, StepError> {
+        if let Some(rear) = &mut self.rear {
+            rear.keep(&self.history);
         }
+        let step = stepper.begin(rest, &self.state, (&mut self.history, &mut self.met), &mut self.cursor);
+        if let Some(latest) = self.take_back() {
+            self.take_again(stepper, latest)?;
+            return Ok(rest.start_s);
+        }
+        let next = stepper.go(step, &self.state, &mut self.history, &mut self.cursor);
         self.effort.evaluations += 4;
-        self.accept(model, next, step)?;
-        Ok(step)
+        self.note(stepper.model, step.start_s, stepper.readings);
+        if let Some(rear) = &mut self.rear {
+            rear.is_at(step, &self.state);
+        }
+        self.accept(stepper.model, next, step)?;
+        Ok(step.end_s)
+    }
+
+    /// Takes the latest step again, if something had switched within it.
+    fn look_back(&mut self, stepper: &mut Stepper<'_>) -> Result<(), StepError> {
+        let Some(rear) = self.rear.as_mut().filter(|rear| rear.step.is_some()) else { return Ok(()) };
+        rear.keep(&self.history);
+        stepper.commit(self.time_s, &self.state, &mut self.history, &mut self.cursor);
+        self.effort.evaluations += 1;
+        match self.take_back() {
+            Some(latest) => self.take_again(stepper, latest),
+            None => {
+                if let Some(rear) = &mut self.rear {
+                    rear.step = None;
+                    self.history.take_over(&rear.spare);
+                }
+                Ok(())
+            }
+        }
+    }
+
+    /// Goes back to the start of the latest step, if the commit at its end, which the history has just taken over, shows that
+    /// something has switched within it.
+    pub(super) fn take_back(&mut self) -> Option<Step> {
+        let rear = self.rear.as_mut()?;
+        let has_switched = rear.step.is_some() && rear.spare.memory.has_switched(&self.history.memory);
+        let latest = has_switched.then(|| rear.step.take()).flatten()?;
+        self.state = rear.state;
+        self.history.take_over(&rear.history);
+        Some(latest)
+    }
+
+    /// The same for a run whose state and history, which the caller has set, are those before the commit at the start of
+    /// `latest`.
+    pub(super) fn go_back(&mut self, model: &Model, latest: Step) -> Result<(), StepError> {
+        let stepper = &mut Stepper::new(model, &self.state);
+        self.take_again(stepper, latest)
+    }
+
+    /// Takes the latest step again, if the commit of an output, which the history has just taken over, shows that something
+    /// has switched within it; whether it did.
+    pub(super) fn take_back_from_output(&mut self, model: &Model) -> bool {
+        let Some(rear) = &self.rear else { return false };
+        let kept = rear.step.is_some().then(|| (self.state, rear.spare.clone(), self.time_s));
+        let Some((latest, (state, history, time_s))) = self.take_back().zip(kept) else { return false };
+        let stepper = &mut Stepper::new(model, &self.state);
+        if self.take_again(stepper, latest).is_err() {
+            // the parts of a step that led to numbers do not: it stays whole
+            (self.state, self.history, self.time_s) = (state, history, time_s);
+        }
+        true
+    }
+
+    /// Takes `step` again, from its start where the run stands, in parts that end where something switches.
+    fn take_again(&mut self, stepper: &mut Stepper<'_>, step: Step) -> Result<(), StepError> {
+        let Some(mut rear) = self.rear.take() else { return Ok(()) };
+        self.effort.steps -= 1;
+        if let Some(taken) = &mut self.taken {
+            taken.pop();
+        }
+        let (mut start_s, mut parts, mut last_s) = (step.start_s, 0, step.length_s());
+        let mut done = Ok(());
+        while done.is_ok() && start_s < step.end_s {
+            let (part, next) = self.part(stepper, &mut rear, Step { start_s, ..step }, parts < MOST_PARTS, last_s);
+            self.history.take_over(&rear.history);
+            self.note(stepper.model, start_s, stepper.readings);
+            done = self.accept(stepper.model, next, part);
+            (start_s, parts, last_s) = (part.end_s, parts + 1, part.length_s());
+        }
+        self.rear = Some(rear);
+        done
+    }
+
+    /// The first part of `step`, up to where something switches, and the state at its end; `rear` gets the history of its
+    /// start.
+    fn part(
+        &mut self,
+        stepper: &mut Stepper<'_>,
+        rear: &mut Rear,
+        step: Step,
+        looks: bool,
+        last_s: f64,
+    ) -> (Step, State<f64>) {
+        let (mut part, forces) = (step, &stepper.model.system().forces);
+        rear.search.rest();
+        loop {
+            rear.history.take_over(&self.history);
+            part = stepper.begin(part, &self.state, (&mut rear.history, &mut self.met), &mut self.cursor);
+            let next = stepper.go(part, &self.state, &mut rear.history, &mut self.cursor);
+            self.effort.evaluations += 4;
+            if !looks || !next.is_finite() {
+                return (part, next);
+            }
+            rear.spare.take_over(&rear.history);
+            stepper.commit(part.end_s, &next, &mut rear.spare, &mut self.cursor);
+            self.effort.evaluations += 1;
+            let memory = [&rear.history.memory, &rear.spare.memory];
+            let Some(end_s) = rear.search.end_earlier(forces, part, memory, last_s) else { return (part, next) };
+            self.effort.rejected += 1;
+            part.end_s = end_s;
+        }
+    }
+
+    /// Notes what touches and what is felt at the start of an accepted step.
+    pub(super) fn note(&mut self, model: &Model, time_s: f64, readings: [f64; 3]) {
+        self.seen.peaks.see(readings);
+        for touching in &self.met {
+            self.seen.note(model, time_s, touching.meeting);
+        }
+    }
+}
+
+/// Where the latest step of fixed length began, to go back there.
+///
+/// What it leads to is committed with the first evaluation of the step behind it, or with an output. Only then it is known
+/// whether anything has switched on the way.
+#[derive(Clone, Debug)]
+pub(super) struct Rear {
+    /// The latest step; none where there is none to go back to.
+    pub(super) step: Option<Step>,
+    /// At its start; the history is that before the commit there.
+    pub(super) state: State<f64>,
+    pub(super) history: History<f64>,
+    /// History before the commit under way.
+    spare: History<f64>,
+    search: Search,
+}
+
+impl Rear {
+    /// Of a run that stands at `state`.
+    pub(super) fn new(state: &State<f64>, history: &History<f64>) -> Self {
+        let search = Search::new(&history.memory);
+        Rear { step: None, state: *state, history: history.clone(), spare: history.clone(), search }
+    }
+
+    /// `step` is the latest, from `state` on; the spare history is that before its first commit.
+    fn is_at(&mut self, step: Step, state: &State<f64>) {
+        (self.step, self.state) = (Some(step), *state);
+        std::mem::swap(&mut self.history, &mut self.spare);
+    }
+
+    /// Keeps the history as it is before a commit.
+    pub(super) fn keep(&mut self, history: &History<f64>) {
+        self.spare.take_over(history);
+    }
+
+    /// There is no step to go back to.
+    pub(super) fn forget(&mut self) {
+        self.step = None;
     }
 }

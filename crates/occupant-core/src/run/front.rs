@@ -15,7 +15,16 @@ use crate::motion::integrate::bogacki_shampine::{Stage, Tolerance, Trial, attemp
 use crate::motion::state::State;
 use crate::results::checkpoint::{StepStart, StepUnderWay};
 use crate::run::observers::{Met, Seen};
+use crate::run::switch::Search;
 use crate::vehicle::PathCursor;
+
+/// What may end a step early.
+pub(super) struct Asks<'a> {
+    /// Whether corners are looked for.
+    pub corners: bool,
+    pub tolerance: &'a Tolerance,
+    pub last_s: f64,
+}
 
 /// The latest step of the integration, and where it stands.
 pub(super) struct Front {
@@ -38,6 +47,8 @@ pub(super) struct Front {
     met: Vec<Touching>,
     /// What touches at the end of a trial.
     met_in_trial: Vec<Touching>,
+    /// For what switches, if anything can.
+    search: Option<Search>,
     scratch: Scratch<f64>,
     frames: Frames<f64>,
 }
@@ -57,6 +68,7 @@ impl Front {
             trial: history.clone(),
             met: Vec::with_capacity(history.memory.contacts.len()),
             met_in_trial: Vec::with_capacity(history.memory.contacts.len()),
+            search: model.system().forces.can_switch().then(|| Search::new(&history.memory)),
             scratch: Scratch::blank(model.system()),
             frames: Frames::still(time_s),
         }
@@ -142,11 +154,42 @@ impl Front {
         swap(&mut self.met, &mut self.met_in_trial);
     }
 
-    /// Where to end `step` instead, which was just tried: just behind its first corner that matters, s.
-    pub(super) fn end_behind_corner(&self, model: &Model, step: Step, tolerance: &Tolerance) -> Option<f64> {
+    /// Looks for no switch until a trial shows one.
+    pub(super) fn begin_step(&mut self) {
+        if let Some(search) = &mut self.search {
+            search.rest();
+        }
+    }
+
+    /// Where to end `step` instead, which was just tried: where something switches, or just behind its first corner that
+    /// matters, whichever comes first, s; `last_s` is the length of the step before. All that ends a step early is listed here.
+    pub(super) fn end_earlier(&mut self, model: &Model, step: Step, asks: &Asks<'_>) -> Option<f64> {
+        let switch = |search: &mut Search| {
+            search.end_earlier(
+                &model.system().forces,
+                step,
+                [&self.after.memory, &self.trial.memory],
+                asks.last_s,
+            )
+        };
+        let switch_s = self.search.as_mut().and_then(switch);
+        let corner_s = asks.corners.then(|| self.end_behind_corner(model, step, asks.tolerance)).flatten();
+        if corner_s.is_some_and(|corner| switch_s.is_none_or(|switch| corner < switch)) {
+            self.begin_step();
+        }
+        switch_s.into_iter().chain(corner_s).reduce(f64::min)
+    }
+
+    /// Just behind the first corner of `step` that matters, s.
+    fn end_behind_corner(&self, model: &Model, step: Step, tolerance: &Tolerance) -> Option<f64> {
         let crossing =
             Crossing { model, step, at_start: &self.met, at_end: &self.met_in_trial, history: &self.after, tolerance };
         crossing.end_behind_corner()
+    }
+
+    /// Whether something has switched by the end of the last trial.
+    pub(super) fn has_switched(&self) -> bool {
+        self.search.is_some() && self.after.memory.has_switched(&self.trial.memory)
     }
 
     /// What could not be worked out within the last trial, in words.

@@ -8,18 +8,20 @@ mod corner;
 mod fixed;
 mod front;
 mod observers;
+mod switch;
 pub mod simulate;
 
 pub use fixed::{Step, Stretch};
+use fixed::Rear;
 
 use adaptive::{Control, Memory as Wanted};
 use front::Front;
 
 use crate::forces::{Actions, History, Memory};
-use crate::kernel::Situation;
+use crate::kernel::{Evaluation, Situation};
 use crate::model::Model;
 use crate::model::setup::Integrator;
-use crate::motion::frame::Moving;
+use crate::motion::frame::{Frames, Moving};
 use crate::motion::integrate::bogacki_shampine::Tolerance;
 use crate::motion::kinematics::Kinematics;
 use crate::motion::layout::MOST_BODIES;
@@ -50,6 +52,8 @@ pub struct Run {
     pub(crate) effort: Effort,
     /// The integration under error control; none at a fixed step.
     front: Option<Box<Front>>,
+    /// At a fixed step, where the latest began, if anything of the model can switch.
+    rear: Option<Box<Rear>>,
     control: Wanted,
     /// By body, from the first output on.
     energy_starts: Vec<EnergyStart>,
@@ -83,6 +87,12 @@ impl Run {
                     let front = Front::new(model, time_s, &start.state, &start.history);
                     Some(Box::new(front))
                 }
+            },
+            rear: match integrator {
+                Integrator::Rk4 { .. } if model.system().forces.can_switch() => {
+                    Some(Box::new(Rear::new(&start.state, &start.history)))
+                }
+                _ => None,
             },
             control: Wanted::new(first_step(integrator)),
             energy_starts: Vec::with_capacity(MOST_BODIES),
@@ -141,9 +151,7 @@ impl Run {
         let mut frames = model.frames_with(t, t, &vehicle);
         let homes = model.homes(&frames, &vehicle);
         let system = model.system();
-        self.actions.clear();
-        let evaluation =
-            system.evaluate(Situation::accepted(&self.state, &frames), &mut self.history, &mut self.actions);
+        let evaluation = self.evaluate(model, &frames);
         system.carry(&self.state, &mut frames);
         for touch in &self.actions.contacts {
             self.seen.note(model, t, touch.into());
@@ -201,6 +209,24 @@ impl Run {
             under_way: self.front.as_ref().and_then(|front| front.under_way(t)),
         });
         recorded.map_err(|e| self.unrecorded(e))
+    }
+
+    /// Everything at the present state, which the history takes over.
+    fn evaluate(&mut self, model: &Model, frames: &Frames<f64>) -> Evaluation<f64> {
+        loop {
+            if let Some(rear) = &mut self.rear {
+                rear.keep(&self.history);
+            }
+            self.actions.clear();
+            let situation = Situation::accepted(&self.state, frames);
+            let evaluation = model.system().evaluate(situation, &mut self.history, &mut self.actions);
+            if !self.take_back_from_output(model) {
+                if let Some(rear) = &mut self.rear {
+                    rear.forget();
+                }
+                return evaluation;
+            }
+        }
     }
 
     /// Time of the next output, s; none after the last, and none once all bodies rest of a run that ends then.

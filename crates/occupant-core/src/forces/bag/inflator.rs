@@ -4,7 +4,7 @@ use super::data::{Bag, Inflator, Leakage, Vent};
 use super::gas::{GasLaw, Mixture};
 use super::past::BagPast;
 use super::unfold::later;
-use crate::forces::element::Instant;
+use crate::forces::element::{Instant, passes};
 use crate::forces::function::steps::Steps;
 use crate::motion::scalar::Scalar;
 
@@ -96,6 +96,15 @@ impl OutletLaw<f64> {
             Leakage::Speed(rows) => (0.0, Steps::new(rows)),
         };
         OutletLaw { vents: bag.vents.iter().map(vent).collect(), part, speed }
+    }
+}
+
+impl OutletLaw<f64> {
+    /// Where between two memories the first vent was due to open.
+    pub(super) fn due(&self, before: &BagPast<f64>, now: &BagPast<f64>) -> Option<f64> {
+        let opens = before.open.iter().zip(&now.open).map(|(before, now)| now > before);
+        let vents = self.vents.iter().zip(opens).filter(|(_, opens)| *opens);
+        vents.map(|(vent, _)| passes(vent.opens_at, before.gauge, now.gauge)).reduce(f64::min)
     }
 }
 

@@ -75,6 +75,12 @@ impl BagLaw<f64> {
         }
     }
 
+    /// Where between two memories the first vent was due to open; none where a sphere came to the middle or left.
+    pub(super) fn due(&self, before: &BagPast<f64>, now: &BagPast<f64>) -> Option<f64> {
+        let held = before.held.iter().zip(&now.held).all(|(a, b)| (*a > 0.0) == (*b > 0.0));
+        held.then(|| self.outlet.due(before, now)).flatten()
+    }
+
     /// Appends its numbers as they begin: air around it in the folded bag.
     pub(super) fn own(&mut self, numbers: &mut Vec<f64>) {
         self.first = numbers.len();

@@ -106,6 +106,25 @@ impl Element for Bags {
         past.map(f)
     }
 
+    fn can_switch(law: &Vec<BagLaw<f64>>) -> bool {
+        !law.is_empty()
+    }
+
+    #[inline(always)]
+    fn switches<S: Scalar>(past: &BagPast<S>) -> S {
+        past.switches()
+    }
+
+    fn due(
+        law: &Vec<BagLaw<f64>>,
+        number: usize,
+        before: &BagPast<f64>,
+        now: &BagPast<f64>,
+        _times_s: [f64; 2],
+    ) -> Option<f64> {
+        law[number].due(before, now)
+    }
+
     #[inline(always)]
     fn apply<S: Scalar>(
         law: &Vec<BagLaw<S>>,

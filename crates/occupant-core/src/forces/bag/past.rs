@@ -55,6 +55,17 @@ impl<A: Copy> BagPast<A> {
 }
 
 impl<S: Scalar> BagPast<S> {
+    /// The vents that are open and the spheres that are held.
+    #[inline(always)]
+    pub(super) fn switches(&self) -> S {
+        let (o, mut bit, mut sum) = (S::zero(), 1.0, S::zero());
+        for of in self.open.iter().chain(&self.held) {
+            sum += S::select(of.gt(o), S::of(bit), o);
+            bit *= 2.0;
+        }
+        sum
+    }
+
     /// Of a bag that has not fired.
     pub(super) fn none() -> Self {
         let o = S::zero();

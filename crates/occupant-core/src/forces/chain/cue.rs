@@ -1,6 +1,7 @@
 //! What sets a device of a belt off: a time known before the run, or something that the belt watches at accepted steps.
 
 use super::data::{Cue, NEVER, Watched};
+use crate::forces::element::passes;
 use crate::motion::scalar::Scalar;
 
 /// Constants of a cue.
@@ -8,6 +9,35 @@ use crate::motion::scalar::Scalar;
 pub(super) struct CueLaw<S> {
     pub(super) due: S,
     watch: Option<(Watched, [S; 3])>,
+}
+
+/// What a cue and its belt remember of a commit.
+pub(super) struct Cued {
+    pub(super) time_s: f64,
+    pub(super) due_s: f64,
+    pub(super) since_s: f64,
+    /// In the order of [`Watched`]; an acceleration is not remembered.
+    pub(super) seen: [Option<f64>; 4],
+}
+
+impl CueLaw<f64> {
+    pub(super) fn can_fire(&self) -> bool {
+        self.due < NEVER || self.watch.is_some()
+    }
+
+    /// Where between two commits its condition was due to begin to hold, or to have held for long enough; none where neither
+    /// happened or where it cannot be told.
+    pub(super) fn due(&self, before: &Cued, now: &Cued) -> Option<f64> {
+        let (of, [threshold, lasting, _]) = self.watch?;
+        let is = |time_s: f64| time_s < NEVER;
+        if is(before.since_s) {
+            let fires = is(now.due_s) && !is(before.due_s);
+            fires.then(|| passes(before.since_s + lasting, before.time_s, now.time_s))
+        } else {
+            let seen = before.seen[of as usize].zip(now.seen[of as usize]);
+            seen.filter(|_| is(now.since_s)).map(|(before, now)| passes(threshold, before, now))
+        }
+    }
 }
 
 impl<S: Copy> CueLaw<S> {

@@ -4,12 +4,15 @@
 //! (T₀ = Q(δ), p = p_L + δ), or the webbing Δp that has left since the last commit where the tension is given. Webbing fed
 //! and tension never fall with x.
 
-use super::cue::CueLaw;
+use std::array::from_fn;
+
+use super::cue::{Cued, CueLaw};
 use super::data::{Cue, Device, NEVER};
 use super::feed::Feed;
 use super::past::DevicePast;
 use super::reel::ReelLaw;
-use crate::forces::function::FunctionLaw;
+use crate::forces::element::passes;
+use crate::forces::function::{Function, FunctionLaw};
 use crate::motion::scalar::Scalar;
 
 /// Time constant of the average that the acceleration of webbing is measured against, s.
@@ -32,11 +35,15 @@ pub(super) struct DeviceLaw<S> {
     pub(super) second: Option<(FunctionLaw<S>, CueLaw<S>, S)>,
     pub(super) reel: Option<ReelLaw<S>>,
     release: CueLaw<S>,
+    /// Forces at which the limiters yield; [`NEVER`] of what does not.
+    levels: [S; 2],
 }
 
 impl DeviceLaw<f64> {
     pub(super) fn new(data: &Device, release: &Cue) -> Self {
+        let level = |law: Option<&Function>| law.and_then(Function::yields).map_or(NEVER, |[_, force]| force);
         DeviceLaw {
+            levels: [level(data.limiter.as_ref()), level(data.second.as_ref().map(|second| &second.0))],
             limiter: data.limiter.as_ref().map(FunctionLaw::new),
             second: data.second.as_ref().map(|(law, cue, over)| (FunctionLaw::new(law), CueLaw::new(cue), *over)),
             reel: data.reel.as_ref().map(ReelLaw::new),
@@ -48,6 +55,52 @@ impl DeviceLaw<f64> {
     pub(super) fn overrun(&self, of: &str, greatest: f64) -> Option<String> {
         let laws = self.limiter.iter().chain(self.second.iter().map(|second| &second.0));
         laws.filter_map(|law| law.overrun(of, greatest, |way| format!("{:.1} mm", 1e3 * way))).next()
+    }
+}
+
+/// A commit of a device: what it remembers, the payout, and the tension of the first strap.
+#[derive(Clone, Copy)]
+pub(super) struct Moment<'a> {
+    pub(super) past: &'a DevicePast<f64>,
+    pub(super) payout: f64,
+    pub(super) tension: f64,
+}
+
+impl DeviceLaw<f64> {
+    /// Whether there is a spool, or anything that a cue sets off.
+    pub(super) fn can_switch(&self) -> bool {
+        self.reel.is_some() || self.second.is_some() || self.release.can_fire()
+    }
+
+    /// Where between two commits the first switch was due.
+    pub(super) fn due(&self, before: &Moment<'_>, now: &Moment<'_>) -> Option<f64> {
+        let (a, b) = (before.past, now.past);
+        let at = |due: f64| (b.time >= due).then(|| passes(due, a.time, b.time));
+        let cued = |of: &Moment<'_>, due_s: f64, since_s: f64| Cued {
+            time_s: of.past.time,
+            due_s,
+            since_s,
+            seen: [Some(of.tension), Some(of.payout), Some(of.past.speed), None],
+        };
+        let cue = |law: Option<&CueLaw<f64>>, due: fn(&DevicePast<f64>) -> [f64; 2]| {
+            let [from, to] = [before, now].map(|of| cued(of, due(of.past)[0], due(of.past)[1]));
+            law.and_then(|law| law.due(&from, &to))
+        };
+        let reel = self.reel.as_ref();
+        let pull = reel.and_then(|reel| reel.pull.as_ref());
+        let all = [
+            cue(Some(&self.release), |p| [p.release_due, p.release_since]),
+            cue(self.second.as_ref().map(|second| &second.1), |p| [p.switch_due, p.switch_since]),
+            cue(reel.map(|reel| &reel.lock), |p| [p.lock_due, p.lock_since]),
+            cue(pull.map(|pull| &pull.cue), |p| [p.pull_due, p.pull_since]),
+            at(a.release_due).filter(|_| b.free > a.free),
+            at(a.pull_due).filter(|_| b.pulled > a.pulled),
+            reel.filter(|_| b.phase != a.phase).and_then(|reel| {
+                let level = self.level(self.share(b.time, b));
+                reel.due(before, now, level)
+            }),
+        ];
+        all.into_iter().flatten().reduce(f64::min)
     }
 }
 
@@ -72,6 +125,7 @@ impl<S: Copy> DeviceLaw<S> {
             second: second.map(|(a, b)| (a.0.zip(&b.0, f), a.1.zip(&b.1, f), f(a.2, b.2))),
             reel: self.reel.as_ref().zip(other.reel.as_ref()).map(|(a, b)| a.zip(b, f)),
             release: self.release.zip(&other.release, f),
+            levels: from_fn(|i| f(self.levels[i], other.levels[i])),
         }
     }
 }
@@ -95,18 +149,37 @@ impl<S: Scalar> DeviceLaw<S> {
             past.lock_due = reel.lock.due;
             past.pull_due = reel.pull.as_ref().map_or(never, |pull| pull.cue.due);
         } else {
-            self.lock(S::truth(true), tension, S::zero(), &mut past);
+            self.lock(S::truth(true), S::zero(), tension, S::zero(), &mut past);
         }
         past
     }
 
-    /// The limiter takes over in some lanes, with the tension and the payout that there are: T₀ = Q(δ₀), p_L = p − δ₀.
+    /// Share of the second limiter at a time.
     #[inline(always)]
-    fn lock(&self, locks: S::Mask, tension: S, payout: S, past: &mut DevicePast<S>) {
+    fn share(&self, time: S, past: &DevicePast<S>) -> S {
+        self.second.as_ref().map_or(S::zero(), |second| ((time - past.switch_due) / second.2).clamp01())
+    }
+
+    /// The force at which the limiter yields: webbing is paid out at it whatever pulls.
+    #[inline(always)]
+    fn level(&self, share: S) -> S {
+        let [first, second] = self.levels;
+        if self.second.is_some() { first + (second - first) * share } else { first }
+    }
+
+    /// The limiter takes over in some lanes, with the tension and the payout that there are: T₀ = Q(δ₀), p_L = p − δ₀. With
+    /// a tension above its level it begins to yield.
+    #[inline(always)]
+    fn lock(&self, locks: S::Mask, share: S, tension: S, payout: S, past: &mut DevicePast<S>) {
         past.phase = S::select(locks, S::of(Phase::LOCKED), past.phase);
         past.solution = S::select(locks, tension, past.solution);
         if let Some(limiter) = &self.limiter {
-            let (delta, _, _) = limiter.reach(tension, past.greatest, limiter.set(past.greatest));
+            let [level, other] = self.levels;
+            let (mut delta, _, _) = limiter.reach(tension.min(level), past.greatest, limiter.set(past.greatest));
+            if let (Some((second, ..)), true) = (&self.second, S::any(share.gt(S::zero()))) {
+                let (of_second, _, _) = second.reach(tension.min(other), past.greatest, second.set(past.greatest));
+                delta += (of_second - delta) * share;
+            }
             past.greatest = S::select(locks, past.greatest.max(delta), past.greatest);
             past.base = S::select(locks, payout - delta, past.base);
             past.solution = S::select(locks, delta, past.solution);
@@ -119,6 +192,7 @@ impl<S: Scalar> DeviceLaw<S> {
         let o = S::zero();
         let is_locked = past.phase.gt(S::of(Phase::PULLING));
         let (mut is_open, mut tension, mut passed) = (S::truth(false), o, o);
+        let share = self.share(time, past);
         if let Some(reel) = &self.reel {
             is_open = past.phase.lt(S::of(Phase::PULLING));
             tension = reel.tension;
@@ -126,14 +200,14 @@ impl<S: Scalar> DeviceLaw<S> {
                 let is_pulling = !is_open & !is_locked;
                 let given = pull.table.at(time - past.pull_due);
                 if pull.by_force.is_some() {
-                    (is_open, tension) = (is_open | is_pulling, S::select(is_pulling, given, tension));
+                    let force = given.min(self.level(share));
+                    (is_open, tension) = (is_open | is_pulling, S::select(is_pulling, force, tension));
                 } else {
                     passed = S::select(is_pulling, past.mark - given - payout, o);
                 }
             }
         }
         let is_limited = if self.limiter.is_some() { is_locked } else { S::truth(false) };
-        let share = self.second.as_ref().map_or(o, |second| ((time - past.switch_due) / second.2).clamp01());
         let mut unknown = self.limiter.as_ref().map_or(o, |law| law.unknown(past.greatest));
         if let Some((second, ..)) = &self.second {
             unknown = S::select(share.lt(S::one()), unknown, o);
@@ -177,9 +251,10 @@ impl<S: Scalar> DeviceLaw<S> {
         }
         if let Some(reel) = &self.reel {
             reel.lock.commit(time, &seen, &mut past.lock_due, &mut past.lock_since);
-            let stops = reel.commit_pull(time, &seen, past);
+            let share = self.share(time, past);
+            let stops = reel.commit_pull(time, &seen, self.level(share), past);
             let locks = reel.commit_lock(time, payout, past);
-            self.lock(stops | locks, tension, payout, past);
+            self.lock(stops | locks, share, tension, payout, past);
             let is_pulling = past.phase.gt(S::of(Phase::LOCKING)) & past.phase.lt(S::of(Phase::LOCKED));
             past.solution = S::select(is_pulling, tension, past.solution);
             let by_force = reel.pull.as_ref().is_some_and(|pull| pull.by_force.is_some());

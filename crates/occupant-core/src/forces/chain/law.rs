@@ -136,6 +136,27 @@ impl ChainLaw<f64> {
     }
 }
 
+impl ChainLaw<f64> {
+    /// Whether it has a device that acts, or nodes that move by themselves or that the webbing may leave or come onto.
+    pub(super) fn can_switch(&self) -> bool {
+        let moves = |node: &NodeLaw<f64>| node.may_leave || node.is_pulled();
+        self.straps.can_switch() || self.nodes.iter().any(moves)
+    }
+
+    /// Where between two commits the first switch was due; none where what they remember does not tell.
+    pub(super) fn due(&self, before: &ChainPast<f64>, now: &ChainPast<f64>) -> Option<f64> {
+        let mut first = self.straps.due(before, now);
+        for (k, node) in self.nodes.iter().enumerate() {
+            let (a, b) = (&before.nodes[k], &now.nodes[k]);
+            if a.is_on() != b.is_on() || a.has_stalled() != b.has_stalled() {
+                let due = node.due(a, b)?;
+                first = Some(first.map_or(due, |first| first.min(due)));
+            }
+        }
+        first
+    }
+}
+
 impl<S: Copy> ChainLaw<S> {
     pub(super) fn is_like<A: Copy>(&self, other: &ChainLaw<A>) -> bool {
         let nodes = self.nodes.iter().map(NodeLaw::shape).eq(other.nodes.iter().map(NodeLaw::shape));

@@ -60,6 +60,7 @@ impl<S: Scalar> NodeLaw<S> {
     ) {
         if let SiteLaw::Sphere(_) = self.site {
             past.set_normal(self.on_sphere(at, bend.normal));
+            past.across = bend.wrap;
         }
         if self.is_rough() {
             past.way = S::select(past.is_on(), way, place.radius * bend.wrap * S::of(0.5));

@@ -137,6 +137,25 @@ impl Element for Chains {
         Some(format!("no tensions were found of the belt {}: {left_m:.1e} m of webbing are left over", chain.belt))
     }
 
+    fn can_switch(law: &Vec<ChainLaw<f64>>) -> bool {
+        law.iter().any(ChainLaw::can_switch)
+    }
+
+    #[inline(always)]
+    fn switches<S: Scalar>(past: &ChainPast<S>) -> S {
+        past.switches()
+    }
+
+    fn due(
+        law: &Vec<ChainLaw<f64>>,
+        number: usize,
+        before: &ChainPast<f64>,
+        now: &ChainPast<f64>,
+        _times_s: [f64; 2],
+    ) -> Option<f64> {
+        law[number].due(before, now)
+    }
+
     #[inline(always)]
     fn apply<S: Scalar>(
         law: &Vec<ChainLaw<S>>,

@@ -1,8 +1,12 @@
 //! What a chain remembers between steps: plain numbers that change only at accepted steps.
 
 use super::MOST_NODES;
+use super::data::NEVER;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{V3, v3};
+
+/// Speed of a stroke that has stalled.
+pub(super) const STALLED: f64 = -1.0;
 
 /// A struct of numbers with what goes over all of them in one order.
 macro_rules! numbers {
@@ -61,7 +65,8 @@ numbers! {
         /// Way of a node along its track or its stroke, or of the mark on a sphere, m, and its speed, m/s.
         way,
         speed,
-        /// Force of the webbing along a track, N.
+        /// Force of the webbing along a track, N; of other nodes what decides on a switch: W of a sphere, rad, the pull away
+        /// from the body or against a stroke, N.
         across,
         /// Lost here since the start, J: friction along and across, limiter and spool, and the webbing of the strap.
         lost,
@@ -139,12 +144,44 @@ impl<A: Copy> ChainPast<A> {
 }
 
 impl<S: Scalar> ChainPast<S> {
+    /// Phase of the device, what is due or has begun to hold, the nodes that the webbing passes, the strokes that stand.
+    #[inline(always)]
+    pub(super) fn switches(&self) -> S {
+        let (o, soon, device) = (S::zero(), S::of(0.5 * NEVER), &self.device);
+        let mut sum = device.phase;
+        let mut bit = 8.0;
+        let mut note = |is: S::Mask| {
+            sum += S::select(is, S::of(bit), o);
+            bit *= 2.0;
+        };
+        note(device.pulled.gt(o));
+        note(device.free.gt(o));
+        for time in [device.lock_due, device.pull_due, device.switch_due, device.release_due] {
+            note(time.lt(soon));
+        }
+        for time in [device.lock_since, device.pull_since, device.switch_since, device.release_since] {
+            note(time.lt(soon));
+        }
+        for node in &self.nodes {
+            note(node.is_on());
+            // no place along a track has just this speed
+            note(node.has_stalled());
+        }
+        sum
+    }
+
     pub(super) fn none() -> Self {
         ChainPast { device: DevicePast::none(), nodes: [NodePast::none(); MOST_NODES] }
     }
 }
 
 impl<S: Scalar> NodePast<S> {
+    /// Of a node that is pulled.
+    #[inline(always)]
+    pub(super) fn has_stalled(&self) -> S::Mask {
+        !self.speed.lt(S::of(STALLED)) & !self.speed.gt(S::of(STALLED))
+    }
+
     #[inline(always)]
     pub(super) fn is_on(&self) -> S::Mask {
         self.on.gt(S::zero())

@@ -2,8 +2,9 @@
 
 use super::cue::CueLaw;
 use super::data::{Pull, Reel};
-use super::device::Phase;
+use super::device::{Moment, Phase};
 use super::past::DevicePast;
+use crate::forces::element::passes;
 use crate::forces::function::steps::Steps;
 use crate::motion::scalar::Scalar;
 
@@ -44,6 +45,29 @@ impl ReelLaw<f64> {
     }
 }
 
+impl ReelLaw<f64> {
+    /// Where between two commits the phase that has ended was due to end.
+    pub(super) fn due(&self, before: &Moment<'_>, now: &Moment<'_>, level: f64) -> Option<f64> {
+        let (a, time) = (before.past, now.past.time);
+        let at = |due: f64| (time >= due).then(|| passes(due, a.time, time));
+        let paid = |out: f64| (now.payout >= out).then(|| passes(out, before.payout, now.payout));
+        let [after, within] = self.lock_after;
+        let ends = if a.phase < Phase::LOCKING {
+            [at(a.lock_due), paid(self.on_spool), None]
+        } else if a.phase < Phase::PULLING {
+            [paid(a.mark + after), at(a.lock_due + within), paid(self.on_spool)]
+        } else {
+            let tight = |pull: &PullLaw<f64>| {
+                let most = pull.stall.min(level);
+                (now.tension >= most).then(|| passes(most, before.tension, now.tension))
+            };
+            let end = self.pull.as_ref().map(|pull| a.pull_due + pull.table.end());
+            [self.pull.as_ref().and_then(tight), end.and_then(at), None]
+        };
+        ends.into_iter().flatten().reduce(f64::min)
+    }
+}
+
 impl<S: Copy> ReelLaw<S> {
     /// What must be equal for two to be computed side by side.
     pub(super) fn shape(&self) -> [Option<usize>; 4] {
@@ -74,23 +98,28 @@ impl<S: Copy> ReelLaw<S> {
 }
 
 impl<S: Scalar> ReelLaw<S> {
-    /// Where the pretensioner comes to its end; it begins where it is due.
+    /// Where the pretensioner comes to its end; it begins where it is due. It stops for good where the tension reaches its
+    /// own force or `level`, that at which the limiter yields, whichever comes first; a belt that is as tight it does not
+    /// pull.
     #[inline(always)]
-    pub(super) fn commit_pull(&self, time: S, seen: &[S; 4], past: &mut DevicePast<S>) -> S::Mask {
+    pub(super) fn commit_pull(&self, time: S, seen: &[S; 4], level: S, past: &mut DevicePast<S>) -> S::Mask {
         let Some(pull) = &self.pull else { return S::truth(false) };
         let [tension, payout, speed, _] = *seen;
         pull.cue.commit(time, seen, &mut past.pull_due, &mut past.pull_since);
         let is_pulling = past.phase.gt(S::of(Phase::LOCKING)) & past.phase.lt(S::of(Phase::LOCKED));
         let age = time - past.pull_due;
-        let mut stops = !age.lt(pull.table.end()) | !tension.lt(pull.stall);
+        let is_tight = !tension.lt(pull.stall.min(level));
+        let mut stops = !age.lt(pull.table.end()) | is_tight;
         if pull.by_force.is_some() {
             stops = stops | (!speed.lt(S::zero()) & tension.gt(pull.table.at(age)));
         }
-        let stops = stops & is_pulling;
         let fires = !age.lt(S::zero()) & !past.pulled.gt(S::zero());
+        let fails = fires & is_tight & past.phase.lt(S::of(Phase::LOCKED));
+        let stops = stops & is_pulling | fails;
+        past.pulled = S::select(fires, S::one(), past.pulled);
+        let fires = fires & !is_tight;
         past.phase = S::select(fires, S::of(Phase::PULLING), past.phase);
         past.mark = S::select(fires, payout, past.mark);
-        past.pulled = S::select(fires, S::one(), past.pulled);
         stops
     }
 

@@ -1,10 +1,10 @@
 //! Nodes of a chain: where they are, how they slide or are pulled, and when the webbing comes out of them.
 
 use super::data::{NEVER, Node, Site, Stroke, Track};
-use super::past::{DevicePast, NodePast};
+use super::past::{DevicePast, NodePast, STALLED};
 use super::path::Place;
 use crate::body::Body;
-use crate::forces::element::Instant;
+use crate::forces::element::{Instant, passes};
 use crate::forces::function::steps::Steps;
 use crate::forces::sphere::Site as Sphere;
 use crate::motion::frame::Moving;
@@ -145,6 +145,29 @@ impl NodeLaw<f64> {
     }
 }
 
+impl NodeLaw<f64> {
+    /// Where between two memories the webbing was due to come onto the node or off it, or its stroke to stall; none where they
+    /// do not tell.
+    pub(super) fn due(&self, before: &NodePast<f64>, now: &NodePast<f64>) -> Option<f64> {
+        let is_torn = self.strength < NEVER;
+        match &self.site {
+            SiteLaw::Vehicle(_, Some(stroke)) if !is_torn => Some(passes(stroke.stall, before.across, now.across)),
+            SiteLaw::Segment(_, _, Some(_)) if !is_torn => Some(passes(0.0, before.across, now.across)),
+            SiteLaw::Sphere(_) if before.is_on() => Some(passes(0.0, -before.across, -now.across)),
+            SiteLaw::Sphere(_) => Some(passes(0.0, before.across, now.across)),
+            SiteLaw::Track(_, track) if now.way > track.length => Some(passes(track.length, before.way, now.way)),
+            _ => None,
+        }
+    }
+}
+
+impl NodeLaw<f64> {
+    /// Whether a pretensioner pulls it.
+    pub(super) fn is_pulled(&self) -> bool {
+        matches!(self.site, SiteLaw::Vehicle(_, Some(_)))
+    }
+}
+
 impl<S: Copy> NodeLaw<S> {
     /// What must be equal for two to be computed side by side.
     pub(super) fn shape(&self) -> (usize, usize, usize, [bool; 2]) {
@@ -255,11 +278,15 @@ impl<S: Scalar> NodeLaw<S> {
             SiteLaw::Vehicle(_, Some(stroke)) => {
                 let against = -frame.axes.into_frame(force).dot(stroke.direction);
                 work = against * (way - past.way);
+                past.across = against;
                 let stalls = !against.lt(stroke.stall) & stroke.due.lt(at.frames.time);
-                past.speed = S::select(stalls, -S::one(), past.speed);
+                past.speed = S::select(stalls, S::of(STALLED), past.speed);
                 S::truth(false)
             }
-            SiteLaw::Segment(segment, _, Some(away)) => at.k.axes[*segment].out(*away).dot(force).gt(o),
+            SiteLaw::Segment(segment, _, Some(away)) => {
+                past.across = at.k.axes[*segment].out(*away).dot(force);
+                past.across.gt(o)
+            }
             SiteLaw::Track(segment, track) => {
                 let (_, along, out) = track.at(way);
                 let force = at.k.axes[*segment].into_frame(force);

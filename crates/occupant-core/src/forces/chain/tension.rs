@@ -4,12 +4,13 @@
 //! webbing passes is the difference of P on both sides times what passes.
 
 use super::MOST_NODES;
-use super::data::{Chain, Rest};
-use super::device::{DeviceLaw, Phase};
+use super::data::{Chain, NEVER, Rest};
+use super::device::{DeviceLaw, Moment, Phase};
 use super::feed::Feed;
 use super::march::{Run, Solved, solve};
 use super::past::{ChainPast, NodePast};
 use crate::forces::decay::decay;
+use crate::forces::element::passes;
 use crate::forces::function::FunctionLaw;
 use crate::motion::scalar::Scalar;
 
@@ -147,6 +148,34 @@ impl Straps<f64> {
             (past.greatest, past.strain) = (greatest, greatest);
             past.carried = response.force * (1.0 + strain) - self.webbing.curve.returned_to(response.loading)[1];
         }
+    }
+}
+
+impl Straps<f64> {
+    pub(super) fn can_switch(&self) -> bool {
+        self.strength < NEVER || self.device.can_switch()
+    }
+
+    /// Tension of a strap at a commit, from what it remembers of it.
+    fn tension(&self, past: &NodePast<f64>) -> f64 {
+        let beside = self.webbing.viscous.map_or(0.0, |[stiffness, _]| stiffness * past.viscous);
+        (self.webbing.curve.respond(past.strain, past.greatest).force + beside).max(0.0)
+    }
+
+    /// Where between two commits the device was due to switch, or a strap to tear.
+    pub(super) fn due(&self, before: &ChainPast<f64>, now: &ChainPast<f64>) -> Option<f64> {
+        let first = |past: &NodePast<f64>| self.tension(past);
+        let [from, to] = [before, now].map(|past| Moment {
+            past: &past.device,
+            payout: past.nodes[0].fed,
+            tension: first(&past.nodes[0]),
+        });
+        let greatest = |past: &ChainPast<f64>| {
+            self.starts.iter().fold(0.0, |most: f64, &node| most.max(self.tension(&past.nodes[node])))
+        };
+        let [a, b] = [before, now].map(greatest);
+        let tears = (now.device.free > before.device.free && b > self.strength).then(|| passes(self.strength, a, b));
+        self.device.due(&from, &to).into_iter().chain(tears).reduce(f64::min)
     }
 }
 

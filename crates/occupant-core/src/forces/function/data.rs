@@ -103,6 +103,19 @@ impl Function {
         Function { points, returned, shape: Shape::Lines, beyond: Beyond::Extends }
     }
 
+    /// Where it yields: its first point behind which it rises at most a quarter as steeply as it did before.
+    pub(crate) fn yields(&self) -> Option<[f64; 2]> {
+        let mut steepest = 0.0_f64;
+        for (from, to) in self.points.iter().zip(self.points.iter().skip(1)) {
+            let slope = (to[1] - from[1]) / (to[0] - from[0]);
+            if steepest > 0.0 && slope <= 0.25 * steepest {
+                return Some(*from);
+            }
+            steepest = steepest.max(slope);
+        }
+        self.points.last().copied().filter(|_| self.beyond == Beyond::Holds)
+    }
+
     /// Its cubics, each with its returned fraction.
     pub(super) fn pieces(&self) -> impl Iterator<Item = (Cubic<f64>, f64)> {
         let mut cubics = match self.shape {

@@ -5,9 +5,9 @@
 
 use std::ops::ControlFlow;
 
-use super::machine::{Around, Bench, Machine};
+use super::machine::{Around, Bench, Machine, Rear, Start};
 use super::place::{Next, Place, Witness};
-use super::{Jobs, Kernel, run_alone};
+use super::{Jobs, Kernel, MOST_PLACES, run_alone};
 use crate::forces::History;
 use crate::kernel::Scratch;
 use crate::model::Model;
@@ -17,7 +17,7 @@ use crate::motion::integrate::rk4::Stages;
 use crate::motion::lanes::Lanes;
 use crate::motion::state::State;
 use crate::results::outcome::{RecordingFailed, Status};
-use crate::run::{Run, broken};
+use crate::run::{Run, Step, broken};
 
 /// Runs side by side in lanes of `L`.
 pub(super) struct Group<L: Machine> {
@@ -82,6 +82,13 @@ impl<L: Machine> Group<L> {
             }
             _ => return false,
         }
+        if let Some(bench) = &mut self.bench
+            && bench.rear.is_none()
+            && model.system().forces.can_switch()
+        {
+            let start = Box::new(Start { state: bench.state, memory: bench.around.history.memory.clone() });
+            bench.rear = Some(Rear { latest: start.clone(), ahead: start });
+        }
         self.bench.is_some()
     }
 
@@ -102,7 +109,9 @@ impl<L: Machine> Group<L> {
             let [start_s, middle_s, _] = step.times_s();
             move_frames(i, place, &mut bench.around.frames[0], [start_s, middle_s]);
         }
+        bench.keep_start();
         let bears = L::begin(bench, h, &mut Witness(&mut self.places));
+        let switched = bench.has_switched();
         for (i, place) in self.places.iter_mut().enumerate() {
             let Some(place) = place.as_mut().filter(|_| h.lane(i) > 0.0) else { continue };
             place.step = place.step.first_part(|_| bears.lane(i));
@@ -113,7 +122,11 @@ impl<L: Machine> Group<L> {
             move_frames(i, place, end, [end_s, middle_s]);
         }
         let finite = L::go(bench, h, &mut Witness(&mut self.places));
-        for i in 0..L::COUNT {
+        let gone_back = self.go_back(switched, jobs)?;
+        if let Some(bench) = &mut self.bench {
+            bench.shift();
+        }
+        for i in (0..L::COUNT).filter(|i| !gone_back[*i]) {
             if let Some(place) = self.places[i].take() {
                 self.settle(i, place, finite.lane(i) > 0.0, jobs)?;
             }
@@ -121,11 +134,52 @@ impl<L: Machine> Group<L> {
         ControlFlow::Continue(())
     }
 
+    /// Takes back the step before the one just taken, and that one, of each run in which something has switched within the
+    /// former, and takes the former again, alone; which runs these are.
+    fn go_back(&mut self, switched: L, jobs: &mut dyn Jobs) -> ControlFlow<(), [bool; MOST_PLACES]> {
+        let mut gone_back = [false; MOST_PLACES];
+        for i in (0..L::COUNT).filter(|i| switched.lane(*i) > 0.0) {
+            let Some(mut place) = self.places[i].take() else { continue };
+            let Some(latest) = place.latest.take().filter(|_| place.run.rear.is_some()) else {
+                self.places[i] = Some(place);
+                continue;
+            };
+            gone_back[i] = true;
+            self.fetch_start(i, &mut place.run);
+            let next = place.go_back(latest);
+            self.go_on_or_end(i, place, next, jobs)?;
+        }
+        ControlFlow::Continue(gone_back)
+    }
+
+    /// Brings the run in place `i` to where its latest step began.
+    fn fetch_start(&mut self, i: usize, run: &mut Run) {
+        if let Some(rear) = self.bench.as_mut().and_then(|bench| bench.rear.as_mut()) {
+            let Start { state, memory } = &mut *rear.latest;
+            run.state = state.zip(&run.state, |lanes, _| lanes.lane(i));
+            memory.each(&mut run.history.memory, &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i));
+            run.history.look_again();
+        }
+    }
+
+    /// Tells the run in place `i` where its latest step, just accepted, began.
+    fn fetch_rear(&mut self, i: usize, run: &mut Run, step: Step) {
+        let lanes = self.bench.as_mut().and_then(|bench| bench.rear.as_mut());
+        if let (Some(lanes), Some(rear)) = (lanes, &mut run.rear) {
+            let Start { state, memory } = &mut *lanes.latest;
+            rear.step = Some(step);
+            rear.state = state.zip(&rear.state, |lanes, _| lanes.lane(i));
+            memory.each(&mut rear.history.memory, &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i));
+            rear.history.look_again();
+        }
+    }
+
     /// Accepts the step of the run of place `i`, if it led to numbers, and records an output that it reached.
     fn settle(&mut self, i: usize, mut place: Box<Place>, finite: bool, jobs: &mut dyn Jobs) -> ControlFlow<()> {
-        place.run.effort.evaluations += 4;
+        place.take_step();
         if finite && !place.is_at_output() {
             place.run.accept_time(place.step);
+            place.latest = Some(place.step);
             self.places[i] = Some(place);
             return ControlFlow::Continue(());
         }
@@ -139,6 +193,7 @@ impl<L: Machine> Group<L> {
             }
             Ok(()) => {
                 self.fetch_history(i, &mut place.run);
+                self.fetch_rear(i, &mut place.run, place.step);
                 place.output(jobs.recorder(i))
             }
         };
@@ -194,6 +249,9 @@ impl<L: Machine> Group<L> {
             let Some(mut place) = self.places[i].take() else { continue };
             place.run.state = self.lane_state(i, &place.run);
             self.fetch_history(i, &mut place.run);
+            if let Some(latest) = place.latest {
+                self.fetch_rear(i, &mut place.run, latest);
+            }
             let status = place.finish(jobs.recorder(i));
             self.hand_out(i, *place, status, jobs)?;
         }
@@ -224,5 +282,6 @@ fn new_bench<L: Machine>(model: &Model) -> Option<Box<Bench<L>>> {
     let start = &model.start().state;
     let (scratch, stages) = (Scratch::blank(&system), Stages::new(start.shape()));
     let around = Around { system, history, frames: [frames; 3], scratch };
-    Some(Box::new(Bench { state: start.zip(start, |x, _| L::of(x)), stages, around }))
+    let state = start.zip(start, |x, _| L::of(x));
+    Some(Box::new(Bench { state, rear: None, stages, around }))
 }

@@ -5,7 +5,7 @@
 //! [`has_avx512`](crate::motion::lanes::has_avx512) say so.
 
 use super::place::Witness;
-use crate::forces::History;
+use crate::forces::{History, Memory};
 use crate::kernel::{Scratch, Situation, System};
 use crate::motion::frame::Frames;
 use crate::motion::integrate::rk4::{Stage, Stages};
@@ -16,6 +16,8 @@ use crate::motion::state::State;
 #[derive(Clone, Debug)]
 pub(crate) struct Bench<L: Lanes> {
     pub state: State<L>,
+    /// Where the latest step began, if anything can switch in any of the runs.
+    pub rear: Option<Rear<L>>,
     pub stages: Stages<L>,
     pub around: Around<L>,
 }
@@ -28,6 +30,44 @@ pub(crate) struct Around<L: Lanes> {
     /// At the step's start, middle and end.
     pub frames: [Frames<L>; 3],
     pub scratch: Scratch<L>,
+}
+
+/// Where the latest step of all runs began, and where that under way does.
+#[derive(Clone, Debug)]
+pub(crate) struct Rear<L: Lanes> {
+    // boxed, as they change hands at every step
+    pub latest: Box<Start<L>>,
+    pub ahead: Box<Start<L>>,
+}
+
+/// The start of a step: states, and what was remembered before the commit there.
+#[derive(Clone, Debug)]
+pub(crate) struct Start<L: Lanes> {
+    pub state: State<L>,
+    pub memory: Memory<L>,
+}
+
+impl<L: Lanes> Bench<L> {
+    /// Keeps where the step ahead begins.
+    pub fn keep_start(&mut self) {
+        if let Some(rear) = &mut self.rear {
+            rear.ahead.state = self.state;
+            rear.ahead.memory.take_over(&self.around.history.memory);
+        }
+    }
+
+    /// In which lanes the commit of the step just taken has shown that something switched within the latest.
+    pub fn has_switched(&self) -> L {
+        let mask = self.rear.as_ref().map(|rear| rear.ahead.memory.has_switched(&self.around.history.memory));
+        mask.map_or(L::zero(), |mask| L::select(mask, L::one(), L::zero()))
+    }
+
+    /// The step just taken becomes the latest.
+    pub fn shift(&mut self) {
+        if let Some(rear) = &mut self.rear {
+            std::mem::swap(&mut rear.latest, &mut rear.ahead);
+        }
+    }
 }
 
 /// Lanes that some processors can compute with.
@@ -58,7 +98,7 @@ impl<L: Lanes> Bench<L> {
     /// The first evaluation of a step, in the instructions of the caller; `rate` is [`Around::rate`] compiled for them.
     #[inline(always)]
     fn begin(&mut self, h: L, mut rate: impl FnMut(&mut Around<L>, Stage, &State<L>, &mut State<L>)) -> L {
-        let Bench { state, stages, around } = self;
+        let Bench { state, stages, around, .. } = self;
         stages.begin(state, |stage, state, k| rate(around, stage, state, k));
         around.history.step(h)
     }
@@ -66,7 +106,7 @@ impl<L: Lanes> Bench<L> {
     /// The rest of it.
     #[inline(always)]
     fn go(&mut self, h: L, mut rate: impl FnMut(&mut Around<L>, Stage, &State<L>, &mut State<L>)) -> L {
-        let Bench { state, stages, around } = self;
+        let Bench { state, stages, around, .. } = self;
         *state = *stages.go(state, h, |stage, state, k| rate(around, stage, state, k));
         L::select(self.state.finite(), L::one(), L::zero())
     }

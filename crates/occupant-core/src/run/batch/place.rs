@@ -8,6 +8,7 @@ use crate::motion::lanes::Lanes;
 use crate::motion::vector::v3;
 use crate::results::outcome::{Outcome, RecordingFailed, Status};
 use crate::results::recorder::{Flow, Recorder};
+use crate::run::corner::Touching;
 use crate::run::observers::Meeting;
 use crate::run::simulate::go_on;
 use crate::run::{Run, Step, Stretch};
@@ -23,6 +24,11 @@ pub(super) struct Place {
     whole: Step,
     /// All of it, or a part that what is near bears.
     pub step: Step,
+    /// The step before it, if the run can go back to it, and what was to come then.
+    pub latest: Option<Step>,
+    before: (Stretch, [Step; 2]),
+    /// What accelerometers read at the start of the step under way.
+    readings: [f64; 3],
     /// Room for the frames of one instant.
     pub frames: Frames<f64>,
 }
@@ -45,7 +51,8 @@ impl Place {
         let run = Run::new(&model);
         let stretch = Stretch::new(run.time_s, run.time_s, step_s);
         let (whole, step) = (Step::default(), Step::default());
-        Place { frames: Frames::still(run.time_s), model, stretch, run, step_s, whole, step }
+        let (frames, before) = (Frames::still(run.time_s), (stretch, [whole, step]));
+        Place { frames, model, stretch, run, step_s, whole, step, latest: None, before, readings: [0.0; 3] }
     }
 
     /// The first output.
@@ -67,6 +74,7 @@ impl Place {
             return Next::ended(Status::Completed);
         };
         self.stretch = Stretch::new(self.run.time_s, target_s, self.step_s);
+        self.latest = None;
         Next::GoesOn
     }
 
@@ -78,11 +86,28 @@ impl Place {
 
     /// The step to be taken next, which may have to end earlier; none at an output.
     pub(super) fn next_step(&mut self) -> Option<Step> {
+        self.before = (self.stretch, [self.whole, self.step]);
+        self.run.met.clear();
         if let Some(left) = self.left() {
             return Some(left);
         }
         self.whole = self.stretch.next()?;
         Some(self.whole)
+    }
+
+    /// Takes the step under way back, and the one before it again.
+    pub(super) fn go_back(&mut self, latest: Step) -> Next {
+        (self.stretch, [self.whole, self.step]) = self.before;
+        match self.run.go_back(&self.model, latest) {
+            Ok(()) => Next::GoesOn,
+            Err(error) => Next::ended(Status::Failed(error)),
+        }
+    }
+
+    /// Accepts the step under way, but for its state.
+    pub(super) fn take_step(&mut self) {
+        self.run.effort.evaluations += 4;
+        self.run.note(&self.model, self.step.start_s, self.readings);
     }
 
     /// Whether an output is reached.
@@ -116,7 +141,7 @@ impl Witness<'_> {
     pub(super) fn feel<L: Lanes>(&mut self, readings: [L; 3]) {
         for (i, place) in self.0.iter_mut().enumerate() {
             if let Some(place) = place {
-                place.run.seen.peaks.see(readings.map(|reading| reading.lane(i)));
+                place.readings = readings.map(|reading| reading.lane(i));
             }
         }
     }
@@ -135,8 +160,7 @@ impl<L: Lanes> Observer<L> for Witness<'_> {
                     normal_force_n: touch.normal_force.lane(i),
                     velocity_m_s: v3(touch.velocity.x.lane(i), touch.velocity.y.lane(i), touch.velocity.z.lane(i)),
                 };
-                let time_s = place.step.start_s;
-                place.run.seen.note(&place.model, time_s, meeting);
+                place.run.met.push(Touching::new(meeting, touch.depth.lane(i)));
             }
         }
     }

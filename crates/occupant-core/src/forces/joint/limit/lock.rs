@@ -6,6 +6,7 @@
 
 use super::super::posture::{Posture, length};
 use super::LimitAction;
+use crate::forces::element::passes;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{M3, V3, v3};
 
@@ -82,6 +83,14 @@ impl<A: Copy> LockPast<A> {
         let mut axis = |v: V3<A>| v3(f(v.x), f(v.y), f(v.z));
         let held = Posture(M3 { x: axis(x), y: axis(y), z: axis(z) });
         LockPast { closed, held, restless: f(self.restless), lost: f(self.lost) }
+    }
+}
+
+impl LockPast<f64> {
+    /// Where between two times a lock that closes was due to; one that opens does not remember its moment.
+    pub(super) fn due(&self, now: &Self, times_s: [f64; 2]) -> Option<f64> {
+        let is_calm = self.restless == now.restless;
+        (now.closed > self.closed && is_calm).then(|| passes(self.restless + CALM_S, times_s[0], times_s[1]))
     }
 }
 

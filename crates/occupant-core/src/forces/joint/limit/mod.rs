@@ -175,6 +175,25 @@ impl Element for JointLimits {
         past.stops.iter_mut().for_each(|stop| stop.greatest = stop.greatest.max(0.0));
     }
 
+    fn can_switch(law: &Vec<LimitLaw<f64>>) -> bool {
+        law.iter().any(|law| law.lock.as_ref().is_some_and(|lock| !lock.slips))
+    }
+
+    #[inline(always)]
+    fn switches<S: Scalar>(past: &LimitHistory<S>) -> S {
+        past.lock.closed
+    }
+
+    fn due(
+        _law: &Vec<LimitLaw<f64>>,
+        _number: usize,
+        before: &LimitHistory<f64>,
+        now: &LimitHistory<f64>,
+        times_s: [f64; 2],
+    ) -> Option<f64> {
+        before.lock.due(&now.lock, times_s)
+    }
+
     #[inline(always)]
     fn apply<S: Scalar>(
         law: &Vec<LimitLaw<S>>,

@@ -1,0 +1,100 @@
+//! Switches within a step: a spool locks, a vent opens, webbing leaves a node.
+//!
+//! What force elements remember changes at commits alone. Where something of it jumps, the step must end there, or the jump
+//! comes as late as the step is long. A trial tells that something has switched, and what the element remembers of both ends
+//! tells about when; trials of other lengths close in on that time. The step then ends just behind it, and its commit is the
+//! switch.
+
+use super::Step;
+use crate::forces::{Forces, Memory};
+
+/// The time of a switch is found to this part of the step, s, and to [`CLOSEST_S`].
+const CLOSE: f64 = 1e-3;
+const CLOSEST_S: f64 = 1e-6;
+
+/// How far behind the expected switch a trial ends, as a part of what is close.
+const BEHIND: f64 = 0.3;
+
+/// Most trials of one search; halving alone takes ten.
+const MOST: u32 = 40;
+
+/// What happened from a start to a commit.
+#[derive(Clone, Debug)]
+struct Seen {
+    time_s: f64,
+    memory: Memory<f64>,
+}
+
+/// A search for the first switch within a step.
+#[derive(Clone, Debug)]
+pub(super) struct Search {
+    /// The longest trial in which nothing had switched, and the shortest in which something had.
+    before: Seen,
+    behind: Seen,
+    close_s: f64,
+    trials: u32,
+}
+
+impl Search {
+    /// None under way; with room for what `memory` is like.
+    pub(super) fn new(memory: &Memory<f64>) -> Self {
+        let seen = || Seen { time_s: 0.0, memory: memory.clone() };
+        Search { before: seen(), behind: seen(), close_s: 0.0, trials: 0 }
+    }
+
+    /// Looks for no switch until a trial shows one.
+    pub(super) fn rest(&mut self) {
+        self.trials = 0;
+    }
+
+    /// Whether a switch is being looked for.
+    pub(super) fn is_under_way(&self) -> bool {
+        self.trials > 0
+    }
+
+    /// Where the step is to end instead of `step.end_s`, s; none where it may end there. `memory` is that of both ends of
+    /// the trial, `last_s` the length of the step before.
+    pub(super) fn end_earlier(
+        &mut self,
+        forces: &Forces<f64>,
+        step: Step,
+        memory: [&Memory<f64>; 2],
+        last_s: f64,
+    ) -> Option<f64> {
+        let [start, end] = memory;
+        let switched = start.has_switched(end);
+        if !self.is_under_way() {
+            if !switched {
+                return None;
+            }
+            let h = step.length_s();
+            (self.before.time_s, self.close_s) = (step.start_s, (CLOSE * h).min(CLOSEST_S));
+            self.before.memory.take_over(start);
+        }
+        let side = if switched { &mut self.behind } else { &mut self.before };
+        side.time_s = step.end_s;
+        side.memory.take_over(end);
+        let is_first = self.trials == 0;
+        self.trials += 1;
+
+        let [low_s, high_s] = [self.before.time_s, self.behind.time_s];
+        let due = self.before.memory.due(&self.behind.memory, forces, [low_s, high_s]);
+        // what was due before the step comes with its end; so does what cannot tell, and follows another at once: it might
+        // switch to and fro
+        let comes_late = if due.is_known { due.share <= 0.0 } else { last_s <= 2.0 * CLOSE * step.length_s() };
+        let due_s = low_s + due.share.min(1.0) * (high_s - low_s);
+        let found = high_s - low_s <= self.close_s || switched && high_s - due_s <= self.close_s;
+        if is_first && comes_late || found || self.trials > MOST {
+            return (!switched).then_some(high_s);
+        }
+        let halves = self.trials.is_multiple_of(4);
+        let wanted_s = if halves { 0.5 * (low_s + high_s) } else { due_s + BEHIND * self.close_s };
+        let least_s = low_s + BEHIND * self.close_s;
+        let end_s = wanted_s.clamp(least_s, (high_s - BEHIND * self.close_s).max(least_s));
+        if low_s < end_s && end_s < high_s {
+            Some(end_s)
+        } else {
+            (!switched).then_some(high_s)
+        }
+    }
+}
