@@ -1,0 +1,335 @@
+//! What switches within a step: spools that lock, pretensioners that stall, limiters that yield, webbing that is freed, each
+//! against an integration of its own that ends a step exactly where its level is reached; and what a belt holds at most.
+
+use occupant_core::forces::chain::StrapAction;
+use occupant_core::model::Model;
+use occupant_core::model::setup::Setup;
+use occupant_core::results::outcome::Status;
+use occupant_core::results::recorder::Watch;
+use occupant_core::results::sample::Sample;
+use occupant_core::run::simulate::simulate;
+use occupant_tests::measure::assert_below;
+use occupant_tests::room::setup;
+
+/// A mass of 20 kg on one strap to the origin, along z; what belongs to a case stands behind.
+const ON_A_STRAP: &str = r#"
+title = "a mass on a strap"
+units = "si"
+[output]
+interval = "0.5 ms"
+[path]
+kind = "fixed"
+[body.segments.a]
+length = 0.2
+cg_from_lower_end = 0.1
+mass = 19.5
+inertia = [0.0995, 0.0995, 0.0995]
+[body.segments.b]
+length = 0.2
+cg_from_lower_end = 0.1
+mass = 0.5
+inertia = [0.0005, 0.0005, 0.0005]
+[body.joints.j]
+proximal = "a"
+distal = "b"
+kind = "fixed"
+on_proximal = [0, 0, 0.1]
+on_distal = [0, 0, 0.1]
+[body.spheres.ball]
+segment = "a"
+centre = [0, 0, 0.1]
+radius = 0.1
+[body.landmarks]
+head = "a"
+chest = "a"
+pelvis = "a"
+[joints.all]
+damping = 0
+[webbings.w]
+strain = [0, 1]
+force = ["0 kN", "50 kN"]
+returned = 1
+"#;
+
+const MASS_KG: f64 = 20.0;
+const WEBBING_N: f64 = 50e3;
+const SPOOL_N: f64 = 6.0;
+
+const INTEGRATORS: [&str; 3] = [
+    "integrator={ kind = \"adaptive\" }",
+    "integrator={ kind = \"rk4\", step = \"0.1 ms\" }",
+    "integrator={ kind = \"rk4\", step = \"0.37 ms\" }",
+];
+
+/// What is prescribed of a case.
+#[derive(Clone, Copy)]
+struct Strap {
+    place_m: f64,
+    speed_m_s: f64,
+    gravity_m_s2: f64,
+    end_s: f64,
+    /// Where the limiter yields, m and N.
+    knee: [f64; 2],
+    /// When the lock begins, and what is paid out until it is done, m.
+    lock: Option<[f64; 2]>,
+    /// When the pretensioner fires, its speed, m/s, for how long, s, and its force, N.
+    pull: Option<[f64; 4]>,
+}
+
+impl Strap {
+    fn text(&self) -> String {
+        let Strap { place_m, speed_m_s, gravity_m_s2, end_s, knee: [yields_m, level_n], .. } = *self;
+        let mut retractor = format!("spool_tension = \"{SPOOL_N} N\"\non_spool = \"3 m\"\nlimiter = \"q\"\n");
+        let mut triggers = String::new();
+        if let Some([at_s, payout_m]) = self.lock {
+            triggers += &format!("[triggers.locks]\nkind = \"time\"\nat = {at_s}\n");
+            retractor += &format!("lock = {{ trigger = \"locks\", payout = {payout_m} }}\n");
+        }
+        if let Some([at_s, speed, lasts_s, stall_n]) = self.pull {
+            triggers += &format!("[triggers.fires]\nkind = \"time\"\nat = {at_s}\n");
+            let way = speed * lasts_s;
+            retractor += &format!(
+                "pretensioner = {{ trigger = \"fires\", times = [0, {lasts_s}], pull = [0, {way}], stall_force = {stall_n} }}\n"
+            );
+        }
+        format!(
+            "gravity = {gravity_m_s2}\n{ON_A_STRAP}\n[time]\nend = {end_s}\n[mount]\nsegment = \"a\"\nframe = \"vehicle\"\n\
+             point = [0, 0, 0.1]\nplace = [0, 0, {place_m}]\nroll = 0\npitch = 0\nyaw = 0\nlet_go = [0, 0, {speed_m_s}]\n\
+             {triggers}[limiters.q]\npayout = [0, {yields_m}, 3]\nforce = [0, {level_n}, {level_n}]\nreturned = 0.01\n\
+             [retractors.r]\n{retractor}[belts.b]\nwebbing = \"w\"\nnodes = [{{ name = \"a0\", at = [0, 0, 0], retractor = \"r\" }}, \
+             {{ name = \"e\", on = \"a\", at = [0, 0, 0.1] }}]\n"
+        )
+        .replacen("gravity = ", "title_below = 0\ngravity = ", 0)
+    }
+
+    fn model(&self, set: &[&str]) -> Model {
+        // the first keys of the text come before its first table
+        let text = self.text();
+        let (gravity, rest) = text.split_once('\n').unwrap();
+        let text = rest.replacen("units = \"si\"", &format!("units = \"si\"\n{gravity}"), 1);
+        Model::new(setup(&text, set)).unwrap()
+    }
+
+    /// Where the mass is at the end: by steps of the classical method of 2 µs, one of which ends where a level is reached.
+    fn expected(&self) -> Course {
+        Course::of(self)
+    }
+}
+
+/// The mass and its strap, by themselves.
+#[derive(Clone, Copy)]
+struct Course {
+    case: Strap,
+    unstretched_m: f64,
+    t: f64,
+    z: f64,
+    v: f64,
+    phase: Phase,
+    most_n: f64,
+    switched_s: [f64; 2],
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Phase {
+    Open,
+    /// To this payout.
+    Locking(f64),
+    /// From this payout.
+    Pulling(f64),
+    /// p − δ, and the greatest δ.
+    Locked(f64, f64),
+}
+
+impl Course {
+    fn of(case: &Strap) -> Course {
+        let unstretched_m = case.place_m / (1.0 + SPOOL_N / WEBBING_N);
+        let (z, v) = (case.place_m, case.speed_m_s);
+        let mut at =
+            Course { case: *case, unstretched_m, t: 0.0, z, v, phase: Phase::Open, most_n: 0.0, switched_s: [0.0; 2] };
+        let count = (case.end_s / 2e-6).round() as u64;
+        for i in 1..=count {
+            let end_s = case.end_s * i as f64 / count as f64;
+            while at.t < end_s {
+                at = at.up_to(end_s);
+            }
+        }
+        at
+    }
+
+    /// Payout that leaves this tension.
+    fn payout(&self, z: f64, tension: f64) -> f64 {
+        z / (1.0 + tension / WEBBING_N) - self.unstretched_m
+    }
+
+    fn tension_at(&self, z: f64, payout: f64) -> f64 {
+        (WEBBING_N * (z / (self.unstretched_m + payout) - 1.0)).max(0.0)
+    }
+
+    /// Force of the limiter.
+    fn limiter(&self, delta: f64, greatest: f64) -> f64 {
+        let [yields_m, level_n] = self.case.knee;
+        let f = |x: f64| (level_n * x / yields_m).clamp(0.0, level_n);
+        // of each interval a hundredth comes back
+        if delta >= greatest { f(delta) } else { f(greatest - (greatest - delta) / 0.01) }
+    }
+
+    fn tension(&self, t: f64, z: f64) -> f64 {
+        match self.phase {
+            Phase::Open | Phase::Locking(_) => SPOOL_N,
+            Phase::Pulling(from_m) => {
+                let [at_s, speed, lasts_s, _] = self.case.pull.unwrap();
+                self.tension_at(z, from_m - speed * (t - at_s).clamp(0.0, lasts_s))
+            }
+            Phase::Locked(base, greatest) => {
+                let (mut low, mut high) = (-0.5, 3.0);
+                for _ in 0..60 {
+                    let delta = 0.5 * (low + high);
+                    if self.limiter(delta, greatest) < self.tension_at(z, base + delta) { low = delta } else { high = delta }
+                }
+                self.limiter(0.5 * (low + high), greatest)
+            }
+        }
+    }
+
+    /// By a step of the classical method.
+    fn stepped(&self, end_s: f64) -> Course {
+        let (h, mut next) = (end_s - self.t, *self);
+        let rate = |t: f64, z: f64, v: f64| (v, self.case.gravity_m_s2 - self.tension(t, z) / MASS_KG);
+        let (a1, b1) = rate(self.t, self.z, self.v);
+        let (a2, b2) = rate(self.t + 0.5 * h, self.z + 0.5 * h * a1, self.v + 0.5 * h * b1);
+        let (a3, b3) = rate(self.t + 0.5 * h, self.z + 0.5 * h * a2, self.v + 0.5 * h * b2);
+        let (a4, b4) = rate(end_s, self.z + h * a3, self.v + h * b3);
+        next.t = end_s;
+        next.z += h / 6.0 * (a1 + 2.0 * (a2 + a3) + a4);
+        next.v += h / 6.0 * (b1 + 2.0 * (b2 + b3) + b4);
+        next
+    }
+
+    /// How far it is beyond what ends its phase.
+    fn beyond(&self) -> f64 {
+        match self.phase {
+            Phase::Open => {
+                let lock_s = self.case.lock.map_or(f64::INFINITY, |lock| lock[0]);
+                let fire_s = self.case.pull.map_or(f64::INFINITY, |pull| pull[0]);
+                self.t - lock_s.min(fire_s)
+            }
+            Phase::Locking(payout) => self.payout(self.z, SPOOL_N) - payout,
+            Phase::Pulling(_) => {
+                let [at_s, _, lasts_s, stall_n] = self.case.pull.unwrap();
+                (self.tension(self.t, self.z) - stall_n.min(self.case.knee[1])).max(self.t - (at_s + lasts_s))
+            }
+            Phase::Locked(..) => f64::NEG_INFINITY,
+        }
+    }
+
+    fn up_to(&self, end_s: f64) -> Course {
+        let mut next = self.stepped(end_s);
+        if next.beyond() >= 0.0 {
+            let (mut low, mut high) = (self.t, end_s);
+            for _ in 0..50 {
+                let middle = 0.5 * (low + high);
+                if self.stepped(middle).beyond() < 0.0 { low = middle } else { high = middle }
+            }
+            next = self.stepped(high);
+            next.switch();
+        }
+        let tension = next.tension(next.t, next.z);
+        next.most_n = next.most_n.max(tension);
+        if let Phase::Locked(base, greatest) = &mut next.phase {
+            let delta = self.payout(next.z, tension) - *base;
+            *greatest = greatest.max(delta);
+        }
+        next
+    }
+
+    fn switch(&mut self) {
+        let tension = self.tension(self.t, self.z);
+        let payout = self.payout(self.z, tension);
+        self.switched_s = [self.switched_s[1], self.t];
+        self.phase = match (self.phase, self.case.lock) {
+            (Phase::Open, Some([_, more])) => Phase::Locking(payout + more),
+            (Phase::Open, None) => Phase::Pulling(payout),
+            _ => {
+                let [yields_m, level_n] = self.case.knee;
+                let delta = yields_m * tension.min(level_n) / level_n;
+                Phase::Locked(payout - delta, delta)
+            }
+        };
+    }
+}
+
+/// Place of the mass at the end, and the greatest tension at an output.
+fn run(model: &Model) -> [f64; 2] {
+    let (mut z, mut most_n) = (f64::NAN, 0.0_f64);
+    let watch = Watch(|s: &Sample<'_>| {
+        z = s.sphere_centre_m(0).z;
+        most_n = most_n.max(s.actions.chains[0].force);
+    });
+    assert_eq!(simulate(model, watch).unwrap().status, Status::Completed);
+    [z, most_n]
+}
+
+/// Numbers spread evenly over (0, 1), the same in every run.
+fn random(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    (*seed >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+fn within(seed: &mut u64, from: f64, to: f64) -> f64 {
+    from + (to - from) * random(seed)
+}
+
+#[test]
+fn a_mass_on_a_spool_that_locks_goes_as_far_as_a_closed_integration_says() {
+    let mut seed = 33;
+    let mut worst = 0.0_f64;
+    for _ in 0..12 {
+        let level_n = within(&mut seed, 800.0, 2500.0);
+        let case = Strap {
+            place_m: 0.5,
+            speed_m_s: within(&mut seed, 1.0, 5.0),
+            gravity_m_s2: 9.806_65,
+            end_s: 0.06,
+            knee: [within(&mut seed, 0.01, 0.05), level_n],
+            lock: Some([within(&mut seed, 0.004, 0.02), within(&mut seed, 0.002, 0.03)]),
+            pull: None,
+        };
+        let expected = case.expected();
+        for integrator in INTEGRATORS {
+            let [z, _] = run(&case.model(&[integrator]));
+            worst = worst.max((z - expected.z).abs() / (expected.z - case.place_m).abs());
+        }
+    }
+    println!("way of the mass, worst: {worst:.2e}");
+    assert_below("way of the mass", worst, 1e-4);
+}
+
+#[test]
+fn a_pretensioner_stalls_at_its_force_or_at_the_level_of_the_limiter() {
+    let mut seed = 7;
+    let (mut worst, mut over) = (0.0_f64, 0.0_f64);
+    for i in 0..12 {
+        let level_n = within(&mut seed, 1000.0, 4000.0);
+        let stall_n = level_n * if i % 2 == 0 { within(&mut seed, 0.4, 0.95) } else { within(&mut seed, 1.05, 3.0) };
+        let case = Strap {
+            place_m: 1.0,
+            speed_m_s: within(&mut seed, -0.5, 2.0),
+            gravity_m_s2: 0.0,
+            end_s: 0.03,
+            knee: [within(&mut seed, 0.01, 0.05), level_n],
+            lock: None,
+            pull: Some([within(&mut seed, 0.005, 0.01), within(&mut seed, 4.0, 12.0), 0.012, stall_n]),
+        };
+        let expected = case.expected();
+        for integrator in INTEGRATORS {
+            // a stall force above the limiter needs a last interval that holds it
+            let steep = format!("limiters.q={{ payout = [0, {}, 3, 3.01], force = [0, {level_n}, {level_n}, 20000], returned = 0.01 }}", case.knee[0]);
+            let [z, most_n] = run(&case.model(&[integrator, &steep]));
+            worst = worst.max((z - expected.z).abs() / (expected.z - case.place_m).abs());
+            over = over.max(most_n / level_n.min(expected.most_n.max(1.0)) - 1.0);
+        }
+    }
+    println!("way of the mass, worst: {worst:.2e}; tension above the level: {over:.2e}");
+    assert_below("way of the mass", worst, 1e-4);
+    assert_below("tension above what it can be", over, 1e-4);
+}
