@@ -109,6 +109,9 @@ macro_rules! kinds {
                 fn law<S>(all: &Forces<S>) -> &Self::Law<S> {
                     &all.$kind
                 }
+                fn past<S>(all: &Memory<S>) -> &[Self::Past<S>] {
+                    &all.$kind
+                }
                 fn actions<S>(all: &Actions<S>) -> &[Self::Action<S>] {
                     &all.$kind
                 }
@@ -451,6 +454,8 @@ pub trait Listed: Reported {
     fn data<'a>(all: &Data<'a>) -> Self::Data<'a>;
     /// Its law.
     fn law<S>(all: &Forces<S>) -> &Self::Law<S>;
+    /// What it remembers.
+    fn past<S>(all: &Memory<S>) -> &[Self::Past<S>];
     /// What it does.
     fn actions<S>(all: &Actions<S>) -> &[Self::Action<S>];
 }

@@ -53,6 +53,16 @@ pub trait Reported: Element + 'static {
     /// Shows every force on a sphere but those of contacts, which have points and depths of their own.
     fn pulls(_shown: &Shown<'_, Self>, _show: &mut dyn FnMut(&Pull<'_>)) {}
 
+    /// Shows what has switched between two commits: the place of each action, and what it did in words as of
+    /// [`Reported::event`].
+    fn switched(
+        _law: &Self::Law<f64>,
+        _before: &[Self::Past<f64>],
+        _now: &[Self::Past<f64>],
+        _show: &mut dyn FnMut(usize, &'static str),
+    ) {
+    }
+
     /// What has happened to one of them between two looks, in words that follow its name, and by how much its force jumps, N;
     /// nothing where only a slope changes.
     fn event<S: Scalar>(_before: &Self::Action<S>, _now: &Self::Action<S>) -> Option<(&'static str, Option<S>)> {

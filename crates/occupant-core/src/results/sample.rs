@@ -71,10 +71,25 @@ pub struct Sample<'a> {
     pub progress: Progress,
     /// First touches so far, in the order in which they happened.
     pub first_touches: &'a [FirstTouch],
+    /// What has switched since the output before, in the order in which it happened, unless that was within a step beyond.
+    pub switched: &'a [Switched],
     /// Greatest values at the accepted steps so far.
     pub step_peaks: &'a StepPeaks,
     /// The step of the error control in which this output lies, if it goes on beyond it.
     pub under_way: Option<StepUnderWay<'a>>,
+}
+
+/// Something that has switched in a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Switched {
+    /// Time of the step that ends there, s.
+    pub time_s: f64,
+    /// What such an element is called.
+    pub of: &'static str,
+    /// The place of its action among those of its kind.
+    pub element: usize,
+    /// What it did, in words that follow its name.
+    pub what: &'static str,
 }
 
 /// A touching pair for output.

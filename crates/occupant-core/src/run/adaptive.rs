@@ -66,7 +66,7 @@ impl Run {
         front.complete(model, &control.tolerance, breaks_s, cursor);
         let mut failed = Ok(());
         while failed.is_ok() && front.step.end_s < target_s {
-            front.note(model, &mut self.seen);
+            front.note(model, &mut self.seen, &mut self.switches);
             failed = self.step_on(model, &mut front, control);
         }
         self.time_s = match failed {

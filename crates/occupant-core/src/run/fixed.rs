@@ -3,7 +3,7 @@
 use super::Run;
 use super::corner::Touching;
 use super::switch::Search;
-use crate::forces::History;
+use crate::forces::{History, Memory};
 use crate::kernel::{Scratch, Situation};
 use crate::model::Model;
 use crate::motion::frame::Frames;
@@ -139,13 +139,7 @@ impl<'a> Stepper<'a> {
     }
 
     /// The state after the rest of `step`.
-    fn go(
-        &mut self,
-        step: Step,
-        from: &State<f64>,
-        history: &mut History<f64>,
-        cursor: &mut PathCursor,
-    ) -> State<f64> {
+    fn go(&mut self, step: Step, from: &State<f64>, history: &mut History<f64>, cursor: &mut PathCursor) -> State<f64> {
         let Stepper { model, scratch, stages, frames, .. } = self;
         step.move_frames(frames, model, cursor);
         *stages.go(from, step.length_s(), |stage, state, rate| {
@@ -165,12 +159,7 @@ impl<'a> Stepper<'a> {
 
 impl Run {
     /// What is left of a step, if anything, and all steps of `stretch`.
-    pub(crate) fn advance_rk4(
-        &mut self,
-        model: &Model,
-        left: Option<Step>,
-        stretch: Stretch,
-    ) -> Result<(), StepError> {
+    pub(crate) fn advance_rk4(&mut self, model: &Model, left: Option<Step>, stretch: Stretch) -> Result<(), StepError> {
         let stepper = &mut Stepper::new(model, &self.state);
         for whole in left.into_iter().chain(stretch) {
             let mut rest = whole;
@@ -197,6 +186,8 @@ impl Run {
         self.effort.evaluations += 4;
         self.note(stepper.model, step.start_s, stepper.readings);
         if let Some(rear) = &mut self.rear {
+            let (forces, now) = (&stepper.model.system().forces, &self.history.memory);
+            self.switches.note(forces, step.start_s, rear.kept(), now);
             rear.is_at(step, &self.state);
         }
         self.accept(stepper.model, next, step)?;
@@ -264,6 +255,8 @@ impl Run {
         let mut done = Ok(());
         while done.is_ok() && start_s < step.end_s {
             let (part, next) = self.part(stepper, &mut rear, Step { start_s, ..step }, parts < MOST_PARTS, last_s);
+            let (forces, before) = (&stepper.model.system().forces, &self.history.memory);
+            self.switches.note(forces, start_s, before, &rear.history.memory);
             self.history.take_over(&rear.history);
             self.note(stepper.model, start_s, stepper.readings);
             done = self.accept(stepper.model, next, part);
@@ -344,6 +337,25 @@ impl Rear {
     /// Keeps the history as it is before a commit.
     pub(super) fn keep(&mut self, history: &History<f64>) {
         self.spare.take_over(history);
+    }
+
+    /// Keeps what is remembered before and after a commit, of lanes.
+    #[cfg(any(target_arch = "x86_64", test))]
+    pub(super) fn fetch<L>(&mut self, [before, now]: [&mut Memory<L>; 2], lane: impl Fn(&L) -> f64) {
+        let mut fetch = |lanes: &mut L, x: &mut f64| *x = lane(lanes);
+        before.each(&mut self.history.memory, &mut fetch);
+        now.each(&mut self.spare.memory, &mut fetch);
+    }
+
+    /// What was fetched.
+    #[cfg(any(target_arch = "x86_64", test))]
+    pub(super) fn fetched(&self) -> [&Memory<f64>; 2] {
+        [&self.history.memory, &self.spare.memory]
+    }
+
+    /// What was kept.
+    pub(super) fn kept(&self) -> &Memory<f64> {
+        &self.spare.memory
     }
 
     /// There is no step to go back to.

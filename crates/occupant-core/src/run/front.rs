@@ -15,7 +15,7 @@ use crate::motion::integrate::bogacki_shampine::{Stage, Tolerance, Trial, attemp
 use crate::motion::state::State;
 use crate::results::checkpoint::{StepStart, StepUnderWay};
 use crate::run::observers::{Met, Seen};
-use crate::run::switch::Search;
+use crate::run::switch::{Search, Switches};
 use crate::vehicle::PathCursor;
 
 /// What may end a step early.
@@ -165,12 +165,7 @@ impl Front {
     /// matters, whichever comes first, s; `last_s` is the length of the step before. All that ends a step early is listed here.
     pub(super) fn end_earlier(&mut self, model: &Model, step: Step, asks: &Asks<'_>) -> Option<f64> {
         let switch = |search: &mut Search| {
-            search.end_earlier(
-                &model.system().forces,
-                step,
-                [&self.after.memory, &self.trial.memory],
-                asks.last_s,
-            )
+            search.end_earlier(&model.system().forces, step, [&self.after.memory, &self.trial.memory], asks.last_s)
         };
         let switch_s = self.search.as_mut().and_then(switch);
         let corner_s = asks.corners.then(|| self.end_behind_corner(model, step, asks.tolerance)).flatten();
@@ -198,9 +193,13 @@ impl Front {
     }
 
     /// Notes what is felt and what touches at the end of the step, as all outputs before it are recorded.
-    pub(super) fn note(&mut self, model: &Model, seen: &mut Seen) {
+    pub(super) fn note(&mut self, model: &Model, seen: &mut Seen, switches: &mut Switches) {
         // before the first step nothing was evaluated
         if self.step.length_s() > 0.0 {
+            if self.search.is_some() {
+                let [before, now] = [&self.before.memory, &self.after.memory];
+                switches.note(&model.system().forces, self.step.end_s, before, now);
+            }
             seen.peaks.see(model.system().readings(&self.scratch));
         }
         for touching in &self.met {

@@ -8,11 +8,13 @@ mod corner;
 mod fixed;
 mod front;
 mod observers;
-mod switch;
 pub mod simulate;
+mod switch;
 
-pub use fixed::{Step, Stretch};
 use fixed::Rear;
+pub use fixed::{Step, Stretch};
+pub use switch::Jump;
+use switch::Switches;
 
 use adaptive::{Control, Memory as Wanted};
 use front::Front;
@@ -66,6 +68,7 @@ pub struct Run {
     pub breaks_s: Vec<f64>,
     /// The accepted steps since it was last emptied, where somebody wants to follow them.
     pub taken: Option<Vec<Step>>,
+    switches: Switches,
 }
 
 impl Run {
@@ -105,6 +108,7 @@ impl Run {
             met: Vec::with_capacity(start.history.memory.contacts.len()),
             breaks_s: model.breaks_s(),
             taken: None,
+            switches: Switches::new(),
         }
     }
 
@@ -179,6 +183,7 @@ impl Run {
         }
         let index = self.index;
         self.index += 1;
+        let switches = std::mem::take(&mut self.switches.told);
         let recorded = recorder.record(&Sample {
             time_s: t,
             index,
@@ -205,10 +210,18 @@ impl Run {
                 rest: self.rest,
             },
             first_touches: &self.seen.touches,
+            switched: &switches,
             step_peaks: &self.seen.peaks,
             under_way: self.front.as_ref().and_then(|front| front.under_way(t)),
         });
+        self.switches.told = switches;
+        self.switches.told.clear();
         recorded.map_err(|e| self.unrecorded(e))
+    }
+
+    /// Follows what switches from now on, and returns what has since it was last asked for.
+    pub fn jumps(&mut self) -> Vec<Jump> {
+        self.switches.followed.replace(Vec::new()).unwrap_or_default()
     }
 
     /// Everything at the present state, which the history takes over.
@@ -222,6 +235,8 @@ impl Run {
             let evaluation = model.system().evaluate(situation, &mut self.history, &mut self.actions);
             if !self.take_back_from_output(model) {
                 if let Some(rear) = &mut self.rear {
+                    let [before, now] = [rear.kept(), &self.history.memory];
+                    self.switches.note(&model.system().forces, self.time_s, before, now);
                     rear.forget();
                 }
                 return evaluation;

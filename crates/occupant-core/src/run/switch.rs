@@ -6,7 +6,8 @@
 //! switch.
 
 use super::Step;
-use crate::forces::{Forces, Memory};
+use crate::forces::{Forces, Listed, Memory, Visitor, visit_kinds};
+use crate::results::sample::Switched;
 
 /// The time of a switch is found to this part of the step, s, and to [`CLOSEST_S`].
 const CLOSE: f64 = 1e-3;
@@ -17,6 +18,61 @@ const BEHIND: f64 = 0.3;
 
 /// Most trials of one search; halving alone takes ten.
 const MOST: u32 = 40;
+
+/// The end of a step at which something has switched, for who follows the steps.
+#[derive(Clone, Debug)]
+pub struct Jump {
+    /// When, s.
+    pub time_s: f64,
+    /// What force elements remember before and after; [`Memory::switched`] tells which of them have switched.
+    pub memory: [Memory<f64>; 2],
+}
+
+/// The switches of a run.
+#[derive(Clone, Debug)]
+pub(super) struct Switches {
+    /// Since the last output.
+    pub(super) told: Vec<Switched>,
+    /// All since it was last emptied, where somebody wants to follow them.
+    pub(super) followed: Option<Vec<Jump>>,
+}
+
+impl Switches {
+    pub(super) fn new() -> Self {
+        Switches { told: Vec::with_capacity(ROOM), followed: None }
+    }
+
+    /// Notes what has switched between two commits, the second of them at this time.
+    pub(super) fn note(&mut self, forces: &Forces<f64>, time_s: f64, before: &Memory<f64>, now: &Memory<f64>) {
+        if !before.has_switched(now) {
+            return;
+        }
+        visit_kinds(&mut Telling { forces, time_s, before, now, told: &mut self.told });
+        if let Some(list) = &mut self.followed {
+            list.push(Jump { time_s, memory: [before.clone(), now.clone()] });
+        }
+    }
+}
+
+/// Room for the switches between two outputs; more are told as well.
+const ROOM: usize = 64;
+
+struct Telling<'a> {
+    forces: &'a Forces<f64>,
+    time_s: f64,
+    before: &'a Memory<f64>,
+    now: &'a Memory<f64>,
+    told: &'a mut Vec<Switched>,
+}
+
+impl Visitor for Telling<'_> {
+    fn visit<E: Listed>(&mut self) {
+        let (time_s, of) = (self.time_s, E::NAMES[0]);
+        let told = &mut *self.told;
+        let show = &mut |element, what| told.push(Switched { time_s, of, element, what });
+        E::switched(E::law(self.forces), E::past(self.before), E::past(self.now), show);
+    }
+}
 
 /// What happened from a start to a commit.
 #[derive(Clone, Debug)]
@@ -91,10 +147,6 @@ impl Search {
         let wanted_s = if halves { 0.5 * (low_s + high_s) } else { due_s + BEHIND * self.close_s };
         let least_s = low_s + BEHIND * self.close_s;
         let end_s = wanted_s.clamp(least_s, (high_s - BEHIND * self.close_s).max(least_s));
-        if low_s < end_s && end_s < high_s {
-            Some(end_s)
-        } else {
-            (!switched).then_some(high_s)
-        }
+        if low_s < end_s && end_s < high_s { Some(end_s) } else { (!switched).then_some(high_s) }
     }
 }

@@ -75,10 +75,12 @@ impl BagLaw<f64> {
         }
     }
 
-    /// Where between two memories the first vent was due to open; none where a sphere came to the middle or left.
-    pub(super) fn due(&self, before: &BagPast<f64>, now: &BagPast<f64>) -> Option<f64> {
+    /// Where between two times it was due to fire or its first vent to open; none where a sphere came to the middle or left.
+    pub(super) fn due(&self, before: &BagPast<f64>, now: &BagPast<f64>, times_s: [f64; 2]) -> Option<f64> {
         let held = before.held.iter().zip(&now.held).all(|(a, b)| (*a > 0.0) == (*b > 0.0));
-        held.then(|| self.outlet.due(before, now)).flatten()
+        let fires = (now.fired > before.fired).then(|| self.unfold.due(times_s));
+        let vent = self.outlet.due(before, now);
+        held.then(|| fires.into_iter().chain(vent).reduce(f64::min)).flatten()
     }
 
     /// Appends its numbers as they begin: air around it in the folded bag.

@@ -120,9 +120,9 @@ impl Element for Bags {
         number: usize,
         before: &BagPast<f64>,
         now: &BagPast<f64>,
-        _times_s: [f64; 2],
+        times_s: [f64; 2],
     ) -> Option<f64> {
-        law[number].due(before, now)
+        law[number].due(before, now, times_s)
     }
 
     #[inline(always)]

@@ -55,11 +55,11 @@ impl<A: Copy> BagPast<A> {
 }
 
 impl<S: Scalar> BagPast<S> {
-    /// The vents that are open and the spheres that are held.
+    /// The vents that are open and the spheres that are held, and whether it has fired.
     #[inline(always)]
     pub(super) fn switches(&self) -> S {
         let (o, mut bit, mut sum) = (S::zero(), 1.0, S::zero());
-        for of in self.open.iter().chain(&self.held) {
+        for of in self.open.iter().chain(&self.held).chain([&self.fired]) {
             sum += S::select(of.gt(o), S::of(bit), o);
             bit *= 2.0;
         }

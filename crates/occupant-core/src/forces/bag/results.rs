@@ -242,18 +242,34 @@ impl Reported for Bags {
         }
     }
 
+    fn switched(
+        _law: &Vec<BagLaw<f64>>,
+        before: &[BagPast<f64>],
+        now: &[BagPast<f64>],
+        show: &mut dyn FnMut(usize, &'static str),
+    ) {
+        for (i, (before, now)) in before.iter().zip(now).enumerate() {
+            if now.fired > before.fired {
+                show(i, FIRES);
+            }
+            if now.open.iter().zip(&before.open).any(|(now, before)| now > before) {
+                show(i, OPENS);
+            }
+        }
+    }
+
     fn event<S: Scalar>(before: &BagAction<S>, now: &BagAction<S>) -> Option<(&'static str, Option<S>)> {
         let o = S::zero();
         let begins = |of: fn(&BagAction<S>) -> S| S::any(of(now).gt(o)) && !S::any(of(before).gt(o));
         let whole = S::of(1.0 - 1e-9);
         if begins(|b| b.fired) {
-            return Some(("fires", None));
+            return Some((FIRES, None));
         }
         if begins(|b| b.bottoms) {
             return Some(("is pressed in as far as its mount or its middle", None));
         }
         if S::any(now.opened.gt(before.opened)) {
-            return Some(("opens a vent", None));
+            return Some((OPENS, None));
         }
         if begins(|b| b.covered) {
             return Some(("is touched", None));
@@ -264,3 +280,6 @@ impl Reported for Bags {
         (S::any(before.covered.gt(o)) && !S::any(now.covered.gt(o))).then_some(("is left", None))
     }
 }
+
+const FIRES: &str = "fires";
+const OPENS: &str = "opens a vent";

@@ -1,7 +1,7 @@
 //! How far a bag has unfolded: its envelope grows linearly in volume, all its lengths as the cube root of it.
 
 use super::data::{Bag, FOLDED};
-use crate::forces::element::Instant;
+use crate::forces::element::{Instant, passes};
 use crate::motion::scalar::Scalar;
 
 /// Times of a bag.
@@ -30,6 +30,13 @@ pub(super) struct Unfolded<S: Scalar> {
 pub(super) fn later<S: Scalar>(at: &Instant<'_, S>, time: S) -> S::Mask {
     let now = at.frames.time;
     if at.accepted { !now.lt(time) } else { now.gt(time) }
+}
+
+impl UnfoldLaw<f64> {
+    /// Where between two times it fires.
+    pub(super) fn due(&self, [before, now]: [f64; 2]) -> f64 {
+        passes(self.fires, before, now)
+    }
 }
 
 impl<S: Copy> UnfoldLaw<S> {

@@ -6,7 +6,7 @@
 
 use std::array::from_fn;
 
-use super::cue::{Cued, CueLaw};
+use super::cue::{CueLaw, Cued};
 use super::data::{Cue, Device, NEVER};
 use super::feed::Feed;
 use super::past::DevicePast;

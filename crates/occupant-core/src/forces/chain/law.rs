@@ -340,8 +340,8 @@ impl<S: Scalar> ChainLaw<S> {
                 own.on = S::select(changes, S::one() - own.on, own.on);
                 most = S::select(changes, o, most);
             } else {
-                let work =
-                    self.nodes[k].commit(at, &at.frames[self.frame], now.lies.ways[k], force, &mut next.nodes[k]);
+                let (frame, own) = (&at.frames[self.frame], (&mut next.nodes[k], next.device.time));
+                let work = self.nodes[k].commit(at, frame, now.lies.ways[k], force, own);
                 next.device.driven += work;
             }
         }

@@ -5,6 +5,9 @@ use super::data::NEVER;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{V3, v3};
 
+/// No change of speed along a track is foreseen over more than so many times the step that showed it.
+const MOST_AHEAD: f64 = 2.0;
+
 /// Speed of a stroke that has stalled.
 pub(super) const STALLED: f64 = -1.0;
 
@@ -42,7 +45,9 @@ numbers! {
     NodePast {
         /// 1 while the webbing passes it.
         on,
-        /// Remembered normal of a sphere's plane, and direction from its centre to where the webbing comes onto it, segment axes.
+        /// Remembered normal of a sphere's plane, and direction from its centre to where the webbing comes onto it, segment axes;
+        /// of a track for the latter by how much its speed changed in the last step, m/s, how long that lasted, s, and whether there
+        /// was one.
         normal_x,
         normal_y,
         normal_z,
@@ -176,6 +181,24 @@ impl<S: Scalar> ChainPast<S> {
 }
 
 impl<S: Scalar> NodePast<S> {
+    /// How the mean speed along a track over a time h after the last commit differs from that at the commit: half of what it
+    /// changes by, if it goes on as in the step before. So the way is of second order.
+    #[inline(always)]
+    pub(super) fn half_change(&self, h: S) -> S {
+        let [change, lasted] = [self.touch_x, self.touch_y];
+        let part = (h / lasted.max(S::of(1e-30))).min(S::of(MOST_AHEAD));
+        S::select(lasted.gt(S::zero()), change * part * S::of(0.5), S::zero())
+    }
+
+    /// Slides along a track with this speed from an accepted step of length h on.
+    #[inline(always)]
+    pub(super) fn slide(&mut self, speed: S, h: S) {
+        let (o, is_known) = (S::zero(), self.touch_z.gt(S::zero()));
+        self.touch_x = S::select(is_known, speed - self.speed, o);
+        self.touch_y = S::select(is_known, h, o);
+        (self.touch_z, self.speed) = (S::one(), speed);
+    }
+
     /// Of a node that is pulled.
     #[inline(always)]
     pub(super) fn has_stalled(&self) -> S::Mask {

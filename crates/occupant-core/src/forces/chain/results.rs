@@ -303,25 +303,48 @@ impl Reported for Chains {
         }
     }
 
+    fn switched(
+        law: &Vec<ChainLaw<f64>>,
+        before: &[ChainPast<f64>],
+        now: &[ChainPast<f64>],
+        show: &mut dyn FnMut(usize, &'static str),
+    ) {
+        let mut first = 0;
+        for (chain, (before, now)) in law.iter().zip(before.iter().zip(now)) {
+            if before.device.phase != now.device.phase {
+                show(first, phase_words(now.device.phase));
+            }
+            let starts = &chain.straps.starts;
+            for (k, node) in chain.nodes.iter().enumerate() {
+                let [was, is] = [before, now].map(|past| past.nodes[k].is_on());
+                let strap = first + starts.iter().filter(|start| **start <= k).count().saturating_sub(1);
+                if was != is && node.is_sphere() {
+                    show(strap, if is { COMES_ONTO } else { LEAVES });
+                } else if was != is && starts.contains(&k) {
+                    show(strap, LOSES);
+                }
+            }
+            first += starts.len();
+        }
+    }
+
     fn event<S: Scalar>(before: &StrapAction<S>, now: &StrapAction<S>) -> Option<(&'static str, Option<S>)> {
         let (o, half) = (S::zero(), S::of(0.5));
         let is = |x: S| S::any(x.gt(half));
         let rises = |from: S, to: S| S::any(to.gt(from + half));
         if is(before.passes) && !is(now.passes) {
-            return Some(("loses the node where it begins", Some(before.force)));
+            return Some((LOSES, Some(before.force)));
         }
         if rises(before.phase, now.phase) || rises(now.phase, before.phase) {
-            let words = ["", "opens", "begins to lock", "is pulled in by its pretensioner", "locks"];
-            let phase = (0..words.len()).find(|i| !S::any(now.phase.gt(S::of(*i as f64 + 0.5))));
-            return Some((words[phase.unwrap_or(0)], None));
+            return Some((phase_words(now.phase), None));
         }
         let wraps = |strap: &StrapAction<S>| {
             let on = strap.arcs.iter().filter(|arc| arc.sphere.is_some() && S::any(arc.wrap.gt(o)));
             on.count()
         };
         match wraps(now).cmp(&wraps(before)) {
-            std::cmp::Ordering::Less => return Some(("leaves a sphere of the body", None)),
-            std::cmp::Ordering::Greater => return Some(("comes onto a sphere of the body", None)),
+            std::cmp::Ordering::Less => return Some((LEAVES, None)),
+            std::cmp::Ordering::Greater => return Some((COMES_ONTO, None)),
             std::cmp::Ordering::Equal => {}
         }
         match (S::any(before.force.gt(o)), S::any(now.force.gt(o))) {
@@ -330,6 +353,17 @@ impl Reported for Chains {
             _ => None,
         }
     }
+}
+
+const LOSES: &str = "loses the node where it begins";
+const COMES_ONTO: &str = "comes onto a sphere of the body";
+const LEAVES: &str = "leaves a sphere of the body";
+
+/// What a device does when it comes into a phase.
+fn phase_words<S: Scalar>(phase: S) -> &'static str {
+    let words = ["", "opens", "begins to lock", "is pulled in by its pretensioner", "locks"];
+    let place = (0..words.len()).find(|i| !S::any(phase.gt(S::of(*i as f64 + 0.5))));
+    words[place.unwrap_or(0)]
 }
 
 const _: () = assert!(MOST_ARCS < MOST_NODES);

@@ -233,7 +233,10 @@ impl<S: Scalar> NodeLaw<S> {
     #[inline(always)]
     pub(super) fn way(&self, time: S, past: &NodePast<S>, device: &DevicePast<S>) -> S {
         match &self.site {
-            SiteLaw::Track(..) => (past.way + past.speed * (time - device.time)).max(S::zero()),
+            SiteLaw::Track(..) => {
+                let h = time - device.time;
+                (past.way + (past.speed + past.half_change(h)) * h).max(S::zero())
+            }
             SiteLaw::Vehicle(_, Some(stroke)) => {
                 S::select(past.speed.lt(S::zero()), past.way, stroke.way.at(time - stroke.due))
             }
@@ -263,7 +266,7 @@ impl<S: Scalar> NodeLaw<S> {
     }
 
     /// How it goes on from an accepted step with this force (space axes) of the webbing on it: its way and speed, whether the
-    /// webbing still passes it, and the work of what pulls it. A stroke that has stalled has a speed below 0.
+    /// webbing still passes it, and the work of what pulls it; `since` is the time of the step before. A stroke that has stalled has a speed below 0.
     #[inline(always)]
     pub(super) fn commit(
         &self,
@@ -271,7 +274,7 @@ impl<S: Scalar> NodeLaw<S> {
         frame: &Moving<S>,
         way: S,
         force: V3<S>,
-        past: &mut NodePast<S>,
+        (past, since): (&mut NodePast<S>, S),
     ) -> S {
         let (o, mut work) = (S::zero(), S::zero());
         let leaves = match &self.site {
@@ -295,7 +298,7 @@ impl<S: Scalar> NodeLaw<S> {
                 let speed = (across.abs() - track.friction * held).max(o) / track.drag;
                 past.lost += (across + past.across) * (way - past.way) * S::of(0.5);
                 past.across = across;
-                past.speed = S::select(across.lt(o), -speed, speed);
+                past.slide(S::select(across.lt(o), -speed, speed), at.frames.time - since);
                 out.dot(force).gt(o) | way.gt(track.length)
             }
             _ => S::truth(false),

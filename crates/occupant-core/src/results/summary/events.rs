@@ -13,7 +13,7 @@ const MOST: usize = 100;
 /// What happened to a force element.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Event {
-    /// Time of the first output behind it.
+    /// When, s: of what switches the end of the step in which it does, of all else the first output behind it.
     pub time_s: f64,
     /// Name of the element.
     pub name: String,
@@ -40,6 +40,10 @@ struct Seen {
 
 impl Seen {
     fn note(&mut self, time_s: f64, name: usize, what: &'static str) {
+        // what switches at an output is seen there, and told with the next
+        if self.first.contains(&(time_s, name, what)) {
+            return;
+        }
         if self.first.len() < MOST {
             self.first.push((time_s, name, what));
         } else {
@@ -75,7 +79,9 @@ impl Events {
             name: self.names[*i].clone(),
             what,
         };
-        self.seen.first.iter().map(event).collect()
+        let mut list: Vec<Event> = self.seen.first.iter().map(event).collect();
+        list.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+        list
     }
 }
 
@@ -102,8 +108,14 @@ impl Visitor for See<'_, '_> {
             return;
         }
         let now = E::actions(self.sample.actions);
+        let switched = || self.sample.switched.iter().filter(|one| one.of == E::NAMES[0]);
+        for one in switched() {
+            self.seen.note(one.time_s, self.first + one.element, one.what);
+        }
         for (i, (before, now)) in E::actions(self.before).iter().zip(now).enumerate() {
-            if let Some((what, _)) = E::event(before, now) {
+            if let Some((what, _)) = E::event(before, now)
+                && !switched().any(|one| one.element == i && one.what == what)
+            {
                 self.seen.note(self.sample.time_s, self.first + i, what);
             }
         }

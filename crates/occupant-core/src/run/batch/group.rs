@@ -127,11 +127,23 @@ impl<L: Machine> Group<L> {
             bench.shift();
         }
         for i in (0..L::COUNT).filter(|i| !gone_back[*i]) {
-            if let Some(place) = self.places[i].take() {
+            if let Some(mut place) = self.places[i].take() {
+                if switched.lane(i) > 0.0 {
+                    self.note_switches(i, &mut place);
+                }
                 self.settle(i, place, finite.lane(i) > 0.0, jobs)?;
             }
         }
         ControlFlow::Continue(())
+    }
+
+    /// Notes what has switched at the start of the step under way of the run in place `i`.
+    fn note_switches(&mut self, i: usize, place: &mut Place) {
+        let Some((bench, rear)) = self.bench.as_mut().zip(place.run.rear.as_deref_mut()) else { return };
+        let Some(lanes) = &mut bench.rear else { return };
+        rear.fetch([&mut lanes.latest.memory, &mut bench.around.history.memory], |lanes| lanes.lane(i));
+        let [before, now] = rear.fetched();
+        place.run.switches.note(&place.model.system().forces, place.step.start_s, before, now);
     }
 
     /// Takes back the step before the one just taken, and that one, of each run in which something has switched within the
