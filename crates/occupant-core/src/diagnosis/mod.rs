@@ -14,7 +14,7 @@ pub use crate::forces::rate::Rate;
 use crate::forces::table::Tables;
 pub use friction::{FrictionWatch, UnstableFriction};
 pub use rates::{RK4_STABILITY_LIMIT, SphereRate};
-pub use start::{ContactStart, SeatStart, SphereBehind};
+pub use start::{ContactStart, FrictionFigures, SeatStart, SphereBehind};
 
 use crate::body::Segment;
 use crate::model::Model;
@@ -39,6 +39,8 @@ pub struct Diagnosis {
     pub seat: Option<SeatStart>,
     /// Pairs that exert a force at the start.
     pub contacts: Vec<ContactStart>,
+    /// Materials that rub.
+    pub friction: Vec<FrictionFigures>,
     /// Spheres that start behind a surface and do not feel it until they have come out.
     pub behind: Vec<SphereBehind>,
     /// Corners of two surfaces within reach that a sphere may come round without touching either.
@@ -155,6 +157,7 @@ pub fn diagnose(model: &Model) -> Diagnosis {
         surfaces: setup.surfaces.len() + setup.solids.len(),
         seat: start::seat(model),
         contacts: start.contacts,
+        friction: start::friction(model),
         behind: start::behind(model, &mobility),
         corners: start::corners(model),
         self_contact: start::self_contact(model),

@@ -19,6 +19,9 @@ pub(crate) fn check_text(d: &Diagnosis, units: Units) -> String {
         parts.push(seating(seat, units));
     }
     parts.push(contacts(d, units));
+    if !d.friction.is_empty() {
+        parts.push(friction(d, units));
+    }
     if !d.corners.is_empty() {
         parts.push(corners(d));
     }
@@ -143,10 +146,26 @@ fn contacts(d: &Diagnosis, units: Units) -> String {
     }
     let rows = d.contacts.iter().map(|c| {
         let [depth, force] = [units.number(c.depth_m * 1e3, "mm", 2), units.number(c.normal_force_n, "N", 1)];
-        [c.sphere.clone(), c.surface.clone(), depth, force]
+        let [rubs, fully] = [c.friction_n, c.full_friction_n].map(|n| units.number(n, "N", 1));
+        [c.sphere.clone(), c.surface.clone(), depth, force, rubs, fully]
     });
-    let [depth, force] = ["depth, mm", "force, N"].map(|head| units.heading(head));
-    table(&[(Left, &["touches at the start", "surface"]), (Right, &[&depth, &force])], rows)
+    let heads = ["depth, mm", "force, N", "friction, N", "when it slides, N"].map(|head| units.heading(head));
+    let heads = heads.each_ref().map(String::as_str);
+    table(&[(Left, &["touches at the start", "surface"]), (Right, &heads)], rows)
+}
+
+/// How far friction is from sticking.
+fn friction(d: &Diagnosis, units: Units) -> String {
+    let heads = ["friction", "71 % of it at, m/s", "creeps on 10°, m/s"].map(|head| units.heading(head));
+    let heads = heads.each_ref().map(String::as_str);
+    let rows = d.friction.iter().map(|f| {
+        let speed = |m_s: f64| units.number(m_s, "m/s", 3);
+        let creeps = f.creeps_m_s.map_or("slides".to_owned(), speed);
+        [f.material.clone(), trimmed(f.coefficient, 3), speed(f.speed_m_s), creeps]
+    });
+    let note = "friction grows with slip and never sticks: at rest there is none; a smaller friction_speed of a material comes \
+                nearer, with shorter steps\n";
+    table(&[(Left, &["material that rubs"]), (Right, &heads)], rows) + note
 }
 
 /// Corners that a sphere may come round.

@@ -109,6 +109,7 @@ impl Element for Contacts {
         problems: &mut Problems,
     ) {
         check::crowds(data.faces, problems);
+        check::beneath(law, &data, body, at, problems);
         check::centres(law, &data, body, at, problems);
         check::overlaps(law, body, at, problems);
         check::touching(&Self::start(law, at), problems);
