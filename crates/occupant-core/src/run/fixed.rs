@@ -1,12 +1,13 @@
 //! Whole steps from output to output.
 
 use super::Run;
+use crate::forces::Follow;
 use crate::kernel::{Scratch, Situation};
 use crate::model::Model;
 use crate::motion::frame::Frames;
 use crate::motion::integrate::rk4::Stages;
 use crate::results::outcome::StepError;
-use crate::run::observers::Met;
+use crate::run::observers::{Felt, Met};
 use crate::vehicle::PathCursor;
 
 /// The steps from one output to the next: all of one length but the last, which ends at the output.
@@ -126,22 +127,23 @@ impl Run {
         let system = model.system();
         let [start_s, middle_s, _] = rest.times_s();
         model.move_frames(&mut frames[0], start_s, middle_s, &mut self.cursor);
+        let Felt { numbers, readings } = &mut self.felt;
         self.met.clear();
+        numbers.clear();
+        let mut met = Follow(Met { met: &mut self.met, numbers });
         stages.begin(&self.state, |_, state, rate| {
             let situation = Situation::accepted(state, &frames[0]);
-            let met = &mut Some(&mut Met(&mut self.met));
-            system.rate_alone(scratch, situation, &mut self.history, met, rate);
+            system.rate_alone(scratch, situation, &mut self.history, &mut Some(&mut met), rate);
         });
-        self.seen.peaks.see(system.readings(scratch));
+        system.read(scratch, &frames[0], &mut |of, reading| readings[of] = *reading);
         let step = rest.first_part(|h| self.history.step(h));
         step.move_frames(frames, model, &mut self.cursor);
         let next = *stages.go(&self.state, step.length_s(), |stage, state, rate| {
             let situation = Situation::within(state, &frames[stage as usize]);
-            system.rate_alone(scratch, situation, &mut self.history, &mut None::<&mut Met<'_>>, rate);
+            system.rate_alone(scratch, situation, &mut self.history, &mut None::<&mut Follow<Met<'_>>>, rate);
         });
-        for touching in &self.met {
-            self.seen.note(model, step.start_s, touching.meeting);
-        }
+        let past = &self.history.memory.contacts;
+        self.seen.see(model, step.start_s, &self.met, &self.felt, |pair| past[pair].phase);
         self.effort.evaluations += 4;
         self.accept(model, next, step)?;
         Ok(step)

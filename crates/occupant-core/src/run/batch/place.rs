@@ -1,13 +1,15 @@
 //! A run in its place beside others.
 
-use crate::forces::Observer;
 use crate::forces::contact::Touch;
+use crate::forces::shown::Tracker;
+use crate::kernel::instruments::Reading;
 use crate::model::Model;
 use crate::motion::frame::Frames;
 use crate::motion::lanes::Lanes;
-use crate::motion::vector::v3;
+use crate::motion::vector::{V3, v3};
 use crate::results::outcome::{Outcome, RecordingFailed, Status};
 use crate::results::recorder::{Flow, Recorder};
+use crate::run::corner::Touching;
 use crate::run::observers::Meeting;
 use crate::run::simulate::go_on;
 use crate::run::{Run, Step, Stretch};
@@ -112,18 +114,45 @@ impl Place {
 pub(crate) struct Witness<'a>(pub(super) &'a mut [Option<Box<Place>>]);
 
 impl Witness<'_> {
-    /// Readings of the accelerometers, m/s².
-    pub(super) fn feel<L: Lanes>(&mut self, readings: [L; 3]) {
+    /// Sees one instant alone.
+    pub(super) fn anew(&mut self) -> &mut Self {
+        for place in self.0.iter_mut().flatten() {
+            place.run.met.clear();
+            place.run.felt.numbers.clear();
+        }
+        self
+    }
+
+    /// What the instruments of a body read.
+    pub(super) fn feel<L: Lanes>(&mut self, of: usize, reading: &Reading<L>) {
         for (i, place) in self.0.iter_mut().enumerate() {
             if let Some(place) = place {
-                place.run.seen.peaks.see(readings.map(|reading| reading.lane(i)));
+                place.run.felt.readings[of] = reading.map(|number| number.lane(i));
             }
+        }
+    }
+
+    /// Notes all that was seen; `phase` tells what pairs remember.
+    pub(super) fn note<L: Lanes>(&mut self, phase: impl Fn(usize) -> L) {
+        for (i, place) in self.0.iter_mut().enumerate() {
+            let Some(place) = place else { continue };
+            let Place { model, run: Run { seen, met, felt, .. }, step, .. } = &mut **place;
+            seen.see(model, step.start_s, met, felt, |pair| phase(pair).lane(i));
         }
     }
 }
 
-impl<L: Lanes> Observer<L> for Witness<'_> {
-    fn contacts(&mut self, touch: &Touch<L>) {
+impl<L: Lanes> Tracker<L> for &mut Witness<'_> {
+    fn number(&mut self, number: L) {
+        for (i, place) in self.0.iter_mut().enumerate() {
+            if let Some(place) = place {
+                place.run.felt.numbers.push(number.lane(i));
+            }
+        }
+    }
+
+    fn touch(&mut self, touch: &Touch<L>) {
+        let vector = |v: V3<L>, i: usize| v3(v.x.lane(i), v.y.lane(i), v.z.lane(i));
         for (i, place) in self.0.iter_mut().enumerate() {
             let Some(place) = place else { continue };
             if touch.weight.lane(i) > 0.0 {
@@ -133,10 +162,11 @@ impl<L: Lanes> Observer<L> for Witness<'_> {
                     part: touch.part.lane(i) as usize,
                     closing_m_s: touch.closing.lane(i),
                     normal_force_n: touch.normal_force.lane(i),
-                    velocity_m_s: v3(touch.velocity.x.lane(i), touch.velocity.y.lane(i), touch.velocity.z.lane(i)),
+                    velocity_m_s: vector(touch.velocity, i),
+                    depth_m: touch.depth.lane(i),
+                    force_n: vector(touch.force, i),
                 };
-                let time_s = place.step.start_s;
-                place.run.seen.note(&place.model, time_s, meeting);
+                place.run.met.push(Touching { meeting });
             }
         }
     }
