@@ -268,6 +268,8 @@ impl<'a, S: Scalar> Instant<'a, S> {
     }
 }
 
+/// Legs of all bodies.
+pub(crate) const MOST_LEGS: usize = 2 * MOST_BODIES;
 /// Most frames that give way.
 pub(crate) const MOST_GIVING: usize = 2;
 
@@ -286,6 +288,11 @@ pub struct Load<S> {
     bodies: usize,
     /// Rates of the numbers of the state that force elements own, which each writes anew, 1/s.
     pub own: [S; MOST_OWN],
+    /// By segment: the moment of all but joints, N·m.
+    pub(crate) outer: [V3<S>; MOST_SEGMENTS],
+    /// By leg: what acts on the spheres at its knee, space axes, N.
+    pub(crate) knees: [V3<S>; MOST_LEGS],
+    segments: usize,
 }
 
 impl<S: Scalar> Load<S> {
@@ -299,7 +306,9 @@ impl<S: Scalar> Load<S> {
         let (wrench, power) = ([Wrench::zero(); MOST_SEGMENTS], [Work::zero(); MOST_BODIES]);
         let (bodies, own) = (layout.trunks().len(), [S::zero(); MOST_OWN]);
         let onto = [[V3::zero(); MOST_GIVING]; MOST_BODIES];
-        let mut load = Load { wrench, power, onto, giving: [0; MOST_FRAMES], body_of, bodies, own };
+        let (outer, knees) = ([V3::zero(); MOST_SEGMENTS], [V3::zero(); MOST_LEGS]);
+        let (none, segments) = ([0; MOST_FRAMES], layout.len());
+        let mut load = Load { wrench, power, onto, giving: none, body_of, bodies, own, outer, knees, segments };
         for (frame, behind) in giving.into_iter().zip(1..=MOST_GIVING as u8) {
             load.giving[frame % MOST_FRAMES] = behind;
         }
@@ -312,6 +321,23 @@ impl<S: Scalar> Load<S> {
         self.wrench[..segments].fill(Wrench::zero());
         self.power[..self.bodies].fill(Work::zero());
         self.onto[..self.bodies].fill([V3::zero(); MOST_GIVING]);
+        self.knees[..2 * self.bodies].fill(V3::zero());
+        self.segments = segments;
+    }
+
+    /// Keeps the moments so far: those that come are of joints.
+    #[inline(always)]
+    pub(crate) fn end_of_outer(&mut self) {
+        let both = self.outer.iter_mut().zip(&self.wrench).take(self.segments);
+        both.for_each(|(outer, wrench)| *outer = wrench.moment);
+    }
+
+    /// Notes a force on a sphere, in space axes, N, where it is `live` and the sphere at a knee.
+    #[inline(always)]
+    pub(crate) fn press_knee(&mut self, site: &Site<S>, force: V3<S>, live: S::Mask) {
+        let Some(knee) = site.knee else { return };
+        let on = &mut self.knees[knee % MOST_LEGS];
+        *on = V3::select(live, *on + force, *on);
     }
 
     /// How many bodies there are.

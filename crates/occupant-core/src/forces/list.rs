@@ -11,7 +11,7 @@ use super::joint::limit::JointLimits;
 use super::joint::muscle::Muscles;
 use super::pace::Pace;
 use super::rate::Rate;
-use super::shown::Reported;
+use super::shown::{Reported, Tracker};
 use super::stored::Archive;
 use crate::body::Body;
 use crate::forces::sphere::Site;
@@ -89,6 +89,19 @@ macro_rules! kinds {
             )+
         }
 
+        /// Follows everything, in the order of the kinds.
+        #[derive(Debug)]
+        pub(crate) struct Follow<T>(pub T);
+
+        impl<S: Scalar, T: Tracker<S>> Observer<S> for Follow<T> {
+            $(
+                #[inline(always)]
+                fn $kind(&mut self, action: &<$Kind as Element>::Action<S>) {
+                    $Kind::track(action, &mut self.0);
+                }
+            )+
+        }
+
         /// Sees what another sees, or nothing: one kernel for what is observed now and then.
         impl<S, O: Observer<S>> Observer<S> for Option<&mut O> {
             $(
@@ -147,6 +160,11 @@ macro_rules! kinds {
         }
 
         impl Actions<f64> {
+            /// Shows all to who follows it, in the order of the kinds.
+            pub(crate) fn follow(&self, tracker: &mut impl Tracker<f64>) {
+                $(self.$kind.iter().for_each(|action| $Kind::track(action, tracker));)+
+            }
+
             /// Stored energies in the order of [`STORED`], J.
             pub(crate) fn stored_j(&self) -> [f64; STORES] {
                 let mut list = [0.0; STORES];

@@ -212,6 +212,7 @@ fn bear<S: Scalar>(law: &BagLaw<S>, at: &Instant<'_, S>, now: &Now<S>, load: &mu
         power.sums[WORK] += taken;
         power.vehicle += normal.dot(carried) + friction.dot(place);
         load.push(law.envelope.frame, site.segment, normal + friction, S::truth(true));
+        load.press_knee(site, normal + friction, S::truth(true));
         pushes.forces[i] = normal + friction;
     }
     pushes

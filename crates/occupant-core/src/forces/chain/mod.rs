@@ -265,6 +265,9 @@ fn bear<S: Scalar>(chain: &ChainLaw<S>, at: &Instant<'_, S>, now: &Now<'_, S>, l
         if let Some(couple) = couple {
             wrench.moment += couple;
         }
+        if let Some(site) = node.sphere(at.spheres) {
+            load.press_knee(site, force, S::truth(true));
+        }
         let power = load.power_at(segment);
         power.sums[STRETCH] -= force.dot(velocity - carried);
         power.vehicle += force.dot(carried);

@@ -220,6 +220,12 @@ impl<S: Scalar> NodeLaw<S> {
         }
     }
 
+    /// The sphere that it is on.
+    #[inline(always)]
+    pub(super) fn sphere<'s>(&self, spheres: &'s [Sphere<S>]) -> Option<&'s Sphere<S>> {
+        if let SiteLaw::Sphere(sphere) = self.site { Some(&spheres[sphere]) } else { None }
+    }
+
     pub(super) fn is_sphere(&self) -> bool {
         matches!(self.site, SiteLaw::Sphere(_))
     }

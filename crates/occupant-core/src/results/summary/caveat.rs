@@ -175,36 +175,29 @@ impl Caveat {
         Caveat::new(format!("{}_cut", row.name), text, figures_of(body, limb))
     }
 
-    /// Outputs between which too much happens: measures that change by a part of their value when every other one is left out,
-    /// peaks that the steps between them pass by a part of their value, and peaks of what nobody has looked at so; none if all are
-    /// close enough.
-    pub(super) fn too_coarse(interval_s: f64, off: &[(&Measure, f64)], passed: &[(String, f64)]) -> Option<Self> {
+    /// Readings between which too much happens: measures that change by a part of their value when every other one is left out;
+    /// none if all are close enough. `are_of_steps`: as of every run but those of whose steps nothing is known, which has peaks at
+    /// its outputs alone.
+    pub(super) fn too_coarse(interval_s: f64, off: &[(&Measure, f64)], are_of_steps: bool) -> Option<Self> {
         let worst = off.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+        let readings = if are_of_steps { "reading" } else { "output" };
         let of_measures = worst.map(|(worst, most)| {
             let (count, label, percent) = (off.len(), worst.label, 100.0 * most);
             let measures = if count == 1 { "measure" } else { "measures" };
-            format!("{count} {measures}: without every other output {label} changes by {percent:.0} %")
+            format!("{count} {measures}: without every other {readings} {label} changes by {percent:.0} %")
         });
-        let is_apart = interval_s > APART_S;
+        let is_apart = interval_s > APART_S && !are_of_steps;
         let of_peaks = is_apart.then(|| "peaks of forces, depths and places, which ask for 2 ms at most".to_owned());
-        let highest = passed.iter().max_by(|a, b| a.1.total_cmp(&b.1));
-        let of_steps = highest.map(|(name, part)| {
-            let peaks = if passed.len() == 1 { "peak" } else { "peaks" };
-            let by =
-                if part.is_finite() { format!("passed by {:.0} %", 100.0 * part) } else { "reached unseen".to_owned() };
-            format!("{} {peaks}: between two outputs {name} is {by}", passed.len())
-        });
-        let spoiled: Vec<String> = of_peaks.into_iter().chain(of_steps).chain(of_measures).collect();
+        let spoiled: Vec<String> = of_peaks.into_iter().chain(of_measures).collect();
+        let mends = if are_of_steps { "a shorter step" } else { "a shorter output.interval" };
         let text = format!(
-            "outputs every {} ms are too coarse for {}; a shorter output.interval mends it, or `measures --interval`",
+            "{readings}s every {} ms are too coarse for {}; {mends} mends it, or `measures --interval`",
             (1e9 * interval_s).round() / 1e6,
             spoiled.join(", and for ")
         );
         let mut figures = names_of(off.iter().map(|(m, _)| *m));
-        let new = passed.iter().filter(|(name, _)| !figures.contains(name)).map(|(name, _)| name.clone());
-        figures.extend(new.collect::<Vec<_>>());
         figures.extend(PEAKS.iter().filter(|_| is_apart).map(|name| (*name).to_owned()));
-        (!spoiled.is_empty()).then(|| Caveat::new("outputs_too_coarse", text, figures))
+        (!spoiled.is_empty()).then(|| Caveat::new(format!("{readings}s_too_coarse"), text, figures))
     }
 
     /// A body that the dummy of limits and risks is not.
