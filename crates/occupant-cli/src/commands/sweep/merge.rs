@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use occupant_core::run::batch::Kernel;
 
-use crate::base::{Done, Failure, UnitsArg};
+use crate::base::{Done, Failure, UnitsArg, quoted};
 use crate::commands::flags::sweep::{engine, keep};
 use crate::files::study_folder::checksums::Checksums;
 use crate::files::study_folder::folder::Folder;
@@ -68,6 +68,6 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     let (wanted, engine) = (found.worst.iter().copied().chain(runs), engine(args.threads, Kernel::best())?);
     kept::write_missing(&plan, (&target, &sums), &journal, wanted, &engine, &AtomicBool::new(false))?;
     sums.close()?;
-    let next = format!("occupant study report {}", target.path.display());
+    let next = format!("occupant study report {}", quoted(target.path.display()));
     if args.quiet { Ok(Done::Well) } else { tell(&found, None, &next, args.units.or(Some(plan.study.base.units()))) }
 }

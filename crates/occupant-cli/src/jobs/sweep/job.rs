@@ -10,7 +10,7 @@ use super::simulation::is_kept;
 use super::stored::sha256_of;
 use super::words::{tell, tell_damaged, warn_unlocked};
 use super::{Plan, Simulation, kept, results};
-use crate::base::{Done, Failure, Interrupt, Units, say};
+use crate::base::{Done, Failure, Interrupt, Units, quoted, say};
 use crate::files::study_folder::{Checksums, Finished, Folder, Journal, JournalWriter, Problem, Shard};
 
 /// A sweep, or one part of it.
@@ -136,6 +136,6 @@ impl Sweep {
             progress.elapsed_s(),
             self.engine.threads()
         );
-        tell(&results, Some(work), &format!("occupant study report {}", self.folder.path.display()), self.units)
+        tell(&results, Some(work), &format!("occupant study report {}", quoted(self.folder.path.display())), self.units)
     }
 }

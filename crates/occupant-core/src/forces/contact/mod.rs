@@ -9,7 +9,7 @@ pub mod flat_face;
 mod hints;
 mod law;
 pub mod material;
-mod near;
+pub(crate) mod near;
 mod results;
 pub mod self_contact;
 pub mod solid;
@@ -336,6 +336,12 @@ impl ContactSystem<f64> {
     pub(crate) fn thickness_m(&self, touch: &Touch<f64>, past: &[PairHistory<f64>]) -> f64 {
         let of = |member: &Member| self.solids.shapes[member.solid].thickness_m(past[member.past].phase);
         self.member(touch).map_or(f64::INFINITY, of)
+    }
+
+    /// Coefficient of friction of a touch of what is no body.
+    pub(crate) fn friction(&self, touch: &Touch<f64>) -> f64 {
+        let faces = self.pairs.get(touch.pair).map(|pair| &pair.parts[touch.part as usize].law);
+        faces.unwrap_or_else(|| &self.solids.pairs[touch.pair - self.pairs.len()].law).friction
     }
 
     /// Normal force law of a part of a pair.

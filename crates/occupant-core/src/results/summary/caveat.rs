@@ -4,7 +4,7 @@ use crash_measures::injury::Measure;
 use crash_measures::measure::Dummy;
 use serde::Serialize;
 
-use super::{Peak, RunStatus, word};
+use super::{Exit, Peak, RunStatus, Throw, word};
 use crate::body::{Body, Joint, Limb, Segment};
 use crate::results::energy::{Balance, EnergyCheck};
 
@@ -55,6 +55,16 @@ impl Caveat {
         };
         let text = format!("the run {ended}: all figures are those up to {:.1} ms", 1e3 * reached_s);
         Some(Caveat::new(name, text, owned(&["*"])))
+    }
+
+    /// A body that is still on its way when the run ends.
+    pub(super) fn not_at_rest(body: &str, throw: &Throw) -> Option<Self> {
+        let figures = ["distance", "slide_distance", "from_launch", "height"].map(|name| format!("throw.{name}"));
+        let text = format!(
+            "thrown, and still at {:.1} m/s when the run ends: its distances are those so far",
+            throw.end_speed_m_s
+        );
+        (!throw.at_rest).then(|| Caveat::new("not_at_rest", text, figures.to_vec()).of_occupant(body))
     }
 
     /// A run that did not keep its energy; none for one that did.
@@ -151,6 +161,35 @@ impl Caveat {
             format!("pressed the bag {bag} in as far as its mount or its middle {at}")
         };
         Caveat::of_sphere(body, sphere, sign, seen)
+    }
+
+    /// A sphere that touched what stands behind a bag, while that was between.
+    pub(super) fn touched_through(body: &Body, sphere: usize, bag: &str, what: &str, time_s: f64) -> Self {
+        let seen = format!("touched {what} through the bag {bag} at {:.1} ms", 1e3 * time_s);
+        Caveat::of_sphere(body, sphere, "through_bag", seen)
+    }
+
+    /// A sphere that left the compartment where nothing is modelled that would have stopped it.
+    pub(super) fn left_compartment(body: &Body, sphere: usize, exit: &Exit) -> Self {
+        let past = exit.past.as_ref().map_or(String::new(), |past| format!(", past {past}"));
+        let seen = format!(
+            "left the modelled compartment {} at {:.1} ms{past}: nothing stands there that would have met it",
+            exit.side.words(),
+            1e3 * exit.time_s
+        );
+        Caveat::of_sphere(body, sphere, "left_compartment", seen)
+    }
+
+    /// Measures whose greatest value stands in a window that ends with the run; none if there are none.
+    pub(super) fn cut_off(reached_s: f64, cut: &[&Measure]) -> Option<Self> {
+        let worst = cut.first()?;
+        let (label, of) = (worst.label, cut.len());
+        let others = if of == 1 { String::new() } else { format!(" and {} more", of - 1) };
+        let text = format!(
+            "{label}{others}: the greatest value stands in a window that ends with the run, at {:.1} ms; a longer run may find a greater one",
+            1e3 * reached_s
+        );
+        Some(Caveat::new("window_at_end", text, names_of(cut.iter().copied())))
     }
 
     /// A sphere whose centre went through the axis of a bar or a rim, and was pushed on.
