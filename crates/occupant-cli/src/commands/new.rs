@@ -56,7 +56,7 @@ pub(crate) fn new(args: &Args) -> Result<(), Failure> {
     }
     publish(&file, args.force, args.template.text().as_bytes())?;
     if !args.quiet {
-        say(&format!("wrote {name}\nnext: {}", args.template.next(&quoted(name))));
+        say(&format!("wrote {name}\nnext: {}", args.template.next(&quoted(&name))));
     }
     Ok(())
 }
