@@ -13,7 +13,7 @@ use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::problem::Problem;
 use crate::jobs::sweep::results::refuse_gaps;
 use crate::jobs::sweep::stored::{MadeBy, Stored, open};
-use crate::jobs::sweep::words::{tell, tell_damaged};
+use crate::jobs::sweep::words::{judged, tell, tell_damaged};
 use crate::jobs::sweep::{kept, results};
 
 /// Make one table of a sweep's shards
@@ -69,5 +69,5 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     kept::write_missing(&plan, (&target, &sums), &journal, wanted, &engine, &AtomicBool::new(false))?;
     sums.close()?;
     let next = format!("occupant study report {}", quoted(target.path.display()));
-    if args.quiet { Ok(Done::Well) } else { tell(&found, None, &next, args.units.or(Some(plan.study.base.units()))) }
+    if args.quiet { Ok(judged(&found.census)) } else { tell(&found, None, &next, args.units.or(Some(plan.study.base.units()))) }
 }

@@ -20,7 +20,8 @@ pub(super) fn ejections(summary: &Summary) -> Option<String> {
         let of = if name.is_empty() { "occupant".to_owned() } else { shown(name).to_string() };
         let degree = match (ejection.degree, ejection.complete_s) {
             (Degree::Complete, Some(time_s)) => format!("complete: all of the {of} outside at {} ms", ms(time_s)),
-            _ => format!("partial: not all of the {of} was outside at one time"),
+            _ if ejection.inside.is_empty() => format!("partial: never was all of the {of} outside at one time"),
+            _ => format!("partial: {} never outside", ejection.inside.join(", ")),
         };
         let rows = ejection.parts.iter().map(|exit| {
             let past = exit.past.as_deref().map_or(NONE.to_owned(), |past| shown(past).to_string());
@@ -71,23 +72,23 @@ impl Words<'_> {
 
     fn launch(&self, launch: &Launch) -> String {
         format!(
-            "{} ms after {}, at {}, {:.1}° above the horizontal",
+            "{} ms, {} on, {}, {}",
             ms(launch.time_s),
             self.metres("launch_distance", launch.distance_m),
             self.speed("launch_speed", launch.speed_m_s),
-            launch.angle_deg
+            slope(launch.angle_deg)
         )
     }
 
     fn landing(&self, landing: &Landing) -> String {
         format!(
-            "{} ms after {} ({} first, at {}), at {}, {:.1}° below the horizontal",
+            "{} ms, {} on ({} first, {} on), {}, {}",
             ms(landing.time_s),
             self.metres("landing_distance", landing.distance_m),
             shown(&landing.sphere),
             self.metres("landing_touch_distance", landing.touch_distance_m),
             self.speed("landing_speed", landing.speed_m_s),
-            landing.angle_deg
+            slope(-landing.angle_deg)
         )
     }
 
@@ -108,17 +109,23 @@ impl Words<'_> {
     }
 
     fn searle(&self, searle: &Searle, throw: &Throw) -> String {
-        let Searle { friction, fall_m, speeds_m_s: [slow, fast], distances_m: [near, far] } = *searle;
-        let launch_m_s = throw.launch.as_ref().map_or(f64::NAN, |launch| launch.speed_m_s);
+        let Searle { friction, fall_m, speeds_m_s: [slow, fast], distances_m: [near, far], drag_factor } = *searle;
+        let gone_m = throw.from_launch_m.unwrap_or(f64::NAN);
+        let drag = drag_factor.map_or(String::new(), |factor| format!(": a drag factor of {}", number(factor, 2)));
         format!(
-            "{} to {} by the throw distance, with friction {} and a fall of {}; a launch at {} goes {} to {}",
+            "{} to {} by the throw distance, with friction {} and a fall of {}; from a launch at its speed {} to {}, gone {}{drag}",
             self.speed("searle_least_speed", slow),
             self.speed("searle_greatest_speed", fast),
             number(friction, 2),
             self.units.say(fall_m, "m", 2),
-            self.units.say(launch_m_s, "m/s", 2),
             self.units.say(near, "m", 2),
-            self.units.say(far, "m", 2)
+            self.units.say(far, "m", 2),
+            self.units.say(gone_m, "m", 2)
         )
     }
+}
+
+/// The angle of a velocity to the horizontal.
+fn slope(above_deg: f64) -> String {
+    format!("{:.1}° {} the horizontal", above_deg.abs(), if above_deg < 0.0 { "below" } else { "above" })
 }

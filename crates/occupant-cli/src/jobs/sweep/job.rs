@@ -8,7 +8,7 @@ use occupant_study::engine::Engine;
 use super::progress::Progress;
 use super::simulation::is_kept;
 use super::stored::sha256_of;
-use super::words::{tell, tell_damaged, warn_unlocked};
+use super::words::{judged, tell, tell_damaged, warn_unlocked};
 use super::{Plan, Simulation, kept, results};
 use crate::base::{Done, Failure, Interrupt, Units, quoted, say};
 use crate::files::study_folder::{Checksums, Finished, Folder, Journal, JournalWriter, Problem, Shard};
@@ -128,7 +128,7 @@ impl Sweep {
         self.write_kept(journal, &sums, results.worst.iter().copied())?;
         sums.close()?;
         if self.quiet {
-            return Ok(Done::Well);
+            return Ok(judged(&results.census));
         }
         let work = format!(
             "{} samples in {:.1} s, {} threads",

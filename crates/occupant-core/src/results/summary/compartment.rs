@@ -23,6 +23,8 @@ pub struct Ejection {
     pub complete_s: Option<f64>,
     /// The parts that left it, in the order in which they did.
     pub parts: Vec<Exit>,
+    /// The parts that never did.
+    pub inside: Vec<String>,
 }
 
 /// How much of a body was ejected.
@@ -113,7 +115,8 @@ impl Compartment {
             let held = setup.members.get(*of).is_some_and(|member| member.alone.is_on_rig());
             is_occupant && !held && !setup.is_ground(*home)
         });
-        inside.map(|((of, row), home)| Compartment::new(model, of, row, home)).collect()
+        let all = inside.map(|((of, row), home)| Compartment::new(model, of, row, home));
+        all.filter(|compartment| !compartment.walls.is_empty()).collect()
     }
 
     fn new(model: &Model, of: usize, row: BodyRow, home: Frame) -> Self {
@@ -183,7 +186,14 @@ impl Compartment {
         }
         parts.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
         let degree = if self.complete_s.is_some() { Degree::Complete } else { Degree::Partial };
-        Some(Ejection { degree, complete_s: self.complete_s, parts })
+        let mut inside: Vec<String> = Vec::new();
+        for (i, _) in &self.spheres {
+            let part = &spheres[*i].part;
+            if !inside.contains(part) && parts.iter().all(|exit| exit.part != *part) {
+                inside.push(part.clone());
+            }
+        }
+        Some(Ejection { degree, complete_s: self.complete_s, parts, inside })
     }
 }
 

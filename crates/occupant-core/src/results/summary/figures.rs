@@ -155,6 +155,7 @@ impl List {
             ("from_launch", Metre, throw.and_then(|t| t.from_launch_m)),
             ("searle_least_speed", MetrePerSecond, searle.map(|s| s.speeds_m_s[0])),
             ("searle_greatest_speed", MetrePerSecond, searle.map(|s| s.speeds_m_s[1])),
+            ("drag_factor", One, searle.and_then(|s| s.drag_factor)),
         ];
         for (name, unit, value) in figures {
             self.add(format!("{prefix}throw.{name}"), unit, value);

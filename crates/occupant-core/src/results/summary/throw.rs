@@ -8,7 +8,7 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use super::searle::Searle;
+use super::searle::{Searle, Way};
 
 /// A body slower than this at the end of a run is at rest, m/s.
 const AT_REST_M_S: f64 = 0.1;
@@ -61,7 +61,7 @@ pub enum ThrowStart {
 /// How a body leaves what struck or carried it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Launch {
-    /// When: the last output before it touched nothing of it.
+    /// When: the first output at which it touches nothing of it.
     pub time_s: f64,
     /// Speed of the centre of gravity of the whole body.
     pub speed_m_s: f64,
@@ -177,7 +177,15 @@ impl Course {
             end_speed_m_s: end.speed_m_s(),
             at_rest,
             searle: searle.map(|(at, friction)| {
-                Searle::new(friction, self.gravity_m_s2, fall_m(at), end.from_m(start), at.speed_m_s())
+                Searle::new(&Way {
+                    friction,
+                    gravity_m_s2: self.gravity_m_s2,
+                    fall_m: fall_m(at),
+                    distance_m: end.from_m(start),
+                    from_launch_m: end.from_m(at),
+                    speed_m_s: at.speed_m_s(),
+                    angle_rad: at.rise_deg().to_radians(),
+                })
             }),
             airborne_s: self.airborne_s,
         }
