@@ -39,4 +39,5 @@ mod spring;
 mod studies;
 mod symmetry;
 mod thin;
+mod throws;
 mod validation;

@@ -50,6 +50,7 @@
 pub mod analysis;
 mod bind;
 mod copula;
+mod corners;
 mod design;
 mod direction_numbers;
 pub mod ending;
@@ -76,6 +77,7 @@ pub mod spread;
 mod text;
 
 pub use bind::MOST_RUNS;
+pub use corners::Corner;
 pub use design::{Design, Role};
 pub use ensemble::{Change, Ensemble, Perturbation, Tolerances};
 pub use fit::Fit;

@@ -6,7 +6,7 @@ use occupant_scenario::kind::{KINDS, LENGTH, SPEED};
 
 use super::flags::history::WindowArgs;
 use super::new::with_path;
-use crate::base::{Failure, file_name, file_stem, note, publish, refuse_input, say};
+use crate::base::{Failure, file_name, file_stem, note, publish, quoted, refuse_input, say};
 use crate::files::measured::{self, Imported};
 use crate::jobs::import::{Made, PathTable, Request, import as made};
 
@@ -104,13 +104,18 @@ fn write(args: &Args, name: &Path, imported: &Imported, made: &Made) -> Result<(
     }
     let next = match (&made.path, &made.curves) {
         (Some(_), Some(_)) => vec![
-            format!("occupant run {}", name.display()),
-            format!("occupant compare {} {}", name.with_extension("mcap").display(), curves_file.display()),
+            format!("occupant run {}", quoted(name.display())),
+            format!(
+                "occupant compare {} {}",
+                quoted(name.with_extension("mcap").display()),
+                quoted(curves_file.display())
+            ),
         ],
         (Some(_), None) => {
-            vec![format!("occupant check {}", name.display()), format!("occupant run {}", name.display())]
+            let name = quoted(name.display());
+            vec![format!("occupant check {name}"), format!("occupant run {name}")]
         }
-        (None, _) => vec![format!("occupant compare RUN.mcap {}", curves_file.display())],
+        (None, _) => vec![format!("occupant compare RUN.mcap {}", quoted(curves_file.display()))],
     };
     say(&format!("next: {}", next.join("\n      ")));
     Ok(())

@@ -9,7 +9,7 @@ use placed_text::Severity;
 
 use super::mcap::StoredRun;
 use super::mcap::about::RESOLVED;
-use crate::base::{Failure, by_ending, ending, file_name, input_file, say};
+use crate::base::{Failure, by_ending, ending, file_name, input_file, quoted, say};
 
 /// Which scenario, and what is changed in it.
 #[derive(Clone, Debug, Args)]
@@ -64,13 +64,13 @@ pub(crate) fn draft(args: &ScenarioArgs) -> Result<(Vec<u8>, Draft), Failure> {
         let found = format!("{name} is what a run has written, not a scenario");
         return Err(Failure::with_help(
             found,
-            &format!("occupant measures {name} and occupant report {name} tell of it"),
+            &format!("occupant measures {0} and occupant report {0} tell of it", quoted(&name)),
         ));
     }
     let mut draft = Draft::read_bytes(&bytes, format_of(path), &name).map_err(refuse)?;
     // a key of studies that no scenario has
     if draft.get("base").is_ok() {
-        let help = format!("occupant sweep {name} runs it; `base` names the scenario that it varies");
+        let help = format!("occupant sweep {} runs it; `base` names the scenario that it varies", quoted(&name));
         return Err(Failure::with_help(format!("{name} is a study, not a scenario"), &help));
     }
     for assignment in &args.overrides {

@@ -209,6 +209,9 @@ impl Member {
     }
 }
 
+/// What the frame is called that stands still.
+pub const GROUND: &str = "ground";
+
 /// What the body is called of which a loose one consists.
 pub const LOOSE: &str = "body";
 
@@ -285,6 +288,15 @@ impl Setup {
         // no frame carries itself
         let all = std::iter::successors(Some(frame), |frame| parent(*frame)).take(MOST_FRAMES);
         all.last().unwrap_or(frame)
+    }
+
+    /// Whether a frame is space or the ground.
+    pub(crate) fn is_ground(&self, frame: Frame) -> bool {
+        match frame {
+            Frame::Space => true,
+            Frame::Other(i) => self.frames.get(i).is_some_and(|frame| frame.name == GROUND),
+            Frame::Vehicle | Frame::Segment(_) => false,
+        }
     }
 
     /// Whether there is more than one body in one vehicle: whether any may be struck.

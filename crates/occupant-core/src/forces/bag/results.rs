@@ -53,7 +53,7 @@ pub struct BagAction<S> {
     /// On what it is mounted, vehicle axes, N.
     pub(super) force: V3<S>,
     /// On its spheres, in their order, vehicle axes, N.
-    pub(super) pushes: [V3<S>; MOST_SPHERES],
+    pub(crate) pushes: [V3<S>; MOST_SPHERES],
 }
 
 impl<S: Scalar> BagAction<S> {

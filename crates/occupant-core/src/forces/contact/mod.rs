@@ -9,7 +9,7 @@ pub mod flat_face;
 mod hints;
 mod law;
 pub mod material;
-mod near;
+pub(crate) mod near;
 mod results;
 pub mod self_contact;
 pub mod solid;
@@ -351,6 +351,12 @@ impl ContactSystem<f64> {
     /// The sphere that meets the one that this part of a pair is of; none of a pair that is not of two spheres.
     pub(crate) fn other_sphere(&self, pair: usize, part: usize) -> Option<usize> {
         self.own.get(pair).map(|own| own.spheres[1 - part])
+    }
+
+    /// Coefficient of friction of a touch of what is no body.
+    pub(crate) fn friction(&self, touch: &Touch<f64>) -> f64 {
+        let faces = self.pairs.get(touch.pair).map(|pair| &pair.parts[touch.part as usize].law);
+        faces.unwrap_or_else(|| &self.solids.pairs[touch.pair - self.pairs.len()].law).friction
     }
 
     /// Normal force law of a part of a pair.

@@ -1,12 +1,15 @@
 //! The recorder that makes a [`Summary`].
 
+use indexmap::IndexMap;
+
+use super::compartment::Compartment;
 use super::elements::Elements;
 use super::events::Events;
+use super::flight::Flight;
 use super::person::Watched;
 use super::signs::Signs;
-use super::throw::Flight;
-use super::{Caveat, ContactBegin, FirstContact, Person, RunStatus, Solver, SpherePeak, Summary};
-use crate::body::Body;
+use super::{Caveat, ContactBegin, Ejection, FirstContact, Person, RunStatus, Solver, SpherePeak, Summary, word};
+use crate::body::{Body, ContactSphere};
 use crate::forces::bag::Bag;
 use crate::forces::chain::Chain;
 use crate::kernel::instruments::{READINGS, Reading};
@@ -17,7 +20,7 @@ use crate::results::outcome::{Outcome, Status};
 use crate::results::peaks::{PartPeak, Peaks};
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
-use crash_measures::injury::{self, Options, Signals};
+use crash_measures::injury::{self, Measure, Options, Signals};
 
 /// Measures that change by more of their value without every other reading are not quoted to a per cent. The change is about the
 /// error: see `measures.md`.
@@ -32,6 +35,7 @@ pub struct Summarizer {
     /// By body that has a head, a chest or a pelvis; at least one.
     pub(super) people: Vec<Watched>,
     flights: Vec<Flight>,
+    compartments: Vec<Compartment>,
     elements: Elements,
     events: Events,
     /// Greatest values at all accepted steps, of a run whose steps nobody has looked at those at its outputs; and those at the latest
@@ -58,6 +62,8 @@ struct Case {
     meets_itself: bool,
     chains: Vec<Chain>,
     bags: Vec<Bag>,
+    /// Whether there is anything that stands still outside of vehicles.
+    has_ground: bool,
     /// Whether parts of the body may be left out, as on a rig.
     is_on_rig: bool,
     /// [`Joints::is_half_a_neck`](crate::forces::joint::Joints::is_half_a_neck).
@@ -84,10 +90,14 @@ impl Summarizer {
         let mut peaks = self.seen.clone();
         peaks.merge(&self.now);
         let people = self.persons(&peaks);
-        let caveats = self.caveats(case, &people);
+        let caveats = self.caveats(case, &people, outcome.time_s);
         let mut people = people.into_iter().map(|(name, person, _)| (name, person));
         let (occupant, Person { accelerations, head_excursion, measures }) = people.next()?;
         let contacts = contacts(outcome, case);
+        let throws: IndexMap<_, _> =
+            self.flights.iter().filter_map(|flight| Some((flight.name, flight.throw()?))).collect();
+        let on_the_way = throws.iter().filter_map(|(name, throw)| Caveat::not_at_rest(name, throw));
+        let ejections = self.ejections(case);
         let (status, reason) = ending(&outcome.status);
         let summary = Summary {
             title: case.title.clone(),
@@ -107,8 +117,15 @@ impl Summarizer {
             head_excursion,
             measures,
             others: people.collect(),
-            throws: self.flights.iter().filter_map(|flight| Some((flight.name, flight.throw()?))).collect(),
-            caveats: Caveat::of_balance(&outcome.energy).into_iter().chain(caveats).collect(),
+            caveats: Caveat::of_balance(&outcome.energy)
+                .into_iter()
+                .chain(Caveat::of_rough_balance(&outcome.energy))
+                .chain(caveats)
+                .chain(Self::unmet(case, &ejections))
+                .chain(on_the_way)
+                .collect(),
+            throws,
+            ejections,
             energy: outcome.energy,
             solver: Solver {
                 integrator: case.integrator,
@@ -136,15 +153,36 @@ impl Summarizer {
         self.people.iter().enumerate().map(one).collect()
     }
 
+    /// By body, what left the compartment that it started in.
+    fn ejections(&self, case: &Case) -> IndexMap<&'static str, Ejection> {
+        let all = self.compartments.iter();
+        all.filter_map(|of| Some((of.name, of.ejection(&case.body.spheres, &case.surfaces)?))).collect()
+    }
+
+    /// Parts that left a compartment where there is nothing outside.
+    fn unmet(case: &Case, ejections: &IndexMap<&'static str, Ejection>) -> Vec<Caveat> {
+        let all = ejections.values().filter(|_| !case.has_ground).flat_map(|ejection| &ejection.parts);
+        let tree = &case.body.tree;
+        let is_measured = |sphere: &ContactSphere| {
+            let marks = &tree.bodies()[tree.body_of(sphere.segment)].landmarks;
+            marks.instruments().contains(&Some(sphere.segment))
+        };
+        let spheres = || case.body.spheres.iter();
+        let sphere = |part: &str| spheres().position(|sphere| sphere.part == part && is_measured(sphere));
+        all.filter_map(|exit| Some(Caveat::left_compartment(&case.body, sphere(&exit.part)?, exit))).collect()
+    }
+
     /// What the outputs show of the bodies, then what is to know of necks and of measures alone.
-    fn caveats(&self, case: &Case, people: &[(&'static str, Person, Signals)]) -> Vec<Caveat> {
+    fn caveats(&self, case: &Case, people: &[(&'static str, Person, Signals)], reached_s: f64) -> Vec<Caveat> {
         let mut caveats = self.signs.caveats(&case.body, &case.surfaces, &case.chains, &case.bags);
         caveats.extend(case.is_half_a_neck.then(Caveat::half_a_neck));
         for (one, (name, person, signals)) in self.people.iter().zip(people) {
             let measures = &person.measures;
             let off = injury::coarseness(signals, &self.options, measures);
             let off: Vec<_> = measures.iter().zip(off).filter(|(_, off)| *off > COARSE).collect();
+            let cut: Vec<_> = measures.iter().filter(|m| is_cut_off(m, reached_s - signals.interval_s)).collect();
             let own = [
+                Caveat::cut_off(reached_s, &cut),
                 Caveat::too_coarse(signals.interval_s, &off, self.are_of_steps),
                 if case.is_on_rig { None } else { Caveat::other_dummy(self.options.dummy, one.mass_kg, measures) },
             ];
@@ -197,6 +235,7 @@ impl Recorder for Summarizer {
             meets_itself: setup.self_contact.is_some(),
             chains: setup.chains.clone(),
             bags: setup.bags.clone(),
+            has_ground: has_ground(setup),
             is_on_rig: setup.is_on_rig(),
             is_half_a_neck: setup.joints.is_half_a_neck(),
             integrator: setup.integrator.name(),
@@ -208,6 +247,7 @@ impl Recorder for Summarizer {
         *self = Summarizer {
             people: Watched::all(model, &fine),
             flights: Flight::all(model),
+            compartments: Compartment::all(model),
             options: self.options,
             elements,
             events: Events::new(model),
@@ -228,6 +268,7 @@ impl Recorder for Summarizer {
         self.events.see(sample);
         self.signs.see(sample);
         self.flights.iter_mut().for_each(|flight| flight.see(sample));
+        self.compartments.iter_mut().for_each(|compartment| compartment.see(sample));
         Ok(Flow::Continue)
     }
 
@@ -242,6 +283,19 @@ fn touchable(setup: &Setup) -> Vec<String> {
     let fixed = setup.surfaces.len() + setup.solids.len();
     let parts = setup.self_contact.iter().flat_map(|_| setup.body.spheres.iter().map(|sphere| sphere.part.as_str()));
     setup.surface_names().take(fixed).chain(parts).map(str::to_owned).collect()
+}
+
+/// Whether any surface or solid stands still.
+fn has_ground(setup: &Setup) -> bool {
+    let frames = setup.surfaces.iter().map(|own| own.frame).chain(setup.solids.iter().map(|own| own.frame));
+    frames.into_iter().any(|frame| setup.is_ground(setup.belongs_to(frame)))
+}
+
+/// Whether the window of a measure's greatest value ends after `last_s`, and that value is of any size beside its limits.
+fn is_cut_off(measure: &Measure, last_s: f64) -> bool {
+    let is_window = measure.from_s.zip(measure.to_s).is_some_and(|(from_s, to_s)| from_s < to_s && to_s > last_s);
+    let value = measure.value.unwrap_or(0.0);
+    is_window && measure.limits.iter().any(|limit| value > COARSE * limit.most)
 }
 
 /// First touches part by part; two parts of the body touch each other.
