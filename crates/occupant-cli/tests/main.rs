@@ -8,6 +8,7 @@ mod ensembles;
 mod everyday;
 mod fit;
 mod histories;
+mod laboratory;
 mod pages;
 mod pictures;
 mod print;

@@ -26,4 +26,4 @@ pub(crate) use output_file::{
 };
 pub(crate) use sha256::sha256;
 pub(crate) use talk::{json, note, print, print_file, say, written};
-pub(crate) use units::{Told, Units, UnitsArg};
+pub(crate) use units::{SYSTEMS, Told, Units, UnitsArg};

@@ -41,7 +41,9 @@ pub use frame::FrameMotion;
 pub use own::{OwnPath, VehicleMotion, VehicleState};
 pub use problem::PathProblem;
 pub use pulse::{DecelerationPoint, PulseDefinition, PulsePath, PulseShape, Stop, Strength, TravelDirection};
-pub use sensors::{AccelerationRecord, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord};
+pub use sensors::{
+    AccelerationRecord, Baseline, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord,
+};
 pub use station::{Station, unwrap_angles};
 pub use table::{AfterEnd, Interpolation, TablePath};
 

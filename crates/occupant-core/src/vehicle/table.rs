@@ -106,6 +106,21 @@ impl TablePath {
         Ok(TablePath { stations, interpolation, after, pieces, ends, last_rates_rad_s })
     }
 
+    /// The same path with accelerations, those of its angles too, times `strength`: place, angles and their rates at the first time stay.
+    ///
+    /// # Errors
+    /// As [`TablePath::new`]: a strength that is not finite, or so large that angles jump.
+    pub fn with_strength(&self, strength: f64) -> Result<Self, Vec<PathProblem>> {
+        let first = &self.stations[0];
+        let (from_s, start, rate) = (first.time_s, first.channels(), self.pieces[0].rate(first.time_s));
+        let scaled = |station: &Station| {
+            let steady = start + rate * (station.time_s - from_s);
+            let v = steady + (station.channels() - steady) * strength;
+            Station::new(station.time_s, [v[0], v[1], v[2]], [v[3], v[4], v[5]])
+        };
+        TablePath::new(self.stations.iter().map(scaled).collect(), self.interpolation, self.after)
+    }
+
     /// The stations.
     pub fn stations(&self) -> &[Station] {
         &self.stations

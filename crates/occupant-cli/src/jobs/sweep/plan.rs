@@ -14,6 +14,7 @@ use crate::base::{Failure, file_name};
 use crate::files::scenario::{Opened, ScenarioArgs, Tables, format_of, refused};
 use crate::files::study_folder::{Column, Manifest, NamedBy, Role, Texts};
 use crate::files::table::Cell;
+use crate::jobs::risk::columns as vehicle_columns;
 use crate::jobs::run::FirstOutput;
 
 /// So many samples are tried to find the columns where the base scenario itself cannot be run.
@@ -181,7 +182,7 @@ impl Plan {
                     // one output is enough to know them
                     let stopped = simulate(&model, (&mut summarizer, FirstOutput));
                     if let (Ok(_), Some(summary)) = (stopped, summarizer.summary(None)) {
-                        return Ok(summary.figures(&model));
+                        return Ok([summary.figures(&model), vehicle_columns(model.setup())].concat());
                     }
                 }
                 Err(problems) => {
