@@ -115,14 +115,17 @@ fn is_table(source: &Path) -> bool {
 /// # Errors
 /// What is none.
 pub(super) fn filter(text: &str) -> Result<PathFilter, String> {
-    match text.trim() {
+    let word = text.trim().to_ascii_lowercase();
+    match word.strip_prefix("cfc").unwrap_or(&word).trim() {
         "none" => return Ok(PathFilter::None),
-        "60" | "180" | "600" | "1000" => return text.trim().parse().map(PathFilter::Class).map_err(|_| String::new()),
+        class @ ("60" | "180" | "600" | "1000") => {
+            return class.parse().map(PathFilter::Class).map_err(|_| String::new());
+        }
         _ => {}
     }
     match KINDS[FREQUENCY].read(text) {
         Ok(hertz) if hertz > 0.0 && text.contains("Hz") => Ok(PathFilter::Frequency(hertz)),
-        _ => Err("expected 60, 180, 600, 1000, a frequency such as '15 Hz', or none".to_owned()),
+        _ => Err("expected CFC60, CFC180, CFC600, CFC1000, a frequency such as '15 Hz', or none".to_owned()),
     }
 }
 

@@ -5,9 +5,8 @@ mod options;
 
 use std::path::{Path, PathBuf};
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use crash_measures::measure::limits::Rule;
-use crash_measures::signal::{CfcFamily, ChannelClass};
+use crash_measures::signal::CfcFamily;
 use occupant_scenario::kind::UnitSystem;
 use occupant_study::risk::{Preparation, VehicleSignals};
 
@@ -57,12 +56,9 @@ pub(crate) struct Args {
     #[arg(long, value_name = "RULE", value_parser = one_of(&RULES))]
     rule: Vec<Rule>,
 
-    /// Channel frequency class of the filter; "none" for data that are filtered already
-    #[arg(long, value_name = "CLASS", default_value = "180", value_parser = class())]
-    cfc: Class,
-
-    /// The same as --cfc; or a frequency, such as '15 Hz', from which on a table of places is smoothed before
-    #[arg(long, value_name = "CLASS|FREQUENCY", conflicts_with = "cfc", value_parser = super::import::filter)]
+    /// Filter: CFC60, CFC180 (if absent), CFC600 or CFC1000; a frequency, such as '15 Hz', from which on a table of places is smoothed
+    /// before; or none for data that are filtered already
+    #[arg(long, alias = "cfc", value_name = "CLASS|FREQUENCY", value_parser = super::import::filter)]
     filter: Option<PathFilter>,
 
     /// Filter coefficients
@@ -140,9 +136,6 @@ pub(crate) struct Args {
     json: bool,
 }
 
-/// A class of filters, or none.
-type Class = Option<ChannelClass>;
-
 /// Rules that judge a vehicle's motion: names on the command line, names in help.
 const RULES: [(&str, &str, Rule); 10] = [
     ("mash", "MASH 2016", Rule::Mash2016),
@@ -158,13 +151,11 @@ const RULES: [(&str, &str, Rule); 10] = [
 ];
 
 /// Filter coefficients, likewise.
-const FAMILIES: [(&str, &str, CfcFamily); 2] =
-    [("iso6487", "ISO 6487", CfcFamily::Iso6487), ("j211", "SAE J211", CfcFamily::SaeJ211)];
-
-fn class() -> impl TypedValueParser<Value = Class> {
-    let names = PossibleValuesParser::new(["60", "180", "600", "1000", "none"]);
-    names.map(|name| name.parse().ok().and_then(ChannelClass::from_number))
-}
+const FAMILIES: [(&str, &str, CfcFamily); 3] = [
+    ("iso6487", "ISO 6487", CfcFamily::Iso6487),
+    ("sae-j211", "SAE J211", CfcFamily::SaeJ211),
+    ("j211", "SAE J211, its name before", CfcFamily::SaeJ211),
+];
 
 /// Measures and judges.
 pub(crate) fn risk(args: &Args) -> Result<Done, Failure> {

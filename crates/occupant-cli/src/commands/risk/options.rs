@@ -12,7 +12,7 @@ use crate::jobs::import::PathFilter;
 pub(crate) fn preparation(args: &Args) -> Result<Preparation, Failure> {
     let interval_s = quantity("--interval", TIME, &args.interval)?;
     Ok(Preparation {
-        filter: class(args)?.map(|class| (class, args.coefficients)),
+        filter: class(args).map(|class| (class, args.coefficients)),
         baseline_s: [
             quantity("--baseline", TIME, &args.baseline)?,
             quantity("--baseline-end", TIME, &args.baseline_end)?,
@@ -25,13 +25,13 @@ pub(crate) fn preparation(args: &Args) -> Result<Preparation, Failure> {
     })
 }
 
-/// The class that --filter or --cfc asks for.
-fn class(args: &Args) -> Result<Option<ChannelClass>, Failure> {
-    Ok(match args.filter {
-        None | Some(PathFilter::Frequency(_)) => args.cfc,
+/// The class that --filter asks for; a frequency smooths places and leaves the class as it is.
+fn class(args: &Args) -> Option<ChannelClass> {
+    match args.filter {
+        None | Some(PathFilter::Frequency(_)) => ChannelClass::from_number(180),
         Some(PathFilter::None) => None,
         Some(PathFilter::Class(number)) => ChannelClass::from_number(number),
-    })
+    }
 }
 
 /// The bounds of the errors of the sensors.
