@@ -306,6 +306,44 @@ fn a_deck_that_seats_its_occupant_begins_in_balance() {
     }
 }
 
+/// The report's three tests as decks, and from half the speed.
+const REPORT: [&str; 6] = [
+    "report/unbelted.dat",
+    "report/lap.dat",
+    "report/lap-torso.dat",
+    "report/unbelted-10mph.dat",
+    "report/lap-10mph.dat",
+    "report/lap-torso-10mph.dat",
+];
+
+/// They convert with a wheel of their own place, come back as they were, run to their end, and no neck folds beyond its stop.
+#[test]
+fn the_tests_of_the_report_are_decks_too() {
+    let text = std::fs::read_to_string(path("report/compartment.toml")).expect("the compartment");
+    let layout = CompartmentLayout::from_toml(&text).unwrap_or_else(|e| panic!("{e}"));
+    for name in REPORT {
+        let with_wheel = ConvertOptions { compartment: Some(layout.clone()), ..options(name) };
+        let toml = deck(name).to_scenario(&with_wheel).unwrap_or_else(|e| panic!("{name}: {e}")).toml;
+        let file = path(&name.replace(".dat", ".toml"));
+        if std::env::var_os("WRITE_CONVERTED").is_some() {
+            std::fs::write(&file, &toml).expect("written");
+        }
+        assert!(std::fs::read_to_string(&file).unwrap_or_default() == toml, "{name}: write it with WRITE_CONVERTED=1");
+        let back = Deck::from_scenario(&load(&toml), Some(&layout)).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(back.deck.write(), deck(name).write(), "{name}");
+        let model = model(&toml);
+        let full = model.setup().joints[tti12::NECK].ball().and_then(|neck| neck.stop).expect("a stop").full_rad;
+        let mut most = 0.0_f64;
+        let mut watch = Watch(|s: &occupant_core::results::sample::Sample<'_>| {
+            most = most.max(s.joint_angle_rad(tti12::NECK));
+        });
+        let outcome = simulate(&model, &mut watch).expect("runs");
+        assert_eq!(outcome.status, Status::Completed, "{name}");
+        // Measured: 5° at most.
+        assert!(most < full + 10_f64.to_radians(), "{name}: {} of {}", most.to_degrees(), full.to_degrees());
+    }
+}
+
 #[test]
 fn the_pelvis_alone_places_the_body_where_that_is_asked_for() {
     let asked = ConvertOptions { seating: DeckSeating::Pelvis, ..options("driver-lap-torso.dat") };
