@@ -16,8 +16,8 @@ use occupant_study::sensitivity::{Built, Parameter, Slope, Trajectory, Trouble, 
 use occupant_tests::cart::lap;
 use occupant_tests::measure::assert_below;
 
-const CART: &str = include_str!("../../scenarios/cart-lap-torso.toml");
-const UNBELTED: &str = include_str!("../../scenarios/cart-unbelted.toml");
+const CART: &str = include_str!("../data/carts/cart-lap-torso.toml");
+const UNBELTED: &str = include_str!("../data/carts/cart-unbelted.toml");
 const SLED: &str = include_str!("../../scenarios/sled-17-segments.toml");
 const RIG: &str = include_str!("../data/rig.toml");
 const FREE: &str = include_str!("../../scenarios/free-fall.toml");

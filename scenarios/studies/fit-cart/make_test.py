@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-SCENARIO = HERE / "../../cart-lap-torso.toml"
+SCENARIO = HERE / "cart.toml"
 CHANNELS = ["lower_torso.acceleration.x", "upper_torso.acceleration.x", "belt.lap.force", "belt.torso.force"]
 NOISE = 0.03  # standard deviation, of each channel's peak
 GAIN = 0.01  # standard deviation

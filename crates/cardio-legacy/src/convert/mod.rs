@@ -33,12 +33,24 @@ pub struct ConvertOptions {
     pub path: Option<PathSource>,
     /// Which points bound which surface, and where the wheel stands; `None` is the crate's reconstruction.
     pub compartment: Option<CompartmentLayout>,
+    /// How a body that the deck seats (NPOS = 0) begins.
+    pub seating: DeckSeating,
 }
 
 impl Default for ConvertOptions {
     fn default() -> Self {
-        Self { deck_name: "deck".into(), path: None, compartment: None }
+        Self { deck_name: "deck".into(), path: None, compartment: None, seating: DeckSeating::default() }
     }
+}
+
+/// How a body that a deck seats begins. The report says that the force–deformation properties of the seat place it, and no more.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DeckSeating {
+    /// In balance: the body as one piece, in the cards' posture, lies where all that it touches carries its weight.
+    #[default]
+    Balanced,
+    /// By the pelvis sphere alone, exactly in the cards' posture: what thighs, chest and feet press besides is left over.
+    Pelvis,
 }
 
 /// A scenario made from a deck.
@@ -95,7 +107,7 @@ impl Deck {
         path.write(&mut writer);
         body::write(&mut writer);
         joints::write(&mut writer);
-        motion::write(&mut writer, &layout);
+        motion::write(&mut writer, &layout, options.seating);
         compartment::write(&mut writer, &layout);
         let mut conversion = writer.finish()?;
         let loaded = check(&conversion.toml, path.beside())?;

@@ -1,6 +1,7 @@
 //! The model: a checked [`Setup`] with all that can be computed before the first step. Immutable, shared by all threads.
 
 mod begin;
+mod descent;
 mod limp;
 mod pose;
 pub mod seat;
