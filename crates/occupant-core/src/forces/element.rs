@@ -138,13 +138,13 @@ pub trait Element: Copy + Debug {
 
     /// Where between `before` and `now`, of the times `times_s`, the first switch of the one of this number was due, as a part
     /// of the way; none where it cannot be told. Up to 0 it was due before.
-    fn due(
-        _law: &Self::Law<f64>,
+    fn due<S: Scalar<Mask = bool>>(
+        _law: &Self::Law<S>,
         _number: usize,
-        _before: &Self::Past<f64>,
-        _now: &Self::Past<f64>,
-        _times_s: [f64; 2],
-    ) -> Option<f64> {
+        _before: &Self::Past<S>,
+        _now: &Self::Past<S>,
+        _times_s: [S; 2],
+    ) -> Option<S> {
         None
     }
 
@@ -180,9 +180,11 @@ pub trait Element: Copy + Debug {
     fn stored_j(actions: &[Self::Action<f64>], stored_j: &mut [f64; STORES]);
 }
 
-/// Where on the straight way from one number to another, greater one a level is reached, as a part of the way.
-pub(crate) fn passes(level: f64, before: f64, now: f64) -> f64 {
-    if now > before { (level - before) / (now - before) } else { 0.0 }
+/// Where on the straight way from one number to another, greater one a level is reached, as a part of the way. Its slopes are
+/// those of what is left to the level behind the way.
+pub(crate) fn passes<S: Scalar>(level: S, before: S, now: S) -> S {
+    let way = (now - before).value_alone();
+    S::select(now.gt(before), S::one() + (level - now) / way, S::zero())
 }
 
 /// What spares an evaluation needless work.

@@ -320,7 +320,7 @@ macro_rules! kinds {
         impl<S: Scalar> Memory<S> {
             /// Where something has switched between this and `now`, of the same elements.
             #[inline(always)]
-            pub(crate) fn has_switched(&self, now: &Self) -> S::Mask {
+            pub fn has_switched(&self, now: &Self) -> S::Mask {
                 let mut mask = S::truth(false);
                 $(
                     for (before, now) in self.$kind.iter().zip(&now.$kind) {
@@ -343,13 +343,16 @@ macro_rules! kinds {
                 )+
                 list
             }
+        }
 
+        impl<S: Scalar<Mask = bool>> Memory<S> {
             /// Where between this and `now` the first switch was due; see [`Element::due`].
-            pub(crate) fn due(&self, now: &Self, forces: &Forces<f64>, times_s: [f64; 2]) -> Due {
-                let mut due = Due { share: f64::INFINITY, is_known: true };
+            pub fn due(&self, now: &Self, forces: &Forces<S>, times_s: [S; 2]) -> Due<S> {
+                let mut due = Due { share: S::of(f64::INFINITY), is_known: true };
                 $(
                     for (i, (before, now)) in self.$kind.iter().zip(&now.$kind).enumerate() {
-                        if $Kind::switches::<f64>(before) != $Kind::switches::<f64>(now) {
+                        let [was, is] = [before, now].map($Kind::switches::<S>);
+                        if was.lt(is) || is.lt(was) {
                             due.see($Kind::due(&forces.$kind, i, before, now, times_s));
                         }
                     }
@@ -489,17 +492,17 @@ impl<S> Observer<S> for () {}
 
 /// When the first of several switches was due.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Due {
+pub struct Due<S> {
     /// As a part of the way between two memories; of one that cannot tell, the middle.
-    pub share: f64,
+    pub share: S,
     /// Whether all can tell.
     pub is_known: bool,
 }
 
-impl Due {
-    fn see(&mut self, share: Option<f64>) {
+impl<S: Scalar> Due<S> {
+    fn see(&mut self, share: Option<S>) {
         self.is_known &= share.is_some();
-        self.share = self.share.min(share.unwrap_or(0.5));
+        self.share = self.share.min(share.unwrap_or(S::of(0.5)));
     }
 }
 

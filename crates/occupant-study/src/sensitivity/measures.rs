@@ -174,7 +174,7 @@ fn from_the_start(model: &Model, checkpoint: &Checkpoint) -> Result<Progress, Tr
 }
 
 /// The values of named figures; not a number for one that is not there or has no value.
-pub(super) fn pick(figures: &[Figure], names: &[String]) -> Vec<f64> {
+pub fn pick(figures: &[Figure], names: &[String]) -> Vec<f64> {
     let value = |name: &String| {
         let figure = figures.iter().find(|f| f.name == *name);
         figure.and_then(|f| f.value).unwrap_or(f64::NAN)

@@ -115,13 +115,13 @@ impl Element for Bags {
         past.switches()
     }
 
-    fn due(
-        law: &Vec<BagLaw<f64>>,
+    fn due<S: Scalar<Mask = bool>>(
+        law: &Vec<BagLaw<S>>,
         number: usize,
-        before: &BagPast<f64>,
-        now: &BagPast<f64>,
-        times_s: [f64; 2],
-    ) -> Option<f64> {
+        before: &BagPast<S>,
+        now: &BagPast<S>,
+        times_s: [S; 2],
+    ) -> Option<S> {
         law[number].due(before, now, times_s)
     }
 

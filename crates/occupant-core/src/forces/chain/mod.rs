@@ -146,13 +146,13 @@ impl Element for Chains {
         past.switches()
     }
 
-    fn due(
-        law: &Vec<ChainLaw<f64>>,
+    fn due<S: Scalar<Mask = bool>>(
+        law: &Vec<ChainLaw<S>>,
         number: usize,
-        before: &ChainPast<f64>,
-        now: &ChainPast<f64>,
-        _times_s: [f64; 2],
-    ) -> Option<f64> {
+        before: &ChainPast<S>,
+        now: &ChainPast<S>,
+        _times_s: [S; 2],
+    ) -> Option<S> {
         law[number].due(before, now)
     }
 
