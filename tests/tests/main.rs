@@ -37,5 +37,6 @@ mod sensitivity;
 mod solids;
 mod spring;
 mod studies;
+mod switches;
 mod symmetry;
 mod validation;
