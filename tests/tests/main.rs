@@ -40,6 +40,7 @@ mod sensitivity;
 mod solids;
 mod spring;
 mod studies;
+mod switches;
 mod symmetry;
 mod thin;
 mod throws;
