@@ -38,7 +38,7 @@ pub(crate) struct MountSection {
     pub(crate) roll: Option<Angle>,
     /// Pitch, its top leant back; 0 if absent.
     pub(crate) pitch: Option<Angle>,
-    /// Yaw, to the right, also in "space"; 0 if absent.
+    /// Yaw, to the right; 0 if absent.
     pub(crate) yaw: Option<Angle>,
     /// Velocity beside that of the frame, along its axes, with which it lets the body go at the start: a head that falls. It holds
     /// the body throughout if absent.

@@ -9,7 +9,7 @@ use crate::forces::contact::near::{Bounds, near_pairs};
 use crate::forces::contact::self_contact::is_skin;
 use crate::forces::contact::solid::{CONCAVE_WITHIN_M, Solid, build, concave_rad};
 use crate::forces::contact::surface::Outline;
-use crate::forces::contact::{ContactData, ContactSystem, OPEN, PASSED, PairHistory};
+use crate::forces::contact::{ContactData, ContactSystem, Group, OPEN, PASSED, PairHistory};
 use crate::forces::element::Instant;
 use crate::forces::function::steps::Steps;
 use placed_text::{Problem, Problems, with_key};
@@ -190,7 +190,8 @@ pub(super) fn overlaps(law: &ContactSystem<f64>, body: &Body, at: &Instant<'_, f
 const FROM_ABOVE: f64 = 0.7;
 const GRAZE_M: f64 = 0.005;
 
-/// Refuses bodies that begin behind a plane without bounds, such as the ground: they would not feel it and fall for ever.
+/// Refuses bodies of which most begin behind a plane without bounds, such as the ground: they would not feel it and fall for
+/// ever. Of a foot or two that do it warns.
 pub(super) fn beneath(
     law: &ContactSystem<f64>,
     data: &ContactData<'_>,
@@ -198,33 +199,26 @@ pub(super) fn beneath(
     at: &Instant<'_, f64>,
     problems: &mut Problems,
 ) {
-    // by surface: how many spheres, and the one that is farthest behind
-    let mut worst: Vec<(usize, usize, f64, usize)> = Vec::new();
-    for group in &law.groups {
-        let centre = at.centre_in(group.sphere, group.frame);
-        for i in group.pairs.clone() {
-            let surface = law.pairs[i].parts[0].surface;
-            let behind_m = law.planes[i].depth(centre) - body.spheres[group.sphere].radius_m;
-            if !matches!(data.faces[surface].outline, Outline::Unbounded { .. }) || behind_m <= 0.0 {
-                continue;
-            }
-            match worst.iter_mut().find(|known| known.0 == surface) {
-                Some(known) => {
-                    known.3 += 1;
-                    if behind_m > known.2 {
-                        (known.1, known.2) = (group.sphere, behind_m);
-                    }
-                }
-                None => worst.push((surface, group.sphere, behind_m, 1)),
-            }
+    for (surface, face) in data.faces.iter().enumerate() {
+        if !matches!(face.outline, Outline::Unbounded { .. }) {
+            continue;
         }
-    }
-    for (surface, sphere, behind_m, count) in worst {
-        let (path, name) = (with_key("surfaces", &data.surfaces[surface].name), &body.spheres[sphere].name);
+        let met = |group: &&Group| law.pairs[group.pairs.clone()].iter().any(|pair| pair.parts[0].surface == surface);
+        let behind = |group: &Group| {
+            let centre = at.centre_in(group.sphere, group.frame).to_vector();
+            (face.offset_m - face.normal.dot(&centre), group.sphere)
+        };
+        let all: Vec<(f64, usize)> = law.groups.iter().filter(met).map(behind).collect();
+        let beneath = all.iter().filter(|(behind_m, _)| *behind_m > 0.0);
+        let Some((behind_m, sphere)) = beneath.clone().max_by(|a, b| a.0.total_cmp(&b.0)) else { continue };
+        let (count, name) = (beneath.count(), &body.spheres[*sphere].name);
         let more = if count > 1 { format!(", and {} more are behind it", count - 1) } else { String::new() };
         let found = format!("the centre of {name} is {:.1} mm behind it at the start{more}", 1e3 * behind_m);
-        let hint = "move the body or the plane; `space` has z up, all else z down";
-        problems.error_with_hint(path, found, "a body in front of a plane, which would not hold it otherwise", hint);
+        let (path, most) = (with_key("surfaces", &data.surfaces[surface].name), 2 * count > all.len());
+        let expected = "a body in front of a plane, which does not hold what begins behind it";
+        let problem =
+            if most { Problem::error(path, found, expected) } else { Problem::warning(path, found, expected) };
+        problems.push(problem.with_hint(Some("move the body or the plane; of `space` z is up, of all else down")));
     }
 }
 
