@@ -140,6 +140,8 @@ fn values(
     let mut progress: Option<Progress> = None;
     for i in 0..trajectory.checkpoints.len() {
         let mut checkpoint = output(i);
+        // what was seen between is that of the run itself: figures are those of the outputs
+        (checkpoint.peaks, checkpoint.readings_before, checkpoint.readings) = Default::default();
         checkpoint.progress = match progress {
             Some(progress) => progress,
             None => from_the_start(model, &checkpoint)?,
