@@ -178,7 +178,6 @@ mod tests {
         let (a, [begins_s, end_s]) = (70.0, [0.02, 0.05]);
         for step in STEPS {
             let [x, v] = run(step, 3.0, [0.0, a], [begins_s, end_s], |_| Clock([1.0, 0.0]));
-            println!("MEASURED {:e} {:e}", v.slopes[0] + a, x.slopes[0] + a * (end_s - begins_s));
             assert!((v.slopes[0] + a).abs() < 1e-12, "{v:?}");
             assert!((x.slopes[0] + a * (end_s - begins_s)).abs() < 1e-12, "{x:?}");
         }
@@ -196,11 +195,6 @@ mod tests {
             let end = |x: D| Clock::of_level(&(level - x)).expect("a level that is reached");
             let [x, v] = run(step, speed, [-c, -b], [locks_s, end_s], end);
             let expected = (b - c) * shift;
-            println!(
-                "MEASURED {:e} {:e}",
-                v.slopes[0] / expected - 1.0,
-                x.slopes[0] / (expected * (end_s - locks_s)) - 1.0
-            );
             assert!((v.slopes[0] / expected - 1.0).abs() < 1e-12, "{v:?} {expected}");
             assert!((x.slopes[0] / (expected * (end_s - locks_s)) - 1.0).abs() < 1e-11, "{x:?}");
         }
