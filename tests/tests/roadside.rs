@@ -72,7 +72,8 @@ fn on_the_side_slope_the_driver_sits_upright_and_holds_the_wheel() {
 
 #[test]
 fn who_sits_on_the_road_begins_at_rest() {
-    let seen = histories(&model(&["path={ kind = \"fixed\" }", "time.end=0.5", COARSE]), &["head.acceleration.resultant"]);
+    let seen =
+        histories(&model(&["path={ kind = \"fixed\" }", "time.end=0.5", COARSE]), &["head.acceleration.resultant"]);
     let off = seen[0].iter().map(|a| (a / 9.80665 - 1.0).abs()).fold(0.0, f64::max);
     assert_below("head off 1 g", off, 0.02);
 }

@@ -150,7 +150,13 @@ impl<'a> Stepper<'a> {
         let frames = &mut self.frames[0];
         self.model.move_frames(frames, time_s, time_s, cursor);
         let (situation, mut rate) = (Situation::accepted(state, frames), State::zero(state.shape()));
-        self.model.system().rate_alone(&mut self.scratch, situation, history, &mut None::<&mut Follow<Met<'_>>>, &mut rate);
+        self.model.system().rate_alone(
+            &mut self.scratch,
+            situation,
+            history,
+            &mut None::<&mut Follow<Met<'_>>>,
+            &mut rate,
+        );
     }
 }
 
@@ -174,7 +180,8 @@ impl Run {
         if let Some(rear) = &mut self.rear {
             rear.keep(&self.history);
         }
-        let step = stepper.begin(rest, &self.state, (&mut self.history, &mut self.met, &mut self.felt), &mut self.cursor);
+        let step =
+            stepper.begin(rest, &self.state, (&mut self.history, &mut self.met, &mut self.felt), &mut self.cursor);
         if let Some(latest) = self.take_back() {
             self.take_again(stepper, latest)?;
             return Ok(rest.start_s);
@@ -277,7 +284,8 @@ impl Run {
         rear.search.rest();
         loop {
             rear.history.take_over(&self.history);
-            part = stepper.begin(part, &self.state, (&mut rear.history, &mut self.met, &mut self.felt), &mut self.cursor);
+            part =
+                stepper.begin(part, &self.state, (&mut rear.history, &mut self.met, &mut self.felt), &mut self.cursor);
             let next = stepper.go(part, &self.state, &mut rear.history, &mut self.cursor);
             self.effort.evaluations += 4;
             if !looks || !next.is_finite() {

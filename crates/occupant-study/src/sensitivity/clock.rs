@@ -116,3 +116,87 @@ impl Jerk {
         [(b.acceleration - a.acceleration) * per_s, (b.alpha - a.alpha) * per_s]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use occupant_core::body::tti12::TTI12;
+    use occupant_core::motion::integrate::{bogacki_shampine, rk4};
+    use occupant_core::motion::layout::Layout;
+    use occupant_core::motion::state::{Quat, Shape};
+
+    type D = Dual<2>;
+
+    /// A mass on a line at 0, with this speed.
+    fn mass(speed_m_s: f64) -> State<D> {
+        let o = Dual::new(0.0, [0.0; 2]);
+        let mut state = State::zero(Shape::of(&Layout::of(&TTI12)));
+        state.set_velocity(V3 { x: Dual::new(speed_m_s, [0.0; 2]), y: o, z: o });
+        for slot in state.turns() {
+            state.set_orientation(slot, Quat { w: Dual::new(1.0, [0.0; 2]), v: V3::zero() });
+        }
+        state
+    }
+
+    /// Its rate under an acceleration.
+    fn rate(state: &State<D>, acceleration_m_s2: f64) -> State<D> {
+        let o = Dual::new(0.0, [0.0; 2]);
+        let mut rate = State::zero(state.shape());
+        rate.set_t1(state.velocity());
+        rate.set_velocity(V3 { x: Dual::new(acceleration_m_s2, [0.0; 2]), y: o, z: o });
+        rate
+    }
+
+    type Step = fn(&State<D>, D, f64) -> State<D>;
+
+    /// A step under an acceleration by either method.
+    const STEPS: [Step; 2] = [
+        |state, h, a| rk4::step(state, h, |_, state, k| *k = rate(state, a)),
+        |state, h, a| bogacki_shampine::stages(state, &rate(state, a), h, |_, state, k| *k = rate(state, a)).0,
+    ];
+
+    /// From 0 to `event_s` under the first acceleration, from there to `end_s` under the second; `end` tells where the first step
+    /// ends when the parameter changes. Place and speed in the end.
+    fn run(
+        step: Step,
+        speed: f64,
+        [a, b]: [f64; 2],
+        [event_s, end_s]: [f64; 2],
+        end: impl Fn(D) -> Clock<2>,
+    ) -> [D; 2] {
+        let h = Clock::FIXED.until(&Clock::free(), event_s);
+        let mut state = step(&mass(speed), h, a);
+        let begun = end(state.t1().x);
+        begun.fix_state(&mut state);
+        let state = step(&state, begun.until(&Clock::FIXED, end_s - event_s), b);
+        [state.t1().x, state.velocity().x]
+    }
+
+    /// A force that sets in at t_d: v = a (t − t_d), so dv/dt_d = −a and dx/dt_d = −a (t − t_d).
+    #[test]
+    fn a_force_that_sets_in_later_acts_shorter() {
+        let (a, [begins_s, end_s]) = (70.0, [0.02, 0.05]);
+        for step in STEPS {
+            let [x, v] = run(step, 3.0, [0.0, a], [begins_s, end_s], |_| Clock([1.0, 0.0]));
+            assert!((v.slopes[0] + a).abs() < 1e-12, "{v:?}");
+            assert!((x.slopes[0] + a * (end_s - begins_s)).abs() < 1e-12, "{x:?}");
+        }
+    }
+
+    /// Webbing that runs out against −c until the payout L and is held with −b from there: L = v t* − c t*²/2, dt*/dL = 1/(v − c t*),
+    /// and behind t* dv/dL = (b − c) dt*/dL, dx/dL = (t − t*) dv/dL.
+    #[test]
+    fn a_spool_that_locks_later_lets_more_out() {
+        let (speed, [c, b], [locks_s, end_s]) = (5.0, [20.0, 300.0], [0.03, 0.04]);
+        let payout = speed * locks_s - 0.5 * c * locks_s * locks_s;
+        let shift = 1.0 / (speed - c * locks_s);
+        for step in STEPS {
+            let level = Dual::new(payout, [1.0, 0.0]);
+            let end = |x: D| Clock::of_level(&(level - x)).expect("a level that is reached");
+            let [x, v] = run(step, speed, [-c, -b], [locks_s, end_s], end);
+            let expected = (b - c) * shift;
+            assert!((v.slopes[0] / expected - 1.0).abs() < 1e-12, "{v:?} {expected}");
+            assert!((x.slopes[0] / (expected * (end_s - locks_s)) - 1.0).abs() < 1e-11, "{x:?}");
+        }
+    }
+}

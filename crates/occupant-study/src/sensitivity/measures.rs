@@ -140,8 +140,10 @@ fn values(
     let mut progress: Option<Progress> = None;
     for i in 0..trajectory.checkpoints.len() {
         let mut checkpoint = output(i);
-        // what was seen between is that of the run itself: figures are those of the outputs
-        (checkpoint.peaks, checkpoint.readings_before, checkpoint.readings) = Default::default();
+        // what steps between outputs have seen is not displaced: figures are made of these outputs alone
+        checkpoint.peaks.clear();
+        checkpoint.readings_before.clear();
+        checkpoint.readings.clear();
         checkpoint.progress = match progress {
             Some(progress) => progress,
             None => from_the_start(model, &checkpoint)?,
