@@ -109,13 +109,24 @@ pub(super) fn posture(base: &Draft, most_rad: f64) -> Vec<Perturbation> {
     let written = angles.iter().map(|a| format!("posture.{a}"));
     // q₄ … q₃₁ are angles
     let exact = (3..31).map(|i| format!("initial_state.q[{i}]"));
-    let paths: Vec<String> = written.chain(exact).collect();
+    let of_several = angles.iter().map(|a| format!("occupants.*.posture.{a}"));
+    let standing = ["occupants.*.stance.yaw", "occupants.*.stance.posture.*"].map(str::to_owned);
+    let paths: Vec<String> = written.chain(exact).chain(of_several).chain(standing).collect();
     each(base, &paths, Change::Offset(most_rad))
 }
 
 /// Changes of the place of the occupant.
 pub(super) fn seat_place(base: &Draft, most_m: f64) -> Vec<Perturbation> {
-    let written = ["posture.heels[0]", "posture.heels[1]", "seats.*.y"].map(str::to_owned);
+    let written = [
+        "posture.heels[0]",
+        "posture.heels[1]",
+        "seats.*.y",
+        "occupants.*.posture.heels[0]",
+        "occupants.*.posture.heels[1]",
+        "occupants.*.stance.at[0]",
+        "occupants.*.stance.at[1]",
+    ]
+    .map(str::to_owned);
     let exact: Vec<String> = (0..3).map(|i| format!("initial_state.q[{i}]")).collect();
     // q₁ … q₃ have no unit of their own but are in the file's length
     let length_m = base.units().length_m();
@@ -141,7 +152,7 @@ pub(super) fn path(base: &Draft, parameters: &[Parameter], most: f64) -> Vec<Per
 
 /// A change of each material and each belt, both straight lines of one together.
 pub(super) fn stiffness(base: &Draft, most: f64) -> Vec<Perturbation> {
-    let firsts = ["materials.*.k1", "belts.*.k1"].iter().filter_map(|path| targets(base, path).ok()).flatten();
+    let firsts = ["materials.*.k1", "belts.*.k1", "occupants.*.belts.*.k1"].iter().filter_map(|path| targets(base, path).ok()).flatten();
     firsts
         .map(|first| {
             let second = first.path.strip_suffix('1').map(|p| format!("{p}2"));

@@ -47,7 +47,7 @@ pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
     }
     match too_long(&diagnosis) {
         Some(message) => {
-            say(&message);
+            say(&format!("error: {message}"));
             Ok(Done::Unwell)
         }
         None => Ok(Done::Well),
@@ -55,13 +55,13 @@ pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
 }
 
 /// What to say of a step that is too long for the fastest rate.
-fn too_long(diagnosis: &Diagnosis) -> Option<String> {
+pub(super) fn too_long(diagnosis: &Diagnosis) -> Option<String> {
     let (step_s, fastest) = (diagnosis.run.step_s?, diagnosis.fastest.as_ref()?);
     if diagnosis.step_is_stable() {
         return None;
     }
     Some(format!(
-        "error: the step of {:.4} ms is too long for {} ({}), whose time scale is {:.4} ms\n = expected: a step below {:.4} ms\n = help: set `integrator.step`, use the adaptive integrator, or soften what makes it so fast",
+        "the step of {:.4} ms is too long for {} ({}), whose time scale is {:.4} ms\n = expected: a step below {:.4} ms\n = help: set `integrator.step`, use the adaptive integrator, or soften what makes it so fast",
         step_s * 1e3,
         fastest.of,
         fastest.by,

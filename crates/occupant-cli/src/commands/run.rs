@@ -2,12 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use occupant_core::diagnosis::UnstableFriction;
-use occupant_core::results::summary::{RunStatus, Summary};
+use occupant_core::diagnosis::{UnstableFriction, diagnose};
+use occupant_core::model::setup::Integrator;
+use occupant_core::results::summary::{Caveat, RunStatus, Summary};
 use occupant_scenario::Diagnostics;
 use occupant_study::ending::Balance;
 use serde::Serialize;
 
+use super::check::too_long;
 use super::flags::ensemble::EnsembleArgs;
 use super::tables::measures::side_by_side;
 use super::tables::summary::{Marks, summary_table};
@@ -184,13 +186,23 @@ fn one(args: &Args) -> Result<(Done, Summary, Units), Failure> {
     from.iter().filter(|_| !args.quiet).for_each(Resumption::announce);
     let channels = ensemble.as_ref().map(|e| e.channels.clone()).unwrap_or_default();
     let interrupt = Interrupt::listen("stopping at the next output; once more to stop at once");
+    let diagnosis = matches!(opened.model.setup().integrator, Integrator::Rk4 { .. }).then(|| diagnose(&opened.model));
+    if let Some(message) = diagnosis.as_ref().and_then(too_long).filter(|_| !args.quiet) {
+        say(&format!("warning: {message}"));
+    }
     let mut run = simulate(&opened, from.as_ref(), recording, channels, &interrupt, args.quiet)?;
+    if let Some((diagnosis, step_s)) = diagnosis.as_ref().and_then(|d| Some((d, d.run.step_s?))) {
+        let caveat = Caveat::step_too_long(step_s, &diagnosis.too_fast(), &run.summary);
+        run.summary.caveats.extend(caveat);
+    }
     let balance = run.summary.energy.balance;
     let histories = std::mem::take(&mut run.histories);
     let ensemble = ensemble.filter(|_| run.completed && balance != Balance::Lost);
     let ensemble = ensemble.map(|wanted| wanted.run(&opened, &run.summary, histories, &interrupt, args.quiet));
     let estimate = (args.estimate_error && run.completed && !interrupt.is_asked())
         .then(|| estimate(&opened, &run.summary, &run.head, &interrupt));
+    let caveat = estimate.as_ref().and_then(told).and_then(|estimate| estimate.caveat(&run.summary));
+    run.summary.caveats.extend(caveat);
     if !args.is_one_of_several {
         // the run itself is told also where what was to come after it has failed
         let more = (ensemble.as_ref().and_then(told), estimate.as_ref().and_then(told));

@@ -125,6 +125,13 @@ impl Diagnosis {
     pub fn step_is_stable(&self) -> bool {
         self.step_by_time_scale.is_none_or(|number| number < RK4_STABILITY_LIMIT)
     }
+
+    /// The rates that the fixed step is too long for.
+    pub fn too_fast(&self) -> Vec<&Rate> {
+        let all = self.sphere_rates.iter().map(|s| &s.rate).chain(&self.other_rates);
+        let limit_s = self.run.step_s.map_or(0.0, |step_s| step_s / RK4_STABILITY_LIMIT);
+        all.filter(|rate| rate.time_scale_s <= limit_s).collect()
+    }
 }
 
 /// Looks at the start of a run.

@@ -6,7 +6,7 @@ use occupant_core::model::setup::{Integrator, Setup};
 use occupant_core::results::outcome::Status;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
-use occupant_core::results::summary::{Figure, Summarizer, Summary};
+use occupant_core::results::summary::{Caveat, Figure, Summarizer, Summary};
 use occupant_core::run::simulate::simulate;
 use serde::Serialize;
 
@@ -16,6 +16,8 @@ use crate::files::scenario::Opened;
 
 /// A figure that differs by more than this part of itself is named in the table.
 const NAMED: f64 = 1e-3;
+/// One that differs by more is not determined.
+const UNDETERMINED: f64 = 0.05;
 /// So many are, the worst first.
 const MOST_NAMED: usize = 5;
 /// A head whose path differs by so much, m, says that the motion makes much of little.
@@ -117,6 +119,20 @@ fn differences(run: Vec<Figure>, finer: Vec<Figure>) -> Vec<FigureError> {
 }
 
 impl ErrorEstimate {
+    /// What to know of the figures that the finer run has otherwise, and of the measures of their names.
+    pub(crate) fn caveat(&self, summary: &Summary) -> Option<Caveat> {
+        let off = self.figures.iter().filter(|figure| figure.relative() > UNDETERMINED);
+        let changed: Vec<(String, f64)> = off.map(|figure| (figure.name.clone(), figure.relative())).collect();
+        let mut names: Vec<String> = changed.iter().map(|(name, _)| name.clone()).collect();
+        for (prefix, person) in summary.people() {
+            let measures = person.measures.iter().filter_map(|m| Some((m.name, format!("{prefix}{}", m.figure?))));
+            let off = measures.filter(|(_, figure)| changed.iter().any(|(name, _)| name == figure));
+            names.extend(off.map(|(name, _)| format!("{prefix}{name}")).collect::<Vec<_>>());
+        }
+        names.dedup();
+        Caveat::undetermined(self.against, &changed, names)
+    }
+
     /// A fact for the table of the run.
     pub(crate) fn text(&self, units: Units) -> String {
         let mut off: Vec<&FigureError> = self.figures.iter().filter(|f| f.relative() > NAMED).collect();

@@ -4,10 +4,14 @@ use crash_measures::injury::Measure;
 use crash_measures::measure::Dummy;
 use serde::Serialize;
 
-use super::{Exit, Peak, RunStatus, Throw, word};
+use super::{Exit, Peak, RunStatus, Summary, Throw, word};
 use crate::body::{Body, Joint, Limb, Segment};
+use crate::diagnosis::RK4_STABILITY_LIMIT;
+use crate::forces::rate::Rate;
 use crate::results::energy::{Balance, EnergyCheck};
 
+/// Runs of every kind keep their energy better than this where their steps are short enough: by 1e-4 and less, as a rule.
+const ROUGH: f64 = 1e-3;
 /// Peaks of forces, depths and places are known of outputs this far apart, s, and a rounding error more.
 const APART_S: f64 = 2e-3 + 1e-9;
 /// The figures that are such peaks.
@@ -75,6 +79,47 @@ impl Caveat {
             Balance::Lost => (Caveat::BALANCE_LOST, "the results mean nothing"),
         };
         Some(Caveat::new(name, format!("the energy balance is {}: {means}", energy.found()), owned(&["*"])))
+    }
+
+    /// A run that kept its energy, but not as well as one whose steps are short enough; none for one that did.
+    pub(super) fn of_rough_balance(energy: &EnergyCheck) -> Option<Self> {
+        let is_rough = energy.balance == Balance::Kept && energy.balance_error > ROUGH;
+        let text = format!(
+            "the energy balance is off by {:.2} % of the {}, where steps that are short enough keep it to {:.1} %: the figures may be those of the step, \
+             not of the scenario; a shorter step, error control or --estimate-error shows which hold",
+            1e2 * energy.balance_error,
+            energy.reference,
+            1e2 * ROUGH
+        );
+        is_rough.then(|| Caveat::new("energy_balance_rough", text, owned(&["*"])))
+    }
+
+    /// A fixed step that is too long for what acted in the run: of `rates`, which are too fast for it, those of spheres that touched
+    /// something, and all others; none if there are none.
+    pub fn step_too_long(step_s: f64, rates: &[&Rate], summary: &Summary) -> Option<Self> {
+        let is_sphere = |rate: &Rate| summary.first_contacts.iter().any(|first| first.sphere == rate.of);
+        let touched = |rate: &Rate| summary.contacts.iter().any(|contact| contact.sphere == rate.of || contact.part == rate.of);
+        let acted = rates.iter().filter(|rate| !is_sphere(rate) || touched(rate));
+        let worst = acted.min_by(|a, b| a.time_scale_s.total_cmp(&b.time_scale_s))?;
+        let text = format!(
+            "the step of {:.4} ms is {:.1} times the time scale of {} ({}), where {RK4_STABILITY_LIMIT} times is the most that it bears: the figures are those of the step",
+            1e3 * step_s,
+            step_s / worst.time_scale_s,
+            worst.of,
+            worst.by
+        );
+        Some(Caveat::new("step_too_long", text, owned(&["*"])))
+    }
+
+    /// Figures that a finer integration changes, by their names with the part by which each does; none if there are none.
+    pub fn undetermined(against: &str, changed: &[(String, f64)], figures: Vec<String>) -> Option<Self> {
+        let (name, part) = changed.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let text = format!(
+            "{} figures are not determined: with {against} {name} differs by {:.0} %; quote what is stable in an ensemble (--ensemble)",
+            changed.len(),
+            1e2 * part
+        );
+        Some(Caveat::new("undetermined", text, figures))
     }
 
     /// A joint that turned to `turned` beyond the end of a stop.

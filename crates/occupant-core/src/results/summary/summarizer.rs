@@ -124,6 +124,7 @@ impl Summarizer {
             others: people.collect(),
             caveats: Caveat::of_balance(&outcome.energy)
                 .into_iter()
+                .chain(Caveat::of_rough_balance(&outcome.energy))
                 .chain(self.caveats(case, outcome.time_s))
                 .chain(Self::unmet(case, &ejections))
                 .chain(on_the_way)
