@@ -29,7 +29,8 @@ impl Study {
             _ => vec![0, u32::MAX],
         };
         let combined = combinations.into_iter().map(|bits| {
-            let end = |(at, (i, ends)): (usize, &(usize, [Value; 2]))| (*i, ends[(bits >> at.min(31) & 1) as usize].clone());
+            let end =
+                |(at, (i, ends)): (usize, &(usize, [Value; 2]))| (*i, ends[(bits >> at.min(31) & 1) as usize].clone());
             Corner { values: ends.iter().enumerate().map(end).collect() }
         });
         alone.chain(combined).collect()

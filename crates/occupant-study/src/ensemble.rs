@@ -152,7 +152,10 @@ pub(super) fn path(base: &Draft, parameters: &[Parameter], most: f64) -> Vec<Per
 
 /// A change of each material and each belt, both straight lines of one together.
 pub(super) fn stiffness(base: &Draft, most: f64) -> Vec<Perturbation> {
-    let firsts = ["materials.*.k1", "belts.*.k1", "occupants.*.belts.*.k1"].iter().filter_map(|path| targets(base, path).ok()).flatten();
+    let firsts = ["materials.*.k1", "belts.*.k1", "occupants.*.belts.*.k1"]
+        .iter()
+        .filter_map(|path| targets(base, path).ok())
+        .flatten();
     firsts
         .map(|first| {
             let second = first.path.strip_suffix('1').map(|p| format!("{p}2"));

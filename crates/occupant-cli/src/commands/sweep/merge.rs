@@ -69,5 +69,9 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     kept::write_missing(&plan, (&target, &sums), &journal, wanted, &engine, &AtomicBool::new(false))?;
     sums.close()?;
     let next = format!("occupant study report {}", quoted(target.path.display()));
-    if args.quiet { Ok(judged(&found.census)) } else { tell(&found, None, &next, args.units.or(Some(plan.study.base.units()))) }
+    if args.quiet {
+        Ok(judged(&found.census))
+    } else {
+        tell(&found, None, &next, args.units.or(Some(plan.study.base.units())))
+    }
 }

@@ -8,9 +8,9 @@ use occupant_study::Value;
 use placed_text::Severity;
 
 use super::job::Sweep;
+use crate::base::Failure;
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table, facts, trimmed};
-use crate::base::Failure;
 use crate::files::study_folder::Role;
 use crate::files::table::Cell;
 
@@ -30,7 +30,11 @@ impl Sweep {
         let (corners, refused) = self.corners();
         let seconds = self.of_one(samples.start).map_err(|failure| match &refused[..] {
             [] => failure,
-            some => failure.with_done(&format!("of {corners} corners of the study {} are refused:\n{}", some.len(), some.concat())),
+            some => failure.with_done(&format!(
+                "of {corners} corners of the study {} are refused:\n{}",
+                some.len(),
+                some.concat()
+            )),
         })?;
         let threads = self.engine.threads() as f64;
         let megabytes = count as f64 * manifest.columns.len() as f64 * CELL / 1e6;
@@ -38,15 +42,19 @@ impl Sweep {
             ("samples", format!("{count} of {} columns each", manifest.columns.len())),
             ("time", format!("about {}, one sample took {seconds:.2} s", duration(seconds * count as f64 / threads))),
             ("threads", threads.to_string()),
-            ("corners", match refused.len() {
-                0 => format!("{corners} of the study's least and greatest values tried, none is refused"),
-                n => format!("{n} of {corners} are REFUSED, see below"),
-            }),
+            (
+                "corners",
+                match refused.len() {
+                    0 => format!("{corners} of the study's least and greatest values tried, none is refused"),
+                    n => format!("{n} of {corners} are REFUSED, see below"),
+                },
+            ),
             ("table", format!("about {megabytes:.1} MB; whole runs that are kept come on top")),
             ("folder", format!("{}; nothing was written", self.folder.path.display())),
         ];
         let first = self.first(samples.start..samples.end.min(samples.start + SHOWN));
-        let refused = if refused.is_empty() { String::new() } else { format!("\nrefused corners\n{}", refused.concat()) };
+        let refused =
+            if refused.is_empty() { String::new() } else { format!("\nrefused corners\n{}", refused.concat()) };
         Ok(format!("{}\n{first}{refused}", facts(&lines)))
     }
 
@@ -60,7 +68,9 @@ impl Sweep {
                 let parameter = &study.parameters[*i];
                 let (per, unit) = self.units.told_of(parameter, &study.base).shown;
                 match value {
-                    Value::Number(x) => format!("{} = {} {unit}", parameter.name, trimmed(x / per, 4)).trim_end().to_owned(),
+                    Value::Number(x) => {
+                        format!("{} = {} {unit}", parameter.name, trimmed(x / per, 4)).trim_end().to_owned()
+                    }
                     other => format!("{} = {other:?}", parameter.name),
                 }
             });

@@ -59,7 +59,11 @@ pub(crate) fn judged(census: &Census) -> Done {
         return Done::Well;
     }
     let why = census.first.first().map_or(String::new(), |(index, reason)| format!("; sample {index}: {reason}"));
-    let all = if census.refused == census.finished() { "every sample is refused" } else { "no sample has figures that count" };
+    let all = if census.refused == census.finished() {
+        "every sample is refused"
+    } else {
+        "no sample has figures that count"
+    };
     talk::say(&format!("error: {all}{why}\n = help: `occupant sweep STUDY --dry-run` tries the corners of the study"));
     Done::Unwell
 }

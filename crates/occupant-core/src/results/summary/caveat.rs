@@ -98,7 +98,8 @@ impl Caveat {
     /// something, and all others; none if there are none.
     pub fn step_too_long(step_s: f64, rates: &[&Rate], summary: &Summary) -> Option<Self> {
         let is_sphere = |rate: &Rate| summary.first_contacts.iter().any(|first| first.sphere == rate.of);
-        let touched = |rate: &Rate| summary.contacts.iter().any(|contact| contact.sphere == rate.of || contact.part == rate.of);
+        let touched =
+            |rate: &Rate| summary.contacts.iter().any(|contact| contact.sphere == rate.of || contact.part == rate.of);
         let acted = rates.iter().filter(|rate| !is_sphere(rate) || touched(rate));
         let worst = acted.min_by(|a, b| a.time_scale_s.total_cmp(&b.time_scale_s))?;
         let text = format!(

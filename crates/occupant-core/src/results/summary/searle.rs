@@ -68,11 +68,8 @@ impl Way {
         let (sin, cos) = self.angle_rad.sin_cos();
         let flat_m = self.speed_m_s * self.speed_m_s / (2.0 * self.gravity_m_s2);
         // (v²/2g sin²θ + H) μ² + (v²/g sin θ cos θ − s) μ + v²/2g cos²θ = 0
-        let [a, b, c] = [
-            flat_m * sin * sin + self.fall_m,
-            2.0 * flat_m * sin * cos - self.from_launch_m,
-            flat_m * cos * cos,
-        ];
+        let [a, b, c] =
+            [flat_m * sin * sin + self.fall_m, 2.0 * flat_m * sin * cos - self.from_launch_m, flat_m * cos * cos];
         let root = (b * b - 4.0 * a * c).sqrt();
         // without cancellation, and where a is 0 too
         let least = 2.0 * c / (root - b);
