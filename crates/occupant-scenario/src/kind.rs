@@ -181,7 +181,7 @@ impl Kind {
             split_number(text).ok_or_else(|| whole(format!("`{text}` does not start with a number"), None))?;
         let unit_text = text[start..].trim_end();
         if unit_text.is_empty() {
-            let hint = format!("write {} without quotes", text.trim());
+            let hint = format!("write {} without quotes", plain(text.trim()));
             return Err(whole(format!("a number without unit in quotes, `{text}`"), Some(hint)));
         }
         if unit_text.starts_with(',') {
@@ -291,3 +291,14 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
         Some(word)
     })
 }
+/// The digits of a number as TOML has them: with digits on both sides of the point.
+fn plain(digits: &str) -> String {
+    let (sign, digits) = match digits.strip_prefix(['-', '+']) {
+        Some(rest) => (&digits[..1], rest),
+        None => ("", digits),
+    };
+    let begun = if digits.starts_with('.') { format!("0{digits}") } else { digits.to_owned() };
+    let ended = if begun.ends_with('.') { format!("{begun}0") } else { begun.replace(".e", ".0e").replace(".E", ".0E") };
+    format!("{sign}{ended}")
+}
+

@@ -18,7 +18,7 @@ pub(crate) mod units;
 
 pub(crate) use choice::one_of;
 pub(crate) use failure::{Done, Failure};
-pub(crate) use interrupt::Interrupt;
+pub(crate) use interrupt::{Interrupt, survive_long_files};
 pub(crate) use names::{by_ending, ending, escape, file_name, file_stem, is_page, program, quoted};
 pub(crate) use output_file::{
     Existing, FileProblem, PartialFile, begun, deliver, deliver_and, is_at, partial_path, publish, refuse_input,
