@@ -45,6 +45,13 @@ pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
             behind.surface
         ));
     }
+    for open in &diagnosis.open_ahead {
+        say(&format!(
+            "warning: no belt holds the body of {}, and neither panel nor windscreen stands ahead of it, though its vehicle loses {}: nothing will meet the head\n = help: add the panel and the windscreen of the compartment, or a belt",
+            open.sphere,
+            units.say(open.loss_m_s, "m/s", 1)
+        ));
+    }
     match too_long(&diagnosis) {
         Some(message) => {
             say(&format!("error: {message}"));

@@ -2,6 +2,7 @@
 //!
 //! All figures are those of the start of the run. Ours; the report prints the seating only.
 
+mod ahead;
 mod friction;
 mod rates;
 mod start;
@@ -11,6 +12,7 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 pub use crate::forces::rate::Rate;
+pub use ahead::OpenAhead;
 use crate::forces::table::Tables;
 pub use friction::{FrictionWatch, UnstableFriction};
 pub use rates::{RK4_STABILITY_LIMIT, SphereRate};
@@ -41,6 +43,9 @@ pub struct Diagnosis {
     pub contacts: Vec<ContactStart>,
     /// Spheres that start behind a surface and do not feel it until they have come out.
     pub behind: Vec<SphereBehind>,
+    /// Occupants without a belt in whose way ahead neither panel nor windscreen stands.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub open_ahead: Vec<OpenAhead>,
     /// Corners of two surfaces within reach that a sphere may come round without touching either.
     pub corners: Vec<[String; 2]>,
     /// Parts of the body with those that they can touch.
@@ -163,6 +168,7 @@ pub fn diagnose(model: &Model) -> Diagnosis {
         seat: start::seat(model),
         contacts: start.contacts,
         behind: start::behind(model, &mobility),
+        open_ahead: ahead::open_ahead(model),
         corners: start::corners(model),
         self_contact: start::self_contact(model),
         elements: start.elements,

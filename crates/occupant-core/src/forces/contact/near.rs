@@ -54,7 +54,13 @@ impl Bounds {
         (point.coords.sup(&self.least).inf(&self.most) - point.coords).norm()
     }
 
-    fn is_near(&self, other: &Self, gap_m: f64) -> bool {
+    /// Its upper end along an axis, m.
+    pub(crate) fn most_along(&self, axis: usize) -> f64 {
+        self.most[axis]
+    }
+
+    /// Whether it is at most so far from another along every axis.
+    pub(crate) fn is_near(&self, other: &Self, gap_m: f64) -> bool {
         (0..3).all(|i| self.least[i] <= other.most[i] + gap_m && other.least[i] <= self.most[i] + gap_m)
     }
 }
