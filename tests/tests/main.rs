@@ -38,4 +38,5 @@ mod solids;
 mod spring;
 mod studies;
 mod symmetry;
+mod throws;
 mod validation;

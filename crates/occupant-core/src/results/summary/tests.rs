@@ -240,3 +240,21 @@ fn limits_of_another_dummy_are_marked() {
     let other = found.iter().find(|caveat| caveat.name == "other_dummy").unwrap();
     assert!(other.touches("nij") && other.text.contains("Hybrid III 5F of 49 kg"), "{}", other.text);
 }
+
+#[test]
+fn a_balance_that_short_steps_would_keep_better_marks_every_figure() {
+    use crate::results::energy::{Balance, EnergyCheck};
+    let check = |balance_error| EnergyCheck {
+        balance_error,
+        reference: "greatest kinetic energy in the vehicle",
+        reference_j: 4403.0,
+        greatest_kinetic_j: 4403.0,
+        balance: Balance::Kept,
+    };
+    assert_eq!(Caveat::of_rough_balance(&check(9e-4)), None);
+    let rough = Caveat::of_rough_balance(&check(7e-3)).unwrap();
+    assert!(rough.touches("hic15") && rough.text.contains("0.70 %"), "{}", rough.text);
+    // what is doubtful or lost says so already
+    let lost = EnergyCheck { balance: Balance::Doubtful, ..check(0.05) };
+    assert_eq!(Caveat::of_rough_balance(&lost), None);
+}
