@@ -18,6 +18,8 @@ use crate::files::scenario::Opened;
 const NAMED: f64 = 1e-3;
 /// One that differs by more is not determined.
 const UNDETERMINED: f64 = 0.05;
+/// Differences below these are none, by SI unit; of others, plain numbers among them, those below 1e-3.
+const LEAST: [(&str, f64); 4] = [("m", 1e-4), ("s", 1e-4), ("N", 1.0), ("m/s^2", 0.1)];
 /// So many are, the worst first.
 const MOST_NAMED: usize = 5;
 /// A head whose path differs by so much, m, says that the motion makes much of little.
@@ -53,6 +55,12 @@ struct FigureError {
 }
 
 impl FigureError {
+    /// Whether the difference is more than rounding makes of what is nothing, such as a way to the side in a plane motion.
+    fn matters(&self) -> bool {
+        let least = LEAST.iter().find(|(unit, _)| *unit == self.unit).map_or(1e-3, |(_, least)| *least);
+        self.difference.abs() > least
+    }
+
     /// Of the greater of both values; 0 of two zeros.
     fn relative(&self) -> f64 {
         let greatest = self.value.abs().max((self.value - self.difference).abs());
@@ -121,7 +129,7 @@ fn differences(run: Vec<Figure>, finer: Vec<Figure>) -> Vec<FigureError> {
 impl ErrorEstimate {
     /// What to know of the figures that the finer run has otherwise, and of the measures of their names.
     pub(crate) fn caveat(&self, summary: &Summary) -> Option<Caveat> {
-        let off = self.figures.iter().filter(|figure| figure.relative() > UNDETERMINED);
+        let off = self.figures.iter().filter(|figure| figure.relative() > UNDETERMINED && figure.matters());
         let changed: Vec<(String, f64)> = off.map(|figure| (figure.name.clone(), figure.relative())).collect();
         let mut names: Vec<String> = changed.iter().map(|(name, _)| name.clone()).collect();
         for (prefix, person) in summary.people() {
