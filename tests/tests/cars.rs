@@ -22,7 +22,10 @@ fn motion(table: &str, speed: &str, [left, right]: [&str; 2]) -> String {
         has.then(|| car.column(&l).iter().zip(car.column(&r)).map(|(l, r)| (l + r) / 2.0).collect::<Vec<f64>>())
     };
     let time_ms = car.column("t_ms");
-    let (ahead, across) = (middle("X").expect("sides with an accelerometer ahead"), middle("Y").unwrap_or_else(|| vec![0.0; time_ms.len()]));
+    let (ahead, across) = (
+        middle("X").expect("sides with an accelerometer ahead"),
+        middle("Y").unwrap_or_else(|| vec![0.0; time_ms.len()]),
+    );
     let sides = car.column(left).into_iter().zip(car.column(right));
     let turning: Vec<f64> = sides.map(|(l, r)| (l - r) * STANDARD_GRAVITY_MPS2 / 1.45).collect();
     let rests = time_ms.partition_point(|t| *t < 0.0);

@@ -146,7 +146,8 @@ fn a_person_on_a_sled_moves_as_the_dead_did() {
     let mut series = Series::new(matching(&model, "*"));
     simulate(&model, &mut series).unwrap();
 
-    let [ways, belts] = ["kinematics", "shoulder-belt-8-tests"].map(|name| Curves::open(&format!("gs1-shaw2009/{name}.csv")));
+    let [ways, belts] =
+        ["kinematics", "shoulder-belt-8-tests"].map(|name| Curves::open(&format!("gs1-shaw2009/{name}.csv")));
     let rated = |channel: &str, time_ms: &[f64], measured: &[f64], is_way: bool| {
         let time_s: Vec<f64> = time_ms.iter().map(|t| 1e-3 * t).collect();
         let ours = sampled(&series.time_s, series.of(channel).unwrap(), is_way);

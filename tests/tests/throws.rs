@@ -54,8 +54,14 @@ fn a_pedestrian_lands_on_the_ground_and_not_on_himself() {
     // his hand is on his head at 574 ms
     assert!((1.19..1.21).contains(&landing.time_s), "{throw:?}");
     // the car touches him last just before the launch
-    let on_car = |touched: &[String]| touched.iter().any(|name| ["bumper", "edge", "bonnet", "windscreen", "roof"].contains(&name.as_str()));
-    let last_s = seen.iter().filter(|(t, _, touched)| *t < landing.time_s && on_car(touched)).map(|(t, ..)| *t).fold(0.0, f64::max);
+    let on_car = |touched: &[String]| {
+        touched.iter().any(|name| ["bumper", "edge", "bonnet", "windscreen", "roof"].contains(&name.as_str()))
+    };
+    let last_s = seen
+        .iter()
+        .filter(|(t, _, touched)| *t < landing.time_s && on_car(touched))
+        .map(|(t, ..)| *t)
+        .fold(0.0, f64::max);
     assert!((launch.time_s - last_s - 2e-3).abs() < 1e-9, "{last_s} {launch:?}");
     // distances of the centre of gravity, to the 2 ms of outputs at 10 m/s
     let [start, land, end] = [throw.struck_s, landing.time_s, summary.reached_s].map(|t| place_at(&seen, t));
@@ -78,7 +84,9 @@ fn a_rider_is_thrown_from_his_machine_and_not_from_where_he_lands() {
     assert_eq!((throw.from, landing.time_s), (ThrowStart::Blow, first_on_the_ground(&summary)));
     assert!((0.93..0.95).contains(&landing.time_s), "{landing:?}");
     // the machine touches him last at 134 ms; his own hands touch each other at 540 ms
-    let on_machine = |touched: &[String]| touched.iter().any(|name| ["saddle", "hump", "tank", "tank_top", "pegs"].contains(&name.as_str()));
+    let on_machine = |touched: &[String]| {
+        touched.iter().any(|name| ["saddle", "hump", "tank", "tank_top", "pegs"].contains(&name.as_str()))
+    };
     let last_s = seen.iter().filter(|(_, _, touched)| on_machine(touched)).map(|(t, ..)| *t).fold(0.0, f64::max);
     assert!((launch.time_s - last_s - 2e-3).abs() < 1e-9, "{last_s} {launch:?}");
     let [start, left, end] = [throw.struck_s, launch.time_s, summary.reached_s].map(|t| place_at(&seen, t));
@@ -120,7 +128,10 @@ fn a_head_that_flies_out_of_what_is_modelled_is_marked_and_one_in_a_belt_is_not(
     let named = |summary: &Summary, name: &str| summary.caveats.iter().find(|caveat| caveat.name == name).cloned();
     let (unbelted, _) = seen(BELTED, &["belts.driver=null"]);
     let left = named(&unbelted, "head_left_compartment").expect("a caveat");
-    assert!(left.touches("hic15") && left.touches("head_excursion.forward") && !left.touches("pelvis.peak"), "{left:?}");
+    assert!(
+        left.touches("hic15") && left.touches("head_excursion.forward") && !left.touches("pelvis.peak"),
+        "{left:?}"
+    );
     assert!(left.text.contains(" ahead at "), "{left:?}");
     let cut = named(&unbelted, "window_at_end").expect("a caveat");
     assert!(cut.touches("hic15") && cut.touches("hic36"), "{cut:?}");

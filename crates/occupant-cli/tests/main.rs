@@ -17,3 +17,4 @@ mod risk;
 mod sensitivity;
 mod study;
 mod sweep;
+mod trust;

@@ -298,7 +298,7 @@ fn plain(digits: &str) -> String {
         None => ("", digits),
     };
     let begun = if digits.starts_with('.') { format!("0{digits}") } else { digits.to_owned() };
-    let ended = if begun.ends_with('.') { format!("{begun}0") } else { begun.replace(".e", ".0e").replace(".E", ".0E") };
+    let ended =
+        if begun.ends_with('.') { format!("{begun}0") } else { begun.replace(".e", ".0e").replace(".E", ".0E") };
     format!("{sign}{ended}")
 }
-

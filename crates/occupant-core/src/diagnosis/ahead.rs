@@ -35,12 +35,7 @@ pub(super) fn open_ahead(model: &Model) -> Vec<OpenAhead> {
     bodies.filter_map(|(of, (row, home))| one(model, of, (row.landmarks.head?, row.landmarks.chest?), home)).collect()
 }
 
-fn one(
-    model: &Model,
-    of: usize,
-    (head, chest): (Segment, Segment),
-    home: Frame,
-) -> Option<OpenAhead> {
+fn one(model: &Model, of: usize, (head, chest): (Segment, Segment), home: Frame) -> Option<OpenAhead> {
     let (setup, body) = (model.setup(), model.body());
     if setup.is_ground(home) || is_belted(setup, of) {
         return None;
@@ -49,7 +44,8 @@ fn one(
     let start = frame_at(model, home, time.start_s);
     let ahead = start.rotation.column(0);
     let lost = |time_s: f64| -ahead.dot(&(frame_at(model, home, time_s).velocity_m_s - start.velocity_m_s));
-    let loss_m_s = (1..=20).map(|i| lost(time.start_s + f64::from(i) / 20.0 * (time.end_s - time.start_s))).fold(0.0, f64::max);
+    let loss_m_s =
+        (1..=20).map(|i| lost(time.start_s + f64::from(i) / 20.0 * (time.end_s - time.start_s))).fold(0.0, f64::max);
     if loss_m_s < LEAST_LOSS_M_S {
         return None;
     }
@@ -62,11 +58,15 @@ fn one(
     let ((sphere, head_m), (_, chest_m)) = (place(head)?, place(chest)?);
     let radius_m = body.spheres[sphere].radius_m;
     // as wide as the head, from its top down to the chest: z is down
-    let [top, low] = [Point3::new(head_m.x, head_m.y - radius_m, head_m.z - radius_m), Point3::new(head_m.x + FAR_M, head_m.y + radius_m, chest_m.z)];
+    let [top, low] = [
+        Point3::new(head_m.x, head_m.y - radius_m, head_m.z - radius_m),
+        Point3::new(head_m.x + FAR_M, head_m.y + radius_m, chest_m.z),
+    ];
     let way = Bounds::of(&[top, low]);
     let surfaces = setup.surfaces.iter().map(|own| (own.frame, plate(&own.outline)));
     let solids = setup.solids.iter().map(|own| (own.frame, block(&own.shape)));
-    let mut walls = surfaces.chain(solids).filter(|(frame, _)| setup.belongs_to(*frame) == home).filter_map(|(_, wall)| wall);
+    let mut walls =
+        surfaces.chain(solids).filter(|(frame, _)| setup.belongs_to(*frame) == home).filter_map(|(_, wall)| wall);
     let stands = walls.any(|wall| wall.is_near(&way, 0.0) && wall.most_along(0) > head_m.x + radius_m);
     (!stands).then(|| OpenAhead { sphere: body.spheres[sphere].name.clone(), loss_m_s })
 }

@@ -12,8 +12,8 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 pub use crate::forces::rate::Rate;
-pub use ahead::OpenAhead;
 use crate::forces::table::Tables;
+pub use ahead::OpenAhead;
 pub use friction::{FrictionWatch, UnstableFriction};
 pub use rates::{RK4_STABILITY_LIMIT, SphereRate};
 pub use start::{ContactStart, SeatStart, SphereBehind};

@@ -262,7 +262,9 @@ fn slope(
         let to = axes.into_frame(places[other].centre - places[k].centre);
         let slope_deg = crash_measures::trig::atan2(to.z, -to.x).to_degrees();
         if (-90.0..LEAST_SLOPE_DEG).contains(&slope_deg) {
-            let found = format!("the lap belt goes from the pelvis to an anchor at {slope_deg:.0}° below the level, counted from straight back");
+            let found = format!(
+                "the lap belt goes from the pelvis to an anchor at {slope_deg:.0}° below the level, counted from straight back"
+            );
             let expected = format!(
                 "{LEAST_SLOPE_DEG}° or more: a flatter belt slides up to the belly, and this one cannot: submarining does not show"
             );
