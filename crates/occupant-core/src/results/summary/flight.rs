@@ -6,6 +6,7 @@
 use nalgebra::Vector3;
 
 use super::throw::{Course, Moment, Throw, ThrowStart, Touchdown};
+use crate::body::ContactSphere;
 use crate::forces::contact::Touch;
 use crate::forces::contact::surface::Frame;
 use crate::model::Model;
@@ -173,7 +174,7 @@ impl Flight {
             if self.still.contains(&touch.frame) {
                 let first = Touchdown {
                     at: now.before(self.first_s(sample, touch, now.time_s)),
-                    sphere: sample.model.body().spheres[touch.sphere].name.clone(),
+                    sphere: touch.sphere,
                     sphere_m: system.sphere(&sample.evaluation.kinematics, touch.sphere).1.to_vector(),
                 };
                 if touched.ground.as_ref().is_none_or(|(known, _)| first.at.time_s < known.at.time_s) {
@@ -199,7 +200,7 @@ impl Flight {
     }
 
     /// What came of it; none of a body that nothing struck, or that is still with its vehicle.
-    pub(super) fn throw(&self) -> Option<Throw> {
+    pub(super) fn throw(&self, spheres: &[ContactSphere]) -> Option<Throw> {
         let end = self.now?;
         let is_carried = self.carried.is_some_and(|carried| carried.time_s == end.time_s);
         let left = self.carried.filter(|_| !is_carried && self.grounded.is_some());
@@ -216,13 +217,13 @@ impl Flight {
             from,
             start,
             launch: launch.filter(|launch| launch.time_s >= start.time_s),
-            landing: self.flown.as_ref().map(|(_, landing)| landing.clone()),
+            landing: self.flown.map(|(_, landing)| landing),
             end,
             highest_m: self.highest_m,
             airborne_s: self.airborne_s.clone(),
             friction: self.friction,
             gravity_m_s2: self.gravity_m_s2,
         };
-        Some(course.throw())
+        Some(course.throw(spheres))
     }
 }

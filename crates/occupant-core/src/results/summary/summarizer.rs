@@ -100,7 +100,7 @@ impl Summarizer {
         let (occupant, Person { accelerations, head_excursion, measures }) = people.next()?;
         let contacts = contacts(outcome, case);
         let throws: IndexMap<_, _> =
-            self.flights.iter().filter_map(|flight| Some((flight.name, flight.throw()?))).collect();
+            self.flights.iter().filter_map(|flight| Some((flight.name, flight.throw(&case.body.spheres)?))).collect();
         let on_the_way = throws.iter().filter_map(|(name, throw)| Caveat::not_at_rest(name, throw));
         let ejections = self.ejections(case);
         let (status, reason) = ending(&outcome.status);

@@ -9,6 +9,7 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 use super::searle::{Searle, Way};
+use crate::body::ContactSphere;
 
 /// A body slower than this at the end of a run is at rest, m/s.
 const AT_REST_M_S: f64 = 0.1;
@@ -99,10 +100,11 @@ pub(super) struct Moment {
 }
 
 /// The first touch of the ground at the end of a flight.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Touchdown {
     pub at: Moment,
-    pub sphere: String,
+    /// Index of the sphere that touches.
+    pub sphere: usize,
     pub sphere_m: Vector3<f64>,
 }
 
@@ -144,7 +146,7 @@ impl Moment {
 }
 
 impl Course {
-    pub(super) fn throw(self) -> Throw {
+    pub(super) fn throw(self, spheres: &[ContactSphere]) -> Throw {
         let Course { start, end, launch, .. } = &self;
         let at_rest = end.speed_m_s() < AT_REST_M_S;
         let fall_m = |launch: &Moment| launch.place_m.z - end.place_m.z;
@@ -164,7 +166,7 @@ impl Course {
             airborne_m: launch.as_ref().zip(landing).map(|(launch, landing)| landing.at.from_m(launch)),
             landing: landing.map(|Touchdown { at, sphere, sphere_m }| Landing {
                 time_s: at.time_s,
-                sphere: sphere.clone(),
+                sphere: spheres.get(*sphere).map(|sphere| sphere.name.clone()).unwrap_or_default(),
                 speed_m_s: at.speed_m_s(),
                 angle_deg: -at.rise_deg(),
                 distance_m: at.from_m(start),
