@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use occupant_core::diagnosis::{UnstableFriction, diagnose};
+use occupant_core::diagnosis::{RK4_STABILITY_LIMIT, UnstableFriction, diagnose};
 use occupant_core::model::setup::Integrator;
 use occupant_core::results::summary::{Caveat, RunStatus, Summary};
 use occupant_scenario::Diagnostics;
@@ -192,7 +192,7 @@ fn one(args: &Args) -> Result<(Done, Summary, Units), Failure> {
     }
     let mut run = simulate(&opened, from.as_ref(), recording, channels, &interrupt, args.quiet)?;
     if let Some((diagnosis, step_s)) = diagnosis.as_ref().and_then(|d| Some((d, d.run.step_s?))) {
-        let caveat = Caveat::step_too_long(step_s, &diagnosis.too_fast(), &run.summary);
+        let caveat = Caveat::step_too_long(step_s, RK4_STABILITY_LIMIT, &diagnosis.too_fast(), &run.summary);
         run.summary.caveats.extend(caveat);
     }
     let balance = run.summary.energy.balance;

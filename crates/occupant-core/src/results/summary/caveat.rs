@@ -6,7 +6,6 @@ use serde::Serialize;
 
 use super::{Exit, Peak, RunStatus, Summary, Throw, word};
 use crate::body::{Body, Joint, Limb, Segment};
-use crate::diagnosis::RK4_STABILITY_LIMIT;
 use crate::forces::rate::Rate;
 use crate::results::energy::{Balance, EnergyCheck};
 
@@ -94,16 +93,16 @@ impl Caveat {
         is_rough.then(|| Caveat::new("energy_balance_rough", text, owned(&["*"])))
     }
 
-    /// A fixed step that is too long for what acted in the run: of `rates`, which are too fast for it, those of spheres that touched
+    /// A fixed step that is longer than `most` time scales of what acted in the run: of `rates`, which are too fast for it, those of spheres that touched
     /// something, and all others; none if there are none.
-    pub fn step_too_long(step_s: f64, rates: &[&Rate], summary: &Summary) -> Option<Self> {
+    pub fn step_too_long(step_s: f64, most: f64, rates: &[&Rate], summary: &Summary) -> Option<Self> {
         let is_sphere = |rate: &Rate| summary.first_contacts.iter().any(|first| first.sphere == rate.of);
         let touched =
             |rate: &Rate| summary.contacts.iter().any(|contact| contact.sphere == rate.of || contact.part == rate.of);
         let acted = rates.iter().filter(|rate| !is_sphere(rate) || touched(rate));
         let worst = acted.min_by(|a, b| a.time_scale_s.total_cmp(&b.time_scale_s))?;
         let text = format!(
-            "the step of {:.4} ms is {:.1} times the time scale of {} ({}), where {RK4_STABILITY_LIMIT} times is the most that it bears: the figures are those of the step",
+            "the step of {:.4} ms is {:.1} times the time scale of {} ({}), where {most} times is the most that it bears: the figures are those of the step",
             1e3 * step_s,
             step_s / worst.time_scale_s,
             worst.of,
