@@ -326,8 +326,9 @@ impl Signs {
     }
 }
 
-/// Cosine of the angle within which a bag and what a sphere touches push it the same way: 60°.
-const SAME_WAY: f64 = 0.5;
+/// Cosine of the angle within which a bag and what a sphere touches push it the same way: about 80°. A head that slides over the top of
+/// a bag on to the rim behind it has 0.42.
+const SAME_WAY: f64 = 0.2;
 
 /// Whether what a sphere touches stands behind the bag that pushes it: both push the same way.
 fn is_behind(push: &V3<f64>, touch: &Contact) -> bool {
