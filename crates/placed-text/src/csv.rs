@@ -252,7 +252,8 @@ impl Body {
         if body.end + after == lines.len() {
             body.end = lines.len();
         }
-        (agree > 1 || first + 1 == lines.len()).then_some(body)
+        let stands_alone = first == 0 || !has_number(sources, separator, lines[first - 1]);
+        (agree > 1 || (first + 1 == lines.len() && stands_alone)).then_some(body)
     }
 }
 

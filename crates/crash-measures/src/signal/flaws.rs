@@ -124,14 +124,17 @@ pub fn plateau(values: &[f64]) -> Option<Plateau> {
     [most, least].into_iter().filter(is_far).find_map(of)
 }
 
-/// The decimal place that all values are rounded to, such as 0.001; none where it is finer than a millionth, or where nothing changes.
+/// The decimal place that all values are rounded to, such as 0.001; none where it is finer than a millionth, or where second differences of
+/// the values are smaller than rounding makes them, as those of a straight line that happens to go through round numbers.
 #[must_use]
 pub fn resolution(values: &[f64]) -> Option<f64> {
-    let changes = values.windows(2).any(|pair| pair[0] != pair[1]);
     let fits =
         |scale: &f64| values.iter().all(|v| ((v * scale).round() - v * scale).abs() <= 1e-6 + 1e-9 * (v * scale).abs());
-    let scales = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
-    scales.into_iter().find(fits).filter(|_| changes).map(|scale| 1.0 / scale)
+    let step = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6].into_iter().find(fits).map(|scale| 1.0 / scale)?;
+    let second = values.windows(3).map(|v| v[0] - 2.0 * v[1] + v[2]);
+    let square = second.map(|d| d * d).sum::<f64>() / values.len().saturating_sub(2).max(1) as f64;
+    // rounding alone makes it half of the step squared
+    (square > 0.05 * step * step).then_some(step)
 }
 
 /// What rounding to `resolution` leaves in the second derivative of the natural spline through samples `dt_s` apart, as a root mean square,
@@ -188,8 +191,10 @@ mod tests {
 
     #[test]
     fn rounding_is_found_with_its_noise() {
-        let place: Vec<f64> = (0..300).map(|i| (22.2 * f64::from(i) * 0.01 * 1e3).round() / 1e3).collect();
+        let place: Vec<f64> = (0..300).map(|i| (22.137 * f64::from(i) * 0.01 * 1e3).round() / 1e3).collect();
         assert_eq!(resolution(&place), Some(1e-3));
+        let line: Vec<f64> = (0..300).map(|i| 20.0 * f64::from(i) * 0.01).collect();
+        assert_eq!(resolution(&line), None);
         assert_eq!(resolution(&[1.0, 1.0]), None);
         assert_eq!(resolution(&[0.0, PI]), None);
         // spline through white noise: √(mean of (6·(2 − 2 cos θ)/(4 + 2 cos θ))²) = 6

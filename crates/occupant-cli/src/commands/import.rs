@@ -99,7 +99,9 @@ pub(crate) fn import(args: &Args) -> Result<(), Failure> {
         },
     )?;
     made.notes.iter().for_each(note);
-    if made.path.is_none() && is_table(&args.source) {
+    // curves under the names of channels are of use alone
+    let has_channels = imported.recording.signals.iter().any(|signal| signal.name.contains('.'));
+    if made.path.is_none() && is_table(&args.source) && !has_channels {
         return Err(Failure::plain(format!("{} gives no path: nothing was written", args.source.display())));
     }
     write(args, &name, &imported, &made)

@@ -169,7 +169,7 @@ impl Motion {
             told.join(", "),
             if missing.len() > 3 { format!(", and {} more", missing.len() - 3) } else { String::new() }
         );
-        let length = placed_text::number((longest.length_s() * 1e6).ceil() / 1e3);
+        let length = placed_text::number((longest.length_s() * 1e6 - 1e-3).ceil() / 1e3);
         if !is_short && most_s.is_none_or(|most_s| longest.length_s() > most_s * (1.0 + 1e-9)) {
             let help = format!(
                 "--bridge '{length} ms' bridges holes up to that long by straight lines: what happened in them is not known"
