@@ -187,13 +187,13 @@ fn uneven_and_coarse_samples_are_refused_with_a_remedy() {
     steady(folder.path(), "ax[g],ay[g]", "-10,0", 500);
     let (code, _, said) = occupant(folder.path(), &["risk", "a.csv"]);
     assert_eq!(code, 2);
-    assert!(said.contains("half the sample rate, 250 Hz") && said.contains("--cfc 60"), "{said}");
+    assert!(said.contains("half the sample rate, 250 Hz") && said.contains("--filter CFC60"), "{said}");
     let (code, _, said) = occupant(folder.path(), &["risk", "a.csv", "--cfc", "60"]);
     assert!(code == 0 && said.contains("less than ten times the class"), "{code} {said}");
 
     steady(folder.path(), "ax[g],ay[g]", "-10,0", 200);
     let (_, _, said) = occupant(folder.path(), &["risk", "a.csv"]);
-    assert!(said.contains("no class fits so few samples; --cfc none"), "{said}");
+    assert!(said.contains("no class fits so few samples; --filter none"), "{said}");
 }
 
 #[test]

@@ -34,7 +34,7 @@ def run(occupant, changes, folder):
     common = ["--set", "output.interval=0.1 ms", "--set", "time.end=0.13"]
     mcap, table = folder / "run.mcap", folder / "run.csv"
     subprocess.run([occupant, "run", SCENARIO, "-o", mcap, "--quiet", *common, *sets], check=True)
-    channels = ["--channels", ",".join(CHANNELS)]
+    channels = ["--channel", ",".join(CHANNELS)]
     subprocess.run([occupant, "export", mcap, "-o", table, *channels], check=True)
     with open(table, newline="") as file:
         rows = [row for row in csv.reader(file) if row and not row[0].startswith("#")]

@@ -68,14 +68,6 @@ pub enum ConversionError {
     /// The compartment's data file cannot be used.
     #[error("the compartment's data file cannot be used: {0}")]
     Compartment(String),
-    /// A number that has no counterpart in a scenario.
-    #[error("{variable} has no counterpart in a scenario: {reason}")]
-    NoCounterpart {
-        /// The card's variable.
-        variable: String,
-        /// What it says and why that cannot be said.
-        reason: String,
-    },
     /// A field that the conversion needs is not in the deck.
     #[error("the deck has no field {0}, which the conversion needs")]
     MissingField(String),
@@ -89,7 +81,7 @@ impl Deck {
     /// The scenario of this deck.
     ///
     /// # Errors
-    /// A path that is missing or unreadable, numbers without counterpart, a scenario that the format refuses.
+    /// A path that is missing or unreadable, a scenario that the format refuses.
     pub fn to_scenario(&self, options: &ConvertOptions) -> Result<Conversion, ConversionError> {
         let layout = CompartmentLayout::or_reconstruction(options.compartment.as_ref());
         let layout = layout.map_err(ConversionError::Compartment)?;
@@ -99,12 +91,12 @@ impl Deck {
             let text = "the path file: MREAD = 0 (card 3) takes the vehicle's path from series 12";
             writer.report.ignored.push(text.to_owned());
         }
-        head::write(&mut writer, options, &layout)?;
+        head::write(&mut writer, options, &layout);
         path.write(&mut writer);
         body::write(&mut writer);
         joints::write(&mut writer);
         motion::write(&mut writer, &layout);
-        compartment::write(&mut writer, &layout)?;
+        compartment::write(&mut writer, &layout);
         let mut conversion = writer.finish()?;
         let loaded = check(&conversion.toml, path.beside())?;
         if self.has_series(14) {

@@ -9,13 +9,13 @@ use placed_text::did_you_mean;
 
 use super::new::STARTER;
 use crate::base::text_table::{Align, Table};
-use crate::base::{Failure, by_ending, talk};
+use crate::base::{Failure, ending, talk};
 use crate::files::results::Results;
 use crate::files::scenario::{self, ScenarioArgs};
 
 /// List the channels of a run: name, unit, meaning
 ///
-/// The names are those that --channel and --channels of other commands take, stars for parts of them allowed; {x,y,z} stands
+/// The names are those that --channel of other commands takes, stars for parts of them allowed; {x,y,z} stands
 /// for as many channels.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -23,7 +23,7 @@ pub(crate) struct Args {
     #[arg(value_name = "WORD")]
     word: Option<String>,
 
-    /// Results or a scenario to list the channels of; the scenario that `occupant new` writes if absent
+    /// Results, a scenario or a deck to list the channels of; the scenario that `occupant new` writes if absent
     #[arg(long, value_name = "RUN.mcap|SCENARIO")]
     of: Option<PathBuf>,
 }
@@ -71,7 +71,7 @@ fn rows<'a>(channels: impl Iterator<Item = &'a Channel>) -> Vec<[String; 3]> {
 }
 
 fn model_of(file: &Path) -> Result<Model, Failure> {
-    if by_ending(file, &[("toml", ()), ("json", ())]).is_none() {
+    if ending(file) == "mcap" {
         return Ok(Results::open(file)?.model);
     }
     let opened = scenario::open(&ScenarioArgs { scenario: file.to_owned(), overrides: Vec::new() })?;

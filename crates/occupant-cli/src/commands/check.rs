@@ -28,7 +28,11 @@ pub(crate) struct Args {
 
 pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
     let opened = scenario::open(&args.scenario)?;
-    scenario::warn(&opened.warnings);
+    if args.quiet {
+        scenario::warn(&opened.warnings)
+    } else {
+        opened.warn()
+    }
     let mut diagnosis = diagnose(&opened.model);
     opened.loaded.compare_with_people(&mut diagnosis.body);
     let units = args.units.or(opened.loaded.scenario.units);

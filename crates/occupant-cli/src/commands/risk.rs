@@ -5,12 +5,12 @@ mod options;
 
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use crash_measures::measure::limits::Rule;
 use crash_measures::signal::{CfcFamily, ChannelClass};
 use occupant_study::risk::{Preparation, VehicleSignals};
 
 use crate::base::{Done, Failure, one_of, print, say, talk};
+use crate::files::history::Filter;
 use crate::jobs::risk::{Report, json, text};
 use input::measured;
 use options::{flight, preparation};
@@ -30,8 +30,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "RULE", value_parser = one_of(&RULES))]
     rule: Vec<Rule>,
 
-    /// Channel frequency class of the filter; "none" for data that are filtered already
-    #[arg(long, value_name = "CLASS", default_value = "180", value_parser = class())]
+    /// Filter: CFC60, CFC180, CFC600 or CFC1000; "none" for data that are filtered already
+    #[arg(long = "filter", alias = "cfc", value_name = "CLASS", default_value = "CFC180", value_parser = class)]
     cfc: Class,
 
     /// Filter coefficients
@@ -100,12 +100,20 @@ const RULES: [(&str, &str, Rule); 5] = [
 ];
 
 /// Filter coefficients, likewise.
-const FAMILIES: [(&str, &str, CfcFamily); 2] =
-    [("iso6487", "ISO 6487", CfcFamily::Iso6487), ("j211", "SAE J211", CfcFamily::SaeJ211)];
+const FAMILIES: [(&str, &str, CfcFamily); 3] = [
+    ("iso6487", "ISO 6487", CfcFamily::Iso6487),
+    ("sae-j211", "SAE J211", CfcFamily::SaeJ211),
+    ("j211", "SAE J211, its name before", CfcFamily::SaeJ211),
+];
 
-fn class() -> impl TypedValueParser<Value = Class> {
-    let names = PossibleValuesParser::new(["60", "180", "600", "1000", "none"]);
-    names.map(|name| name.parse().ok().and_then(ChannelClass::from_number))
+fn class(text: &str) -> Result<Class, String> {
+    match text.parse()? {
+        Filter::None => Ok(None),
+        Filter::Class(class) => Ok(Some(class)),
+        Filter::J211 => {
+            Err("all channels of a vehicle have one class; expected CFC60, CFC180, CFC600, CFC1000 or none".to_owned())
+        }
+    }
 }
 
 /// Measures and judges.

@@ -6,7 +6,7 @@
 //! - F = (K₁/μ₁) e for 0 < e ≤ μ₁a, then slope K₂/μ₂: the unloading line, which meets the loading curve at Δ_m;
 //! - U = ∫F de, the energy that unloading gives back: exactly μ₁ of what range 1 took and μ₂ of what range 2 took.
 //!
-//! Loading is the case Δ = Δ_m of the same formula.
+//! Loading is the case Δ = Δ_m of the same formula. K₁ = 0 is a gap: no force up to Δ_b, whatever μ₁ is.
 
 use crate::motion::scalar::Scalar;
 use placed_text::Problems;
@@ -64,6 +64,10 @@ impl BilinearSpring {
         problems.check_at_least_zero(&format!("{path}.k2"), self.k2_n_per_m, "N/m");
         problems.check_at_least_zero(&format!("{path}.break_at"), self.break_m, "m");
         let (k1, k2) = (self.k1_n_per_m, self.k2_n_per_m);
+        if k1 == 0.0 && k2 == 0.0 {
+            let expected = "a stiffness above 0, or behind a gap `k2` above 0 from `delta_b` on";
+            problems.error(format!("{path}.k1"), "0 N/m, and no stiffness behind it", expected);
+        }
         if k2 > 0.0 && k2 < k1 && self.returned_2 > YIELDING {
             let found = format!("{k2} N/m, softer than k1 = {k1} N/m, of a spring that gives back {}", self.returned_2);
             let expected =

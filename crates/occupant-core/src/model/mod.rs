@@ -183,12 +183,17 @@ impl Model {
 }
 
 impl Model {
-    /// Motions of the homes of the bodies, among `frames` with the motion of the vehicle.
+    /// Motions of the homes of the bodies for output, among `frames` with the motion of the vehicle.
     pub(crate) fn homes(&self, frames: &Frames<f64>, vehicle: &FrameMotion) -> [FrameMotion; MOST_BODIES] {
         let mut homes = [*vehicle; MOST_BODIES];
         for (motion, Member { home, .. }) in homes.iter_mut().zip(&self.setup.members) {
-            if *home != Frame::Vehicle {
-                *motion = frames[home.index(&[])].motion();
+            match home {
+                Frame::Vehicle => {}
+                // vehicles hang on nothing
+                Frame::Other(i) => {
+                    *motion = self.setup.frames[*i].path.shown_motion(frames.time, &mut PathCursor::default())
+                }
+                _ => *motion = frames[home.index(&[])].motion(),
             }
         }
         homes

@@ -239,6 +239,27 @@ impl<'a> Sample<'a> {
         self.touches().filter(|t| t.sphere == sphere).map(|t| self.contact(&t).force_n).sum()
     }
 
+    /// Sum of contact and friction forces of a surface or solid on all bodies, N: in axes of what carries it, vehicle axes or
+    /// space axes, and on a segment in those of its body's home.
+    pub(crate) fn surface_force_n(&self, surface: usize, carrier: Frame) -> Vector3<f64> {
+        let force = |t: Touch<f64>| self.axes_of(t.frame).out(t.normal * t.normal_force + t.edge + t.friction);
+        let space: Vector3<f64> = self.touches_of(surface).map(|t| force(t).to_vector()).sum();
+        match carrier {
+            Frame::Segment(segment) => self.seen_from(segment).vector_to_frame(space),
+            carrier => self.frame(carrier).vector_to_frame(space),
+        }
+    }
+
+    /// Greatest Δ in a surface or solid, m; 0 without contact.
+    pub(crate) fn surface_depth_m(&self, surface: usize) -> f64 {
+        self.touches_of(surface).map(|t| t.depth).fold(0.0, f64::max)
+    }
+
+    fn touches_of(&self, surface: usize) -> impl Iterator<Item = Touch<f64>> + use<'a> {
+        let contacts = &self.model.system().forces.contacts;
+        self.touches().filter(move |t| contacts.surface(t.pair, t.part as usize) == surface)
+    }
+
     /// Greatest Δ of a sphere, m; 0 without contact.
     pub(crate) fn penetration_m(&self, sphere: usize) -> f64 {
         self.touches().filter(|t| t.sphere == sphere).map(|t| t.depth).fold(0.0, f64::max)

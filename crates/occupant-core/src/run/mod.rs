@@ -139,6 +139,8 @@ impl Run {
         let vehicle = path.motion(t, t, &mut self.cursor);
         let vehicle_pose = path.attitude(t, &mut self.cursor);
         let mut frames = model.frames_with(t, t, &vehicle);
+        // no force depends on what is told of the accelerations
+        let vehicle = path.shown_motion(t, &mut self.cursor);
         let homes = model.homes(&frames, &vehicle);
         let system = model.system();
         self.actions.clear();

@@ -26,8 +26,8 @@ pub(crate) struct MaterialSection {
         "head_dummy", "head_dummy_1973"
     ]))]
     pub(crate) library: Option<String>,
-    /// K₁, stiffness up to `delta_b`.
-    pub(crate) k1: Option<Stiffness<POSITIVE>>,
+    /// K₁, stiffness up to `delta_b`; 0: a gap before the spring bears.
+    pub(crate) k1: Option<Stiffness<NOT_NEGATIVE>>,
     /// Δ_b, deformation at which the stiffness changes. Without it the spring is linear.
     pub(crate) delta_b: Option<Length<NOT_NEGATIVE>>,
     /// K₂, stiffness beyond `delta_b`.
@@ -245,7 +245,7 @@ fn by_quadratic(b: &mut Builder, path: &str, s: &AtbSection) -> Unloading {
 
 /// A bilinear spring; linear where no break is given.
 pub(super) fn spring(
-    k1: &Stiffness<POSITIVE>,
+    k1: &Stiffness<NOT_NEGATIVE>,
     k2: &Option<Stiffness<NOT_NEGATIVE>>,
     delta_b: &Option<Length<NOT_NEGATIVE>>,
     returned_1: f64,

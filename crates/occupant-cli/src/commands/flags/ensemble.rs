@@ -50,7 +50,7 @@ pub(crate) struct EnsembleArgs {
 
     /// Channels of the bands, by name or pattern with commas between, such as 'head.*,belt.*.force'; if absent, the main
     /// accelerations, forces and places
-    #[arg(long, value_name = "NAMES", requires = "ensemble")]
+    #[arg(long = "channel", alias = "channels", value_name = "NAMES", requires = "ensemble")]
     channels: Vec<String>,
 }
 

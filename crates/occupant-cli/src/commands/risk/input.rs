@@ -68,7 +68,7 @@ fn path_of(args: &Args, name: &str, extension: &str, wanted: &Preparation) -> Re
         _ => {
             let opened =
                 scenario::open(&ScenarioArgs { scenario: args.file.clone(), overrides: args.overrides.clone() })?;
-            scenario::warn(&opened.warnings);
+            opened.warn();
             opened.model
         }
     };
@@ -122,8 +122,9 @@ fn doubt_of_gravity(file: &RecordFile, included: bool) -> Option<String> {
 fn remedy(nyquist_hz: f64) -> String {
     // the corner of one pass of two lies at 2.08 times the class
     let fits = ChannelClass::ALL.into_iter().rev().find(|class| 2.1 * class.hertz() < nyquist_hz);
-    let class = fits.map_or_else(|| "no class fits so few samples".to_owned(), |c| format!("use --cfc {}", c.hertz()));
-    format!("{class}; --cfc none is for data that are filtered already")
+    let class =
+        fits.map_or_else(|| "no class fits so few samples".to_owned(), |c| format!("use --filter CFC{}", c.hertz()));
+    format!("{class}; --filter none is for data that are filtered already")
 }
 
 /// Why a record cannot be measured, with the remedy.

@@ -64,7 +64,7 @@ pub(crate) fn ask<'a>(
     });
     let channels = gather(words.channels, &mut wrong, |name| {
         choose(model, &[name.to_owned()])
-            .map_err(|refused| refused.words().replacen("error: ", "error: --channels: ", 1))
+            .map_err(|refused| refused.words().replacen("error: ", "error: --channel: ", 1))
     });
     let figures = figures(model)?;
     let names =

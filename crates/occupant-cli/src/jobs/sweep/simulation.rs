@@ -35,15 +35,13 @@ impl Source for Simulation<'_> {
     type Error = Failure;
 
     fn begin(&self, index: u64) -> Result<(Model, Self::Recorder), NotBegun<Failure>> {
-        let mut opened = self.plan.open_sample(index)?;
-        let mut recording = Recording::none();
-        if is_kept(self.keep, index) {
-            let (args, bytes) = self.plan.command(index);
-            opened.bytes = bytes;
-            let name = self.folder.run(index);
-            let begun = Recording::begin(&name, Existing::Replace, &args, &opened, None);
-            recording = begun.map_err(NotBegun::Error)?;
+        if !is_kept(self.keep, index) {
+            return Ok((self.plan.open_sample(index)?.model, (Summarizer::new(), Recording::none())));
         }
+        let (opened, args) = self.plan.open_kept(index)?;
+        let name = self.folder.run(index);
+        let begun = Recording::begin(&name, Existing::Replace, &args, &opened, None);
+        let recording = begun.map_err(NotBegun::Error)?;
         Ok((opened.model, (Summarizer::new(), recording)))
     }
 
