@@ -25,6 +25,7 @@ mod layers;
 mod manual;
 mod many;
 mod obstacles;
+mod outputs;
 mod reactions;
 mod reference;
 mod report_coordinates;
