@@ -171,3 +171,83 @@ fn a_recorded_run_is_extended_by_the_same_cards_as_the_deck() {
         assert!(code == 2 && said.contains(expected), "{said}");
     }
 }
+
+fn occupant(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let output = Command::cargo_bin("occupant").expect("built").current_dir(folder).args(arguments).output();
+    let output = output.expect("runs");
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))
+}
+
+#[test]
+fn a_deck_is_run_as_a_scenario_is() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let deck = std::fs::read(decks().join("driver-lap-torso.dat")).expect("a deck");
+    std::fs::write(folder.path().join("d.dat"), &deck).expect("written");
+    let (code, by_deck, said) = occupant(folder.path(), &["run", "d.dat"]);
+    assert_eq!(code, 0, "{said}");
+    for words in ["card deck, converted in memory", "Assumptions:", "XV(14), ZV(14)", "wrote d-plot.svg"] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    assert!(folder.path().join("d-plot.svg").exists(), "the card STAN asks for plots");
+    let scenario = decks().join("driver-lap-torso.toml");
+    let scenario = scenario.to_str().expect("UTF-8");
+    let (code, by_scenario, said) = occupant(folder.path(), &["run", scenario, "--no-mcap"]);
+    assert_eq!(code, 0, "{said}");
+    let figures =
+        |text: &str| text.lines().take_while(|l| !l.starts_with("integration")).collect::<Vec<_>>().join("\n");
+    assert_eq!(figures(&by_deck), figures(&by_scenario));
+    // again, without a word of what is there; NONE draws nothing; records without line ends are as good
+    let (code, out, said) = occupant(folder.path(), &["run", "d.dat", "-q"]);
+    assert_eq!((code, out.as_str()), (0, ""), "{said}");
+    let records: String =
+        String::from_utf8(deck).expect("ASCII").lines().map(|l| format!("{:80}", l.replace("STAN", "NONE"))).collect();
+    std::fs::write(folder.path().join("none.dat"), records).expect("written");
+    let (code, out, said) = occupant(folder.path(), &["run", "none.dat"]);
+    assert_eq!((code, figures(&out)), (0, figures(&by_deck)), "{said}");
+    assert!(said.contains("cut into 119 cards") && !folder.path().join("none-plot.svg").exists(), "{said}");
+    for words in [&["check", "d.dat"][..], &["view", "d.dat", "-o", "v.svg"], &["channels", "--of", "d.dat"]] {
+        let (code, _, said) = occupant(folder.path(), words);
+        assert_eq!(code, 0, "{words:?}: {said}");
+    }
+}
+
+#[test]
+fn decks_that_cannot_be_run_say_what_to_do() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = std::fs::read_to_string(decks().join("driver-lap-torso.dat")).expect("a deck");
+    let (one, _) = text.split_once("FINI").expect("an end");
+    std::fs::write(folder.path().join("two.dat"), format!("{one}{text}")).expect("written");
+    std::fs::write(folder.path().join("wrong.dat"), text.replace("      352.", "      35?.")).expect("written");
+    let disk = decks().join("driver-path-from-disk.dat");
+    for (file, expected) in [
+        ("two.dat", "holds 2 decks"),
+        ("wrong.dat", "error[not-a-number]"),
+        (disk.to_str().expect("UTF-8"), "occupant convert has options for such a deck"),
+    ] {
+        let (code, _, said) = occupant(folder.path(), &["run", file]);
+        assert!(code == 2 && said.contains(expected), "{file}: {said}");
+    }
+}
+
+#[test]
+fn an_extension_by_cards_says_how_far_it_is_off() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let deck = decks().join("driver-exact-state.dat");
+    let deck = deck.to_str().expect("UTF-8");
+    let (code, _, by_deck) = convert(folder.path(), &[deck, "--extend", "0.25", "-o", "next.dat"]);
+    assert_eq!(code, 0, "{by_deck}");
+    let (code, _, said) = occupant(folder.path(), &["run", &deck.replace(".dat", ".toml"), "-q", "-o", "run.mcap"]);
+    assert_eq!(code, 0, "{said}");
+    let (code, _, by_run) = convert(folder.path(), &["run.mcap", "--extend", "0.25", "-o", "same.dat"]);
+    assert_eq!(code, 0, "{by_run}");
+    for said in [&by_deck, &by_run] {
+        let (_, figures) = said.split_once("From 0.200 s to 0.250 s, against the run that goes on: ").expect("figures");
+        let off =
+            figures.split_once("the head is up to ").and_then(|(_, rest)| rest.split_once(" mm off")).expect("mm");
+        let off_mm: f64 = off.0.parse().expect("a number");
+        // both begin where the run ended, and part from there on
+        assert!((0.0..500.0).contains(&off_mm), "{off_mm}");
+        assert!(figures.contains("belt lap ") && figures.contains("head ") && figures.contains(" g for "), "{figures}");
+    }
+}

@@ -171,7 +171,7 @@ fn several_scenarios_are_one_table() {
     let table = done(here, &["run", "case.toml", "other.toml", "--set", "time.end=30 ms", "-q"]);
     assert!(table.starts_with("1   case.toml\n2   other.toml\n") && table.contains("HIC15"), "{table}");
     assert!(here.join("case.mcap").exists() && here.join("other.mcap").exists());
-    assert!(err(&answer(here, &["run", "case.toml", "other.toml", "-o", "x.mcap"])).contains("cannot be used with"));
+    assert!(err(&answer(here, &["run", "case.toml", "other.toml", "-o", "x.mcap"])).contains("FILE.html"));
 }
 
 #[test]

@@ -318,3 +318,61 @@ fn solids_are_drawn_in_views_and_on_the_page() {
     assert_eq!(sides[..surfaces.len()], surfaces);
     assert_eq!((&sides[surfaces.len()]["name"], &sides[surfaces.len()]["bounded"]), (&"block".into(), &true.into()));
 }
+
+#[test]
+fn three_runs_stand_abreast_with_ride_down_and_work() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scenarios = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
+    let names = ["cart-unbelted", "cart-lap", "cart-lap-torso"];
+    for name in names {
+        let file = format!("{name}.toml");
+        fs::copy(scenarios.join(&file), folder.path().join(&file)).expect("a copy");
+    }
+    let words = ["run", "cart-unbelted.toml", "cart-lap.toml", "cart-lap-torso.toml", "-o", "abreast.html"];
+    let output = answer(folder.path(), &words);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let page = read(folder.path(), "abreast.html");
+    let (_, data) = page.split_once("id=\"report-data\"").expect("data");
+    let json = data.split_once('>').and_then(|(_, rest)| rest.split_once("</script>")).expect("an element").0;
+    let report: serde_json::Value = serde_json::from_str(json).expect("JSON");
+    let runs = report["runs"].as_array().expect("runs");
+    assert_eq!(runs.len(), 3);
+    let value = |run: usize, name: &str| {
+        let rows = runs[run]["measures"].as_array().expect("measures");
+        rows.iter().find(|row| row["name"] == name).and_then(|row| row["value"].as_f64())
+    };
+    let shares = [0, 1, 2].map(|run| value(run, "Kinetic energy ridden down").expect("a share"));
+    // measured: 20.5, 31.1, 49.3 %
+    assert!(shares[0] < shares[1] && shares[1] < shares[2] && shares[2] < 100.0, "{shares:?}");
+    let chest = [0, 2].map(|run| value(run, "chest, ride-down distance").expect("a distance"));
+    // measured: 0.08 and 5.1 in
+    assert!(chest[0] < 1.0 && chest[1] > 3.0, "{chest:?}");
+    assert_eq!(value(0, "Work taken up by belt lap"), None);
+    assert!(value(1, "Work taken up by belt lap").expect("work") > 0.0);
+    assert!(value(2, "Work taken up by belt torso").expect("work") > 0.0);
+    assert!(value(0, "Work taken up by panel_face").expect("work") > 0.0);
+    // the same of results, and not of five
+    let all = ["report", "cart-unbelted.mcap", "cart-lap.mcap", "cart-lap-torso.mcap", "-o", "again.html"];
+    assert_eq!(code(&answer(folder.path(), &all)), 0);
+    let lap = "cart-lap.mcap";
+    assert_eq!(code(&answer(folder.path(), &["report", lap, lap, lap, lap, "--against", lap])), 2);
+    let bad = ["run", "cart-lap.toml", "cart-unbelted.toml", "-o", "x.mcap"];
+    let output = answer(folder.path(), &bad);
+    assert!(code(&output) == 2 && err(&output).contains("FILE.html"), "{}", err(&output));
+}
+
+#[test]
+fn titles_say_what_was_changed() {
+    let folder = folder_with_run();
+    let words = ["run", "case.toml", "-q", "-f", "-o", "c.mcap", "--set", "belts.torso=null", "--set", "gravity=9.8"];
+    let output = answer(folder.path(), &words);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let told = "with belts.torso = null and gravity = 9.8";
+    for words in [&["report", "c.mcap", "-o", "c.html"][..], &["plot", "c.mcap", "-o", "c.svg"]] {
+        assert_eq!(code(&answer(folder.path(), words)), 0);
+        assert!(read(folder.path(), words[3]).contains(told), "{words:?}");
+    }
+    let own = ["run", "case.toml", "--no-mcap", "--set", "title=\"Mine\"", "--set", "gravity=9.8", "--json"];
+    let output = answer(folder.path(), &own);
+    assert!(String::from_utf8_lossy(&output.stdout).contains("\"title\": \"Mine\""));
+}

@@ -422,3 +422,52 @@ fn an_interval_shorter_than_the_recorded_one_is_refused_and_files_are_kept() {
     let text = fs::read_to_string(folder.path().join("short.txt")).expect("written");
     assert_eq!(text, printed(folder.path(), &["short.mcap"]));
 }
+
+#[test]
+fn any_body_and_every_occupant_and_vehicle_is_printed() {
+    let scenarios = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/");
+    for (file, words) in [
+        ("sled-17-segments.toml", &["left_hand", "left_foot", "CARDS HAVE ROOM FOR THE REPORT'S BODY ALONE"][..]),
+        (
+            "two-vehicles.toml",
+            &["light.head", "heavy.lap", "VEHICLE LIGHT: POSITION", "TOTAL MASS", "VEHICLE LIGHT\n"][..],
+        ),
+        ("neck-pendulum.toml", &["head"][..]),
+    ] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let scenario = format!("{scenarios}{file}");
+        let (code, _, said) = occupant(folder.path(), &["run", &scenario, "-q", "-o", "run.mcap", "--until", "20 ms"]);
+        assert_eq!(code, 0, "{file}: {said}");
+        let text = printed(folder.path(), &["run.mcap", "--every", "10 ms"]);
+        for word in words {
+            assert!(text.contains(word), "{file}: {word}");
+        }
+        for page in pages(&text) {
+            assert!(
+                page.lines().count() <= 60 && page.lines().all(|line| line.chars().count() <= 132),
+                "{file}: {page}"
+            );
+        }
+        assert!(!text.contains("NAN"), "{file}");
+    }
+}
+
+#[test]
+fn a_path_of_straight_lines_has_its_acceleration_in_print() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let deck = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/decks/driver-lap-torso.dat");
+    let (code, _, said) = occupant(folder.path(), &["run", deck, "-q", "-o", "run.mcap"]);
+    assert_eq!(code, 0, "{said}");
+    let text = printed(folder.path(), &["run.mcap", "--every", "40 ms"]);
+    let title = "FROM DIFFERENCES OF THE STATIONS";
+    let at_40_ms = text.split("TIME 0.040000").nth(1).expect("a page");
+    let line = at_40_ms.lines().find(|line| line.contains(title)).expect("a row");
+    let x: f64 = line
+        .split(title)
+        .nth(1)
+        .and_then(|rest| rest.split_whitespace().next())
+        .and_then(|x| x.parse().ok())
+        .expect("x");
+    // 20 mph in a half sine of 0.08 s: 17.9 g at its middle
+    assert!((x + 17.9).abs() < 0.3, "{line}");
+}

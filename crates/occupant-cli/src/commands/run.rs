@@ -247,7 +247,7 @@ fn draw(args: &Args, opened: &Opened, run: &Simulated) -> Result<(), Failure> {
 
 /// Whether a file is a sheet of plots that this program drew.
 fn is_page_of_plots(path: &Path) -> bool {
-    std::fs::read_to_string(path).is_ok_and(|text| text.starts_with("<svg") && text.contains("segment axes: X ahead"))
+    std::fs::read_to_string(path).is_ok_and(|text| text.contains("<svg") && text.contains("segment axes: X ahead"))
 }
 
 /// What came of something, if anything did.

@@ -1,6 +1,6 @@
 //! `occupant plot`.
 
-use super::{coarse, fine, refused, text, well};
+use super::{coarse, err, fine, refused, text, well};
 
 const TITLES: [&str; 14] = [
     "Head acceleration X, ahead",
@@ -94,4 +94,37 @@ fn what_cannot_be_plotted_is_said() {
         assert!(said.contains(expected), "{words:?}: {said}");
     }
     assert!(!folder.path().join("p.svg").exists());
+}
+
+#[test]
+fn every_occupant_and_every_vehicle_has_its_plots() {
+    let folder = tempfile::tempdir().unwrap();
+    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/two-vehicles.toml");
+    well(folder.path(), &["run", scenario, "-q", "-o", "two.mcap", "--until", "120 ms"]);
+    let said = well(folder.path(), &["plot", "two.mcap", "--each", "single"]);
+    let files: Vec<String> = std::fs::read_dir(folder.path().join("single"))
+        .unwrap()
+        .map(|file| file.unwrap().file_name().into_string().unwrap())
+        .collect();
+    // thirteen of each driver, one of each car, none of them empty
+    assert_eq!(files.len(), 28, "{}", err(&said));
+    for file in &files {
+        let svg = text(&folder.path().join("single").join(file));
+        assert!(svg.contains("<path") || svg.contains("<polyline"), "{file} is empty");
+        assert!(!svg.contains("none in this scenario"), "{file}");
+    }
+    for name in ["01-heavy-head-acceleration-x-ahead.svg", "28-acceleration-of-the-vehicle-light.svg"] {
+        assert!(files.iter().any(|file| file == name), "{name}: {files:?}");
+    }
+}
+
+#[test]
+fn both_names_of_the_channels_option_are_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = coarse();
+    let run = run.to_str().unwrap();
+    for option in ["--channel", "--channels"] {
+        well(folder.path(), &["plot", run, "-f", "-o", "p.svg", option, "head.acceleration.x"]);
+        well(folder.path(), &["export", run, "-f", "-o", "p.csv", option, "head.acceleration.x"]);
+    }
 }

@@ -81,3 +81,18 @@ fn flags_that_make_no_sense_are_refused_in_words() {
     let said = err(&output);
     assert!(said.contains("none.toml cannot be read") && said.contains("astray.toml:2:"), "{said}");
 }
+
+/// A half sine has no plateau: no sample can be run, and nothing is written that reads as results.
+#[test]
+fn a_study_without_any_sample_that_can_be_run_is_refused_at_once() {
+    let study = "title = \"x\"\nbase = \"case.toml\"\n[design]\nkind = \"KIND\"\n[[parameters]]\nname = \"plateau\"\n\
+                 path = \"path.plateau\"\nlist = [\"10 ms\", \"20 ms\"]\n";
+    for kind in ["one_at_a_time", "full_factorial"] {
+        let folder = folder_with(&study.replace("KIND", kind));
+        let output = answer(folder.path(), &["sweep", "study.toml", "-o", "out"]);
+        assert_eq!(output.status.code(), Some(2));
+        let said = err(&output);
+        assert!(said.contains("every sample that was looked at is refused") && said.contains("plateau"), "{said}");
+        assert!(!folder.path().join("out").exists());
+    }
+}

@@ -95,12 +95,7 @@ impl Step {
 
 impl Run {
     /// What is left of a step, if anything, and all steps of `stretch`.
-    pub(crate) fn advance_rk4(
-        &mut self,
-        model: &Model,
-        left: Option<Step>,
-        stretch: Stretch,
-    ) -> Result<(), StepError> {
+    pub(crate) fn advance_rk4(&mut self, model: &Model, left: Option<Step>, stretch: Stretch) -> Result<(), StepError> {
         let (scratch, stages) = (&mut Scratch::blank(model.system()), &mut Stages::new(self.state.shape()));
         let mut frames = [Frames::still(self.time_s); 3];
         for whole in left.into_iter().chain(stretch) {

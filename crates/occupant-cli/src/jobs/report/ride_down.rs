@@ -198,3 +198,40 @@ impl Recorder for RideDown {
         Ok(Flow::Continue)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use occupant_core::results::channel::{Series, matching};
+    use occupant_core::run::simulate::simulate;
+
+    use super::*;
+    use crate::files::scenario::{ScenarioArgs, open};
+
+    /// What surfaces and belts took up is what the ledger has of contacts and belts, however it is cut into pieces.
+    #[test]
+    fn works_add_up_to_the_ledger() {
+        for (name, overrides) in
+            [("cart-unbelted", vec![]), ("cart-lap-torso", vec!["output.interval=0.2 ms".to_owned()])]
+        {
+            let scenario = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../scenarios/{name}.toml"));
+            let opened = open(&ScenarioArgs { scenario, overrides }).unwrap_or_else(|e| panic!("{}", e.words()));
+            let (mut ride, mut series) = (RideDown::default(), Series::new(matching(&opened.model, "energy.*")));
+            simulate(&opened.model, (&mut ride, &mut series)).unwrap();
+            let gained = |names: &[&str]| -> f64 {
+                let of = |name: &&str| {
+                    let values = series.of(&format!("energy.{name}")).unwrap();
+                    values[values.len() - 1] - values[0]
+                };
+                names.iter().map(of).sum()
+            };
+            let contacts: f64 = ride.surfaces.values().map(|sum| sum.now).sum();
+            let expected = gained(&["contacts", "lost_contacts", "lost_friction"]);
+            assert!((contacts - expected).abs() < 0.03 * expected, "{name}: {contacts} for {expected}");
+            let belts: f64 = ride.belts.iter().map(|(_, sum, _)| sum.now).sum();
+            let expected = gained(&["belts", "lost_belts"]);
+            assert!((belts - expected).abs() < 2.0, "{name}: {belts} for {expected}");
+        }
+    }
+}

@@ -209,14 +209,7 @@ impl<S: Scalar> Looking<S> {
     /// Decides whether pair `i`, committed at deformation `depth`, is watched: an open one until the sphere comes near, a
     /// passed one until the sphere comes back, one that touches always.
     #[inline(always)]
-    pub(super) fn at(
-        &mut self,
-        i: usize,
-        depth: S,
-        reach: S,
-        pair: &PairHistory<S>,
-        hints: &mut ContactHints<S>,
-    ) {
+    pub(super) fn at(&mut self, i: usize, depth: S, reach: S, pair: &PairHistory<S>, hints: &mut ContactHints<S>) {
         let phase = pair.phase;
         let touches = phase.gt(S::of(OPEN)) & phase.lt(S::of(PASSED));
         let (off, enough) = (depth.abs(), reach + S::of(LEAST_WAY_M));

@@ -3,8 +3,8 @@
 use super::SelfContact;
 use super::series::series;
 use crate::body::Body;
-use crate::forces::contact::encounter::Approach;
 use crate::forces::contact::ahead::Way;
+use crate::forces::contact::encounter::Approach;
 use crate::forces::contact::hints::ContactHints;
 use crate::forces::contact::material::{Material, Memory};
 use crate::forces::contact::zip::OTHER_PAIRS;
