@@ -26,7 +26,7 @@ fn each_gives_a_model_without_a_warning() {
         assert!(warnings.is_empty(), "{name}: {warnings}");
         let names: Vec<&str> = model.setup().belts.iter().map(|b| b.name.as_str()).collect();
         assert_eq!(names, belts);
-        assert_eq!(model.setup().surfaces.len(), 12);
+        assert_eq!(model.setup().surfaces.len(), 11);
     }
 }
 
