@@ -143,7 +143,7 @@ fn at_10_mph_all_is_gentler_and_nothing_fails() {
     for name in [UNBELTED, LAP, LAP_AND_TORSO] {
         let (fast, slow) = (seen(name, &[]), seen(name, &SLOW));
         slow.assert_sound(name);
-            // Measured, head and chest, g: 47, 18 without a belt; 71, 32 with the lap belt; 37, 19 with both.
+        // Measured, head and chest, g: 47, 18 without a belt; 71, 32 with the lap belt; 37, 19 with both.
         assert!(slow.head.peak_g < fast.head.peak_g, "{name}: {} {}", slow.head.peak_g, fast.head.peak_g);
         assert!(slow.chest.peak_g < 0.6 * fast.chest.peak_g, "{name}: {} {}", slow.chest.peak_g, fast.chest.peak_g);
     }

@@ -2,8 +2,8 @@
 
 use crate::support::{DECKS, bytes, path};
 use cardio_legacy::{
-    CompartmentLayout, ConversionError, ConvertOptions, Deck, DeckSeating, NoDeck, ParseOptions, PathSource, RunEnd, Strictness,
-    spine_rest, write_file,
+    CompartmentLayout, ConversionError, ConvertOptions, Deck, DeckSeating, NoDeck, ParseOptions, PathSource, RunEnd,
+    Strictness, spine_rest, write_file,
 };
 use occupant_core::body::tti12;
 use occupant_core::model::Model;
@@ -225,7 +225,8 @@ fn a_path_from_disk_comes_as_csv_as_columns_or_as_cards() {
 
 #[test]
 fn what_does_not_fit_on_cards_is_named() {
-    let text = std::fs::read_to_string(path("../../tests/data/carts/cart-lap-torso.toml")).expect("a scenario of the repository");
+    let text = std::fs::read_to_string(path("../../tests/data/carts/cart-lap-torso.toml"))
+        .expect("a scenario of the repository");
     let Err(NoDeck::Misfits(misfits)) = Deck::from_scenario(&load(&text), None) else {
         panic!("a pulse fits on no card")
     };
@@ -292,7 +293,8 @@ fn a_deck_that_seats_its_occupant_begins_in_balance() {
         let mut watch = Watch(|s: &occupant_core::results::sample::Sample<'_>| {
             if s.index == 0 {
                 pressed.extend(s.contacts().map(|c| c.sphere));
-                read_g = [tti12::HEAD, tti12::UPPER_TORSO, tti12::LOWER_TORSO].map(|n| s.specific_force_m_s2(n).norm() / 9.80665);
+                read_g = [tti12::HEAD, tti12::UPPER_TORSO, tti12::LOWER_TORSO]
+                    .map(|n| s.specific_force_m_s2(n).norm() / 9.80665);
             }
         });
         simulate(&model, &mut watch).expect("runs");

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use cardio_legacy::{
-    CompartmentLayout, ConvertOptions, Deck, DeckSeating, FromScenario, ParseOptions, PathSource, Strictness, write_file,
+    CompartmentLayout, ConvertOptions, Deck, DeckSeating, FromScenario, ParseOptions, PathSource, Strictness,
+    write_file,
 };
 use clap::ArgGroup;
 use occupant_scenario::{Draft, Format, Loaded};
