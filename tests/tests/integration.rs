@@ -269,9 +269,9 @@ fn error_control_costs_a_third_of_rk4_at_a_tenth_of_a_millisecond_and_is_as_near
     assert_eq!(effort.evaluations, 3 * trials + 2);
 }
 
-/// Where the head's centre is at each output of a shipped scenario, by `integrator`, and the peak of its acceleration.
+/// Where the head's centre is at each output of a case of `tests/data/roads`, by `integrator`, and the peak of its acceleration.
 fn whole_run(scenario: &str, integrator: Integrator) -> (Vec<(f64, Vector3<f64>)>, f64) {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenarios/");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/data/roads/");
     let text = std::fs::read_to_string(format!("{folder}{scenario}.toml")).unwrap();
     let read = |name: &str| std::fs::read(format!("{folder}{name}")).map_err(|e| e.to_string());
     let loaded = Scenario::from_text(&text, Format::Toml, scenario, &read).unwrap();

@@ -18,7 +18,7 @@ const BRAKING: &str = "path={ kind = \"pulse\", shape = \"trapezoid\", speed = \
 fn model(set: &[&str]) -> Model {
     let mut draft = Draft::read(&file("side-slope.toml"), Format::Toml, "side-slope").unwrap();
     set.iter().for_each(|assignment| draft.set(assignment).unwrap());
-    let beside = |name: &str| Ok(file(name).into_bytes());
+    let beside = |name: &str| Ok::<_, String>(file(name).into_bytes());
     let (model, warnings) = draft.load(&beside).and_then(|loaded| loaded.model()).unwrap_or_else(|e| panic!("{e}"));
     assert!(warnings.is_empty(), "{warnings}");
     model
@@ -82,28 +82,11 @@ fn who_sits_on_the_road_begins_at_rest() {
 #[test]
 fn braked_at_1_g_the_head_goes_as_far_as_volunteers_heads_do() {
     let ahead = |more: &[&str]| {
-        let set = [&[BRAKING, "time.end=1.0", COARSE], more].concat();
+        let set = [&[BRAKING, "time.end=1.0", COARSE][..], more].concat();
         way(&histories(&model(&set), &["head.position.x"])[0])[1]
     };
     let (nominal, weak) = (ahead(&[]), ahead(&["muscles.*.tone=0.4"]));
     // Measured: 0.109.
     assert_within("head ahead, m", nominal, [0.08, 0.20]);
     assert!(weak > nominal, "{weak} {nominal}");
-}
-
-#[test]
-fn probe() {
-    use occupant_core::kernel::Situation;
-    let setup = occupant_tests::room::setup(&file("rollover-ejection.toml"), &[]);
-    let model = Model::new(setup).unwrap();
-    let still = model.start().state.still();
-    let frames = model.frames(0.0, 0.0, &mut Default::default());
-    for (name, state) in [("moving", &model.start().state), ("still", &still)] {
-        let mut history = model.start().history.clone();
-        let e = model.system().evaluate(Situation::within(state, &frames), &mut history, &mut ());
-        for (i, row) in model.body().tree.segment_rows().iter().enumerate() {
-            let w = &e.wrench[i];
-            println!("{name} {i} {} F {:?} M {:?} joint {:?}", row.name, w.force, w.moment, e.kinematics.joint[i]);
-        }
-    }
 }

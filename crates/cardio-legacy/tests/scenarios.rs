@@ -324,7 +324,8 @@ fn the_tests_of_the_report_are_decks_too() {
     let text = std::fs::read_to_string(path("report/compartment.toml")).expect("the compartment");
     let layout = CompartmentLayout::from_toml(&text).unwrap_or_else(|e| panic!("{e}"));
     for name in REPORT {
-        let with_wheel = ConvertOptions { compartment: Some(layout.clone()), ..options(name) };
+        let deck_name = name.trim_start_matches("report/").to_owned();
+        let with_wheel = ConvertOptions { deck_name, compartment: Some(layout.clone()), ..options(name) };
         let toml = deck(name).to_scenario(&with_wheel).unwrap_or_else(|e| panic!("{name}: {e}")).toml;
         let file = path(&name.replace(".dat", ".toml"));
         if std::env::var_os("WRITE_CONVERTED").is_some() {

@@ -326,7 +326,7 @@ fn print_times_that_are_no_outputs_are_said_to_be_uneven() {
 #[test]
 fn a_path_beside_the_scenario_travels_with_the_results() {
     let folder = tempfile::tempdir().expect("a folder");
-    let scenarios = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
+    let scenarios = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../tests/data/roads");
     for name in ["side-slope.toml", "side-slope-path.csv"] {
         fs::copy(scenarios.join(name), folder.path().join(name)).expect("copied");
     }
@@ -343,7 +343,7 @@ fn a_path_beside_the_scenario_travels_with_the_results() {
 #[test]
 fn a_record_of_sensors_travels_with_the_results_and_is_printed_and_gone_on_with() {
     let folder = tempfile::tempdir().expect("a folder");
-    let scenarios = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
+    let scenarios = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../tests/data/roads");
     for name in ["side-slope-sensors.toml", "side-slope-sensors.csv"] {
         fs::copy(scenarios.join(name), folder.path().join(name)).expect("copied");
     }

@@ -23,7 +23,7 @@ const CASES: [(&str, &str, f64); 4] = [
     ("cart-unbelted", include_str!("../../../../tests/data/carts/cart-unbelted.toml"), 0.2),
     ("cart-lap", include_str!("../../../../tests/data/carts/cart-lap.toml"), 0.2),
     ("cart-lap-torso", include_str!("../../../../tests/data/carts/cart-lap-torso.toml"), 0.2),
-    ("rollover-quarter-turn", include_str!("../../../../scenarios/rollover-quarter-turn.toml"), 0.6),
+    ("rollover-quarter-turn", include_str!("../../../../tests/data/roads/rollover-quarter-turn.toml"), 0.6),
 ];
 
 /// Steps of rk4 as parts of the output interval of 1 ms.

@@ -18,15 +18,17 @@ fn read(path: &str, name: &str) -> Loaded {
 }
 
 #[test]
-fn each_gives_a_model_without_a_warning() {
+fn each_gives_a_model_without_a_warning_but_of_the_lap_belts_steepness() {
     for (name, belts) in
         [("cart-lap-torso.toml", vec!["lap", "torso"]), ("cart-lap.toml", vec!["lap"]), ("cart-unbelted.toml", vec![])]
     {
         let (model, warnings) = cart(name).model().unwrap_or_else(|e| panic!("{e}"));
-        assert!(warnings.is_empty(), "{name}: {warnings}");
+        // the fitted lap belt goes straight down from the pelvis, steeper than in a car
+        let else_said = warnings.iter().any(|warning| warning.problem.path != "belts.lap.anchors");
+        assert!(!else_said, "{name}: {warnings}");
         let names: Vec<&str> = model.setup().belts.iter().map(|b| b.name.as_str()).collect();
         assert_eq!(names, belts);
-        assert_eq!(model.setup().surfaces.len(), 12);
+        assert_eq!(model.setup().surfaces.len(), 11);
     }
 }
 
