@@ -195,3 +195,17 @@ fn a_run_resumed_while_a_bag_is_at_work_has_the_bits_of_the_whole_run() {
         }
     }
 }
+
+/// A bag that is pressed aside: the head of a large driver on the rim, with the bag between, is marked; the same without a bag is not.
+#[test]
+fn a_head_on_the_rim_through_a_bag_is_marked() {
+    let caveat = |set: &[&str]| {
+        let (summary, _) = summary(&Model::new(setup(DRIVER, set)).unwrap());
+        summary.caveats.into_iter().find(|caveat| caveat.name == "head_through_bag")
+    };
+    let large = "body.preset=male95";
+    let marked = caveat(&[large]).expect("a caveat");
+    assert!(marked.text.contains("touched wheel_rim through the bag driver"), "{}", marked.text);
+    assert!(marked.touches("hic15") && marked.touches("head.peak"), "{marked:?}");
+    assert!(caveat(&[large, NO_BAG]).is_none());
+}

@@ -14,9 +14,9 @@ use occupant_tests::cart;
 use occupant_tests::measure::assert_below;
 
 const CARTS: [(&str, &str); 3] = [
-    ("unbelted", include_str!("../../scenarios/cart-unbelted.toml")),
-    ("lap", include_str!("../../scenarios/cart-lap.toml")),
-    ("lap and torso", include_str!("../../scenarios/cart-lap-torso.toml")),
+    ("unbelted", include_str!("../data/carts/cart-unbelted.toml")),
+    ("lap", include_str!("../data/carts/cart-lap.toml")),
+    ("lap and torso", include_str!("../data/carts/cart-lap-torso.toml")),
 ];
 
 /// The plain data of a scenario that names no other file.

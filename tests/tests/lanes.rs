@@ -82,7 +82,7 @@ fn kernels() -> Vec<Kernel> {
 
 /// A cart with lap and torso belt, every number of it its own.
 fn cart(i: usize) -> Case {
-    cart_of(i, include_str!("../../scenarios/cart-lap-torso.toml"))
+    cart_of(i, include_str!("../data/carts/cart-lap-torso.toml"))
 }
 
 fn cart_of(i: usize, text: &str) -> Case {
@@ -147,7 +147,7 @@ fn carts_side_by_side_have_the_bits_of_each_alone() {
 
 #[test]
 fn elastic_limits_side_by_side_have_the_bits_of_each_alone() {
-    let text = include_str!("../../scenarios/cart-lap-torso.toml");
+    let text = include_str!("../data/carts/cart-lap-torso.toml");
     let text = text.replace("[joints]\npreset = \"male50\"", "[joints]\npreset = \"gebod\"");
     // numbers of the limits, too, are each run's own
     let own = |i: usize| {
@@ -168,7 +168,7 @@ fn elastic_limits_side_by_side_have_the_bits_of_each_alone() {
 /// Locks that open at different times, one that slips, and muscles that act at different times.
 #[test]
 fn locks_and_muscles_side_by_side_have_the_bits_of_each_alone() {
-    let text = include_str!("../../scenarios/cart-lap-torso.toml");
+    let text = include_str!("../data/carts/cart-lap-torso.toml");
     let own = |i: usize| {
         let locks = format!(
             "elbows.lock = {{ until = \"{} N m\", relock_below = {} }}\nneck.lock = {{ until = \"{} N m\", slips = true }}",

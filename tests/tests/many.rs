@@ -405,3 +405,65 @@ fn a_pedestrian_is_thrown_as_far_as_the_speed_allows_and_comes_to_rest() {
     assert!(throw.landing.is_some() && !throw.airborne_s.is_empty());
     assert_below("energy balance", done.energy.balance_error, 1e-4);
 }
+
+/// A rider without a vehicle who slides head first at a post.
+const RIDER: &str = r#"
+title = "a rider slides at a post"
+[time]
+end = "0.1 s"
+[output]
+interval = "0.5 ms"
+[path]
+kind = "fixed"
+[ground]
+material = "road"
+[materials]
+road = { k1 = "200 kN/m", mu1 = 0.2, friction = 0.4 }
+[solids.post]
+kind = "capsule"
+material = "road"
+ends = [[2.0, 0.0, 0.1], [2.0, 0.0, -0.7]]
+radius = 0.06
+[occupants.rider]
+body = { preset = "male50", segment_count = 15 }
+joints = { preset = "gebod" }
+mount = { segment = "upper_torso", place = [0.70, 0, -0.15], pitch = 90, yaw = 180, let_go = ["16 m/s", 0, 0] }
+"#;
+
+#[test]
+fn a_rider_without_a_vehicle_meets_a_post_in_his_way() {
+    let deepest_in_post_m = |set: &[&str]| {
+        let mut deepest_m = 0.0_f64;
+        let look = Watch(|s: &Sample<'_>| {
+            let contacts = s.contacts().filter(|own| s.model.setup().surface_name(own.surface) == Some("post"));
+            deepest_m = contacts.fold(deepest_m, |most, own| most.max(own.depth_m));
+        });
+        run(setup(RIDER, set), look);
+        deepest_m
+    };
+    assert!(deepest_in_post_m(&[]) > 0.01);
+    assert_eq!(deepest_in_post_m(&["solids.post.meets=\"own\""]), 0.0);
+}
+
+#[test]
+fn a_rider_who_begins_below_the_ground_is_refused() {
+    let found = Model::new(setup(RIDER, &["occupants.rider.mount.place[2]=0.3"])).map(|_| ()).unwrap_err().to_string();
+    assert!(found.contains("ground") && found.contains("behind it at the start"), "{found}");
+    assert!(Model::new(setup(RIDER, &[])).is_ok());
+}
+
+#[test]
+fn one_who_passes_through_the_surfaces_of_a_vehicle_is_named_and_so_is_which_way_is_up() {
+    let wall = "surfaces.wall={ material = \"road\", edge = [[3, 0], [3, -1]], half_width = 1, inside = [0, 0, -0.5] }";
+    let told = |set: &[&str]| {
+        let mut draft = occupant_scenario::Draft::read(RIDER, occupant_scenario::Format::Toml, "test").unwrap();
+        set.iter().for_each(|assignment| draft.set(assignment).unwrap());
+        let no_files = |name: &str| Err(format!("no file {name}"));
+        draft.load(&no_files).and_then(|loaded| loaded.build()).unwrap().1.to_string()
+    };
+    assert!(told(&[wall]).contains("rider passes through wall"), "{}", told(&[wall]));
+    assert!(!told(&[wall, "surfaces.wall.meets=\"all\""]).contains("passes through"));
+    let up = told(&["occupants.rider.mount.frame=\"space\"", "occupants.rider.mount.place[2]=0.15"]);
+    assert!(up.contains("which is up"), "{up}");
+    assert!(!told(&[]).contains("which is"));
+}

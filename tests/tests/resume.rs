@@ -51,7 +51,7 @@ fn run(setup: &Setup) -> (Model, Outputs, Outcome) {
 
 /// Two belts, and crush that stays.
 fn lap_and_torso(integrator: Integrator) -> Setup {
-    let text = include_str!("../../scenarios/cart-lap-torso.toml");
+    let text = include_str!("../data/carts/cart-lap-torso.toml");
     let alone = |name: &str| Err(format!("no file beside the text: {name}"));
     let loaded = Scenario::from_text(text, Format::Toml, "cart", &alone);
     let mut setup = loaded.and_then(|s| s.build()).unwrap().0;
@@ -64,7 +64,7 @@ fn lap_and_torso(integrator: Integrator) -> Setup {
 
 /// Elastic limits instead of viscous stops, locks that open, slip and close again, and a muscle.
 fn limited(integrator: Integrator) -> Setup {
-    let text = include_str!("../../scenarios/cart-lap-torso.toml");
+    let text = include_str!("../data/carts/cart-lap-torso.toml");
     let joints = "[joints]\npreset = \"gebod\"\nelbows.lock = { until = \"10 N m\", relock_below = 20 }\n\
                   neck.lock = { until = \"15 N m\", slips = true }";
     let text = text.replace("[joints]\npreset = \"male50\"", joints)

@@ -317,6 +317,21 @@ fn settling_keeps_the_posture() {
     }
 }
 
+/// Nearer heels raise the thighs off the cushion: nothing but the pelvis touches then, and its sphere does not resist turning.
+#[test]
+fn a_body_whose_feet_hang_tips_until_they_stand() {
+    let mut start = start(seated(|s| {
+        s.settle = Settling::Locked;
+        s.heels_m = [22.0 * INCH_M, 13.0 * INCH_M];
+    }));
+    let settled = start.model.start().settled.unwrap();
+    assert_below("residual, of the weight", settled.residual_force_n / settled.weight_n, 1e-7);
+    assert_below("residual moment, N·m", settled.residual_moment_n_m, 1e-4);
+    assert!(start.model.warnings().is_empty());
+    start.contacts.retain(|c| c.surface == 2);
+    assert_eq!(start.contacts.len(), 2, "both feet on the floor: {:?}", start.contacts);
+}
+
 /// Friction holds what the 6 N of a spool pull at one shoulder; without it they turned the body by 6 degrees.
 #[test]
 fn the_spool_of_a_retractor_does_not_turn_a_seated_body() {

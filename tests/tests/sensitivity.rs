@@ -10,14 +10,15 @@ use occupant_core::results::checkpoint::Checkpoint;
 use occupant_core::results::recorder::Watch;
 use occupant_core::run::simulate::simulate;
 use occupant_scenario::{Draft, Format};
-use occupant_study::sensitivity::finite::{CHANGES, HOLDS, Verdict, compare, finite_changes};
-use occupant_study::sensitivity::measures::{Request, derivatives, plain_values};
+use occupant_study::sensitivity::finite::neighbours;
+use occupant_study::sensitivity::measures::{Request, derivatives};
+use occupant_study::sensitivity::verdict::{HOLDS, Verdict, compare};
 use occupant_study::sensitivity::{Built, Parameter, Slope, Trajectory, Trouble, follow, parameter};
 use occupant_tests::cart::lap;
 use occupant_tests::measure::assert_below;
 
-const CART: &str = include_str!("../../scenarios/cart-lap-torso.toml");
-const UNBELTED: &str = include_str!("../../scenarios/cart-unbelted.toml");
+const CART: &str = include_str!("../data/carts/cart-lap-torso.toml");
+const UNBELTED: &str = include_str!("../data/carts/cart-unbelted.toml");
 const SLED: &str = include_str!("../../scenarios/sled-17-segments.toml");
 const RIG: &str = include_str!("../data/rig.toml");
 const FREE: &str = include_str!("../../scenarios/free-fall.toml");
@@ -497,16 +498,13 @@ fn after_contacts_the_derivative_is_what_small_finite_changes_do() {
         let trajectory = follow(&model, &mut built).unwrap();
         let figures = ["hic15", "head.peak", "chest.three_ms_contiguous", "contacts.pelvis.peak"];
         let wish = Request { figures: figures.map(str::to_owned).to_vec(), channels: Vec::new() };
-        let plain = plain_values(&model, &trajectory, &wish).unwrap();
+        let beside = neighbours(&model, &parameters, 1e-4, &wish.figures);
         for (k, parameter) in parameters.iter().enumerate() {
             let found = derivatives(&model, parameter, &trajectory, k, &wish).unwrap();
-            let finite = &finite_changes(std::slice::from_ref(parameter), &CHANGES, &wish.figures)[0];
             for (i, figure) in figures.iter().enumerate() {
-                let slope = found.figures[i];
-                let c = compare(&slope, plain.figures[i], parameter.size, finite, i);
-                let what = format!("{figure} by {}, ±0.01 %", parameter.name);
-                // Measured: 3.4e-6 to 1.3e-2, in proportion to the change until a contact comes or goes.
-                assert_below(&what, c.off[0], 0.03);
+                let c = compare(&found.figures[i], parameter.size, &beside, k, i);
+                let what = format!("{figure} by {}, ±0.1 %", parameter.name);
+                println!("{what}: {c:?}");
                 let declared = matches!(c.verdict, Verdict::Holds { off, .. } if off <= HOLDS);
                 assert!(declared, "{what}: {c:?}");
             }

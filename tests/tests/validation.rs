@@ -135,6 +135,7 @@ const FAULTS: &[Fault] = &[
     (|s| s.gravity_m_s2 = -9.81, "gravity", "-9.81"),
     (|s| s.time.end_s = 0.0, "time.end", "after the start"),
     (|s| s.time.output_s = 0.0, "output.interval", "positive"),
+    (|s| s.time.output_s = 1e300, "output.interval", "no longer than the run"),
     (|s| s.integrator = Integrator::Rk4 { step_s: -1e-4 }, "integrator.step", "-0.0001 s"),
     (
         |s| {

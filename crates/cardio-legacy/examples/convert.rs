@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (decks, diagnostics) = Deck::parse(std::fs::read(&file)?, &options);
     eprintln!("{diagnostics}");
     let deck = decks.first().ok_or("no deck can be used")?;
-    let conversion = deck.to_scenario(&ConvertOptions { deck_name: name(&file), path, compartment: None })?;
+    let conversion = deck.to_scenario(&ConvertOptions { deck_name: name(&file), path, ..ConvertOptions::default() })?;
     eprintln!("{}", conversion.report);
     print!("{}", conversion.toml);
     Ok(())

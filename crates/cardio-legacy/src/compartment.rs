@@ -169,6 +169,17 @@ impl CompartmentLayout {
         self.corners_of(number).iter().flat_map(|corner| [corner.x_of, corner.z_of]).collect()
     }
 
+    /// The coordinates of series 8 by which no surface is bounded, by their variables.
+    pub(crate) fn unused_coordinates(&self) -> Vec<String> {
+        let corners = || self.surfaces.iter().flat_map(|surface| &surface.corners);
+        let bounds = |n: u32| [corners().any(|corner| corner.x_of == n), corners().any(|corner| corner.z_of == n)];
+        let unused = |n: u32| {
+            let is_used = bounds(n).map(|bounds| bounds || n == self.wheel.point);
+            ["XV", "ZV"].into_iter().zip(is_used).filter(|(_, used)| !used).map(move |(axis, _)| format!("{axis}({n})"))
+        };
+        (1..=POINTS).flat_map(unused).collect()
+    }
+
     fn check(&self) -> Result<(), String> {
         let mut numbers: Vec<u32> = self.numbered().map(|(number, _)| number).collect();
         numbers.sort_unstable();
@@ -200,9 +211,11 @@ impl CompartmentLayout {
         let no_extent = |face: Face| (face.corners.is_empty().then_some("has no area"), face.number, face.name);
         let wheel = deck.value("DSW").is_some_and(|diameter| diameter <= 0.0).then_some("has no diameter");
         let all = faces.map(no_extent).chain([(wheel, self.wheel.number, self.wheel.name.clone())]);
-        let resists_nothing = |number| deck.value(&format!("STIF1({number})")) == Some(0.0);
+        // STIF1 = 0 alone is a gap before the spring bears
+        let is_zero = |stiffness: &str, number| deck.value(&format!("{stiffness}({number})")) == Some(0.0);
+        let resists_nothing = |number| is_zero("STIF1", number) && is_zero("STIF2", number);
         all.filter_map(|(why, number, name)| {
-            let why = why.or(resists_nothing(number).then_some("resists nothing (STIF1 = 0)"))?;
+            let why = why.or(resists_nothing(number).then_some("resists nothing (STIF1 = STIF2 = 0)"))?;
             Some(LeftOut { number, name, why })
         })
         .collect()

@@ -7,6 +7,9 @@ use crate::deck::DeckCard;
 use crate::punched::{Columns, PunchedCard};
 use crate::rule::{Rule, Severity, Strictness};
 
+/// How many names a message lists.
+pub(crate) const LISTED: usize = 24;
+
 /// One problem, with everything a person needs to find and mend it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnostic {
@@ -193,7 +196,28 @@ impl Sink {
         errors.filter_map(|d| d.line).any(|line| (first..=last).contains(&line))
     }
 
+    /// One problem in the place of those that many fields have alike.
+    fn fold_lone_points(&mut self) {
+        let (mut points, others): (Vec<_>, Vec<_>) =
+            std::mem::take(&mut self.found.items).into_iter().partition(|d| d.rule == Rule::LonePoint);
+        self.found.items = others;
+        if points.len() > 1 {
+            let names: Vec<&str> = points.iter().filter_map(|d| d.variable.as_deref()).take(LISTED).collect();
+            let more = points.len() - names.len();
+            let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+            let message = format!(
+                "{} fields hold a point without a digit, which was zero on the 360: {}{more}",
+                points.len(),
+                names.join(", ")
+            );
+            points.truncate(1);
+            points[0].message = message;
+        }
+        self.found.items.append(&mut points);
+    }
+
     pub(crate) fn into_diagnostics(mut self) -> Diagnostics {
+        self.fold_lone_points();
         self.found.items.sort_by_key(|d| d.line.unwrap_or(usize::MAX));
         self.found
     }

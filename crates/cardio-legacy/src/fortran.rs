@@ -6,6 +6,7 @@
 //! * a field that is all blank is zero (kept apart here as [`Reading::blank`], because it is a rule and not a number);
 //! * a decimal point in the field overrules the format's count of decimals, which is 0 in every format of the report;
 //! * an exponent is `E` or `D` with or without sign, or a sign alone: `1.5E3`, `1.5D+3`, `1.5-3`;
+//! * a point alone, or behind a sign, is zero: the blanks behind it are digits, and to the 360 a field without digits was zero;
 //! * integers take no point and no exponent.
 //!
 //! So `12` punched at the left of ten columns is 1 200 000 000. That is what the program read, hence what is read here;
@@ -29,7 +30,7 @@ pub struct Reading {
     pub blank: bool,
     /// Where the rules gave something that the eye does not see: [`Rule::EmbeddedBlanks`], [`Rule::LeftJustified`] for blanks
     /// behind the last digit that were read as zeros, [`Rule::BareExponent`], [`Rule::SmallLetter`], [`Rule::Underflow`] for a
-    /// number that the 360 read as zero.
+    /// number that the 360 read as zero, [`Rule::LonePoint`].
     pub surprises: Vec<Rule>,
 }
 
@@ -43,7 +44,7 @@ pub enum FieldError {
         /// The byte, to be read as Latin-1.
         found: u8,
     },
-    /// A sign, a point or an exponent without any digit.
+    /// A sign without any digit.
     NoDigits,
     /// An exponent letter with nothing after it.
     EmptyExponent,
@@ -59,6 +60,9 @@ pub enum FieldError {
 /// # Errors
 /// [`FieldError`] when the field is neither blank nor a number of FORTRAN IV.
 pub fn read_real(field: &[u8]) -> Result<Reading, FieldError> {
+    if matches!(field.trim_ascii(), b"." | b"-." | b"+.") {
+        return Ok(Reading { blank: false, surprises: vec![Rule::LonePoint], ..blank() });
+    }
     let Some(parts) = split(field)? else { return Ok(blank()) };
     let mut surprises = parts.surprises.clone();
     let text = parts.as_rust();

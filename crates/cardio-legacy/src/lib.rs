@@ -72,7 +72,7 @@ mod write;
 
 pub use back::{FromScenario, NoDeck, RunEnd, passed_pairs, spine_rest};
 pub use compartment::{CompartmentLayout, Corner, Face, Wall};
-pub use convert::{Conversion, ConversionError, ConvertOptions, PathSource, Report};
+pub use convert::{Conversion, ConversionError, ConvertOptions, DeckSeating, PathSource, Report};
 pub use deck::{Deck, DeckCard, Difference, Number, Plot};
 pub use diagnostics::{Diagnostic, Diagnostics};
 pub use punched::Columns;

@@ -105,12 +105,19 @@ rules! {
     // The file and its lines.
     /// No card at all.
     EmptyFile: Fatal, "empty-file", expects "two title cards, series 3 to 16 and FINI";
+    /// The characters are those of EBCDIC.
+    Ebcdic: Remark, "ebcdic";
+    /// Records of 80 columns one after the other.
+    NoLineEnds: Remark, "no-line-ends";
     /// A tab, which has no column.
     Tab: Repairable, "tab", expects "blanks only, so that every character has its column",
         remedy "replace tabs by blanks; it was read as if tab stops stood every 8 columns";
     /// Characters behind column 80.
     LineTooLong: Doubtful, "line-too-long", expects "80 columns",
         remedy "check that no field has slipped to the right, and cut the line";
+    /// Characters behind column 80 of many lines, such as another machine's sequence numbers.
+    BeyondTheCard: Remark, "beyond-the-card", expects "80 columns",
+        remedy "nothing to do, unless fields have slipped to the right";
     /// A control character.
     ControlCharacter: Doubtful, "control-character";
     /// Bytes that look like UTF-8; they are read as Latin-1, one byte a column.
@@ -137,6 +144,8 @@ rules! {
     Underflow: Doubtful, "underflow", remedy "punch 0.";
     /// Blank fields read as zero, counted once a deck.
     BlankIsZero: Remark, "blank-is-zero";
+    /// Points without a digit, read as zero, counted once a deck.
+    LonePoint: Doubtful, "lone-point", expects "a number with a digit, or a blank", remedy "punch 0. where zero is meant";
     /// Something in columns that the report leaves blank.
     NotBlank: Doubtful, "not-blank", remedy "look whether a number has slipped out of its columns, or remove it";
     /// A number that has to be whole and is not, or counts nothing sensible.

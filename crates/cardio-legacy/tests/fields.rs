@@ -97,13 +97,21 @@ fn what_is_no_number_says_where() {
         ("       1.5E", FieldError::EmptyExponent),
         ("      1.5E+", FieldError::EmptyExponent),
         ("      1.5E ", FieldError::EmptyExponent),
-        ("         .", FieldError::NoDigits),
         ("         -", FieldError::NoDigits),
         ("    -     ", FieldError::NoDigits),
         ("       E12", FieldError::Character { offset: 7, found: b'E' }),
         ("  1.5E  -3", FieldError::Character { offset: 8, found: b'-' }),
     ] {
         assert_eq!(read_real(text.as_bytes()), Err(error), "`{text}`");
+    }
+}
+
+#[test]
+fn a_point_alone_is_zero_and_said() {
+    for text in [".         ", "    .     ", "         .", "-.        ", "        +."] {
+        let reading = read_real(text.as_bytes()).expect("zero");
+        assert_eq!((reading.value, reading.blank), (0.0, false), "`{text}`");
+        assert_eq!(reading.surprises, [Rule::LonePoint]);
     }
 }
 

@@ -152,6 +152,14 @@ fn segment_and_surface_numbers_are_judged() {
 fn card_numbers_are_read_where_they_stand() {
     let moved = |from: usize, text: &str| driver(|lines| punch(&mut lines[first_card_by_line(from)], 71, text));
     assert_eq!(errors(&moved(18, "       7  ")), [], "the format I8 of series 7 ends in column 78");
+    let ten = driver(|lines| {
+        let at = first_card(lines, "10");
+        punch(&mut lines[at], 71, "      10  ");
+    });
+    let (decks, diagnostics) = parse(&ten);
+    assert_eq!(decks.len(), 1, "that of series 10, which I10 would read as 1000: {diagnostics}");
+    assert_eq!(rules(&diagnostics, Severity::Note), [Rule::CardNumberByFormat]);
+    assert!(decks[0].differences(&parse(&driver(|_| {})).0[0]).is_empty());
     assert_eq!(errors(&moved(5, "5         ")), [found(Rule::CardNumber, 5, "NCARD")]);
     assert_eq!(errors(&moved(5, "          ")), [found(Rule::CardNumber, 5, "NCARD")]);
     assert_eq!(errors(&moved(5, "        77"))[0].0, Rule::SeriesMissing);
@@ -180,6 +188,92 @@ fn lines_that_are_no_cards_are_named() {
     assert_eq!(warnings(&control), [found(Rule::ControlCharacter, 1, "")]);
     let utf = driver(|lines| lines[0] = "Führer".into());
     assert_eq!(warnings(&utf), [found(Rule::LooksLikeUtf8, 1, "")]);
+}
+
+/// How many problems of each gravity a deck has.
+fn counts(text: &str) -> [usize; 3] {
+    let (_, found) = parse(text);
+    [Severity::Error, Severity::Warning, Severity::Note].map(|severity| found.count(severity))
+}
+
+#[test]
+fn what_is_wrong_alike_on_many_cards_is_said_once() {
+    assert_eq!(counts(&driver(|_| {})), [0, 0, 0]);
+    // another machine's numbers behind all 119 cards
+    let numbered = driver(|lines| lines.iter_mut().for_each(|line| *line = format!("{line:82}CDC 6600")));
+    assert_eq!(counts(&numbered), [0, 0, 1]);
+    let (decks, diagnostics) = parse(&numbered);
+    assert_eq!(decks.len(), 1);
+    assert_eq!(rules(&diagnostics, Severity::Note), [Rule::BeyondTheCard]);
+    // every zero punched as a point alone
+    let points = driver(|lines| {
+        for line in &mut lines[2..117] {
+            *line = line.replace("        0.", "         .");
+        }
+    });
+    let (decks, diagnostics) = parse(&points);
+    assert_eq!(rules(&diagnostics, Severity::Warning), [Rule::LonePoint], "{diagnostics}");
+    let of_zeros = &parse(&driver(|_| {})).0[0];
+    assert!(decks[0].differences(of_zeros).is_empty());
+}
+
+#[test]
+fn a_decimal_point_that_slipped_is_doubted() {
+    for (ncard, behind, column, text, variable) in [
+        ("5", 0, 1, "      65.7", "XLS"),
+        ("5", 0, 1, "      .657", "XLS"),
+        ("5", 0, 11, "      33.5", "XLH"),
+        ("5", 1, 11, "      92.0", "XLE(1)"),
+        ("8", 1, 1, "      400.", "XV(1)"),
+    ] {
+        let found = warnings(&punched(ncard, behind, column, text));
+        assert!(found.iter().any(|(rule, _, v)| *rule == Rule::Unlikely && v == variable), "{variable}: {found:?}");
+    }
+}
+
+/// A text as an IBM 360 wrote it on tape.
+fn ebcdic(text: &str) -> Vec<u8> {
+    let letters = |first: u8, at: char, from: char| first + (at as u8 - from as u8);
+    let code = |letter: char| match letter {
+        ' ' => 0x40,
+        '.' => 0x4b,
+        '-' => 0x60,
+        '+' => 0x4e,
+        ',' => 0x6b,
+        '/' => 0x61,
+        '0'..='9' => letters(0xf0, letter, '0'),
+        'A'..='I' => letters(0xc1, letter, 'A'),
+        'J'..='R' => letters(0xd1, letter, 'J'),
+        'S'..='Z' => letters(0xe2, letter, 'S'),
+        '\n' => 0x15,
+        other => panic!("no card has {other}"),
+    };
+    text.to_ascii_uppercase().chars().map(code).collect()
+}
+
+#[test]
+fn decks_from_tapes_and_mainframes_are_read() {
+    let plain = driver(|_| {}).to_ascii_uppercase();
+    let records: String = plain.lines().map(|line| format!("{line:80}")).collect();
+    let read = |bytes: &[u8]| cardio_legacy::Deck::parse(bytes, &Default::default());
+    let expected = &parse(&plain).0[0];
+    for (bytes, rules_found) in [
+        (records.clone().into_bytes(), vec![Rule::NoLineEnds]),
+        (format!("{records}\r\n").into_bytes(), vec![Rule::NoLineEnds]),
+        (ebcdic(&plain), vec![Rule::Ebcdic]),
+        (ebcdic(&records), vec![Rule::Ebcdic, Rule::NoLineEnds]),
+    ] {
+        let (decks, diagnostics) = read(&bytes);
+        assert_eq!(rules(&diagnostics, Severity::Note), rules_found, "{diagnostics}");
+        assert!(!diagnostics.has_errors(), "{diagnostics}");
+        assert!(decks[0].differences(expected).is_empty());
+        assert_eq!(decks[0].titles(), expected.titles());
+    }
+    // a mistake is on its card
+    let mut wrong = records.into_bytes();
+    wrong[2 * 80 + 12] = b'?';
+    let (_, diagnostics) = read(&wrong);
+    assert_eq!(diagnostics.iter().find(|d| d.severity == Severity::Error).and_then(|d| d.line), Some(3));
 }
 
 #[test]

@@ -85,7 +85,7 @@ fn the_path_from_disk_is_asked_for_and_taken() {
 #[test]
 fn a_scenario_that_does_not_fit_says_why() {
     let folder = tempfile::tempdir().expect("a folder");
-    let cart = decks().join("../cart-lap-torso.toml");
+    let cart = decks().join("../../tests/data/carts/cart-lap-torso.toml");
     let (code, out, said) = convert(folder.path(), &[cart.to_str().expect("UTF-8")]);
     assert_eq!((code, out.as_str()), (2, ""));
     assert!(said.contains("does not fit on cards") && said.contains("path.kind"), "{said}");

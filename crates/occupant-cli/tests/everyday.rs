@@ -253,7 +253,7 @@ fn a_scene_moves_as_the_run_does() {
     let csv = fs::read_to_string(here.join("x.csv")).unwrap();
     let expected: f64 = csv.lines().last().unwrap().split(',').nth(1).unwrap().parse().unwrap();
     assert!((f64::from(last_x) - expected).abs() < 1e-5, "{last_x} and {expected}");
-    assert!(err(&answer(here, &["export", "case.mcap", "-o", "y.glb", "--channels", "head.*"])).contains("--channels"));
+    assert!(err(&answer(here, &["export", "case.mcap", "-o", "y.glb", "--channels", "head.*"])).contains("--channel "));
 }
 
 /// The number in so many-th place behind the beginning of a line.

@@ -80,10 +80,10 @@ fn the_answer_holds_derivatives_secants_and_events() {
     // Measured: equal to the last digit.
     assert!((relative - derivative * 70000.0 / value).abs() < 1e-12);
     let change = &first["changes"][0];
-    assert_eq!(change["part"], 1e-4);
+    assert_eq!(change["part"], 2e-3);
     for side in ["secant_below", "secant_above"] {
         let secant = change[side].as_f64().expect("a secant");
-        assert!((secant / derivative - 1.0).abs() < 1e-3, "{secant} {derivative}");
+        assert!((secant / derivative - 1.0).abs() < 0.02, "{secant} {derivative}");
     }
     // nothing is relative to a slack of nothing
     assert_eq!(rows[1]["parameter"], "belts.lap.slack");

@@ -132,6 +132,8 @@ pub enum Value {
     Numbers(Vec<f64>),
     /// A list of indices.
     Indices(Vec<u32>),
+    /// A long list of numbers of single precision.
+    Singles(Vec<f32>),
     /// Messages within the message.
     Parts(Vec<Fields>),
 }
@@ -153,6 +155,8 @@ pub enum Kind {
     Numbers,
     /// A list of indices.
     Indices,
+    /// A long list of numbers of single precision.
+    Singles,
     /// Messages of the named type.
     Parts(&'static str),
 }

@@ -140,14 +140,15 @@ impl Draft {
         expand(&mut self.document.sources, &self.document.root)
     }
 
-    /// An override's value: TOML, or else the text itself.
+    /// An override's value: TOML, a number such as `.2` that TOML does not take for one, or else the text itself.
     fn value(&self, id: SourceId) -> Node {
         let sources = &self.document.sources;
         parse_value(sources, id).unwrap_or_else(|_| {
             let text = sources.text(id);
             let mut span = sources.start_of(id);
             span.end = text.len();
-            Node::new(span, Value::String(text.to_owned()))
+            let number = text.trim().parse().ok().filter(|x: &f64| x.is_finite() && text.contains('.'));
+            Node::new(span, number.map_or_else(|| Value::String(text.to_owned()), Value::Float))
         })
     }
 }

@@ -1,7 +1,7 @@
 //! The kinds of quantity a scenario can hold: how each is called and written, what a bare number means in each unit
 //! system, and how a written one becomes a number in SI units.
 
-use crash_measures::unit::{Dimension, Scale, Unit, UnitError, parse};
+use crash_measures::unit::{Dimension, Scale, Unit, UnitError, parse, parse_heading};
 use serde::{Deserialize, Serialize};
 
 use placed_text::Value;
@@ -54,9 +54,9 @@ pub const ANGLE: usize = 2;
 /// Speed.
 pub const SPEED: usize = 3;
 /// Acceleration.
-pub(crate) const ACCELERATION: usize = 4;
+pub const ACCELERATION: usize = 4;
 /// Angular velocity.
-pub(crate) const ANGULAR_VELOCITY: usize = 5;
+pub const ANGULAR_VELOCITY: usize = 5;
 /// Mass.
 pub(crate) const MASS: usize = 6;
 /// Force.
@@ -96,10 +96,12 @@ pub(crate) const SPECIFIC_HEAT: usize = 22;
 pub(crate) const SPECIFIC_HEAT_SLOPE: usize = 23;
 /// Heat transfer.
 pub(crate) const HEAT_TRANSFER: usize = 24;
+/// Frequency.
+pub const FREQUENCY: usize = 25;
 
 /// All kinds.
 #[rustfmt::skip]
-pub const KINDS: [Kind; 25] = [
+pub const KINDS: [Kind; 26] = [
     kind("length", "a length", Unit::Metre, "0.3, \"12 in\", \"305 mm\""),
     kind("time", "a time", Unit::Second, "0.08, \"80 ms\""),
     kind("angle", "an angle", Unit::Radian, "15, \"15 deg\", \"0.26 rad\""),
@@ -125,6 +127,7 @@ pub const KINDS: [Kind; 25] = [
     kind("specific heat", "a specific heat", Unit::JoulePerKilogramKelvin, "1070, \"1070 J/(kg K)\""),
     kind("specific heat per kelvin", "a specific heat per kelvin", Unit::JoulePerKilogramKelvinSquared, "0.2, \"0.2 J/(kg K^2)\""),
     kind("heat transfer", "a heat transfer", Unit::WattPerMetreSquaredKelvin, "50, \"50 W/(m^2 K)\""),
+    kind("frequency", "a frequency", Unit::Hertz, "15, \"15 Hz\""),
 ];
 
 impl Kind {
@@ -181,7 +184,7 @@ impl Kind {
             split_number(text).ok_or_else(|| whole(format!("`{text}` does not start with a number"), None))?;
         let unit_text = text[start..].trim_end();
         if unit_text.is_empty() {
-            let hint = format!("write {} without quotes", text.trim());
+            let hint = format!("write {} without quotes", plain(text.trim()));
             return Err(whole(format!("a number without unit in quotes, `{text}`"), Some(hint)));
         }
         if unit_text.starts_with(',') {
@@ -213,7 +216,7 @@ impl Kind {
         let expected =
             format!("the unit of {} in brackets, such as `{name}[{}]`", self.noun, self.bare_unit(UnitSystem::Si));
         let Some(unit) = unit else { return Err(whole(name, format!("column `{name}` without a unit"), expected)) };
-        match parse(unit, 0) {
+        match parse_heading(unit) {
             Ok(scale) if self.is_measured_in(scale) => Ok(scale.factor),
             Ok(_) => Err(whole(unit, format!("`{unit}` is not the unit of {}", self.noun), expected)),
             Err(error) => Err(UnitError { expected, ..error }),
@@ -290,4 +293,15 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
         rest = tail;
         Some(word)
     })
+}
+/// The digits of a number as TOML has them: with digits on both sides of the point.
+fn plain(digits: &str) -> String {
+    let (sign, digits) = match digits.strip_prefix(['-', '+']) {
+        Some(rest) => (&digits[..1], rest),
+        None => ("", digits),
+    };
+    let begun = if digits.starts_with('.') { format!("0{digits}") } else { digits.to_owned() };
+    let ended =
+        if begun.ends_with('.') { format!("{begun}0") } else { begun.replace(".e", ".0e").replace(".E", ".0E") };
+    format!("{sign}{ended}")
 }

@@ -5,7 +5,7 @@ use super::expand::expand;
 use super::sections::{Scenario, setup, together};
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
-use placed_text::{Diagnostics, Document, Format, Problem, Problems, text_of, with_key};
+use placed_text::{Diagnostics, Document, Format, Problem, Problems, table_text, with_key};
 
 /// Gives the bytes of a file named in a scenario, or says why not. The core reads no files itself.
 pub type Resolver<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, String>;
@@ -124,7 +124,7 @@ fn read_tables(document: &mut Document, scenario: &Scenario, resolver: Resolver)
             let expected = "a CSV file, its name relative to the scenario";
             Diagnostics::from(document.place(Problem::error(with_key(&at, "file"), found, expected)))
         });
-        match read.and_then(|bytes| text_of(&bytes, file).map(str::to_owned)) {
+        match read.and_then(|bytes| table_text(&bytes, file)) {
             Ok(text) => _ = document.sources.add_named(file, text),
             Err(found) => problems.extend(found),
         }

@@ -5,10 +5,11 @@
 //! depend on seed, member and place alone: members of different samples are perturbed alike, so that samples are compared
 //! under the same changes, and an ensemble of 64 begins with that of 32.
 
+use super::law::Value;
 use super::parameter::{Assignment, Parameter, Target, changed, place};
 use super::random::{Purpose, unit};
-use occupant_scenario::{Draft, rival_path};
-use placed_text::Problem;
+use occupant_scenario::{Draft, Place, rival_path};
+use placed_text::{Problem, Value as Written};
 use serde::Serialize;
 
 /// How far the standard changes may go.
@@ -106,23 +107,36 @@ pub(super) fn targets(base: &Draft, path: &str) -> Result<Vec<Target>, Problem> 
 /// Changes of each angle of the posture, or of the initial state.
 pub(super) fn posture(base: &Draft, most_rad: f64) -> Vec<Perturbation> {
     let angles = ["middle_torso", "upper_torso", "head", "lower_torso", "upper_arms", "elbows"];
-    let written = angles.iter().map(|a| format!("posture.{a}"));
+    let written = people(base).into_iter().flat_map(|person| {
+        let seated = angles.iter().map(move |angle| format!("posture.{angle}"));
+        let all = seated.chain(["stance.yaw", "stance.posture.*"].map(str::to_owned));
+        all.map(move |path| format!("{person}{path}")).collect::<Vec<_>>()
+    });
     // q₄ … q₃₁ are angles
     let exact = (3..31).map(|i| format!("initial_state.q[{i}]"));
     let paths: Vec<String> = written.chain(exact).collect();
     each(base, &paths, Change::Offset(most_rad))
 }
 
+/// What stands before the keys of each occupant: nothing, or `occupants.NAME.`.
+fn people(base: &Draft) -> Vec<String> {
+    let named = base.clone().get("occupants.*").unwrap_or_default();
+    let own = named.into_iter().map(|(path, _)| format!("{path}."));
+    std::iter::once(String::new()).chain(own).collect()
+}
+
 /// Changes of the place of the occupant.
 pub(super) fn seat_place(base: &Draft, most_m: f64) -> Vec<Perturbation> {
-    let written = ["posture.heels[0]", "posture.heels[1]", "seats.*.y"].map(str::to_owned);
+    let own = ["posture.heels[0]", "posture.heels[1]", "stance.at[0]", "stance.at[1]"];
+    let own = people(base).into_iter().flat_map(|person| own.map(|path| format!("{person}{path}")));
+    let written: Vec<String> = own.chain(["seats.*.y".to_owned()]).collect();
     let exact: Vec<String> = (0..3).map(|i| format!("initial_state.q[{i}]")).collect();
     // q₁ … q₃ have no unit of their own but are in the file's length
     let length_m = base.units().length_m();
     [each(base, &written, Change::Offset(most_m)), each(base, &exact, Change::Offset(most_m / length_m))].concat()
 }
 
-/// A change of the strength of the pulse, whether the base scenario or a parameter says it.
+/// A change of the strength of each vehicle's motion: of its pulse, whether the base scenario or a parameter says it, or of its table or record.
 pub(super) fn path(base: &Draft, parameters: &[Parameter], most: f64) -> Vec<Perturbation> {
     let paths = ["path.peak", "path.delta_v"];
     let said = paths.iter().filter_map(|path| targets(base, path).ok());
@@ -133,15 +147,31 @@ pub(super) fn path(base: &Draft, parameters: &[Parameter], most: f64) -> Vec<Per
             strengths.push(target.clone());
         }
     }
-    if strengths.is_empty() {
-        return Vec::new();
-    }
-    vec![Perturbation { change: Change::Factor(most), targets: strengths }]
+    let change = Change::Factor(most);
+    let pulse = Some(Perturbation { change, targets: strengths }).filter(|pulse| !pulse.targets.is_empty());
+    let recorded = recorded(base).into_iter().map(|target| Perturbation { change, targets: vec![target] });
+    let others = each(base, &["vehicles.*.path.peak", "vehicles.*.path.delta_v"].map(str::to_owned), change);
+    pulse.into_iter().chain(recorded).chain(others).collect()
+}
+
+/// The strength of each path that is a table or a record, which is 1 where the scenario does not say it.
+fn recorded(base: &Draft) -> Vec<Target> {
+    let kinds = ["path.kind", "vehicles.*.path.kind"].iter().filter_map(|path| base.places(path).ok()).flatten();
+    let is_recorded = |place: &Place| matches!(&place.value, Some(Written::String(kind)) if ["table", "sensors"].contains(&kind.as_str()));
+    let strength = |place: Place| {
+        let path = format!("{}strength", place.path.strip_suffix("kind")?);
+        let place = base.places(&path).ok()?.into_iter().next()?;
+        Some(Target { base: Value::Number(place.si.unwrap_or(1.0)), ..Target::of(&place) })
+    };
+    kinds.filter(is_recorded).filter_map(strength).collect()
 }
 
 /// A change of each material and each belt, both straight lines of one together.
 pub(super) fn stiffness(base: &Draft, most: f64) -> Vec<Perturbation> {
-    let firsts = ["materials.*.k1", "belts.*.k1"].iter().filter_map(|path| targets(base, path).ok()).flatten();
+    let firsts = ["materials.*.k1", "belts.*.k1", "occupants.*.belts.*.k1"]
+        .iter()
+        .filter_map(|path| targets(base, path).ok())
+        .flatten();
     firsts
         .map(|first| {
             let second = first.path.strip_suffix('1').map(|p| format!("{p}2"));
@@ -158,6 +188,19 @@ pub(super) fn stiffness(base: &Draft, most: f64) -> Vec<Perturbation> {
 pub(super) fn segments(base: &Draft, most: f64) -> Vec<Perturbation> {
     let of = |(_, targets)| Perturbation { change: Change::Factor(most), targets };
     super::segments::segments(base).into_iter().map(of).collect()
+}
+
+/// Names of the changes, as the command line and `[ensemble]` have them, that are asked for and for which the scenario has no place.
+pub fn without_place(base: &Draft, most: &Tolerances) -> Vec<&'static str> {
+    let asked = [
+        ("posture", most.posture_rad, posture(base, most.posture_rad)),
+        ("place", most.place_m, seat_place(base, most.place_m)),
+        ("path", most.path, path(base, &[], most.path)),
+        ("stiffness", most.stiffness, stiffness(base, most.stiffness)),
+        ("segments", most.segments, segments(base, most.segments)),
+    ];
+    let is_lost = |(_, amount, found): &&(_, f64, Vec<Perturbation>)| *amount > 0.0 && found.is_empty();
+    asked.iter().filter(is_lost).map(|(name, ..)| *name).collect()
 }
 
 /// All standard changes that the scenario has a place for.

@@ -50,6 +50,7 @@
 pub mod analysis;
 mod bind;
 mod copula;
+mod corners;
 mod design;
 mod direction_numbers;
 pub mod ending;
@@ -76,8 +77,9 @@ pub mod spread;
 mod text;
 
 pub use bind::MOST_RUNS;
+pub use corners::Corner;
 pub use design::{Design, Role};
-pub use ensemble::{Change, Ensemble, Perturbation, Tolerances};
+pub use ensemble::{Change, Ensemble, Perturbation, Tolerances, without_place};
 pub use fit::Fit;
 pub use fit_section::{FilterChoice, FitChannel, FitSection, FitTest, GainRange, Misfit, OffsetRange};
 pub use keep::Keep;

@@ -22,6 +22,8 @@ pub(super) enum Purpose {
     Ensemble = 6,
     /// Rows of a resample.
     Bootstrap = 7,
+    /// Errors of the sensors of a record.
+    SensorErrors = 8,
     /// Points of a search.
     Search = 16,
 }

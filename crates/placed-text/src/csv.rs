@@ -40,6 +40,20 @@ impl Separator {
         Separator([';', '\t', ','].into_iter().find(used).unwrap_or(' '))
     }
 
+    /// That of a line of numbers: blanks where they leave numbers and commas do not, as where a comma is the decimal sign.
+    fn of_numbers(line: &str) -> Self {
+        let usual = Separator::of(line);
+        let all = |separator: Separator| {
+            separator.pieces(line).iter().all(|(_, piece)| separator.is_number(piece.trim().trim_matches('"')))
+        };
+        if usual.0 == ',' && !all(usual) && all(Separator(' ')) { Separator(' ') } else { usual }
+    }
+
+    fn is_number(self, text: &str) -> bool {
+        let point = if self.0 == ',' { text.to_owned() } else { text.replace(',', ".") };
+        point.replace(['\u{2212}', '\u{2013}'], "-").parse::<f64>().is_ok_and(f64::is_finite)
+    }
+
     /// The pieces of a line with where each begins. Nothing separates within double quotes, no blank a name from its unit.
     fn pieces(self, line: &str) -> Vec<(usize, &str)> {
         let (mut pieces, mut start, mut quoted) = (Vec::new(), 0, false);
@@ -80,12 +94,40 @@ impl Separator {
     /// What was found instead of a finite number.
     pub fn number(self, cell: &Cell) -> Result<f64, String> {
         let point = if self.0 == ',' { cell.text.to_owned() } else { cell.text.replace(',', ".") };
+        // minus signs of type-setters
+        let point = point.replace(['\u{2212}', '\u{2013}'], "-");
         match (cell.text, point.parse::<f64>()) {
             (_, Ok(x)) if x.is_finite() => Ok(x),
             ("", _) => Err("an empty cell".to_owned()),
             (text, _) => Err(format!("`{}`", shortened(text, CELL))),
         }
     }
+}
+
+/// Words for a value that is missing.
+const MISSING: [&str; 17] = [
+    "",
+    "-",
+    "--",
+    "---",
+    "***",
+    "nan",
+    "novalue",
+    "n/a",
+    "#n/a",
+    "na",
+    "sna",
+    "null",
+    "none",
+    "invalid",
+    "not available",
+    "data not available",
+    "not recorded",
+];
+
+/// Whether a cell says that its value is missing.
+pub fn is_missing(text: &str) -> bool {
+    MISSING.contains(&text.trim().to_lowercase().as_str())
 }
 
 /// A text table: headings, units that may stand below them, and lines of cells.
@@ -100,12 +142,46 @@ pub struct TextTable<'a> {
     pub units: Vec<Cell<'a>>,
     /// The lines below.
     pub lines: Vec<Span>,
+    /// Lines of text that stand before it.
+    pub before: usize,
+    /// The first line behind it that is no part of it.
+    pub behind: Option<Span>,
 }
 
 impl<'a> TextTable<'a> {
-    /// The table in a text, none in an empty one; `is_unit` says of a cell without brackets whether it is a unit.
+    /// The table in a text, none in an empty one; `is_unit` says of a cell without brackets whether it is a unit. Words about it may stand before
+    /// and behind; of several tables the longest is taken.
     pub fn of(sources: &'a Sources, id: SourceId, is_unit: impl Fn(&str) -> bool) -> Option<Self> {
-        let mut lines = lines(sources, id).peekable();
+        let lines: Vec<Span> = lines(sources, id).collect();
+        let Some(body) = Body::longest(sources, &lines) else { return Self::at_first(sources, lines, is_unit) };
+        let Body { separator, first, end, .. } = body;
+        let cells = |line: usize| separator.cells(sources, lines[line]);
+        let names_units = |cell: &Cell| matches!(cell.text, "" | "-") || is_unit(bare(cell.text));
+        let is_head = |line: usize| line == 0 || cells(line).len() > 1;
+        let above = |line: usize| line.checked_sub(1).filter(|line| is_head(*line));
+        let (heads, units) = match above(first) {
+            // units may stand below the headings
+            Some(last) => match above(last).filter(|_| cells(last).iter().all(names_units)) {
+                Some(heads) if cells(heads).len() == cells(last).len() => (Some(heads), Some(last)),
+                _ => (Some(last), None),
+            },
+            None => (None, None),
+        };
+        let start = heads.unwrap_or(first);
+        Some(TextTable {
+            separator,
+            first: lines[start],
+            headings: heads.map(cells).unwrap_or_default(),
+            units: units.map(cells).unwrap_or_default(),
+            lines: lines[first..end].to_vec(),
+            before: start,
+            behind: lines.get(end).copied(),
+        })
+    }
+
+    /// The table that begins with the first line, where no two lines of numbers agree.
+    fn at_first(sources: &'a Sources, lines: Vec<Span>, is_unit: impl Fn(&str) -> bool) -> Option<Self> {
+        let mut lines = lines.into_iter().peekable();
         let first = lines.peek().copied()?;
         let separator = Separator::of(sources.slice(first));
         let cells = |line: Span| separator.cells(sources, line);
@@ -115,7 +191,7 @@ impl<'a> TextTable<'a> {
         let units =
             lines.next_if(|line| headings.is_some() && !has_number(*line) && cells(*line).iter().all(names_units));
         let (headings, units) = (headings.unwrap_or_default(), units.map(cells).unwrap_or_default());
-        Some(TextTable { separator, first, headings, units, lines: lines.collect() })
+        Some(TextTable { separator, first, headings, units, lines: lines.collect(), before: 0, behind: None })
     }
 
     /// The unit of a column, in its heading or below, with its place; none where there is none.
@@ -125,6 +201,71 @@ impl<'a> TextTable<'a> {
             || self.units.get(column).map(|cell| (bare(cell.text), cell.span)).filter(|(unit, _)| !unit.is_empty());
         name_and_unit(heading.text).1.map(|unit| (unit, heading.span)).or_else(below)
     }
+}
+
+/// Lines of numbers of a table.
+struct Body {
+    separator: Separator,
+    /// Its first line.
+    first: usize,
+    /// One past its last.
+    end: usize,
+    /// Cells in a line.
+    count: usize,
+}
+
+impl Body {
+    /// The longest table among the lines.
+    fn longest(sources: &Sources, lines: &[Span]) -> Option<Body> {
+        let (mut best, mut i): (Option<Body>, usize) = (None, 0);
+        while i < lines.len() {
+            let Some(body) = Body::from(sources, lines, i) else {
+                i += 1;
+                continue;
+            };
+            i = body.end;
+            if best.as_ref().is_none_or(|best| body.end - body.first > best.end - best.first) {
+                best = Some(body);
+            }
+        }
+        best
+    }
+
+    /// The table whose numbers begin with a line: two lines that agree, or one at the end of the text.
+    fn from(sources: &Sources, lines: &[Span], first: usize) -> Option<Body> {
+        let separator = Separator::of_numbers(sources.slice(lines[first]));
+        let count = numbers(sources, separator, lines[first])?;
+        let mut body = Body { separator, first, end: first + 1, count };
+        let mut agree = 1;
+        for (i, line) in lines.iter().enumerate().skip(first + 1) {
+            match numbers(sources, separator, *line) {
+                Some(count) if count == body.count => (body.end, agree) = (i + 1, agree + 1),
+                // a wrong line within a table has numbers, a heading or a title has none
+                _ if has_number(sources, separator, *line) && agree > 1 => {}
+                _ => break,
+            }
+        }
+        // what is wrong at the end is a part of the table too
+        let wrong =
+            |line: &&Span| has_number(sources, separator, **line) && numbers(sources, separator, **line) != Some(count);
+        let after = lines[body.end..].iter().take_while(wrong).count();
+        if body.end + after == lines.len() {
+            body.end = lines.len();
+        }
+        (agree > 1 || first + 1 == lines.len()).then_some(body)
+    }
+}
+
+fn has_number(sources: &Sources, separator: Separator, line: Span) -> bool {
+    separator.cells(sources, line).iter().any(|cell| separator.number(cell).is_ok())
+}
+
+/// How many cells a line has, if most that say something are numbers. A separator at the end opens no cell.
+fn numbers(sources: &Sources, separator: Separator, line: Span) -> Option<usize> {
+    let cells = separator.cells(sources, line);
+    let told = cells.iter().filter(|cell| !is_missing(cell.text)).count();
+    let numbers = cells.iter().filter(|cell| separator.number(cell).is_ok()).count();
+    (2 * numbers > told).then_some(cells.len())
 }
 
 /// A unit without the brackets round it.

@@ -4,6 +4,7 @@
 
 mod csv;
 mod diagnostic;
+mod encoding;
 mod json;
 mod node;
 mod path;
@@ -13,8 +14,9 @@ mod shown;
 mod source;
 mod toml;
 
-pub use csv::{CELL, Cell, MOST_CELLS, Separator, TextTable, lines, name_and_unit};
+pub use csv::{CELL, Cell, MOST_CELLS, Separator, TextTable, is_missing, lines, name_and_unit};
 pub use diagnostic::{Diagnostic, Diagnostics};
+pub use encoding::decoded;
 pub use node::{Entry, Format, Node, Table, Value, Written};
 pub use path::{Step, child, children, follow, locate, parse as parse_path, targets, to_text, with_key, with_step};
 pub use problem::{Problem, Problems, Severity};
@@ -103,6 +105,14 @@ pub fn text_of<'a>(bytes: &'a [u8], name: &str) -> Result<&'a str, Diagnostics> 
         let found = format!("byte 0x{byte:02x} in line {line} is not UTF-8");
         refuse(name, found, "a text in UTF-8")
     })
+}
+
+/// The bytes of a table as text, as [`decoded`]; `name` is what messages call them.
+///
+/// # Errors
+/// Bytes that are no text.
+pub fn table_text(bytes: &[u8], name: &str) -> Result<String, Diagnostics> {
+    decoded(bytes).map(|(text, _)| text).map_err(|found| refuse(name, found, "a text table"))
 }
 
 /// One problem of a text as a whole.

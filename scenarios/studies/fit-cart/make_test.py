@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-SCENARIO = HERE / "../../cart-lap-torso.toml"
+SCENARIO = HERE / "cart.toml"
 CHANNELS = ["lower_torso.acceleration.x", "upper_torso.acceleration.x", "belt.lap.force", "belt.torso.force"]
 NOISE = 0.03  # standard deviation, of each channel's peak
 GAIN = 0.01  # standard deviation
@@ -34,7 +34,7 @@ def run(occupant, changes, folder):
     common = ["--set", "output.interval=0.1 ms", "--set", "time.end=0.13"]
     mcap, table = folder / "run.mcap", folder / "run.csv"
     subprocess.run([occupant, "run", SCENARIO, "-o", mcap, "--quiet", *common, *sets], check=True)
-    channels = ["--channels", ",".join(CHANNELS)]
+    channels = ["--channel", ",".join(CHANNELS)]
     subprocess.run([occupant, "export", mcap, "-o", table, *channels], check=True)
     with open(table, newline="") as file:
         rows = [row for row in csv.reader(file) if row and not row[0].startswith("#")]

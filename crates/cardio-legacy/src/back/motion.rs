@@ -66,7 +66,11 @@ fn passed_on(back: &mut Back<'_>, layout: &CompartmentLayout, passed: &[(usize, 
 }
 
 fn seated(back: &mut Back<'_>, layout: &CompartmentLayout, seating: &Seating) {
-    back.misfit_if(seating.settle != Settling::Not, "posture.settle: cards have no settling");
+    back.misfit_if(seating.settle == Settling::Limp, "posture.limp: cards seat a body whose joints hold the posture");
+    if seating.settle == Settling::Not {
+        let text = "posture.settle = false: cards do not say it; `convert --seating pelvis` gives it again";
+        back.remarks.push(text.into());
+    }
     let number = |at: usize| back.setup.surfaces.get(at).and_then(|s| layout.number_of(&s.name));
     let (cushion, rest) = (number(seating.cushion), number(seating.back));
     let right_hand_drive = back.digits("SWP").is_some_and(|d| d.starts_with('-'));

@@ -13,7 +13,7 @@ pub(super) fn series() -> SeriesLayout {
             field("STIF1", STIFFNESS, "first and smaller stiffness")
                 .not_negative("stiffness")
                 .wrong_if(Rule::Unlikely, |v| v == 0.0, "the surface resists nothing up to DELB")
-                .expected("a stiffness in lbf/in", "punch the stiffness"),
+                .expected("a stiffness in lbf/in", "punch the stiffness, unless a gap is meant"),
             field("STIF2", STIFFNESS, "second and larger stiffness")
                 .not_negative("stiffness")
                 .wrong_if(Rule::Unlikely, |v| v == 0.0, "the surface resists no more beyond DELB")

@@ -73,7 +73,10 @@ fn webbing((number, name, _): (u32, &str, &str)) -> [Field; 3] {
             .key(format!("belts.{name}.{key}"))
     };
     [
-        field("SK1", "k1", STIFFNESS, first).positive("first slope of the webbing"),
+        field("SK1", "k1", STIFFNESS, first)
+            .not_negative("first slope of the webbing")
+            .wrong_if(Rule::Unlikely, |k| k == 0.0, "the webbing does not pull up to DELC")
+            .expected("a stiffness in lbf/in", "punch the stiffness, unless a gap is meant; SLACK is one too"),
         field("SK2", "k2", STIFFNESS, "second slope").not_negative("second slope of the webbing"),
         field("DELC", "delta_b", INCH, &elbow).not_negative("elongation of the webbing"),
     ]

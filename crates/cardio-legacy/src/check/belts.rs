@@ -23,6 +23,9 @@ pub(super) fn check(c: &mut Check<'_>) {
 }
 
 fn check_anchors(c: &mut Check<'_>, belt: u32, name: &str) {
+    let slack_for_ever = [1, 2].iter().all(|slope| c.value(format!("SK{slope}({belt})")) == 0.0);
+    c.wrong_if(slack_for_ever, Rule::Impossible, format!("SK1({belt})"), format!("the {name} belt never pulls"))
+        .expected("SK1 or SK2 above 0", "punch the stiffness, or leave the belt out by NOPBLT");
     let [one, two] = [1, 2].map(|end| [1, 2, 3].map(|axis| c.value(format!("P{end}({belt},{axis})"))));
     if one == two {
         let message = format!("both anchors of the {name} belt lie at the same point");

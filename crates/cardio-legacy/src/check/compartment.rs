@@ -16,6 +16,8 @@ const EQUALITIES: [&[&str]; 7] = [
     &["XV(6)", "XV(7)", "XV(22)"],
 ];
 const TOLERANCE_IN: f64 = 1e-6;
+/// A point of a car's compartment lies no further from its centre of gravity.
+const FARTHEST_IN: f64 = 200.0;
 
 pub(super) fn check(c: &mut Check<'_>) {
     let (width, roof, wheel) = (c.value("VCW"), c.value("VRW"), c.value("SWP"));
@@ -31,6 +33,11 @@ pub(super) fn check(c: &mut Check<'_>) {
     if largest > 0.0 && largest < 12.0 {
         let message = format!("no coordinate is larger than {largest}; the points look like feet");
         c.problem(Rule::LooksLikeOtherUnit, "XV(1)", message).expected("coordinates in inches", "multiply feet by 12");
+    }
+    for name in (1..=22).flat_map(|n| [format!("XV({n})"), format!("ZV({n})")]) {
+        let far = c.value(&name).abs() > FARTHEST_IN;
+        c.wrong_if(far, Rule::Unlikely, &name, "further from the centre of gravity than any point of a car")
+            .expected("a coordinate in inches", "look for the decimal point");
     }
     check_extents(c);
     let narrow = width > 0.0 && width < 8.0;

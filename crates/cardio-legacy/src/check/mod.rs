@@ -13,11 +13,8 @@ mod times;
 use std::fmt::Display;
 
 use crate::deck::Deck;
-use crate::diagnostics::{Diagnostic, Sink};
+use crate::diagnostics::{Diagnostic, LISTED, Sink};
 use crate::rule::Rule;
-
-/// How many names a message lists.
-const LISTED: usize = 24;
 
 /// Checks all numbers of a deck, and counts its blanks.
 pub(crate) fn check_deck(deck: &Deck, first_line: usize, sink: &mut Sink) {

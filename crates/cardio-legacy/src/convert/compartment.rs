@@ -2,7 +2,6 @@
 
 use occupant_core::body::tti12::TTI12;
 
-use super::ConversionError;
 use super::writer::{Writer, negated};
 use crate::compartment::{CompartmentLayout, Corner, Face, LeftOut};
 use crate::notes::{Kept, PAIR};
@@ -16,7 +15,7 @@ struct Written {
     body: String,
 }
 
-pub(super) fn write(w: &mut Writer<'_>, layout: &CompartmentLayout) -> Result<(), ConversionError> {
+pub(super) fn write(w: &mut Writer<'_>, layout: &CompartmentLayout) {
     let surfaces = surfaces(w, layout);
     let groups = materials(w, &surfaces);
     w.table(
@@ -41,11 +40,17 @@ pub(super) fn write(w: &mut Writer<'_>, layout: &CompartmentLayout) -> Result<()
         "the steering wheel's centre stands {} in behind point {} and level with it, its plane tilted {} degrees: no card places it",
         wheel.behind_in, wheel.point, wheel.tilt_deg
     ));
+    let unused = layout.unused_coordinates();
+    if !unused.is_empty() {
+        w.report.ignored.push(format!(
+            "{} (series 8): no surface of this reconstruction ends there; the lost figures 13 and 14 would say what does",
+            unused.join(", ")
+        ));
+    }
     w.report.assumptions.push(
         "which points bound which of the 25 surfaces is a reconstruction: the report's figures 13 and 14 are lost"
             .to_owned(),
     );
-    Ok(())
 }
 
 /// The surfaces that a scenario can have, by number.
@@ -80,19 +85,10 @@ pub(super) fn passed_pair(
 }
 
 /// The numbers of surfaces that the scenario leaves out, and their passed pairs, are kept for the way back.
-pub(super) fn keep_left_out(
-    w: &mut Writer<'_>,
-    layout: &CompartmentLayout,
-    kept: &mut Kept,
-) -> Result<(), ConversionError> {
+pub(super) fn keep_left_out(w: &mut Writer<'_>, layout: &CompartmentLayout, kept: &mut Kept) {
     let left_out = layout.left_out(w.deck);
     keep_pairs(w, layout, &left_out, kept);
     for LeftOut { number, name, why } in left_out {
-        let (soft, stiff) = (w.value(&format!("STIF1({number})")), w.value(&format!("STIF2({number})")));
-        if soft == 0.0 && stiff > 0.0 {
-            let reason = "a surface that resists only beyond DELB; give STIF1 a small stiffness".to_owned();
-            return Err(ConversionError::NoCounterpart { variable: format!("STIF1({number}) = 0"), reason });
-        }
         let material = FIELDS.map(|field| format!("{field}({number})"));
         let points = layout.points_of(number).into_iter().flat_map(|n| [format!("XV({n})"), format!("ZV({n})")]);
         let widths: &[&str] =
@@ -104,7 +100,6 @@ pub(super) fn keep_left_out(
         }
         w.report.ignored.push(format!("surface {number} ({name}): it {why} and is left out"));
     }
-    Ok(())
 }
 
 /// Keeps the passed pairs that a scenario cannot name, and reports those whose surface it leaves out.

@@ -1,16 +1,12 @@
 //! Title, notes, gravity, times (cards 1–3, 11e).
 
+use super::ConvertOptions;
 use super::writer::{Writer, escaped, quoted};
-use super::{ConversionError, ConvertOptions};
 use crate::compartment::CompartmentLayout;
 use crate::deck::Plot;
 use crate::notes::{self, kept_of, to_notes};
 
-pub(super) fn write(
-    w: &mut Writer<'_>,
-    options: &ConvertOptions,
-    layout: &CompartmentLayout,
-) -> Result<(), ConversionError> {
+pub(super) fn write(w: &mut Writer<'_>, options: &ConvertOptions, layout: &CompartmentLayout) {
     let [title, more] = w.deck.titles().clone();
     w.comment(format!("{title}\n{more}").trim_end());
     w.comment("\n");
@@ -26,12 +22,11 @@ pub(super) fn write(
     if title.is_empty() {
         kept.insert(notes::TITLE_1.into(), String::new());
     }
-    super::compartment::keep_left_out(w, layout, &mut kept)?;
+    super::compartment::keep_left_out(w, layout, &mut kept);
     w.blank_line();
     w.raw(&format!("notes = \"\"\"\n{}\"\"\"\n", escaped(&to_notes(&kept))));
     times(w);
     switches(w);
-    Ok(())
 }
 
 fn times(w: &mut Writer<'_>) {
@@ -53,10 +48,10 @@ fn switches(w: &mut Writer<'_>) {
     let on_disk = w.value("NDISK") == 0.0;
     let plots = match w.deck.plot() {
         Plot::Standard if on_disk => {
-            "STAN (card 16): 14 plots were drawn, of variables that the report does not name; `occupant plot RUN.mcap -o plots.svg` draws fourteen of our choice from any run"
+            "STAN (card 16): 14 plots were drawn, of variables that the report does not name; `occupant run` of the deck draws fourteen of our choice, `occupant plot` those of any run"
         }
         Plot::Standard => {
-            "STAN (card 16) asks for 14 plots of data that NDISK = 1 (card 3) kept off the disk; `occupant plot RUN.mcap -o plots.svg` draws fourteen of our choice from any run"
+            "STAN (card 16) asks for 14 plots of data that NDISK = 1 (card 3) kept off the disk; `occupant run` of the deck draws fourteen of our choice, `occupant plot` those of any run"
         }
         Plot::None => "NONE (card 16): no plots were drawn; `occupant plot` can draw them from any run nevertheless",
     };

@@ -33,12 +33,24 @@ pub struct ConvertOptions {
     pub path: Option<PathSource>,
     /// Which points bound which surface, and where the wheel stands; `None` is the crate's reconstruction.
     pub compartment: Option<CompartmentLayout>,
+    /// How a body that the deck seats (NPOS = 0) begins.
+    pub seating: DeckSeating,
 }
 
 impl Default for ConvertOptions {
     fn default() -> Self {
-        Self { deck_name: "deck".into(), path: None, compartment: None }
+        Self { deck_name: "deck".into(), path: None, compartment: None, seating: DeckSeating::default() }
     }
+}
+
+/// How a body that a deck seats begins. The report says that the force–deformation properties of the seat place it, and no more.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DeckSeating {
+    /// In balance: the body as one piece, in the cards' posture, lies where all that it touches carries its weight.
+    #[default]
+    Balanced,
+    /// By the pelvis sphere alone, exactly in the cards' posture: what thighs, chest and feet press besides is left over.
+    Pelvis,
 }
 
 /// A scenario made from a deck.
@@ -68,14 +80,6 @@ pub enum ConversionError {
     /// The compartment's data file cannot be used.
     #[error("the compartment's data file cannot be used: {0}")]
     Compartment(String),
-    /// A number that has no counterpart in a scenario.
-    #[error("{variable} has no counterpart in a scenario: {reason}")]
-    NoCounterpart {
-        /// The card's variable.
-        variable: String,
-        /// What it says and why that cannot be said.
-        reason: String,
-    },
     /// A field that the conversion needs is not in the deck.
     #[error("the deck has no field {0}, which the conversion needs")]
     MissingField(String),
@@ -89,7 +93,7 @@ impl Deck {
     /// The scenario of this deck.
     ///
     /// # Errors
-    /// A path that is missing or unreadable, numbers without counterpart, a scenario that the format refuses.
+    /// A path that is missing or unreadable, a scenario that the format refuses.
     pub fn to_scenario(&self, options: &ConvertOptions) -> Result<Conversion, ConversionError> {
         let layout = CompartmentLayout::or_reconstruction(options.compartment.as_ref());
         let layout = layout.map_err(ConversionError::Compartment)?;
@@ -99,12 +103,12 @@ impl Deck {
             let text = "the path file: MREAD = 0 (card 3) takes the vehicle's path from series 12";
             writer.report.ignored.push(text.to_owned());
         }
-        head::write(&mut writer, options, &layout)?;
+        head::write(&mut writer, options, &layout);
         path.write(&mut writer);
         body::write(&mut writer);
         joints::write(&mut writer);
-        motion::write(&mut writer, &layout);
-        compartment::write(&mut writer, &layout)?;
+        motion::write(&mut writer, &layout, options.seating);
+        compartment::write(&mut writer, &layout);
         let mut conversion = writer.finish()?;
         let loaded = check(&conversion.toml, path.beside())?;
         if self.has_series(14) {

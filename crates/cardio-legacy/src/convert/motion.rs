@@ -1,16 +1,17 @@
 //! Where the occupant is at the start (series 4 and 10, or 6), and the belts (series 13).
 
+use super::DeckSeating;
 use super::compartment::passed_pair;
 use super::writer::{Writer, negated};
 use crate::cards::{BELTS, POSTURE, SEATS, uses};
 use crate::compartment::CompartmentLayout;
 
-pub(super) fn write(w: &mut Writer<'_>, layout: &CompartmentLayout) {
+pub(super) fn write(w: &mut Writer<'_>, layout: &CompartmentLayout, how: DeckSeating) {
     if w.value("NPOS") == 1.0 {
         exact_state(w);
         passed(w, layout);
     } else {
-        seating(w, layout);
+        seating(w, layout, how);
     }
     if w.deck.has_series(13) {
         belts(w);
@@ -55,7 +56,7 @@ fn rows_of_coordinates(mut numbers: &[String]) -> String {
     rows
 }
 
-fn seating(w: &mut Writer<'_>, layout: &CompartmentLayout) {
+fn seating(w: &mut Writer<'_>, layout: &CompartmentLayout, how: DeckSeating) {
     let number = w.value("NOPTSP") as usize;
     let Some(seat) = SEATS.get(number.wrapping_sub(1)) else { return };
     let surface = |number| layout.name_of(number).unwrap_or_default();
@@ -77,13 +78,24 @@ fn seating(w: &mut Writer<'_>, layout: &CompartmentLayout) {
     POSTURE.into_iter().for_each(|angle| w.field(angle));
     let heels = ["XHPV", "ZHPV"].map(|n| w.quantity(n)).join(", ");
     w.set_with("heels", &format!("[{heels}]"), "card 10b, XHPV, ZHPV");
-    w.set("settle", "false");
+    w.set("settle", if how == DeckSeating::Balanced { "true" } else { "false" });
     let velocity = ["VXVC", "VYVC", "VZVC"].map(|n| w.quantity(n)).join(", ");
     w.set_with("velocity", &format!("[{velocity}]"), "card 4, VXVC, VYVC, VZVC: of every point, vehicle axes");
-    w.report.assumptions.push(
-        "the pelvis touches the seat back and sinks into the cushion until it carries body and half of the thighs"
-            .into(),
-    );
+    w.report.assumptions.push(placed(how).into());
+}
+
+/// What places a seated body.
+fn placed(how: DeckSeating) -> &'static str {
+    match how {
+        DeckSeating::Balanced => {
+            "the body is seated in the cards' posture and then moved as one piece until all that it touches carries its \
+             weight; `occupant check` says how far. --seating pelvis leaves it where the pelvis alone carries it"
+        }
+        DeckSeating::Pelvis => {
+            "the pelvis touches the seat back and sinks into the cushion until it carries body and half of the thighs; what \
+             other parts press besides is left over, and `occupant check` says how much"
+        }
+    }
 }
 
 fn belts(w: &mut Writer<'_>) {

@@ -39,24 +39,22 @@ pub(super) fn card_number(card: &PunchedCard) -> CardNumber {
     if reading.blank {
         return CardNumber::Blank;
     }
-    let punched = text.trim().parse::<u32>().ok().and_then(series_with_ncard);
+    if let Some(series) = by_format(card) {
+        return CardNumber::ByFormat(series);
+    }
     if let Some(series) = with_number(reading.value) {
-        return match punched.filter(|punched| punched.number != series.number) {
-            // `10  ` reads as 1000
-            Some(series) => CardNumber::Misplaced { series, read_as: reading.digits },
-            None => CardNumber::Series(series),
-        };
+        return CardNumber::Series(series);
     }
-    if let Ok(by_format) = read_integer(card.field(NCARD_BY_I8)) {
-        let known = with_number(by_format.value).filter(|s| matches!(s.number, 7 | 8 | 10));
-        if let Some(series) = known.filter(|_| card.is_blank_in(Columns::new(79, 80))) {
-            return CardNumber::ByFormat(series);
-        }
-    }
-    match punched {
+    match text.trim().parse::<u32>().ok().and_then(series_with_ncard) {
         Some(series) => CardNumber::Misplaced { series, read_as: reading.digits },
         None => CardNumber::Other(text),
     }
+}
+
+/// The series 7, 8 or 10 by a number that ends where its format I8 does. A 10 there is no 1000 to its own format.
+fn by_format(card: &PunchedCard) -> Option<&'static SeriesLayout> {
+    let number = read_integer(card.field(NCARD_BY_I8)).ok().filter(|_| card.is_blank_in(Columns::new(79, 80)))?;
+    with_number(number.value).filter(|series| matches!(series.number, 7 | 8 | 10))
 }
 
 /// The series that a card's number names, wherever in its columns it stands.

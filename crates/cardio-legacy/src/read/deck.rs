@@ -174,7 +174,7 @@ impl Reader<'_> {
 }
 
 /// Where the card of series 3 stands, counted from the first title.
-fn place_of_third(cards: &[PunchedCard]) -> Option<usize> {
+pub(super) fn place_of_third(cards: &[PunchedCard]) -> Option<usize> {
     if cards.get(2).and_then(series_by_number).is_some_and(|s| s.number == 3) {
         return Some(2);
     }

@@ -84,6 +84,7 @@ impl FieldOnCard<'_> {
             Rule::EmbeddedBlanks => format!("{reads}: FORTRAN IV takes blanks inside a number as zeros"),
             Rule::LeftJustified => format!("{reads}: FORTRAN IV takes the blanks behind the last digit as zeros"),
             Rule::BareExponent => format!("{reads}: an exponent without its letter"),
+            Rule::LonePoint => format!("`{shown}` has no digit, and was zero on the 360"),
             Rule::SmallLetter => format!("`{shown}` has a small exponent letter, which no card punch had"),
             _ => format!("`{shown}` was zero on the 360, which held nothing smaller than 5.4e-79"),
         };

@@ -11,7 +11,42 @@ const END_MARK: u8 = 0x1a;
 pub(super) fn read_cards(bytes: &[u8], sink: &mut Sink) -> Vec<PunchedCard> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let bytes = until_end_mark(bytes, sink);
-    lines(bytes).into_iter().enumerate().map(|(index, line)| read_card(index + 1, line, sink)).collect()
+    let mut long = Vec::new();
+    let mut read = |(index, line)| read_card(index + 1, line, &mut long, sink);
+    let cards = lines(bytes).into_iter().enumerate().map(&mut read).collect();
+    report_long(&long, sink);
+    cards
+}
+
+/// What stands behind the last column of a card, and where it ends.
+struct Behind {
+    card: PunchedCard,
+    last_column: usize,
+    text: String,
+}
+
+/// So many lines that go on beyond column 80 are slips; more of them are how the file was made.
+const MOST_SLIPS: usize = 3;
+
+/// Reports lines that go on beyond column 80: slips one by one, what was added to all cards once.
+fn report_long(long: &[Behind], sink: &mut Sink) {
+    let column =
+        |last| if last == CARD_WIDTH + 1 { "column 81 is".to_owned() } else { format!("columns 81–{last} are") };
+    if long.len() <= MOST_SLIPS {
+        for Behind { card, last_column, text } in long {
+            let message = format!("{} not part of a card: {text:?} is not read", column(*last_column));
+            Diagnostic::new(Rule::LineTooLong, message).on(card).report(sink);
+        }
+        return;
+    }
+    let Some(Behind { card, text, .. }) = long.first() else { return };
+    let last = long.iter().map(|behind| behind.last_column).max().unwrap_or_default();
+    let message = format!(
+        "{} lines go on beyond column 80: {} not part of a card and not read; the first holds {text:?} there",
+        long.len(),
+        column(last)
+    );
+    Diagnostic::new(Rule::BeyondTheCard, message).on(card).report(sink);
 }
 
 fn until_end_mark<'a>(bytes: &'a [u8], sink: &mut Sink) -> &'a [u8] {
@@ -40,7 +75,7 @@ fn lines(bytes: &[u8]) -> Vec<&[u8]> {
     lines
 }
 
-fn read_card(line: usize, bytes: &[u8], sink: &mut Sink) -> PunchedCard {
+fn read_card(line: usize, bytes: &[u8], long: &mut Vec<Behind>, sink: &mut Sink) -> PunchedCard {
     let expanded = expand_tabs(bytes);
     let card = PunchedCard::new(line, &expanded);
     if bytes.contains(&b'\t') {
@@ -48,9 +83,7 @@ fn read_card(line: usize, bytes: &[u8], sink: &mut Sink) -> PunchedCard {
     }
     let behind = expanded.get(CARD_WIDTH..).unwrap_or_default();
     if let Some(last) = behind.iter().rposition(|b| *b != b' ') {
-        let (column, text) = (CARD_WIDTH + last + 1, latin1(&behind[..=last]));
-        let message = format!("columns 81–{column} are not part of a card: {text:?} is not read");
-        Diagnostic::new(Rule::LineTooLong, message).on(&card).report(sink);
+        long.push(Behind { card: card.clone(), last_column: CARD_WIDTH + last + 1, text: latin1(&behind[..=last]) });
     }
     report_strange_bytes(bytes, &card, sink);
     card

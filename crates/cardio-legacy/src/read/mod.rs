@@ -5,6 +5,7 @@ mod complete;
 mod deck;
 mod fields;
 mod lines;
+mod records;
 mod series;
 
 use std::collections::BTreeMap;
@@ -14,6 +15,7 @@ use crate::deck::{Deck, DeckCard};
 use crate::diagnostics::{Diagnostic, Diagnostics, Sink};
 use crate::punched::{Columns, PunchedCard};
 use crate::rule::{Rule, Strictness};
+use deck::place_of_third;
 use fields::read_fields;
 use lines::read_cards;
 use series::is_word;
@@ -44,9 +46,16 @@ impl Default for ParseOptions {
 }
 
 impl Deck {
+    /// Whether the third card of a file, or one near it, is the first of series 3, as in a deck.
+    pub fn is_likely(bytes: impl AsRef<[u8]>) -> bool {
+        let mut sink = Sink::new("", Strictness::Default);
+        let bytes = records::as_lines(bytes.as_ref(), &mut sink);
+        place_of_third(&read_cards(&bytes, &mut sink)).is_some()
+    }
+
     /// Reads a file of decks. Every problem of the file is in the diagnostics; a deck with an error is not handed out.
     ///
-    /// The bytes are Latin-1; nothing that they hold makes this panic.
+    /// The bytes are Latin-1, or EBCDIC; records of 80 columns need no line ends. Nothing that they hold makes this panic.
     pub fn parse(bytes: impl AsRef<[u8]>, options: &ParseOptions) -> (Vec<Self>, Diagnostics) {
         let mut sink = Sink::new(&options.file, options.strictness);
         let decks = read_file(bytes.as_ref(), &mut sink);
@@ -56,7 +65,8 @@ impl Deck {
 
 /// Reads all decks of a file; those with an error are left out.
 fn read_file(bytes: &[u8], sink: &mut Sink) -> Vec<Deck> {
-    let mut cards = read_cards(bytes, sink);
+    let bytes = records::as_lines(bytes, sink);
+    let mut cards = read_cards(&bytes, sink);
     while cards.last().is_some_and(PunchedCard::is_blank) {
         cards.pop();
     }

@@ -2,6 +2,7 @@
 //! measures takes them from here.
 
 use super::readings::Readings;
+use super::signals::Extreme;
 use super::{Filtering, Measure, Risk};
 use crate::measure::femur::{DurationLimit, duration_use};
 use crate::measure::risk::Severity::{self, Ais2, Ais3, Ais4};
@@ -44,17 +45,23 @@ pub(super) const MEASURES: &[Definition] = &[
         .risks(&[("neck AIS2+", Ais2), ("neck AIS3+", Ais3), ("neck AIS4+", Ais4)], |nij, severity, _| {
             nij_risk(nij, severity)
         }),
-    measure("neck_tension", "neck tension", Newton, Cfc1000, |r| r.towards(1.0, &own(&r.neck_n)?[2]))
+    measure("neck_tension", "neck tension", Newton, Cfc1000, |r| r.towards(Extreme::Tension, 1.0, &own(&r.neck_n)?[2]))
         .brief()
         .limited(Quantity::NeckTension)
         .risks(&[("neck AIS3+", Ais3)], |force_n, _, dummy| neck_axial_risk(force_n, dummy)),
-    measure("neck_compression", "neck compression", Newton, Cfc1000, |r| r.towards(-1.0, &own(&r.neck_n)?[2]))
-        .brief()
-        .limited(Quantity::NeckCompression)
-        .risks(&[("neck AIS3+", Ais3)], |force_n, _, dummy| neck_axial_risk(force_n, dummy)),
+    measure("neck_compression", "neck compression", Newton, Cfc1000, |r| {
+        r.towards(Extreme::Compression, -1.0, &own(&r.neck_n)?[2])
+    })
+    .brief()
+    .limited(Quantity::NeckCompression)
+    .risks(&[("neck AIS3+", Ais3)], |force_n, _, dummy| neck_axial_risk(force_n, dummy)),
     measure("neck_shear", "neck shear", Newton, Cfc1000, Readings::neck_shear),
-    measure("neck_flexion", "neck flexion moment", NewtonMetre, Cfc600, |r| r.towards(1.0, &own(&r.neck_n_m)?[1])),
-    measure("neck_extension", "neck extension moment", NewtonMetre, Cfc600, |r| r.towards(-1.0, &own(&r.neck_n_m)?[1])),
+    measure("neck_flexion", "neck flexion moment", NewtonMetre, Cfc600, |r| {
+        r.towards(Extreme::Flexion, 1.0, &own(&r.neck_n_m)?[1])
+    }),
+    measure("neck_extension", "neck extension moment", NewtonMetre, Cfc600, |r| {
+        r.towards(Extreme::Extension, -1.0, &own(&r.neck_n_m)?[1])
+    }),
     measure("chest_peak", "chest, peak", MetrePerSecondSquared, Cfc180, |r| peak(&r.chest.peak)).figure("chest.peak"),
     measure("chest_3ms_contiguous", "chest, 3 ms held", MetrePerSecondSquared, Cfc180, |r| {
         level(&r.chest.three_ms_contiguous)
@@ -81,9 +88,9 @@ pub(super) const MEASURES: &[Definition] = &[
         level(&r.pelvis.three_ms_cumulative)
     })
     .figure("pelvis.three_ms_cumulative"),
-    femur("right_femur", "right femur compression", |r| r.towards(1.0, own(&r.femur_n[0])?)),
+    femur("right_femur", "right femur compression", |r| r.towards(Extreme::RightFemur, 1.0, own(&r.femur_n[0])?)),
     femur_use("right_femur_duration_use", "right femur over R94 curve", |r| r.femur_use(0)),
-    femur("left_femur", "left femur compression", |r| r.towards(1.0, own(&r.femur_n[1])?)),
+    femur("left_femur", "left femur compression", |r| r.towards(Extreme::LeftFemur, 1.0, own(&r.femur_n[1])?)),
     femur_use("left_femur_duration_use", "left femur over R94 curve", |r| r.femur_use(1)),
 ];
 
@@ -262,13 +269,17 @@ impl Readings {
         Ok(Finding { value: n.value, from_s: Some(n.time_s), to_s: None, remark: Some(format!("in {}", mode(n.mode))) })
     }
 
-    fn towards(&self, sign: f64, signal: &[f64]) -> Result<Finding, SignalError> {
-        peak_towards(sign, signal, self.interval_s).map(at)
+    /// The greatest value of a signal in a sense; 0 if it never has it.
+    fn towards(&self, which: Extreme, sign: f64, signal: &[f64]) -> Result<Finding, SignalError> {
+        let sampled = peak_towards(sign, signal, self.interval_s)?;
+        let known = self.peak_of(which).map(|peak| Peak { value: peak.value.max(0.0), ..peak });
+        Ok(at(known.unwrap_or(sampled)))
     }
 
     fn neck_shear(&self) -> Result<Finding, SignalError> {
         let [x, y, _] = own(&self.neck_n)?;
-        maximum(&resultant(x, y, &vec![0.0; x.len()])?, self.interval_s).map(at)
+        let sampled = maximum(&resultant(x, y, &vec![0.0; x.len()])?, self.interval_s)?;
+        Ok(at(self.peak_of(Extreme::Shear).unwrap_or(sampled)))
     }
 
     fn femur_use(&self, side: usize) -> Result<Finding, SignalError> {

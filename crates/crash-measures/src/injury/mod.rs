@@ -17,7 +17,7 @@ use crate::signal::CfcFamily;
 use crate::unit::Unit;
 
 pub use readings::{Acceleration, Readings};
-pub use signals::{Components, Signals};
+pub use signals::{Components, Extreme, Extremes, Signals};
 
 /// How signals are filtered before a measure is made of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

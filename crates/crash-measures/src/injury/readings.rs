@@ -1,7 +1,7 @@
 //! What the instruments read, filtered as asked: the signals that measures are made of, and the levels of the resultant
 //! accelerations.
 
-use super::signals::{Components, Signals};
+use super::signals::{Components, Extreme, Extremes, Signals};
 use super::{Filtering, Measure, Options, measures};
 use crate::measure::{Peak, ThreeMs, maximum, three_ms_contiguous, three_ms_cumulative};
 use crate::signal::ChannelClass::{self, Cfc60, Cfc180, Cfc600, Cfc1000};
@@ -25,6 +25,8 @@ pub struct Readings {
     pub(super) neck_n_m: Result<Components, SignalError>,
     /// Compression of the right and the left femur.
     pub(super) femur_n: [Result<Vec<f64>, SignalError>; 2],
+    /// Greatest values that are known better than from samples; times count from the first sample.
+    peaks: Option<Extremes>,
 }
 
 /// A resultant acceleration and its levels.
@@ -45,30 +47,46 @@ impl Readings {
         let dt_s = signals.interval_s;
         let one = |values: &[f64], class| filtered(values, dt_s, class, options.filtering);
         let all = |[x, y, z]: &Components, class| Ok([one(x, class)?, one(y, class)?, one(z, class)?]);
-        let acceleration = |components, class| {
+        let known = signals.peaks.filter(|_| options.filtering == Filtering::None);
+        let peaks = known.map(|peaks| peaks.map(|peak| Peak { time_s: peak.time_s - signals.start_s, ..peak }));
+        let acceleration = |components, class, which: Extreme| {
             let resultant = all(components, class).and_then(|[x, y, z]| resultant(&x, &y, &z));
-            Acceleration::new(resultant, dt_s)
+            let mut acceleration = Acceleration::new(resultant, dt_s);
+            if let Some(peak) = peak_of(&peaks, which) {
+                acceleration.peak = Ok(peak);
+            }
+            acceleration
         };
         let compression = |tension: &Vec<f64>| one(&tension.iter().map(|f| -f).collect::<Vec<_>>(), Cfc600);
         Readings {
             options: *options,
             start_s: signals.start_s,
             interval_s: dt_s,
-            head: acceleration(&signals.head_m_s2, Cfc1000),
-            chest: acceleration(&signals.chest_m_s2, Cfc180),
-            pelvis: acceleration(&signals.pelvis_m_s2, Cfc1000),
+            head: acceleration(&signals.head_m_s2, Cfc1000, Extreme::Head),
+            chest: acceleration(&signals.chest_m_s2, Cfc180, Extreme::Chest),
+            pelvis: acceleration(&signals.pelvis_m_s2, Cfc1000, Extreme::Pelvis),
             head_rad_s: all(&signals.head_rad_s, Cfc60),
             head_rad_s2: all(&signals.head_rad_s2, Cfc60),
             neck_n: all(&signals.neck_n, Cfc1000),
             neck_n_m: all(&signals.neck_n_m, Cfc600),
             femur_n: signals.femur_n.each_ref().map(compression),
+            peaks,
         }
+    }
+
+    /// A greatest value that is known better than from samples.
+    pub(super) fn peak_of(&self, which: Extreme) -> Option<Peak> {
+        peak_of(&self.peaks, which)
     }
 
     /// All measures, in the order of a dummy from head to femur. The list has the same names for every run.
     pub fn measures(&self) -> Vec<Measure> {
         measures::MEASURES.iter().map(|definition| definition.of(self)).collect()
     }
+}
+
+fn peak_of(peaks: &Option<Extremes>, which: Extreme) -> Option<Peak> {
+    peaks.map(|peaks| peaks[which as usize]).filter(|peak| peak.value.is_finite())
 }
 
 impl Acceleration {

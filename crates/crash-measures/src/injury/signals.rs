@@ -1,9 +1,40 @@
 //! The channels of a dummy that measures are made of.
 
+use crate::measure::Peak;
+
 /// Three components over time.
 pub type Components = [Vec<f64>; 3];
 
-/// Time histories at regular outputs, in SAE J211 axes of the segments (X ahead, Y right, Z down), SI.
+/// The greatest values of unfiltered signals where they are known better than from samples, in the order of [`Extreme`]; minus
+/// infinity of what a body lacks. Times as of the run.
+pub type Extremes = [Peak; 10];
+
+/// Which signal a greatest value is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extreme {
+    /// Resultant acceleration of the head.
+    Head,
+    /// Of the chest.
+    Chest,
+    /// Of the pelvis.
+    Pelvis,
+    /// Tension of the neck.
+    Tension,
+    /// Its compression.
+    Compression,
+    /// Its shear.
+    Shear,
+    /// Flexion moment of the neck.
+    Flexion,
+    /// Extension moment.
+    Extension,
+    /// Compression of the right femur.
+    RightFemur,
+    /// Of the left one.
+    LeftFemur,
+}
+
+/// Time histories at regular times, in SAE J211 axes of the segments (X ahead, Y right, Z down), SI.
 ///
 /// A last output before its regular time is left out: the measures need equal intervals.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -28,6 +59,8 @@ pub struct Signals {
     pub neck_n_m: Components,
     /// Axial force of the right and the left femur, N: tension positive.
     pub femur_n: [Vec<f64>; 2],
+    /// Greatest values between the samples, if they are known.
+    pub peaks: Option<Extremes>,
 }
 
 impl Signals {

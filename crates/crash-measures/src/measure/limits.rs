@@ -22,10 +22,20 @@ pub enum Rule {
     Mash2016Supports,
     /// NCHRP Report 350.
     Nchrp350,
+    /// NCHRP Report 350, breakaway supports and work-zone devices.
+    Nchrp350Supports,
     /// EN 1317-1:1998.
     En1317Edition1998,
     /// EN 1317-1:2010, which has no PHD.
     En1317Edition2010,
+    /// EN 1317-3:2010, crash cushions hit head on (TC 1 to TC 3).
+    En1317CushionHeadOn,
+    /// EN 1317-3:2010, crash cushions hit on the side (TC 4, TC 5).
+    En1317CushionSide,
+    /// EN 12767:2007 at 50, 70 or 100 km/h.
+    En12767,
+    /// EN 12767:2007 at 35 km/h.
+    En12767Slow,
     /// Historical 1000 of the severity indices.
     SeverityIndex,
 }
@@ -41,8 +51,13 @@ impl Rule {
             Self::Mash2016 => "MASH 2016",
             Self::Mash2016Supports => "MASH 2016 (breakaway supports)",
             Self::Nchrp350 => "NCHRP 350",
+            Self::Nchrp350Supports => "NCHRP 350 (breakaway supports)",
             Self::En1317Edition1998 => "EN 1317-1:1998",
             Self::En1317Edition2010 => "EN 1317-1:2010",
+            Self::En1317CushionHeadOn => "EN 1317-3 (cushion, head on)",
+            Self::En1317CushionSide => "EN 1317-3 (cushion, side)",
+            Self::En12767 => "EN 12767 (50 to 100 km/h)",
+            Self::En12767Slow => "EN 12767 (35 km/h)",
             Self::SeverityIndex => "severity index (historical)",
         }
     }
@@ -77,6 +92,8 @@ pub enum Quantity {
     SeverityIndex,
     /// Occupant impact velocity, each component, m/s.
     OccupantImpactVelocity,
+    /// Occupant impact velocity forward or back, m/s; the rule says nothing of the sides.
+    LongitudinalImpactVelocity,
     /// Occupant ridedown acceleration, each component, m/s².
     RidedownAcceleration,
     /// Acceleration severity index.
@@ -85,6 +102,10 @@ pub enum Quantity {
     Thiv,
     /// Post-impact head deceleration, m/s².
     Phd,
+    /// Largest roll angle, rad.
+    Roll,
+    /// Largest pitch angle, rad.
+    Pitch,
 }
 
 /// What exceeding a limit means.
@@ -100,6 +121,32 @@ pub enum Grade {
     ClassB,
     /// Bound of severity class C.
     ClassC,
+    /// Bound of level NE 3 of EN 12767.
+    LevelNe3,
+    /// Bound of levels HE 3, LE 3 and NE 2 of EN 12767.
+    Level3,
+    /// Bound of levels HE 2, LE 2 and NE 1 of EN 12767.
+    Level2,
+    /// Bound of levels HE 1 and LE 1 of EN 12767.
+    Level1,
+}
+
+impl Grade {
+    /// What it is, in words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Maximum => "maximum",
+            Self::Preferred => "preferred",
+            Self::ClassA => "class A",
+            Self::ClassB => "class B",
+            Self::ClassC => "class C",
+            Self::LevelNe3 => "level NE 3",
+            Self::Level3 => "levels HE 3, LE 3, NE 2",
+            Self::Level2 => "levels HE 2, LE 2, NE 1",
+            Self::Level1 => "levels HE 1, LE 1",
+        }
+    }
 }
 
 /// Where a number was read.
@@ -146,6 +193,13 @@ impl Limit {
         let margin = self.most - value;
         Verdict { passed: value.is_finite() && margin >= 0.0, margin, relative_margin: margin / self.most }
     }
+
+    /// Whether the rule is broken beyond it: it is a maximum, or the bound of the last class or level that the rule has.
+    #[must_use]
+    pub fn is_last(&self) -> bool {
+        let mut beside = LIMITS.iter().filter(|other| other.rule == self.rule && other.quantity == self.quantity);
+        self.grade == Maximum || beside.all(|other| other.most <= self.most)
+    }
 }
 
 /// The limits of a rule that hold for a dummy, those for any dummy included.
@@ -161,12 +215,19 @@ const MALE: Option<Dummy> = Some(Dummy::HybridIii50M);
 const FEMALE: Option<Dummy> = Some(Dummy::HybridIii5F);
 
 use Basis::{CommonKnowledge, SecondarySource};
-use Grade::{ClassA, ClassB, ClassC, Maximum, Preferred};
+use Grade::{ClassA, ClassB, ClassC, Level1, Level2, Level3, LevelNe3, Maximum, Preferred};
 use Quantity::{
     Asi, ChestDeflection, ChestThreeMsCumulative, FemurAxial, FemurDurationUse, HeadThreeMsCumulative, Hic15, Hic36,
-    NeckCompression, NeckTension, OccupantImpactVelocity, Phd, RidedownAcceleration, Thiv, ViscousCriterion,
+    LongitudinalImpactVelocity, NeckCompression, NeckTension, OccupantImpactVelocity, Phd, Pitch, RidedownAcceleration,
+    Roll, Thiv, ViscousCriterion,
 };
-use Rule::{En1317Edition1998, En1317Edition2010, Fmvss208, Mash2016, Mash2016Supports, Nchrp350, UnR94, UnR137};
+use Rule::{
+    En1317CushionHeadOn, En1317CushionSide, En1317Edition1998, En1317Edition2010, En12767, En12767Slow, Fmvss208,
+    Mash2016, Mash2016Supports, Nchrp350, Nchrp350Supports, UnR94, UnR137,
+};
+
+/// The roll and pitch that a vehicle may reach and stay upright, rad.
+const UPRIGHT_RAD: f64 = 75.0 * std::f64::consts::PI / 180.0;
 
 /// Every limit known here.
 #[rustfmt::skip] // a table: one limit a line
@@ -195,14 +256,22 @@ pub const LIMITS: &[Limit] = &[
     entry(Mash2016, None, OccupantImpactVelocity, 12.2, Maximum, SecondarySource),
     entry(Mash2016, None, RidedownAcceleration, 15.0 * G, Preferred, SecondarySource),
     entry(Mash2016, None, RidedownAcceleration, 20.49 * G, Maximum, SecondarySource),
-    entry(Mash2016Supports, None, OccupantImpactVelocity, 3.0, Preferred, CommonKnowledge),
-    entry(Mash2016Supports, None, OccupantImpactVelocity, 4.9, Maximum, CommonKnowledge),
+    entry(Mash2016, None, Roll, UPRIGHT_RAD, Maximum, CommonKnowledge),
+    entry(Mash2016, None, Pitch, UPRIGHT_RAD, Maximum, CommonKnowledge),
+    entry(Mash2016Supports, None, LongitudinalImpactVelocity, 3.0, Preferred, CommonKnowledge),
+    entry(Mash2016Supports, None, LongitudinalImpactVelocity, 4.9, Maximum, CommonKnowledge),
     entry(Mash2016Supports, None, RidedownAcceleration, 15.0 * G, Preferred, SecondarySource),
     entry(Mash2016Supports, None, RidedownAcceleration, 20.49 * G, Maximum, SecondarySource),
+    entry(Mash2016Supports, None, Roll, UPRIGHT_RAD, Maximum, CommonKnowledge),
+    entry(Mash2016Supports, None, Pitch, UPRIGHT_RAD, Maximum, CommonKnowledge),
     entry(Nchrp350, None, OccupantImpactVelocity, 9.0, Preferred, SecondarySource),
     entry(Nchrp350, None, OccupantImpactVelocity, 12.0, Maximum, SecondarySource),
     entry(Nchrp350, None, RidedownAcceleration, 15.0 * G, Preferred, CommonKnowledge),
     entry(Nchrp350, None, RidedownAcceleration, 20.0 * G, Maximum, CommonKnowledge),
+    entry(Nchrp350Supports, None, LongitudinalImpactVelocity, 3.0, Preferred, CommonKnowledge),
+    entry(Nchrp350Supports, None, LongitudinalImpactVelocity, 5.0, Maximum, CommonKnowledge),
+    entry(Nchrp350Supports, None, RidedownAcceleration, 15.0 * G, Preferred, CommonKnowledge),
+    entry(Nchrp350Supports, None, RidedownAcceleration, 20.0 * G, Maximum, CommonKnowledge),
     entry(En1317Edition1998, None, Asi, 1.0, ClassA, CommonKnowledge),
     entry(En1317Edition1998, None, Asi, 1.4, ClassB, CommonKnowledge),
     entry(En1317Edition1998, None, Asi, 1.9, ClassC, CommonKnowledge),
@@ -212,6 +281,24 @@ pub const LIMITS: &[Limit] = &[
     entry(En1317Edition2010, None, Asi, 1.4, ClassB, CommonKnowledge),
     entry(En1317Edition2010, None, Asi, 1.9, ClassC, CommonKnowledge),
     entry(En1317Edition2010, None, Thiv, 33.0 / 3.6, Maximum, CommonKnowledge),
+    entry(En1317CushionHeadOn, None, Asi, 1.0, ClassA, CommonKnowledge),
+    entry(En1317CushionHeadOn, None, Asi, 1.4, ClassB, CommonKnowledge),
+    entry(En1317CushionHeadOn, None, Thiv, 44.0 / 3.6, Maximum, CommonKnowledge),
+    entry(En1317CushionSide, None, Asi, 1.0, ClassA, CommonKnowledge),
+    entry(En1317CushionSide, None, Asi, 1.4, ClassB, CommonKnowledge),
+    entry(En1317CushionSide, None, Thiv, 33.0 / 3.6, Maximum, CommonKnowledge),
+    entry(En12767, None, Asi, 0.6, LevelNe3, CommonKnowledge),
+    entry(En12767, None, Asi, 1.0, Level3, CommonKnowledge),
+    entry(En12767, None, Asi, 1.2, Level2, CommonKnowledge),
+    entry(En12767, None, Asi, 1.4, Level1, CommonKnowledge),
+    entry(En12767, None, Thiv, 11.0 / 3.6, LevelNe3, CommonKnowledge),
+    entry(En12767, None, Thiv, 27.0 / 3.6, Level3, CommonKnowledge),
+    entry(En12767, None, Thiv, 33.0 / 3.6, Level2, CommonKnowledge),
+    entry(En12767, None, Thiv, 44.0 / 3.6, Level1, CommonKnowledge),
+    entry(En12767Slow, None, Asi, 0.6, LevelNe3, CommonKnowledge),
+    entry(En12767Slow, None, Asi, 1.0, Maximum, CommonKnowledge),
+    entry(En12767Slow, None, Thiv, 11.0 / 3.6, LevelNe3, CommonKnowledge),
+    entry(En12767Slow, None, Thiv, 27.0 / 3.6, Maximum, CommonKnowledge),
     entry(Rule::SeverityIndex, None, Quantity::SeverityIndex, 1000.0, Maximum, SecondarySource),
 ];
 
@@ -242,13 +329,38 @@ mod tests {
 
     #[test]
     fn preferred_values_lie_below_the_maximum() {
-        for rule in [Mash2016, Mash2016Supports, Nchrp350] {
-            for quantity in [OccupantImpactVelocity, RidedownAcceleration] {
+        for (rule, speed) in [
+            (Mash2016, OccupantImpactVelocity),
+            (Mash2016Supports, LongitudinalImpactVelocity),
+            (Nchrp350, OccupantImpactVelocity),
+            (Nchrp350Supports, LongitudinalImpactVelocity),
+        ] {
+            for quantity in [speed, RidedownAcceleration] {
                 let most = |grade| {
                     LIMITS.iter().find(|l| l.rule == rule && l.quantity == quantity && l.grade == grade).unwrap().most
                 };
                 assert!(most(Preferred) < most(Maximum));
             }
         }
+    }
+
+    #[test]
+    fn a_rule_is_broken_beyond_its_last_bound_alone() {
+        let is_last = |rule, quantity, grade| {
+            LIMITS.iter().find(|l| l.rule == rule && l.quantity == quantity && l.grade == grade).unwrap().is_last()
+        };
+        assert!(is_last(En1317Edition2010, Asi, ClassC) && !is_last(En1317Edition2010, Asi, ClassB));
+        assert!(
+            is_last(En1317CushionSide, Asi, ClassB)
+                && is_last(En12767, Thiv, Level1)
+                && !is_last(En12767, Thiv, Level2)
+        );
+        assert!(is_last(Mash2016, Roll, Maximum) && !is_last(Mash2016, OccupantImpactVelocity, Preferred));
+        // of supports the sides are not limited
+        assert!(
+            LIMITS.iter().all(
+                |l| l.quantity != OccupantImpactVelocity || ![Mash2016Supports, Nchrp350Supports].contains(&l.rule)
+            )
+        );
     }
 }

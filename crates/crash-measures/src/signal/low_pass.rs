@@ -23,6 +23,13 @@ pub enum Continuation {
         /// Samples added at each end, at most two million.
         samples: usize,
     },
+    /// The mean of the samples nearest to each end held, so that a record may end anywhere in a vibration. Filter passes start at rest on it.
+    HoldMean {
+        /// Samples added at each end, at most two million.
+        samples: usize,
+        /// Samples whose mean it is, at most all.
+        of: usize,
+    },
 }
 
 /// Coefficients of one pass.
@@ -77,7 +84,7 @@ impl LowPass {
         let (mut work, added) = continued(values, continuation);
         let settling = match continuation {
             Continuation::PointReflection { .. } => 10,
-            Continuation::Hold { .. } => 1,
+            Continuation::Hold { .. } | Continuation::HoldMean { .. } => 1,
         };
         self.pass(&mut work, settling);
         work.reverse();
@@ -118,12 +125,20 @@ fn continued(values: &[f64], continuation: Continuation) -> (Vec<f64>, usize) {
             let after = values[values.len() - 1 - added..values.len() - 1].iter().rev().map(|x| 2.0 * last - x);
             (before.chain(values.iter().copied()).chain(after).collect(), added)
         }
-        Continuation::Hold { samples } => {
-            let samples = samples.min(2_000_000);
-            let held = |value| std::iter::repeat_n(value, samples);
-            (held(first).chain(values.iter().copied()).chain(held(last)).collect(), samples)
+        Continuation::Hold { samples } => held(values, [first, last], samples),
+        Continuation::HoldMean { samples, of } => {
+            let of = of.clamp(1, values.len());
+            let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
+            held(values, [mean(&values[..of]), mean(&values[values.len() - of..])], samples)
         }
     }
+}
+
+/// The record between so many samples of one value before it and of another after it.
+fn held(values: &[f64], [before, after]: [f64; 2], samples: usize) -> (Vec<f64>, usize) {
+    let samples = samples.min(2_000_000);
+    let held = |value| std::iter::repeat_n(value, samples);
+    (held(before).chain(values.iter().copied()).chain(held(after)).collect(), samples)
 }
 
 #[cfg(test)]

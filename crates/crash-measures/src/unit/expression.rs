@@ -5,7 +5,7 @@
 //!
 //! `lb` is the pound of mass, `lbf` the pound of force; `g` is standard gravity, and there is no gram.
 
-use super::named::{MAX_EXPONENT, Scale, named};
+use super::named::{MAX_EXPONENT, Scale, named, usual_writing};
 
 /// Deepest nesting of parentheses.
 const MAX_DEPTH: usize = 8;
@@ -43,6 +43,30 @@ pub fn parse(text: &str, offset: usize) -> Result<Scale, UnitError> {
         None => Ok(scale),
         Some(token) => Err(token.error("an unmatched `)`", "a unit")),
     }
+}
+
+/// Reads a unit as headings of recorders and laboratories have it: as [`parse`] does, but also in capitals, with `'s` behind it, and with a
+/// digit for a power: `MPH`, `DEG/SEC`, `G'S`, `m/s2`.
+///
+/// # Errors
+/// As [`parse`], of the text as it stands.
+pub fn parse_heading(text: &str) -> Result<Scale, UnitError> {
+    parse(text, 0).or_else(|error| {
+        let plain = text.trim_matches(['.', ' ']).replace(['\'', '’'], "");
+        let mut usual = String::new();
+        let mut rest = plain.as_str();
+        while let Some(c) = rest.chars().next() {
+            let length = rest.find(|c: char| !c.is_alphabetic()).unwrap_or(rest.len()).max(c.len_utf8());
+            let word = &rest[..length];
+            if c.is_ascii_digit() && usual.ends_with(char::is_alphabetic) {
+                usual.push('^');
+            }
+            let of_many = word.strip_suffix(['s', 'S']).filter(|one| one.eq_ignore_ascii_case("g"));
+            usual.push_str(usual_writing(of_many.unwrap_or(word)).unwrap_or(word));
+            rest = &rest[length..];
+        }
+        parse(&usual, 0).map_err(|_| error)
+    })
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -205,4 +229,43 @@ impl<'a> Parser<'a> {
 
 fn too_high(token: &Token<'_>) -> UnitError {
     token.error("too high a power", format!("powers of at most {MAX_EXPONENT}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_of_headings_are_read_in_any_letters() {
+        for (written, usual) in [
+            ("MPH", "mph"),
+            ("KPH", "kph"),
+            ("km/H", "km/h"),
+            ("SEC", "s"),
+            ("MSEC", "ms"),
+            ("msec", "ms"),
+            ("IN", "in"),
+            ("FT/SEC", "ft/s"),
+            ("DEG", "deg"),
+            ("Deg/Sec", "deg/s"),
+            ("deg/sec", "deg/s"),
+            ("G's", "g"),
+            ("G", "g"),
+            ("gs", "g"),
+            ("m/s2", "m/s^2"),
+            ("M/S^2", "m/s^2"),
+            ("M/S**2", "m/s^2"),
+            ("m/(s*s)", "m/s^2"),
+            ("KN", "kN"),
+            ("RAD/S", "rad/s"),
+        ] {
+            assert_eq!(parse_heading(written).ok(), parse(usual, 0).ok(), "{written}");
+            assert!(parse(usual, 0).is_ok());
+        }
+        for none in ["", "x", "off", "#1", "2", "é"] {
+            assert!(parse_heading(none).is_err(), "{none}");
+        }
+        // a scenario's own quantities stay strict
+        assert!(parse("MPH", 0).is_err() && parse("m/s2", 0).is_err());
+    }
 }

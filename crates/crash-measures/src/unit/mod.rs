@@ -7,7 +7,7 @@ mod expression;
 mod named;
 mod shown;
 
-pub use expression::{UnitError, parse};
+pub use expression::{UnitError, parse, parse_heading};
 pub use named::{NamedUnit, Scale, UNITS};
 pub use shown::Shown;
 
@@ -128,6 +128,8 @@ pub enum Unit {
     JoulePerKilogramKelvinSquared,
     /// W/(m²·K).
     WattPerMetreSquaredKelvin,
+    /// Hz.
+    Hertz,
 }
 
 /// What there is to say of a [`Unit`].
@@ -161,7 +163,7 @@ impl Row {
 
 /// In the order of [`Unit`]; exponents of length, mass, time, angle.
 #[rustfmt::skip]
-const TABLE: [Row; 27] = [
+const TABLE: [Row; 28] = [
     row("length", ["m", "m", "in"], [1, 0, 0, 0]),
     row("velocity", ["m/s", "m/s", "in/s"], [1, 0, -1, 0]),
     row("acceleration", ["m/s²", "m/s^2", "in/s^2"], [1, 0, -2, 0]),
@@ -189,10 +191,11 @@ const TABLE: [Row; 27] = [
     row("specific heat", ["J/(kg·K)", "J/(kg·K)", "J/(kg·K)"], [2, 0, -2, 0]).heat(-1, 0),
     row("specific heat per kelvin", ["J/(kg·K²)", "J/(kg·K^2)", "J/(kg·K^2)"], [2, 0, -2, 0]).heat(-2, 0),
     row("heat transfer", ["W/(m²·K)", "W/(m^2·K)", "W/(m^2·K)"], [0, 1, -3, 0]).heat(-1, 0),
+    row("frequency", ["Hz", "Hz", "Hz"], [0, 0, -1, 0]),
 ];
 
 /// All units, in the order of [`Unit`].
-pub(crate) const ALL: [Unit; 27] = [
+pub(crate) const ALL: [Unit; 28] = [
     Unit::Metre,
     Unit::MetrePerSecond,
     Unit::MetrePerSecondSquared,
@@ -220,6 +223,7 @@ pub(crate) const ALL: [Unit; 27] = [
     Unit::JoulePerKilogramKelvin,
     Unit::JoulePerKilogramKelvinSquared,
     Unit::WattPerMetreSquaredKelvin,
+    Unit::Hertz,
 ];
 
 impl Unit {

@@ -45,7 +45,7 @@ pub const UNITS: &[NamedUnit] = &[
     unit(&["yd", "yard"], [1, 0, 0, 0], 0.9144),
     unit(&["mi", "mile", "miles"], [1, 0, 0, 0], 1609.344),
     unit(&["s", "sec", "second", "seconds"], [0, 0, 1, 0], 1.0),
-    unit(&["ms"], [0, 0, 1, 0], 0.001),
+    unit(&["ms", "msec"], [0, 0, 1, 0], 0.001),
     unit(&["us", "µs", "μs"], [0, 0, 1, 0], 1e-6),
     unit(&["min"], [0, 0, 1, 0], 60.0),
     unit(&["h", "hr", "hour"], [0, 0, 1, 0], 3600.0),
@@ -108,6 +108,12 @@ pub(super) fn named(name: &str, start: usize, end: usize) -> Result<Scale, UnitE
         let hint = nearest(name, all).map(|n| format!("did you mean `{n}`?"));
         UnitError { hint, ..UnitError::new(start, end, format!("unknown unit `{name}`"), expected) }
     })
+}
+
+/// The usual writing of a unit's name that stands in other letters, `MPH` or `Deg`; none of what is none.
+pub(super) fn usual_writing(name: &str) -> Option<&'static str> {
+    let lower = name.to_lowercase();
+    UNITS.iter().flat_map(|u| u.names.iter().copied()).find(|own| own.to_lowercase() == lower)
 }
 
 impl Scale {

@@ -20,9 +20,9 @@ use occupant_core::model::setup::Integrator;
 
 /// Cases and the ends of their runs, s: late in the rollover a touch of the start decides where an arm falls.
 const CASES: [(&str, &str, f64); 4] = [
-    ("cart-unbelted", include_str!("../../../../scenarios/cart-unbelted.toml"), 0.2),
-    ("cart-lap", include_str!("../../../../scenarios/cart-lap.toml"), 0.2),
-    ("cart-lap-torso", include_str!("../../../../scenarios/cart-lap-torso.toml"), 0.2),
+    ("cart-unbelted", include_str!("../../../../tests/data/carts/cart-unbelted.toml"), 0.2),
+    ("cart-lap", include_str!("../../../../tests/data/carts/cart-lap.toml"), 0.2),
+    ("cart-lap-torso", include_str!("../../../../tests/data/carts/cart-lap-torso.toml"), 0.2),
     ("rollover-quarter-turn", include_str!("../../../../scenarios/rollover-quarter-turn.toml"), 0.6),
 ];
 

@@ -33,9 +33,6 @@ pub(crate) const FEMURS: &Curves = &[("left_femur.axial", "left"), ("right_femur
 /// The vehicle's motion.
 pub(crate) const VEHICLE: &Curves =
     &[("vehicle.acceleration.x", "x"), ("vehicle.acceleration.y", "y"), ("vehicle.acceleration.z", "z")];
-/// How far the spine is bent.
-pub(crate) const SPINE: &Curves =
-    &[("joint.neck.angle", "neck"), ("joint.upper_back.angle", "upper back"), ("joint.lower_back.angle", "lower back")];
 /// Where the energy is, or went: first what matters most.
 pub(crate) const ENERGIES: &Curves = &[
     ("energy.kinetic_relative", "kinetic, in the vehicle"),
@@ -46,6 +43,13 @@ pub(crate) const ENERGIES: &Curves = &[
     ("energy.lost_joints", "lost in joints"),
     ("energy.lost_belts", "lost in belts"),
     ("energy.spine", "spine springs"),
+];
+/// The same of one of several bodies.
+pub(crate) const ENERGIES_OF_BODY: &Curves = &[
+    ("energy.kinetic", "kinetic, in space"),
+    ("energy.elements", "stored in and lost by force elements"),
+    ("energy.vehicle_work", "work of vehicles"),
+    ("energy.others_work", "work of other bodies"),
 ];
 /// How far the energies are from a balance.
 pub(crate) const BALANCE: &Curves = &[("energy.balance", "imbalance")];

@@ -9,6 +9,17 @@ use occupant_core::results::sample::Sample;
 use super::failure::Failure;
 use super::talk::say;
 
+/// A file that grows beyond the limit of the process (`ulimit -f`) is a write that fails, which is told as any other, not the signal
+/// that ends the process without a word.
+pub(crate) fn survive_long_files() {
+    #[cfg(unix)]
+    {
+        let heard = Arc::new(AtomicBool::new(false));
+        // where that is impossible the signal does what it did
+        let _unheard = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, heard);
+    }
+}
+
 /// A recorder that stops the run once a signal has come.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Interrupt {

@@ -18,12 +18,12 @@ pub(crate) mod units;
 
 pub(crate) use choice::one_of;
 pub(crate) use failure::{Done, Failure};
-pub(crate) use interrupt::Interrupt;
-pub(crate) use names::{by_ending, ending, escape, file_name, file_stem, is_page, program};
+pub(crate) use interrupt::{Interrupt, survive_long_files};
+pub(crate) use names::{by_ending, ending, escape, file_name, file_stem, is_page, program, quoted};
 pub(crate) use output_file::{
     Existing, FileProblem, PartialFile, begun, deliver, deliver_and, is_at, partial_path, publish, refuse_input,
     remove_if_there, said_and_opened, with_word, write_whole,
 };
 pub(crate) use sha256::sha256;
 pub(crate) use talk::{json, note, print, print_file, say, written};
-pub(crate) use units::{Told, Units, UnitsArg};
+pub(crate) use units::{SYSTEMS, Told, Units, UnitsArg};

@@ -13,6 +13,18 @@ pub(crate) fn file_name(path: &Path) -> String {
     name.to_string_lossy().into_owned()
 }
 
+/// A word as a shell takes it: in quotes where it holds anything that a shell would take apart or replace.
+pub(crate) fn quoted(word: impl std::fmt::Display) -> String {
+    let word = word.to_string();
+    let is_plain = |c: char| c.is_alphanumeric() || "_./-+=:@%,".contains(c);
+    // a word that begins with a dash would be an option
+    if !word.is_empty() && word.chars().all(is_plain) && !word.starts_with('-') {
+        return word;
+    }
+    let dashed = if word.starts_with('-') { "./" } else { "" };
+    format!("'{dashed}{}'", word.replace('\'', r"'\''"))
+}
+
 /// The ending of a file's name in small letters, without its dot; empty if it has none.
 pub(crate) fn ending(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
@@ -57,4 +69,20 @@ pub(crate) fn escape(text: &str) -> String {
         }
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shell_takes_a_quoted_name_as_one_word() {
+        for plain in ["case.toml", "out/über.mcap", "a-b_c+1.csv"] {
+            assert_eq!(quoted(plain), plain);
+        }
+        assert_eq!(quoted("my case.toml"), "'my case.toml'");
+        assert_eq!(quoted("$(rm x);.toml"), "'$(rm x);.toml'");
+        assert_eq!(quoted("it's.toml"), r"'it'\''s.toml'");
+        assert_eq!((quoted(""), quoted("-f")), ("''".to_owned(), "'./-f'".to_owned()));
+    }
 }

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crash_measures::injury::{Measure, Options, Signals, assess};
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, channels as all_of};
 use occupant_scenario::{Draft, Format};
@@ -9,13 +10,13 @@ use placed_text::did_you_mean;
 
 use super::new::STARTER;
 use crate::base::text_table::{Align, Table};
-use crate::base::{Failure, by_ending, talk};
+use crate::base::{Failure, by_ending, ending, quoted, talk};
 use crate::files::results::Results;
 use crate::files::scenario::{self, ScenarioArgs};
 
 /// List the channels of a run: name, unit, meaning
 ///
-/// The names are those that --channel and --channels of other commands take, stars for parts of them allowed; {x,y,z} stands
+/// The names are those that --channel of other commands takes, stars for parts of them allowed; {x,y,z} stands
 /// for as many channels.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -23,7 +24,7 @@ pub(crate) struct Args {
     #[arg(value_name = "WORD")]
     word: Option<String>,
 
-    /// Results or a scenario to list the channels of; the scenario that `occupant new` writes if absent
+    /// Results, a scenario or a deck to list the channels of; the scenario that `occupant new` writes if absent
     #[arg(long, value_name = "RUN.mcap|SCENARIO")]
     of: Option<PathBuf>,
 }
@@ -35,17 +36,52 @@ pub(crate) fn channels(args: &Args) -> Result<(), Failure> {
     };
     let word = args.word.as_deref().unwrap_or_default().to_lowercase();
     let all = all_of(&model);
+    // whole words first: `hic` is no vehicle
+    let is_word = |text: &str| text.split(|c: char| !c.is_alphanumeric()).any(|own| own.to_lowercase() == word);
     let has_word = |text: &str| text.to_lowercase().contains(&word);
-    let found = all.iter().filter(|channel| has_word(&channel.name) || has_word(&channel.meaning));
-    let rows = rows(found);
-    if rows.is_empty() {
+    let that = |is: &dyn Fn(&str) -> bool| rows(all.iter().filter(|c| is(&c.name) || is(&c.meaning)));
+    let mut found = that(&is_word);
+    if found.is_empty() && measure(&word).is_none() {
+        found = that(&has_word);
+    }
+    if found.is_empty() {
+        if let Some(file) = args.word.as_ref().filter(|word| args.of.is_none() && is_file(word)) {
+            let help = format!("occupant channels --of {}", quoted(file));
+            return Err(Failure::with_help(format!("{file} is a file, no word in a channel's name or meaning"), &help));
+        }
+        if let Some(label) = measure(&word) {
+            let help = "occupant measures RUN.mcap tells the measures of a run";
+            return Err(Failure::with_help(
+                format!("{label} is a measure, one number of a whole run, and no channel"),
+                help,
+            ));
+        }
         let words: Vec<&str> = all.iter().flat_map(|channel| channel.name.split(['.', '_'])).collect();
         let help = did_you_mean(&word, &words, '`').unwrap_or_else(|| "`occupant channels` lists them all".to_owned());
         return Err(Failure::with_help(format!("no channel has `{word}` in its name or meaning"), &help));
     }
     let mut table = Table::new(&[(Align::Left, &["channel", "unit", "meaning"])]);
-    rows.into_iter().for_each(|row| table.row(row));
+    found.into_iter().for_each(|row| table.row(row));
     talk::print(&table.text())
+}
+
+/// Whether a word is the name of a file that channels can be listed of.
+fn is_file(word: &str) -> bool {
+    let path = Path::new(word);
+    path.is_file() || by_ending(path, &[("mcap", ()), ("toml", ()), ("json", ())]).is_some()
+}
+
+/// What the measure is called that this word names, with a number behind it or without.
+fn measure(word: &str) -> Option<&'static str> {
+    let all = assess(&Signals::new(), &Options::default());
+    let is_it = |measure: &Measure| {
+        measure
+            .name
+            .split('_')
+            .next()
+            .is_some_and(|own| own == word || own.trim_end_matches(|c: char| c.is_ascii_digit()) == word)
+    };
+    all.iter().find(|measure| is_it(measure)).map(|measure| measure.label)
 }
 
 /// Name, unit and meaning; components of one vector in one row.
@@ -71,7 +107,7 @@ fn rows<'a>(channels: impl Iterator<Item = &'a Channel>) -> Vec<[String; 3]> {
 }
 
 fn model_of(file: &Path) -> Result<Model, Failure> {
-    if by_ending(file, &[("toml", ()), ("json", ())]).is_none() {
+    if ending(file) == "mcap" {
         return Ok(Results::open(file)?.model);
     }
     let opened = scenario::open(&ScenarioArgs { scenario: file.to_owned(), overrides: Vec::new() })?;

@@ -28,7 +28,11 @@ pub(crate) struct Args {
 
 pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
     let opened = scenario::open(&args.scenario)?;
-    scenario::warn(&opened.warnings);
+    if args.quiet {
+        scenario::warn(&opened.warnings)
+    } else {
+        opened.warn()
+    }
     let mut diagnosis = diagnose(&opened.model);
     opened.loaded.compare_with_people(&mut diagnosis.body);
     let units = args.units.or(opened.loaded.scenario.units);
@@ -45,9 +49,16 @@ pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
             behind.surface
         ));
     }
+    for open in &diagnosis.open_ahead {
+        say(&format!(
+            "warning: no belt holds the body of {}, and neither panel nor windscreen stands ahead of it, though its vehicle loses {}: nothing will meet the head\n = help: add the panel and the windscreen of the compartment, or a belt",
+            open.sphere,
+            units.say(open.loss_m_s, "m/s", 1)
+        ));
+    }
     match too_long(&diagnosis) {
         Some(message) => {
-            say(&message);
+            say(&format!("error: {message}"));
             Ok(Done::Unwell)
         }
         None => Ok(Done::Well),
@@ -55,13 +66,13 @@ pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
 }
 
 /// What to say of a step that is too long for the fastest rate.
-fn too_long(diagnosis: &Diagnosis) -> Option<String> {
+pub(super) fn too_long(diagnosis: &Diagnosis) -> Option<String> {
     let (step_s, fastest) = (diagnosis.run.step_s?, diagnosis.fastest.as_ref()?);
     if diagnosis.step_is_stable() {
         return None;
     }
     Some(format!(
-        "error: the step of {:.4} ms is too long for {} ({}), whose time scale is {:.4} ms\n = expected: a step below {:.4} ms\n = help: set `integrator.step`, use the adaptive integrator, or soften what makes it so fast",
+        "the step of {:.4} ms is too long for {} ({}), whose time scale is {:.4} ms\n = expected: a step below {:.4} ms\n = help: set `integrator.step`, use the adaptive integrator, or soften what makes it so fast",
         step_s * 1e3,
         fastest.of,
         fastest.by,

@@ -24,7 +24,7 @@ pub(crate) struct Args {
     measured: PathBuf,
 
     /// Channels by name or pattern; all that the test has if absent, of two runs those of the standard plots
-    #[arg(long, value_name = "NAMES")]
+    #[arg(long, alias = "channels", value_name = "NAMES")]
     channel: Vec<String>,
 
     #[command(flatten)]

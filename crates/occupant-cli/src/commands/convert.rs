@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use cardio_legacy::{
-    CompartmentLayout, ConvertOptions, Deck, FromScenario, ParseOptions, PathSource, Strictness, write_file,
+    CompartmentLayout, ConvertOptions, Deck, DeckSeating, FromScenario, ParseOptions, PathSource, Strictness,
+    write_file,
 };
 use clap::ArgGroup;
 use occupant_scenario::{Draft, Format, Loaded};
@@ -57,6 +58,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "FILE.toml")]
     compartment: Option<PathBuf>,
 
+    /// How a body that the deck seats (NPOS = 0) begins
+    #[arg(long, value_name = "HOW", default_value = "balanced")]
+    seating: Seating,
+
     /// Run the deck to its end, or take the end of a run's .mcap, and write the deck that extends it to this time, s (series 6
     /// and 14)
     #[arg(long, value_name = "TIME")]
@@ -69,6 +74,24 @@ pub(crate) struct Args {
     /// Say nothing but errors
     #[arg(short, long)]
     quiet: bool,
+}
+
+/// How a body that a deck seats begins.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum Seating {
+    /// Moved as one piece until all that it touches carries its weight
+    Balanced,
+    /// By the pelvis sphere alone, exactly in the cards' posture; thighs, chest and feet press besides
+    Pelvis,
+}
+
+impl From<Seating> for DeckSeating {
+    fn from(how: Seating) -> Self {
+        match how {
+            Seating::Balanced => Self::Balanced,
+            Seating::Pelvis => Self::Pelvis,
+        }
+    }
 }
 
 /// Converts in the direction that the ending of the input gives.
@@ -108,6 +131,7 @@ fn decks_to_scenarios(args: &Args, bytes: &[u8], layout: Option<CompartmentLayou
             deck_name: file_name(&args.input),
             path: path_source(args, output.as_deref())?,
             compartment: layout.clone(),
+            seating: args.seating.into(),
         };
         let conversion =
             deck.to_scenario(&options).map_err(|error| Failure::plain(format!("{}: {error}", args.input.display())))?;

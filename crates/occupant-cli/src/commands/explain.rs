@@ -119,6 +119,13 @@ impl<'a> Key<'a> {
     /// all that may be that word.
     fn find(&self, path: &str) -> Result<Vec<Key<'a>>, Failure> {
         let all = self.all();
+        // as --set writes it: the key that may be that word
+        if let Some((key, word)) = path.split_once('=') {
+            let word = word.trim().trim_matches('"');
+            let found = self.find(word)?;
+            let own: Vec<Key> = found.iter().filter(|of| of.path == key.trim()).cloned().collect();
+            return Ok(if own.is_empty() { found } else { own });
+        }
         let wanted: Vec<&str> = path.split('.').map(bare).collect();
         let is_at = |key: &&Key| {
             let own: Vec<&str> = key.path.split('.').map(bare).collect();
@@ -129,6 +136,14 @@ impl<'a> Key<'a> {
         let found = if found.is_empty() { all.iter().filter(is_named).cloned().collect() } else { found };
         let is_word = |key: &&Key| names(key.schema()).contains(&format!("\"{path}\""));
         let found: Vec<Key> = if found.is_empty() { all.iter().filter(is_word).cloned().collect() } else { found };
+        if let (true, Some((_, key))) = (found.is_empty(), ALSO.iter().find(|(word, _)| is_called(path, word))) {
+            return self.find(key);
+        }
+        if found.is_empty() && RESULTS.iter().any(|word| is_called(path, word)) {
+            let help = "`occupant run` tells what left the compartment, when and where, and how bodies were thrown, where there is a [ground]: \
+                        `occupant explain ground`";
+            return Err(Failure::with_help(format!("`{path}` is no key but a result"), help));
+        }
         if found.is_empty() {
             let names: Vec<&str> = all.iter().map(Key::name).collect();
             let hint = did_you_mean(wanted.last().unwrap_or(&""), &names, '`');
@@ -180,6 +195,26 @@ impl<'a> Key<'a> {
         }
         text
     }
+}
+
+/// What keys are also called.
+const ALSO: [(&str, &str); 8] = [
+    ("airbag", "bags"),
+    ("air_bag", "bags"),
+    ("seatbelt", "belts"),
+    ("seat_belt", "belts"),
+    ("webbing", "belts"),
+    ("intrusion", "frames"),
+    ("pretensioner", "retractors"),
+    ("interior", "solids"),
+];
+/// What is looked for among the keys and is a result.
+const RESULTS: [&str; 4] = ["ejection", "throw", "throw_distance", "searle"];
+
+/// Whether a word is meant, in one or several, with other letters or with blanks.
+fn is_called(said: &str, word: &str) -> bool {
+    let said = said.trim().to_lowercase().replace([' ', '-'], "_");
+    said == word || said.strip_suffix('s') == Some(word)
 }
 
 /// A step of a path without an index.

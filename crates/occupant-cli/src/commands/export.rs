@@ -36,7 +36,7 @@ pub(crate) struct Args {
     output: Option<PathBuf>,
 
     /// Channels by name or pattern, such as 'head.*,belt.*'; all if absent
-    #[arg(long, value_name = "NAMES")]
+    #[arg(long = "channel", alias = "channels", value_name = "NAMES")]
     channels: Vec<String>,
 
     #[command(flatten)]
@@ -108,7 +108,7 @@ pub(crate) fn export(args: &Args) -> Result<(), Failure> {
 /// The motion as a scene, of which neither channels nor filters are asked for.
 fn export_scene(args: &Args, output: &Path) -> Result<(), Failure> {
     if !args.channels.is_empty() || args.interval.is_some() {
-        let found = "--channels and --interval are of tables, and a scene has every output";
+        let found = "--channel and --interval are of tables, and a scene has every output";
         return Err(Failure::with_help(found, "leave them out, or name a .csv"));
     }
     refuse_input(output, &args.run)?;
@@ -124,7 +124,7 @@ fn export_sweep(args: &Args, output: &Path, form: Form) -> Result<(), Failure> {
         || (args.treatment.filter, args.units, args.axes) != (Filter::None, UnitChoice::Si, AxisChoice::Segment);
     if is_input(output) || is_of_runs {
         let found = format!("{} is the folder of a sweep, which has a row for each sample", args.run.display());
-        let help = "give -o FILE, and none of --channels, --interval, --filter, --units and --axes";
+        let help = "give -o FILE, and none of --channel, --interval, --filter, --units and --axes";
         return Err(Failure::with_help(found, help));
     }
     let Stored { manifest, journal, .. } = open(std::slice::from_ref(&args.run), MadeBy::AnyProgram)?;

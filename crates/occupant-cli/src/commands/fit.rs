@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::flags::sweep::{EngineArgs, folder_of};
-use crate::base::{Failure, Interrupt, json, print, program, say};
+use crate::base::{Failure, Interrupt, json, print, program, quoted, say};
 use crate::files::measured::MapArgument;
 use crate::files::study_folder::checksums::Checksums;
 use crate::files::study_folder::folder::Folder;
@@ -96,7 +96,11 @@ pub(crate) fn fit(args: &Args) -> Result<(), Failure> {
         (false, false) => {
             let path = folder.path.display();
             let one = folder.path.join("fitted.toml").is_file();
-            let next = if one { format!("next: occupant run {path}/fitted.toml\n") } else { String::new() };
+            let next = if one {
+                format!("next: occupant run {}\n", quoted(folder.path.join("fitted.toml").display()))
+            } else {
+                String::new()
+            };
             print(&format!("{}\nwritten to {path}\n{next}", report::text(&found)))
         }
     }

@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use occupant_scenario::kind::{KINDS, LENGTH, SPEED};
+use occupant_scenario::kind::{FREQUENCY, KINDS, LENGTH, SPEED, TIME};
 
-use super::flags::history::WindowArgs;
+use super::flags::history::{WindowArgs, interval};
 use super::new::with_path;
-use crate::base::{Failure, file_name, file_stem, note, publish, refuse_input, say};
-use crate::files::measured::{self, Imported};
-use crate::jobs::import::{Made, PathTable, Request, import as made};
+use crate::base::{Failure, ending, file_name, file_stem, note, one_of, publish, quoted, refuse_input, say};
+use crate::files::measured::{self, AXES, Axes, Imported, Reading};
+use crate::jobs::import::{Made, PathFilter, PathTable, Request, import as made};
 
 /// Make a scenario and curves of the record of a test
 ///
@@ -47,6 +47,32 @@ pub(crate) struct Args {
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = written::<LENGTH>)]
     cg: Option<String>,
 
+    /// Names and units of a table's columns in place of its own headings, `-` for one that is left out and a minus before one whose sign is to be
+    /// turned, such as 't[ms],-,ax[g]' or 't[ms],-dvx[mph]'
+    #[arg(long, value_name = "COLUMNS", allow_hyphen_values = true)]
+    columns: Option<String>,
+
+    /// Which way the axes of the record point; what the kind of file says, or z_down, if absent
+    #[arg(long, value_name = "AXES", value_parser = one_of(&AXES))]
+    axes: Option<Axes>,
+
+    /// Bridge holes of the record up to so long by straight lines, such as '5 ms'; refused if absent
+    #[arg(long, value_name = "TIME", value_parser = interval)]
+    bridge: Option<f64>,
+
+    /// Length of the rest at the beginning of the record whose mean is taken away, such as '50 ms'
+    #[arg(long, value_name = "TIME", value_parser = written::<TIME>)]
+    baseline: Option<String>,
+
+    /// Length of a rest at its end as well: zero errors that drift are taken away along a straight line
+    #[arg(long, value_name = "TIME", requires = "baseline", value_parser = written::<TIME>)]
+    baseline_end: Option<String>,
+
+    /// Low-pass of the path: 60, 180, 600 or 1000, the class for accelerations (60 if absent and the record is fast enough); a
+    /// frequency, such as '15 Hz', for places and angles (none if absent); none
+    #[arg(long, value_name = "CLASS|FREQUENCY", value_parser = filter)]
+    filter: Option<PathFilter>,
+
     #[command(flatten)]
     window: WindowArgs,
 
@@ -57,7 +83,8 @@ pub(crate) struct Args {
 
 pub(crate) fn import(args: &Args) -> Result<(), Failure> {
     let name = args.output.clone().unwrap_or_else(|| Path::new(&stem(&args.source)).with_extension("toml"));
-    let imported = measured::import(&args.source, args.vehicle, args.object.as_deref())?;
+    let reading = Reading { vehicle: args.vehicle, object: args.object.as_deref(), columns: args.columns.as_deref() };
+    let imported = measured::import(&args.source, reading)?;
     let made = made(
         &imported,
         &Request {
@@ -65,10 +92,41 @@ pub(crate) fn import(args: &Args) -> Result<(), Failure> {
             window_s: [args.window.from, args.window.to],
             speed: args.speed.as_deref(),
             cg: args.cg.as_deref(),
+            axes: args.axes,
+            bridge_s: args.bridge,
+            baseline: [args.baseline.as_deref(), args.baseline_end.as_deref()],
+            filter: args.filter,
         },
     )?;
     made.notes.iter().for_each(note);
+    if made.path.is_none() && is_table(&args.source) {
+        return Err(Failure::plain(format!("{} gives no path: nothing was written", args.source.display())));
+    }
     write(args, &name, &imported, &made)
+}
+
+/// Whether the source is one table, which is of no use without a path.
+fn is_table(source: &Path) -> bool {
+    !source.is_dir() && matches!(ending(source).as_str(), "csv" | "txt" | "tsv" | "asc" | "dat")
+}
+
+/// A low-pass in words.
+///
+/// # Errors
+/// What is none.
+pub(super) fn filter(text: &str) -> Result<PathFilter, String> {
+    let word = text.trim().to_ascii_lowercase();
+    match word.strip_prefix("cfc").unwrap_or(&word).trim() {
+        "none" => return Ok(PathFilter::None),
+        class @ ("60" | "180" | "600" | "1000") => {
+            return class.parse().map(PathFilter::Class).map_err(|_| String::new());
+        }
+        _ => {}
+    }
+    match KINDS[FREQUENCY].read(text) {
+        Ok(hertz) if hertz > 0.0 && text.contains("Hz") => Ok(PathFilter::Frequency(hertz)),
+        _ => Err("expected CFC60, CFC180, CFC600, CFC1000, a frequency such as '15 Hz', or none".to_owned()),
+    }
 }
 
 /// A quantity as it is written, which is at least 0.
@@ -96,7 +154,11 @@ fn write(args: &Args, name: &Path, imported: &Imported, made: &Made) -> Result<(
         say(&format!("wrote {}: {}", path_file.display(), path.words));
         let text = scenario(&args.source, imported, path, &file_name(&path_file));
         publish(name, args.force, text.as_bytes())?;
-        say(&format!("wrote {}: a driver in a car of ours on that path", name.display()));
+        let [from_s, to_s] = path.run_s.map(placed_text::number);
+        say(&format!(
+            "wrote {}: a driver in a car of ours on that path; the run goes from {from_s} s to {to_s} s, all that there is of it (--from and --to take a part)",
+            name.display()
+        ));
     }
     if let Some((bytes, count)) = &made.curves {
         publish(&curves_file, args.force, bytes)?;
@@ -104,13 +166,18 @@ fn write(args: &Args, name: &Path, imported: &Imported, made: &Made) -> Result<(
     }
     let next = match (&made.path, &made.curves) {
         (Some(_), Some(_)) => vec![
-            format!("occupant run {}", name.display()),
-            format!("occupant compare {} {}", name.with_extension("mcap").display(), curves_file.display()),
+            format!("occupant run {}", quoted(name.display())),
+            format!(
+                "occupant compare {} {}",
+                quoted(name.with_extension("mcap").display()),
+                quoted(curves_file.display())
+            ),
         ],
         (Some(_), None) => {
-            vec![format!("occupant check {}", name.display()), format!("occupant run {}", name.display())]
+            let name = quoted(name.display());
+            vec![format!("occupant check {name}"), format!("occupant run {name}")]
         }
-        (None, _) => vec![format!("occupant compare RUN.mcap {}", curves_file.display())],
+        (None, _) => vec![format!("occupant compare RUN.mcap {}", quoted(curves_file.display()))],
     };
     say(&format!("next: {}", next.join("\n      ")));
     Ok(())
@@ -123,6 +190,9 @@ fn scenario(source: &Path, imported: &Imported, path: &PathTable, file: &str) ->
     let title = title.map_or_else(|| file_name(source), str::to_owned);
     let keys = path.keys.join("\n");
     let origin = format!("{}: {}, of {}", file_name(source), path.words, title);
-    let section = format!("[path]\n{keys}\nfile = {}\n", text(file));
+    let [from_s, to_s] = path.run_s;
+    let begin = if from_s == 0.0 { String::new() } else { format!("start = {from_s:?}\n") };
+    let time = format!("[time]                      # all of the path\n{begin}end = {to_s:?}                   # s\n");
+    let section = format!("{time}\n[path]\n{keys}\nfile = {}\n", text(file));
     with_path(&text(&title), &text(&origin), &section)
 }

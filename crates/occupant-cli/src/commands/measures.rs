@@ -14,7 +14,7 @@ use super::flags::history::interval;
 use super::tables::measures::{remarks, risks, side_by_side, table};
 use super::tables::summary::Marks;
 use crate::base::{Done, Failure, Units, UnitsArg, json, note, one_of, print};
-use crate::files::history::family_name;
+use crate::files::history::{FAMILIES, family_name};
 use crate::files::results::Results;
 
 /// Readings of filtered channels are taken so often, s: the 10 kHz of SAE J211.
@@ -32,8 +32,12 @@ pub(crate) struct Args {
     runs: Vec<PathBuf>,
 
     /// Filter each channel by its class (head 1000, neck 1000/600, chest 180, femur 600, head rotation 60)
-    #[arg(long, value_name = "FAMILY", default_value = "none", value_parser = one_of(&FILTERS))]
-    filter: Filtering,
+    #[arg(long, value_name = "CLASS", default_value = "none", value_parser = one_of(&FILTERS))]
+    filter: Asked,
+
+    /// Coefficients of the filter classes
+    #[arg(long, value_name = "STANDARD", default_value = "iso6487", value_parser = one_of(&FAMILIES))]
+    coefficients: CfcFamily,
 
     /// Run the case again and take the readings this often, such as '0.1 ms': what happens between the outputs of the file counts
     /// then. With a filter it is 0.1 ms where the outputs are further apart
@@ -57,11 +61,28 @@ pub(crate) struct Args {
 }
 
 /// Filters: names on the command line, names in help.
-const FILTERS: [(&str, &str, Filtering); 3] = [
-    ("none", "The signals as they are", Filtering::None),
-    ("sae-j211", "Coefficients of SAE J211", Filtering::Classes(CfcFamily::SaeJ211)),
-    ("iso6487", "Coefficients of ISO 6487", Filtering::Classes(CfcFamily::Iso6487)),
+const FILTERS: [(&str, &str, Asked); 4] = [
+    ("none", "The signals as they are", Asked::None),
+    ("j211", "Each signal by the class that SAE J211 gives it", Asked::Classes(None)),
+    ("sae-j211", "The same with coefficients of SAE J211, a name before", Asked::Classes(Some(CfcFamily::SaeJ211))),
+    ("iso6487", "The same with coefficients of ISO 6487, a name before", Asked::Classes(Some(CfcFamily::Iso6487))),
 ];
+
+/// The filter asked for, and whose coefficients an old name says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Asked {
+    None,
+    Classes(Option<CfcFamily>),
+}
+
+impl Args {
+    fn filtering(&self) -> Filtering {
+        match self.filter {
+            Asked::None => Filtering::None,
+            Asked::Classes(family) => Filtering::Classes(family.unwrap_or(self.coefficients)),
+        }
+    }
+}
 
 /// Dummies, likewise.
 const DUMMIES: [(&str, &str, Dummy); 3] = [
@@ -137,7 +158,7 @@ impl Judged {
 
 /// Prints the measures of runs.
 pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
-    let options = Options { dummy: args.dummy, filtering: args.filter };
+    let options = Options { dummy: args.dummy, filtering: args.filtering() };
     let all = args.runs.iter().map(|file| Judged::of(file, args.interval, options));
     let all = all.collect::<Result<Vec<_>, _>>()?;
     if args.json {

@@ -37,7 +37,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use placed_text::shown;
 
-use crate::base::{Done, Failure, say, written};
+use crate::base::{Done, Failure, say, survive_long_files, written};
 
 /// Simulates the occupant of a car in a crash or a violent manoeuvre.
 #[derive(Debug, Parser)]
@@ -92,6 +92,7 @@ commands! {
 
 /// Reads the command line and does what it says.
 pub fn main() -> ExitCode {
+    survive_long_files();
     answer(std::env::args_os())
 }
 

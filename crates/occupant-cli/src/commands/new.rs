@@ -4,7 +4,7 @@ mod template;
 
 use std::path::PathBuf;
 
-use crate::base::{Failure, publish, say};
+use crate::base::{Failure, publish, quoted, say};
 use template::Template;
 
 /// The scenario that is written unless another template is asked for.
@@ -56,7 +56,7 @@ pub(crate) fn new(args: &Args) -> Result<(), Failure> {
     }
     publish(&file, args.force, args.template.text().as_bytes())?;
     if !args.quiet {
-        say(&format!("wrote {name}\nnext: {}", args.template.next(&name.to_string())));
+        say(&format!("wrote {name}\nnext: {}", args.template.next(&quoted(&name))));
     }
     Ok(())
 }

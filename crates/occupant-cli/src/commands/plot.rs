@@ -1,8 +1,10 @@
 //! `occupant plot`.
 
+use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use clap::{Args as _, FromArgMatches};
 use placed_text::number;
 
 use super::flags::history::{TestArgs, WindowArgs};
@@ -38,7 +40,7 @@ pub(crate) struct Args {
     format: Format,
 
     /// A plot of these channels, by name or pattern with commas between; once for each plot
-    #[arg(long, value_name = "NAMES")]
+    #[arg(long, alias = "channels", value_name = "NAMES")]
     channel: Vec<String>,
 
     /// The channel across instead of the time
@@ -89,6 +91,14 @@ pub(crate) struct Args {
     /// Open what was written with the program that the system has for it
     #[arg(long)]
     open: bool,
+}
+
+/// Draws the fourteen plots of a run, as a deck with the card STAN asks for them.
+pub(crate) fn draw_standard(run: &Path, force: bool) -> Result<(), Failure> {
+    let words = [OsStr::new("plot"), run.as_os_str()].into_iter().chain(force.then_some(OsStr::new("--force")));
+    let matches = Args::augment_args(clap::Command::new("plot")).try_get_matches_from(words);
+    let args = matches.and_then(|matches| Args::from_arg_matches(&matches));
+    plot(&args.map_err(|error| Failure::plain(error.to_string()))?)
 }
 
 pub(crate) fn plot(args: &Args) -> Result<(), Failure> {
@@ -170,7 +180,13 @@ fn write_each(args: &Args, folder: &Path, kind: Format, words: &Sheet, figures: 
         let name = format!("{:02}-{}.{}", i + 1, slug(&figure.title), kind.ending());
         write(args, &folder.join(name), kind, &sheet(words, std::slice::from_ref(figure)))?;
     }
-    say(&format!("wrote {} plots into {}", figures.len(), folder.display()));
+    let empty: Vec<&str> =
+        figures.iter().filter(|figure| figure.curves.is_empty()).map(|figure| figure.title.as_str()).collect();
+    let without = match empty.len() {
+        0 => String::new(),
+        count => format!(", {count} of them without a curve: {}", empty.join("; ")),
+    };
+    say(&format!("wrote {} plots into {}{without}", figures.len(), folder.display()));
     Ok(())
 }
 

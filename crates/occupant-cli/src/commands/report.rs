@@ -2,19 +2,21 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::base::{Failure, UnitsArg, deliver_and, file_name, is_page, note, refuse_input, say};
+use crate::base::{Failure, Units, UnitsArg, deliver_and, file_name, is_page, note, refuse_input, say};
 use crate::files::results::Results;
-use crate::jobs::report::{page, subject};
+use crate::jobs::report::{MOST_RUNS, page, subject};
 use crate::pictures::html::is_page_of;
 
-/// Make a page of a run: motion in 3-D, time histories, measures, contacts and where it comes from, in one HTML file
+/// Make a page of a run, or of up to four abreast: motion in 3-D, time histories, measures, contacts and where it comes from, in
+/// one HTML file
 ///
 /// It opens in any browser and loads nothing from the network. Keys: space plays, arrows step, 1 to 4 choose the view.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// The results of `occupant run`
-    #[arg(value_name = "RUN.mcap")]
-    run: PathBuf,
+    /// The results of `occupant run`; of several, such as without belt, with a lap belt, with both, the bodies stand abreast, and
+    /// their curves and numbers beside each other
+    #[arg(value_name = "RUN.mcap", required = true, num_args = 1..=4)]
+    runs: Vec<PathBuf>,
 
     /// The page; RUN.html beside the run if absent, where an earlier report of the same is replaced
     #[arg(short, long, value_name = "FILE.html")]
@@ -37,26 +39,40 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn report(args: &Args) -> Result<(), Failure> {
-    let output = args.output.clone().unwrap_or_else(|| args.run.with_extension("html"));
-    if !is_page(&output) {
-        return Err(Failure::ending(&output, ".html"));
-    }
-    for input in std::iter::once(&args.run).chain(&args.against) {
-        refuse_input(&output, input)?;
-    }
-    let run = Results::open(&args.run)?;
-    let against = args.against.as_deref().map(Results::open).transpose()?;
-    std::iter::once(&run).chain(&against).flat_map(Results::notes).for_each(|text| note(&text));
-    let force = args.force || replaces_earlier(args, &output);
-    let page = page(&run, against.as_ref(), args.units.or(run.loaded.scenario.units))?;
-    deliver_and(args.open, &output, force, page.as_bytes())
+    let files: Vec<PathBuf> = args.runs.iter().chain(&args.against).cloned().collect();
+    let output = args.output.clone().unwrap_or_else(|| args.runs[0].with_extension("html"));
+    let is_unasked = args.output.is_none();
+    write(&files, &output, (args.force, is_unasked, args.open), args.units)
 }
 
-/// Whether the page of the default name is an earlier one of the same runs; then says that it is replaced.
-fn replaces_earlier(args: &Args, output: &Path) -> bool {
-    let names: Vec<String> = std::iter::once(&args.run).chain(&args.against).map(|run| file_name(run)).collect();
+/// Writes the page of runs; whether a file that exists is replaced in any case, or as an earlier page of the same, and whether the page is opened.
+pub(crate) fn write(
+    files: &[PathBuf],
+    output: &Path,
+    (force, is_unasked, open): (bool, bool, bool),
+    units: UnitsArg,
+) -> Result<(), Failure> {
+    if !is_page(output) {
+        return Err(Failure::ending(output, ".html"));
+    }
+    if files.len() > MOST_RUNS {
+        let found = format!("{} runs on one page", files.len());
+        return Err(Failure::with_help(found, &format!("give at most {MOST_RUNS}")));
+    }
+    files.iter().try_for_each(|input| refuse_input(output, input))?;
+    let runs = files.iter().map(|file| Results::open(file)).collect::<Result<Vec<_>, _>>()?;
+    runs.iter().flat_map(Results::notes).for_each(|text| note(&text));
+    let force = force || is_unasked && replaces_earlier(files, output);
+    let units = runs.first().map_or_else(Units::default, |run| units.or(run.loaded.scenario.units));
+    let page = page(&runs, units)?;
+    deliver_and(open, output, force, page.as_bytes())
+}
+
+/// Whether the page is an earlier one of the same runs; then says that it is replaced.
+fn replaces_earlier(files: &[PathBuf], output: &Path) -> bool {
+    let names: Vec<String> = files.iter().map(|run| file_name(run)).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    let is_earlier = args.output.is_none() && is_page_of(output, &subject(&names));
+    let is_earlier = is_page_of(output, &subject(&names));
     if is_earlier {
         say(&format!("{} is an earlier report of the same and is replaced; -o keeps both", output.display()));
     }

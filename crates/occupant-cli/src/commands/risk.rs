@@ -3,36 +3,63 @@
 mod input;
 mod options;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use crash_measures::measure::limits::Rule;
-use crash_measures::signal::{CfcFamily, ChannelClass};
+use crash_measures::signal::CfcFamily;
+use occupant_scenario::kind::UnitSystem;
 use occupant_study::risk::{Preparation, VehicleSignals};
 
-use crate::base::{Done, Failure, one_of, print, say, talk};
-use crate::jobs::risk::{Report, json, text};
+use super::flags::history::interval;
+use crate::base::{
+    Done, Failure, SYSTEMS, input_file, is_page, note, one_of, print, publish, refuse_input, say, sha256, talk,
+};
+use crate::files::measured::{AXES, Axes};
+use crate::jobs::import::PathFilter;
+use crate::jobs::risk::{Report, json, page, text};
 use input::measured;
-use options::{flight, preparation};
+use options::{errors, flight, preparation};
 
 /// Measure the risk to occupants from the vehicle's motion alone
 ///
 /// OIV, ORA, THIV, PHD, ASI, 50 ms averages, angles, velocity changes, OLC, and what rules say of them. FILE is recorded data
 /// (a table with `t` and any of `ax`, `ay`, `az`, `wx`, `wy`, `wz` with their units, such as t[s],ax[g],wz[deg/s], or with a
-/// recorder's headings, such as Time (ms); x forward, y right, z down), a scenario, or a run.mcap. Exit code 1 if a rule named by --rule is broken.
+/// recorder's headings, such as Time (ms); x forward, y right, z down), or any record that `import` reads, an ISO-MME test, velocity changes or
+/// places too; a scenario, or a run.mcap. Exit code 1 if a rule named by --rule is broken.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Recorded data (.csv), a scenario (.toml, .json) or the results of a run (.mcap)
+    /// Recorded data (.csv, .tdms, a test's folder …), a scenario (.toml, .json) or the results of a run (.mcap)
     #[arg(value_name = "FILE")]
     file: PathBuf,
+
+    /// Write the report as a page as well, with the histories: one HTML file that needs no network
+    #[arg(short, long, value_name = "REPORT.html")]
+    output: Option<PathBuf>,
+
+    /// Replace a file that exists
+    #[arg(short, long, requires = "output")]
+    force: bool,
+
+    /// Units of what is printed, SI beside those of reports in the US if absent. JSON is always SI
+    #[arg(long, value_name = "SYSTEM", value_parser = one_of(&SYSTEMS))]
+    units: Option<UnitSystem>,
+
+    /// The vehicle, where there are several: its name in a scenario or run, its number in a record; the first, if absent
+    #[arg(long, value_name = "NAME|NUMBER")]
+    vehicle: Option<String>,
+
+    /// Place of the vehicle's accelerometers in a test, as the test names it; the centre of gravity, or the first place, if absent
+    #[arg(long, value_name = "PLACE")]
+    at: Option<String>,
 
     /// Judge by this rule; may be repeated; all are shown if absent
     #[arg(long, value_name = "RULE", value_parser = one_of(&RULES))]
     rule: Vec<Rule>,
 
-    /// Channel frequency class of the filter; "none" for data that are filtered already
-    #[arg(long, value_name = "CLASS", default_value = "180", value_parser = class())]
-    cfc: Class,
+    /// Filter: CFC60, CFC180 (if absent), CFC600 or CFC1000; a frequency, such as '15 Hz', from which on a table of places is smoothed
+    /// before; or none for data that are filtered already
+    #[arg(long, alias = "cfc", value_name = "CLASS|FREQUENCY", value_parser = super::import::filter)]
+    filter: Option<PathFilter>,
 
     /// Filter coefficients
     #[arg(long, value_name = "FAMILY", default_value = "iso6487", value_parser = one_of(&FAMILIES))]
@@ -50,20 +77,42 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     end: Option<String>,
 
-    /// Names and units of the file's columns in place of its own headings, `-` for one that is left out, such as 't[ms],-,ax[g]'
-    #[arg(long, value_name = "COLUMNS")]
+    /// Names and units of the file's columns in place of its own headings, `-` for one that is left out and a minus before one whose
+    /// sign is to be turned, such as 't[ms],-,ax[g],-ay[g]'
+    #[arg(long, value_name = "COLUMNS", allow_hyphen_values = true)]
     columns: Option<String>,
 
     /// Where the sensors stand, from the centre of gravity: forward, right, down, such as "-0.3 m,0,10 cm"
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     offset: Option<String>,
 
+    /// Bridge holes of the record up to so long by straight lines, such as '5 ms'; refused if absent
+    #[arg(long, value_name = "TIME", value_parser = interval)]
+    bridge: Option<f64>,
+
+    /// Length of the rest at the beginning of the record; what each channel reads there beyond what it should is taken away
+    #[arg(long, value_name = "TIME")]
+    baseline: Option<String>,
+
+    /// Length of a rest at its end as well: zero errors that drift are taken away along a straight line
+    #[arg(long, value_name = "TIME", requires = "baseline")]
+    baseline_end: Option<String>,
+
+    /// Bound of an error of the sensors, to both sides: gain='1 %', offset='0.05 g', rate='0.2 deg/s', angle='1 deg' or
+    /// place='20 mm'; each measure then has the interval of 95 % of 400 records with such errors. May be repeated
+    #[arg(long, value_name = "WHAT=BOUND")]
+    sensor_error: Vec<String>,
+
     /// Gravity is in az: a level vehicle at rest reads −1 g
     #[arg(long)]
     gravity_included: bool,
 
-    /// The recorded axes are x forward, y left, z up
-    #[arg(long)]
+    /// Which way the recorded axes point; what the kind of file says, or z_down, if absent
+    #[arg(long, value_name = "AXES", value_parser = one_of(&AXES))]
+    axes: Option<Axes>,
+
+    /// The recorded axes are x forward, y left, z up: --axes z_up
+    #[arg(long, hide = true, conflicts_with = "axes")]
     z_up: bool,
 
     /// Head of THIV ahead of the centre of gravity (X0); 0 if absent
@@ -87,38 +136,44 @@ pub(crate) struct Args {
     json: bool,
 }
 
-/// A class of filters, or none.
-type Class = Option<ChannelClass>;
-
 /// Rules that judge a vehicle's motion: names on the command line, names in help.
-const RULES: [(&str, &str, Rule); 5] = [
+const RULES: [(&str, &str, Rule); 10] = [
     ("mash", "MASH 2016", Rule::Mash2016),
     ("mash-supports", "MASH 2016, breakaway supports", Rule::Mash2016Supports),
     ("nchrp350", "NCHRP Report 350", Rule::Nchrp350),
+    ("nchrp350-supports", "NCHRP Report 350, breakaway supports", Rule::Nchrp350Supports),
     ("en1317-1998", "EN 1317-1:1998", Rule::En1317Edition1998),
     ("en1317-2010", "EN 1317-1:2010", Rule::En1317Edition2010),
+    ("en1317-3-head-on", "EN 1317-3, crash cushion struck head on", Rule::En1317CushionHeadOn),
+    ("en1317-3-side", "EN 1317-3, crash cushion struck on its side", Rule::En1317CushionSide),
+    ("en12767", "EN 12767, supports, at 50 to 100 km/h", Rule::En12767),
+    ("en12767-slow", "EN 12767, supports, at 35 km/h", Rule::En12767Slow),
 ];
 
 /// Filter coefficients, likewise.
-const FAMILIES: [(&str, &str, CfcFamily); 2] =
-    [("iso6487", "ISO 6487", CfcFamily::Iso6487), ("j211", "SAE J211", CfcFamily::SaeJ211)];
-
-fn class() -> impl TypedValueParser<Value = Class> {
-    let names = PossibleValuesParser::new(["60", "180", "600", "1000", "none"]);
-    names.map(|name| name.parse().ok().and_then(ChannelClass::from_number))
-}
+const FAMILIES: [(&str, &str, CfcFamily); 3] = [
+    ("iso6487", "ISO 6487", CfcFamily::Iso6487),
+    ("sae-j211", "SAE J211", CfcFamily::SaeJ211),
+    ("j211", "SAE J211, its name before", CfcFamily::SaeJ211),
+];
 
 /// Measures and judges.
 pub(crate) fn risk(args: &Args) -> Result<Done, Failure> {
     let preparation = preparation(args)?;
     let flight = flight(args)?;
-    let (subject, signals) = measured(args, &preparation)?;
+    let errors = errors(args)?;
+    let (subject, signals, notes) = measured(args, &preparation)?;
     warn_of_coarse_samples(&signals, &preparation);
-    let report = Report::new(subject, preparation, signals, flight, &args.rule);
+    let mut report = Report::new(subject, preparation, signals, flight, &args.rule).with_errors(errors);
+    report.notes = [notes, report.notes].concat();
+    report.notes.iter().for_each(|text| note(text));
     if args.json {
         print(&talk::json(&json(&report))?)?
     } else {
-        print(&text(&report))?
+        print(&text(&report, args.units))?
+    }
+    if let Some(output) = &args.output {
+        write(args, output, &report)?;
     }
     let broken = report.judgements.iter().filter(|j| j.breaks_the_rule());
     let broken: Vec<String> = broken.map(|j| format!("{} {}", j.limit.rule.name(), j.measure)).collect();
@@ -128,6 +183,21 @@ pub(crate) fn risk(args: &Args) -> Result<Done, Failure> {
         say(&format!("error: beyond the limit: {}", broken.join(", ")));
         Ok(Done::Unwell)
     }
+}
+
+/// Writes the page.
+fn write(args: &Args, output: &Path, report: &Report) -> Result<(), Failure> {
+    if !is_page(output) {
+        return Err(Failure::ending(output, ".html"));
+    }
+    refuse_input(output, &args.file)?;
+    let mut origin = vec![("source", args.file.display().to_string())];
+    if !args.file.is_dir() {
+        origin.push(("its SHA-256", sha256(&input_file::read(&args.file)?)));
+    }
+    publish(output, args.force, page(report, args.units, &origin).as_bytes())?;
+    say(&format!("wrote {}", output.display()));
+    Ok(())
 }
 
 /// SAE J211 asks for at least ten samples in a period of the class.

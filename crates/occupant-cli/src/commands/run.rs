@@ -2,20 +2,26 @@
 
 use std::path::{Path, PathBuf};
 
-use occupant_core::diagnosis::UnstableFriction;
-use occupant_core::results::summary::{RunStatus, Summary};
+use occupant_core::diagnosis::{UnstableFriction, diagnose};
+use occupant_core::model::setup::Integrator;
+use occupant_core::results::summary::{Caveat, RunStatus, Summary};
 use occupant_scenario::Diagnostics;
 use occupant_study::ending::Balance;
 use serde::Serialize;
 
+use super::check::too_long;
 use super::flags::ensemble::EnsembleArgs;
 use super::tables::measures::side_by_side;
 use super::tables::summary::{Marks, summary_table};
+use super::{plot, report};
 use crate::base::input_file::is_input;
-use crate::base::{Done, Existing, Failure, Interrupt, Units, UnitsArg, ending, json, print, program, say};
+use crate::base::{
+    Done, Existing, Failure, Interrupt, Units, UnitsArg, ending, is_page, json, print, program, say, with_word,
+};
 use crate::files::scenario::{self, Opened, ScenarioArgs};
 use crate::jobs::ensemble::report::Report;
 use crate::jobs::ensemble::text::text as ensemble_text;
+use crate::jobs::report::MOST_RUNS;
 use crate::jobs::run::earlier::is_earlier;
 use crate::jobs::run::estimate::{ErrorEstimate, estimate};
 use crate::jobs::run::recording::{Recording, Written};
@@ -35,10 +41,10 @@ pub(crate) struct Args {
     scenario: ScenarioArgs,
 
     /// More scenarios: each is run in its turn, and their measures are printed side by side
-    #[arg(value_name = "MORE", conflicts_with_all = ["output", "resume", "json"])]
+    #[arg(value_name = "MORE", conflicts_with_all = ["resume", "json"])]
     more: Vec<PathBuf>,
 
-    /// The file to write
+    /// The file to write; of several scenarios the page, FILE.html, that shows up to four of them abreast
     #[arg(short, long, value_name = "FILE.mcap")]
     output: Option<PathBuf>,
 
@@ -117,12 +123,15 @@ fn several(args: &Args) -> Result<Done, Failure> {
     let of = |scenario: &PathBuf| ScenarioArgs { scenario: scenario.clone(), ..args.scenario.clone() };
     let all: Vec<ScenarioArgs> = scenarios.map(of).collect();
     refuse_before(args, &all)?;
+    let mut files = Vec::new();
     for own in all {
         let scenario = own.scenario.clone();
         if !args.quiet {
             say(&format!("{}: running", scenario.display()));
         }
-        let ran = one(&Args { scenario: own, more: Vec::new(), is_one_of_several: true, ..args.clone() });
+        let own = Args { scenario: own, more: Vec::new(), output: None, is_one_of_several: true, ..args.clone() };
+        files.extend(output_name(&own)?);
+        let ran = one(&own);
         let (ended, summary, units) = match ran {
             Ok(ran) => ran,
             Err(failure) if runs.is_empty() => return Err(failure),
@@ -133,11 +142,27 @@ fn several(args: &Args) -> Result<Done, Failure> {
         }
         runs.push((scenario, summary, units));
     }
-    beside(&runs).map(|()| done)
+    beside(&runs)?;
+    if let Some(page) = &args.output {
+        report::write(&files, page, (args.force, true, false), args.units)?;
+    }
+    Ok(done)
 }
 
 /// What would stop a later one of several scenarios, or let it take the place of an earlier one's results, before any runs.
 fn refuse_before(args: &Args, all: &[ScenarioArgs]) -> Result<(), Failure> {
+    if let Some(page) = &args.output {
+        if !is_page(page) {
+            return Err(Failure::with_help(
+                format!("{} of {} scenarios", page.display(), all.len()),
+                "-o FILE.html writes the page that shows them abreast; each writes its own .mcap in any case",
+            ));
+        }
+        if all.len() > MOST_RUNS {
+            let found = format!("{} scenarios on one page", all.len());
+            return Err(Failure::with_help(found, &format!("give at most {MOST_RUNS}")));
+        }
+    }
     for (i, own) in all.iter().enumerate() {
         let name = own.scenario.file_stem();
         let twin = all[..i].iter().find(|other| other.scenario.file_stem() == name).filter(|_| !args.no_mcap);
@@ -146,7 +171,7 @@ fn refuse_before(args: &Args, all: &[ScenarioArgs]) -> Result<(), Failure> {
             return Err(Failure::with_help(found, "run them one by one with -o, or with --no-mcap"));
         }
         if !is_input(&own.scenario) {
-            scenario::draft(own)?;
+            scenario::source(own)?;
         }
     }
     Ok(())
@@ -169,13 +194,14 @@ fn beside(runs: &[(PathBuf, Summary, Units)]) -> Result<(), Failure> {
 /// How a scenario ended, its summary, and the units of its tables.
 fn one(args: &Args) -> Result<(Done, Summary, Units), Failure> {
     let chosen = chosen(args);
-    let (bytes, draft) = scenario::draft(&chosen)?;
-    let opened = scenario::open_draft(&chosen, bytes, draft.clone())?;
+    let source = scenario::source(&chosen)?;
+    let draft = source.draft.clone();
+    let opened = scenario::open_source(&chosen, source)?;
     let (existing, units) = (Existing::by(args.force), args.units.or(opened.loaded.scenario.units));
     let ensemble = args.ensemble.wanted(&draft, &opened, &chosen.scenario, (existing, units))?;
     let from = args.resume.as_deref().map(|file| Resumption::find(file, &opened)).transpose()?;
     if !args.quiet {
-        scenario::warn(&opened.warnings);
+        opened.warn();
     }
     let recording = output_name(args)?.map(|name| {
         Recording::begin(&name, existing_at(args, &name, &chosen, &opened), &chosen, &opened, from.as_ref())
@@ -184,18 +210,29 @@ fn one(args: &Args) -> Result<(Done, Summary, Units), Failure> {
     from.iter().filter(|_| !args.quiet).for_each(Resumption::announce);
     let channels = ensemble.as_ref().map(|e| e.channels.clone()).unwrap_or_default();
     let interrupt = Interrupt::listen("stopping at the next output; once more to stop at once");
+    let diagnosis = matches!(opened.model.setup().integrator, Integrator::Rk4 { .. }).then(|| diagnose(&opened.model));
+    if let Some(message) = diagnosis.as_ref().and_then(too_long).filter(|_| !args.quiet) {
+        say(&format!("warning: {message}"));
+    }
     let mut run = simulate(&opened, from.as_ref(), recording, channels, &interrupt, args.quiet)?;
+    if let Some((diagnosis, step_s)) = diagnosis.as_ref().and_then(|d| Some((d, d.run.step_s?))) {
+        let caveat = Caveat::step_too_long(step_s, &diagnosis.too_fast(), &run.summary);
+        run.summary.caveats.extend(caveat);
+    }
     let balance = run.summary.energy.balance;
     let histories = std::mem::take(&mut run.histories);
     let ensemble = ensemble.filter(|_| run.completed && balance != Balance::Lost);
     let ensemble = ensemble.map(|wanted| wanted.run(&opened, &run.summary, histories, &interrupt, args.quiet));
     let estimate = (args.estimate_error && run.completed && !interrupt.is_asked())
         .then(|| estimate(&opened, &run.summary, &run.head, &interrupt));
+    let caveat = estimate.as_ref().and_then(told).and_then(|estimate| estimate.caveat(&run.summary));
+    run.summary.caveats.extend(caveat);
     if !args.is_one_of_several {
         // the run itself is told also where what was to come after it has failed
         let more = (ensemble.as_ref().and_then(told), estimate.as_ref().and_then(told));
         show(args, &chosen, &opened, from.as_ref(), &run, more)?;
     }
+    draw(args, &opened, &run)?;
     let unmade = ensemble.and_then(Result::err).or(estimate.and_then(Result::err));
     unmade.map_or(Ok(()), |failure| Err(failure.with_done(&run.written.left())))?;
     if !args.quiet || balance == Balance::Lost {
@@ -206,6 +243,23 @@ fn one(args: &Args) -> Result<(Done, Summary, Units), Failure> {
     }
     let done = if balance == Balance::Lost { Done::Unwell } else { Done::Well };
     Ok((done, run.summary, units))
+}
+
+/// Draws the standard plots of a complete run of a deck whose plot card asks for them; those of an earlier run of the deck are
+/// replaced.
+fn draw(args: &Args, opened: &Opened, run: &Simulated) -> Result<(), Failure> {
+    match (&opened.deck, &run.written) {
+        (Some(deck), Written::Complete(file)) if deck.wants_plots => {
+            let is_ours = args.output.is_none() && is_page_of_plots(&with_word(&file.with_extension("svg"), "-plot"));
+            plot::draw_standard(file, args.force || is_ours)
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Whether a file is a sheet of plots that this program drew.
+fn is_page_of_plots(path: &Path) -> bool {
+    std::fs::read_to_string(path).is_ok_and(|text| text.starts_with("<svg") && text.contains("segment axes: X ahead"))
 }
 
 /// What came of something, if anything did.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::base::{Existing, Failure, UnitsArg, file_name, print, sha256, talk};
 use crate::files::history::UnitChoice;
-use crate::files::scenario::{ScenarioArgs, draft, files_beside, inputs, open_draft, warn};
+use crate::files::scenario::{ScenarioArgs, files_beside, inputs, open_source, source};
 use crate::files::table::Form;
 use crate::jobs::export::TableFiles;
 use crate::jobs::sensitivity::{Words, about, analyse, answer, ask, histories, text};
@@ -32,7 +32,7 @@ pub(crate) struct Args {
     of: Vec<String>,
 
     /// Channels whose derivatives over time are written to -o, such as 'head.acceleration.*'
-    #[arg(long, value_name = "NAMES", requires = "output")]
+    #[arg(long = "channel", alias = "channels", value_name = "NAMES", requires = "output")]
     channels: Vec<String>,
 
     /// The table of channels and their derivatives: NAME.csv or NAME.parquet
@@ -54,9 +54,10 @@ pub(crate) struct Args {
 /// Computes and prints the derivatives.
 pub(crate) fn sensitivity(args: &Args) -> Result<(), Failure> {
     let form = args.output.as_deref().map(Form::of_output).transpose()?;
-    let (bytes, base) = draft(&args.scenario)?;
-    let opened = open_draft(&args.scenario, bytes, base.clone())?;
-    warn(&opened.warnings);
+    let source = source(&args.scenario)?;
+    let base = source.draft.clone();
+    let opened = open_source(&args.scenario, source)?;
+    opened.warn();
     let scenario = &args.scenario.scenario;
     let resolver = files_beside(scenario);
     let words = Words { to: &args.to, of: &args.of, channels: &args.channels };

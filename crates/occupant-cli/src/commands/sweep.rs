@@ -83,7 +83,11 @@ pub(crate) fn sweep(args: &Args) -> Result<Done, Failure> {
         (None, Some(study)) => {
             let output = args.output.clone().map_or_else(|| flags::folder_of(study), Ok)?;
             let sweep = open(args, study, &output)?;
-            if args.dry_run { print(&sweep.rehearse()?).map(Into::into) } else { sweep.run() }
+            if args.dry_run {
+                return print(&sweep.rehearse()?).map(Into::into);
+            }
+            sweep.plan.refuse_hopeless()?;
+            sweep.run()
         }
         (None, None) => Err(Failure::plain("a sweep needs a study")),
     }

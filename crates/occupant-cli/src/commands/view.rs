@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::flags::history::seconds;
 use crate::base::progress::{bar, counted};
-use crate::base::{Failure, by_ending, deliver_and, file_name, note, publish, refuse_input, say, with_word};
+use crate::base::{Failure, deliver_and, ending, file_name, note, publish, refuse_input, say, with_word};
 use crate::files::results::Results;
 use crate::files::scenario::{self, ScenarioArgs};
 use crate::pictures::Format;
@@ -80,7 +80,7 @@ pub(crate) fn view(args: &Args) -> Result<(), Failure> {
     let output = args.output.clone().unwrap_or_else(|| with_word(&args.input.with_extension("svg"), "-view"));
     let kind = if args.each.is_some() { Kind::Frames } else { Kind::of(&output)? };
     refuse_input(&output, &args.input)?;
-    if by_ending(&args.input, &[("toml", ()), ("json", ())]).is_some() {
+    if ending(&args.input) != "mcap" {
         return seated(args, &output, kind);
     }
     if !args.overrides.is_empty() {
@@ -184,7 +184,7 @@ fn seated(args: &Args, output: &Path, kind: Kind) -> Result<(), Failure> {
     }
     let scenario = ScenarioArgs { scenario: args.input.clone(), overrides: args.overrides.clone() };
     let opened = scenario::open(&scenario)?;
-    scenario::warn(&opened.warnings);
+    opened.warn();
     let mut first = First(None);
     let run = simulate(&opened.model, &mut first);
     let moments: Vec<Snapshot> = first.0.into_iter().collect();

@@ -3,6 +3,7 @@
 //! Draws no picture, starts no run of its own and knows no command.
 
 mod book;
+pub(crate) mod deck;
 pub(crate) mod export;
 pub(crate) mod history;
 pub mod mcap;

@@ -179,14 +179,14 @@ impl Results {
         self.told(&summarizer)
     }
 
-    /// The same of the case run again, up to the last output, with an output every `interval_s`.
+    /// The same of the case run again, up to the last output, with readings every `interval_s`.
     ///
     /// # Errors
     /// More outputs than a run may have; a run that fails before.
     pub(crate) fn summary_again(&self, options: Options, interval_s: f64) -> Result<Summary, Failure> {
         let mut setup = self.model.setup().clone();
         setup.time.end_s = self.outcome().time_s;
-        setup.time.output_s = interval_s;
+        setup.output.readings_s = Some(interval_s);
         let again = |what: String| self.refused(&format!("it cannot be run again: {what}"));
         let model = Model::new(setup).map_err(|problems| again(self.loaded.diagnose(&problems).to_string()))?;
         let mut summarizer = Summarizer::judging(options);

@@ -5,20 +5,22 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use occupant_core::model::Model;
 use occupant_scenario::{Diagnostics, Draft, Format, Loaded};
-use placed_text::Severity;
+use placed_text::{Severity, Value};
 
+use super::deck::{FromDeck, from_deck, is_deck};
 use super::mcap::StoredRun;
 use super::mcap::about::RESOLVED;
-use crate::base::{Failure, by_ending, ending, file_name, input_file, say};
+use crate::base::{Failure, by_ending, ending, file_name, input_file, quoted, say};
 
 /// Which scenario, and what is changed in it.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct ScenarioArgs {
-    /// The scenario, TOML or JSON; `-` is standard input
+    /// The scenario, TOML or JSON, or a card deck of 1970; `-` is standard input
     #[arg(value_name = "SCENARIO")]
     pub(crate) scenario: PathBuf,
 
-    /// Change a value, such as --set path.speed='30 mph' or --set joints.*.damping=2; may be repeated
+    /// Change a value, such as --set path.speed='30 mph' or --set joints.*.damping=2; =null takes it away, such as --set
+    /// belts.torso=null; may be repeated; the title says it
     #[arg(long = "set", value_name = "PATH.TO.KEY=VALUE")]
     pub(crate) overrides: Vec<String>,
 }
@@ -32,6 +34,23 @@ pub(crate) struct Opened {
     pub(crate) model: Model,
     /// Warnings, with their places.
     pub(crate) warnings: Diagnostics,
+    /// The deck that it was made of.
+    pub(crate) deck: Option<FromDeck>,
+}
+
+impl Opened {
+    /// Says what a deck was taken to mean, and warnings.
+    pub(crate) fn warn(&self) {
+        self.deck.iter().for_each(|deck| say(&deck.words));
+        warn(&self.warnings);
+    }
+}
+
+/// The text of a scenario, with the changes applied.
+pub(crate) struct Source {
+    bytes: Vec<u8>,
+    pub(crate) draft: Draft,
+    deck: Option<FromDeck>,
 }
 
 /// Says warnings, with a blank line behind.
@@ -46,49 +65,83 @@ pub(crate) fn warn(warnings: &Diagnostics) {
 /// # Errors
 /// A file that cannot be read; everything that is wrong with the scenario, at once.
 pub(crate) fn open(args: &ScenarioArgs) -> Result<Opened, Failure> {
-    let (bytes, draft) = draft(args)?;
-    open_draft(args, bytes, draft)
+    open_source(args, source(args)?)
 }
 
-/// Reads the scenario's text and applies the changes.
+/// Reads the scenario's text, or converts the deck in its place, and applies the changes.
 ///
 /// # Errors
 /// A file that cannot be read; everything that is wrong with its words.
-pub(crate) fn draft(args: &ScenarioArgs) -> Result<(Vec<u8>, Draft), Failure> {
+pub(crate) fn source(args: &ScenarioArgs) -> Result<Source, Failure> {
     let path = &args.scenario;
-    let bytes = input_file::bytes(path).and_then(|bytes| input_file::scenario_fits(&bytes).map(|()| bytes));
-    let bytes = bytes.map_err(|error| unreadable(path, &error))?;
+    let bytes = input_file::bytes(path).map_err(|error| unreadable(path, &error))?;
     let name = path.display().to_string();
     let refuse = |problems: Diagnostics| refused(&name, &problems);
     if ending(path) == "mcap" {
         let found = format!("{name} is what a run has written, not a scenario");
         return Err(Failure::with_help(
             found,
-            &format!("occupant measures {name} and occupant report {name} tell of it"),
+            &format!("occupant measures {0} and occupant report {0} tell of it", quoted(&name)),
         ));
     }
-    let mut draft = Draft::read_bytes(&bytes, format_of(path), &name).map_err(refuse)?;
+    let deck = (format_of(path).is_none() && is_deck(&bytes)).then(|| from_deck(path, &bytes)).transpose()?;
+    let mut draft = match &deck {
+        Some(deck) => Draft::read(&deck.toml, Format::Toml, &name).map_err(refuse)?,
+        None => {
+            input_file::scenario_fits(&bytes).map_err(|error| unreadable(path, &error))?;
+            Draft::read_bytes(&bytes, format_of(path), &name).map_err(refuse)?
+        }
+    };
     // a key of studies that no scenario has
     if draft.get("base").is_ok() {
-        let help = format!("occupant sweep {name} runs it; `base` names the scenario that it varies");
+        let help = format!("occupant sweep {} runs it; `base` names the scenario that it varies", quoted(&name));
         return Err(Failure::with_help(format!("{name} is a study, not a scenario"), &help));
     }
     for assignment in &args.overrides {
         draft.set(assignment).map_err(refuse)?;
     }
-    Ok((bytes, draft))
+    retitle(&mut draft, &args.overrides);
+    Ok(Source { bytes, draft, deck })
 }
 
-/// Makes the model of a draft of this scenario.
+/// Changes that are no change of what the title says.
+const UNTOLD: [&str; 3] = ["title", "notes", "time.end"];
+/// So many changes are named in a title.
+const MOST_TOLD: usize = 3;
+
+/// Lets the title say what was changed in the scenario.
+pub(crate) fn retitle(draft: &mut Draft, overrides: &[String]) {
+    let changes = || overrides.iter().filter_map(|assignment| assignment.split_once('='));
+    let told: Vec<String> = changes()
+        .filter(|(path, _)| !UNTOLD.contains(&path.trim()))
+        .map(|(path, value)| format!("{} = {}", path.trim(), value.trim()))
+        .collect();
+    if told.is_empty() || changes().any(|(path, _)| path.trim() == "title") {
+        return;
+    }
+    let Some((_, Value::String(title))) = draft.get("title").ok().and_then(|mut found| found.pop()) else {
+        return;
+    };
+    let more = told.len().saturating_sub(MOST_TOLD);
+    let mut words = told[..told.len() - more].join(" and ");
+    if more > 0 {
+        words += &format!(" and {more} more");
+    }
+    // a text of JSON is one of TOML; a title that cannot be told so stays
+    let _ = serde_json::to_string(&format!("{title}, with {words}")).map(|title| draft.set_value("title", &title));
+}
+
+/// Makes the model of a scenario.
 ///
 /// # Errors
 /// Everything that is wrong with the scenario, at once.
-pub(crate) fn open_draft(args: &ScenarioArgs, bytes: Vec<u8>, draft: Draft) -> Result<Opened, Failure> {
+pub(crate) fn open_source(args: &ScenarioArgs, source: Source) -> Result<Opened, Failure> {
+    let Source { bytes, draft, deck } = source;
     let name = args.scenario.display().to_string();
     let refuse = |problems: Diagnostics| refused(&name, &problems);
     let loaded = draft.load(&files_beside(&args.scenario)).map_err(refuse)?;
     let (model, warnings) = loaded.model().map_err(refuse)?;
-    Ok(Opened { bytes, loaded, model, warnings })
+    Ok(Opened { bytes, loaded, model, warnings, deck })
 }
 
 /// Reads the files that a scenario names, from the folder that it stands in.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crash_measures::unit::{Dimension, Scale, parse};
+use crash_measures::unit::{Dimension, Scale, parse_heading};
 
 use super::mme::Code;
 
@@ -45,12 +45,12 @@ pub(super) fn finite(text: &str) -> Option<f64> {
 pub(crate) fn scale_of(unit: &str) -> Option<Scale> {
     match unit.trim() {
         "-" | "1" | "–" => Some(Scale { dimension: Default::default(), factor: 1.0 }),
-        unit => parse(unit, 0).ok(),
+        unit => parse_heading(unit).ok(),
     }
 }
 
 /// Seconds in one of a unit as written; none if it is no unit of time.
 pub(crate) fn seconds_in(unit: &str) -> Option<f64> {
-    let scale = parse(unit, 0).ok()?;
+    let scale = parse_heading(unit).ok()?;
     (scale.dimension == Dimension::new(0, 0, 1, 0)).then_some(scale.factor)
 }

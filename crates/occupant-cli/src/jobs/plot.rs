@@ -66,13 +66,16 @@ pub(crate) fn plots(request: &Request<'_>) -> Result<(Vec<Figure>, Vec<String>),
     Ok((figures.map_err(|reason| Failure::with_help(reason, separate))?, notes))
 }
 
-/// The standard plots, with the channels that any of the runs has.
+/// The standard plots, with the channels that any of the runs has; those that others have beside the first run's stand behind.
 fn standard_plots(runs: &[Results]) -> Vec<Plot> {
     let mut plots = standard(&runs[0].model, runs.len() > 1);
-    for other in &runs[1..] {
-        for (plot, more) in plots.iter_mut().zip(standard(&other.model, true)) {
-            let new: Vec<Entry> = more.entries.into_iter().filter(|e| !plot.entries.contains(e)).collect();
-            plot.entries.extend(new);
+    for more in runs[1..].iter().flat_map(|other| standard(&other.model, true)) {
+        match plots.iter_mut().find(|plot| plot.title == more.title) {
+            Some(plot) => {
+                let new: Vec<Entry> = more.entries.into_iter().filter(|e| !plot.entries.contains(e)).collect();
+                plot.entries.extend(new);
+            }
+            None => plots.push(more),
         }
     }
     plots

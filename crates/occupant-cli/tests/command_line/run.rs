@@ -72,7 +72,7 @@ fn the_table_and_the_json_tell_the_same_numbers() {
 #[test]
 fn figures_that_cannot_be_trusted_say_so_wherever_they_stand() {
     let folder = tempfile::tempdir().unwrap();
-    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/cart-lap-torso.toml");
+    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/carts/cart-lap-torso.toml");
     let said = |words: &[&str]| {
         let output = answer(folder.path(), words);
         assert_eq!(code(&output), 0, "{}", err(&output));
@@ -134,7 +134,7 @@ fn a_run_that_fails_marks_every_figure_and_judges_its_energy_as_far_as_it_came()
         assert_eq!(code(&output), exit, "{}", err(&output));
         output
     };
-    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/cart-lap-torso.toml");
+    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/carts/cart-lap-torso.toml");
     let stiff = ["materials.*.k1=1e8", "integrator={kind=\"rk4\", step=\"1 ms\"}", "time.end=\"100 ms\""];
     let mut words = vec!["run", scenario, "-f", "-o", "a.mcap"];
     words.extend(stiff.iter().flat_map(|change| ["--set", change]));
@@ -299,13 +299,15 @@ fn friction_is_too_stiff_where_the_energy_balance_says_so() {
         let greatest = ran["unstable_friction"].as_array().unwrap().iter().map(|f| f["number"].as_f64().unwrap());
         (greatest.fold(0.0, f64::max), ran["energy"]["balance_error"].as_f64().unwrap())
     };
-    for (name, below, beyond) in [("cart-unbelted", "0.125 ms", "0.16 ms"), ("rear-seat", "0.075 ms", "0.1 ms")] {
+    for (name, below, beyond) in
+        [("../tests/data/carts/cart-unbelted", "0.125 ms", "0.16 ms"), ("rear-seat", "0.075 ms", "0.1 ms")]
+    {
         let ((none, kept), (number, off)) = (ran(name, below), ran(name, beyond));
         // measured: 2.4e-6 and 3.3e-4, 1.2e-6 and 2.6e-4
         assert!(none == 0.0 && (2.785..4.0).contains(&number), "{name}: {none}, {number}");
         assert!(off > 30.0 * kept, "{name}: {kept}, {off}");
     }
-    for name in ["cart-unbelted", "rear-seat", "rear-seat-solids"] {
+    for name in ["../tests/data/carts/cart-unbelted", "rear-seat", "rear-seat-solids"] {
         let scenario = format!("{}/../../scenarios/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let said = err(&answer(folder.path(), &["run", &scenario, "--no-mcap"]));
         assert!(!said.contains("too stiff"), "{said}");

@@ -11,7 +11,7 @@ fn example() -> tempfile::TempDir {
     let copy = |from: &str, to: &str| {
         fs::copy(scenarios.join(from), folder.path().join(to)).unwrap();
     };
-    copy("cart-lap-torso.toml", "cart-lap-torso.toml");
+    copy("studies/fit-cart/cart.toml", "studies/fit-cart/cart.toml");
     for name in ["test-20mph.csv", "test-15mph.csv"] {
         let name = format!("studies/fit-cart/{name}");
         copy(&name, &name);

@@ -81,3 +81,48 @@ fn flags_that_make_no_sense_are_refused_in_words() {
     let said = err(&output);
     assert!(said.contains("none.toml cannot be read") && said.contains("astray.toml:2:"), "{said}");
 }
+
+/// A study of the interval of the outputs, which a run of 30 ms refuses above 30 ms.
+fn of_intervals(design: &str, from: &str) -> String {
+    let study = STUDY.replace("{ kind = \"latin_hypercube\", samples = 24 }", design);
+    let head = study.split("[[parameters]]").next().expect("a head");
+    format!("{head}[[parameters]]\npath = \"output.interval\"\nrange = {{ from = \"{from}\", to = \"2 s\" }}\n")
+}
+
+#[test]
+fn a_study_of_which_every_sample_is_refused_has_failed_and_says_why() {
+    let folder = folder_with(&of_intervals("{ kind = \"latin_hypercube\", samples = 3 }", "1 s"));
+    for more in [&[][..], &["--quiet"]] {
+        let output = answer(folder.path(), &[&["sweep", "study.toml", "-o", "out", "--restart"][..], more].concat());
+        let said = err(&output);
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(said.contains("every sample is refused") && said.contains("no longer than the run"), "{said}");
+    }
+    let output = answer(folder.path(), &["sweep", "study.toml", "-o", "dry", "--dry-run"]);
+    let said = err(&output);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("of 2 corners of the study 2 are refused"), "{said}");
+}
+
+#[test]
+fn a_dry_run_tries_the_corners_of_the_study_and_tells_all_that_are_refused() {
+    let folder = folder_with(&of_intervals("{ kind = \"one_at_a_time\" }", "1 ms"));
+    let said = done(folder.path(), &["sweep", "study.toml", "-o", "dry", "--dry-run"]);
+    assert!(said.contains("1 of 2 are REFUSED"), "{said}");
+    let corner = said.lines().find(|line| line.contains("output.interval = ")).expect("a line for the corner");
+    assert!(corner.contains("no longer than the run"), "{corner}");
+    assert!(!folder.path().join("dry").exists());
+    // without fault, all stand: each of two parameters alone, and both together
+    let folder = folder_with(STUDY);
+    let said = done(folder.path(), &["sweep", "study.toml", "-o", "dry", "--dry-run"]);
+    assert!(said.contains("8 of the study's least and greatest values tried, none is refused"), "{said}");
+}
+
+#[test]
+fn a_dry_run_of_an_ensemble_shows_samples_and_members_as_numbers() {
+    let folder = folder_with(&format!("{STUDY}\n[ensemble]\nmembers = 3\n"));
+    let said = done(folder.path(), &["sweep", "study.toml", "-o", "dry", "--dry-run"]);
+    assert!(!said.contains("NaN") && !said.contains("inf"), "{said}");
+    let second = said.lines().rev().nth(3).expect("rows");
+    assert!(second.split_whitespace().rev().take(2).eq(["1", "0"]), "{second}");
+}

@@ -16,8 +16,8 @@ use nalgebra::{Point3, UnitQuaternion, Vector2, Vector3};
 pub use people::Sex;
 pub(crate) use together::called;
 pub use tree::{
-    End, Joint, JointKind, JointRow, Landmarks, Limb, Pair, Place, Segment, SegmentRow, Side, SphereRow, Tree, Width,
-    both_sides,
+    BodyRow, End, Joint, JointKind, JointRow, Landmarks, Limb, Pair, Place, Segment, SegmentRow, Side, SphereRow, Tree,
+    Width, both_sides,
 };
 
 /// Number of rigid segments of the report's body.

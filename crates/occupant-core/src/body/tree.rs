@@ -224,7 +224,7 @@ pub struct Landmarks {
 
 impl Landmarks {
     /// Of what has no parts with names.
-    pub(crate) const NONE: Landmarks = Landmarks {
+    pub const NONE: Landmarks = Landmarks {
         head: None,
         chest: None,
         pelvis: None,
@@ -452,6 +452,17 @@ impl Tree {
     pub(crate) fn inwards(&self, segment: Segment) -> impl Iterator<Item = Segment> + Clone + '_ {
         let proximal = |n: &Segment| Some(self[self.carrier(*n)?].proximal);
         std::iter::successors(Some(segment), proximal)
+    }
+
+    /// The joints from one segment to another, in this order.
+    pub fn joints_between(&self, from: Segment, to: Segment) -> Vec<Joint> {
+        let ways = [from, to].map(|end| self.inwards(end).collect::<Vec<_>>());
+        let apart = |way: &[Segment], other: &[Segment]| {
+            let own = way.iter().filter(|segment| !other.contains(segment));
+            own.filter_map(|segment| self.carrier(*segment)).collect::<Vec<_>>()
+        };
+        let (down, up) = (apart(&ways[0], &ways[1]), apart(&ways[1], &ways[0]));
+        down.into_iter().chain(up.into_iter().rev()).collect()
     }
 
     /// Whether a segment belongs to a limb: the limb's own, hands, feet and whatever they carry.

@@ -2,6 +2,7 @@
 //!
 //! All figures are those of the start of the run. Ours; the report prints the seating only.
 
+mod ahead;
 mod friction;
 mod rates;
 mod start;
@@ -12,9 +13,10 @@ use serde::Serialize;
 
 pub use crate::forces::rate::Rate;
 use crate::forces::table::Tables;
+pub use ahead::OpenAhead;
 pub use friction::{FrictionWatch, UnstableFriction};
 pub use rates::{RK4_STABILITY_LIMIT, SphereRate};
-pub use start::{ContactStart, SeatStart, SphereBehind};
+pub use start::{ContactStart, FrictionFigures, SeatStart, SphereBehind};
 
 use crate::body::Segment;
 use crate::model::Model;
@@ -39,8 +41,13 @@ pub struct Diagnosis {
     pub seat: Option<SeatStart>,
     /// Pairs that exert a force at the start.
     pub contacts: Vec<ContactStart>,
+    /// Materials that rub.
+    pub friction: Vec<FrictionFigures>,
     /// Spheres that start behind a surface and do not feel it until they have come out.
     pub behind: Vec<SphereBehind>,
+    /// Occupants without a belt in whose way ahead neither panel nor windscreen stands.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub open_ahead: Vec<OpenAhead>,
     /// Corners of two surfaces within reach that a sphere may come round without touching either.
     pub corners: Vec<[String; 2]>,
     /// Parts of the body with those that they can touch.
@@ -125,6 +132,13 @@ impl Diagnosis {
     pub fn step_is_stable(&self) -> bool {
         self.step_by_time_scale.is_none_or(|number| number < RK4_STABILITY_LIMIT)
     }
+
+    /// The rates that the fixed step is too long for.
+    pub fn too_fast(&self) -> Vec<&Rate> {
+        let all = self.sphere_rates.iter().map(|s| &s.rate).chain(&self.other_rates);
+        let limit_s = self.run.step_s.map_or(0.0, |step_s| step_s / RK4_STABILITY_LIMIT);
+        all.filter(|rate| rate.time_scale_s <= limit_s).collect()
+    }
 }
 
 /// Looks at the start of a run.
@@ -155,7 +169,9 @@ pub fn diagnose(model: &Model) -> Diagnosis {
         surfaces: setup.surfaces.len() + setup.solids.len(),
         seat: start::seat(model),
         contacts: start.contacts,
+        friction: start::friction(model),
         behind: start::behind(model, &mobility),
+        open_ahead: ahead::open_ahead(model),
         corners: start::corners(model),
         self_contact: start::self_contact(model),
         elements: start.elements,

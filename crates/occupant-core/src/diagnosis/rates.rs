@@ -108,21 +108,19 @@ fn normal_in_space(model: &Model, centre: V3<f64>, surface: usize) -> Vector3<f6
 
 /// Motion of a frame at the start.
 pub(super) fn frame_at_start(model: &Model, frame: Frame) -> FrameMotion {
-    let (start_s, vehicle) = (model.setup().time.start_s, vehicle_at_start(model));
-    let all = model.frames_with(start_s, start_s, &vehicle);
+    frame_at(model, frame, model.setup().time.start_s)
+}
+
+/// Motion of a frame at a time, s; of one that a body carries, at the start.
+pub(super) fn frame_at(model: &Model, frame: Frame, time_s: f64) -> FrameMotion {
+    let vehicle = model.setup().path.motion(time_s, time_s, &mut PathCursor::default());
+    let all = model.frames_with(time_s, time_s, &vehicle);
     match frame {
         Frame::Vehicle => vehicle,
         Frame::Space => FrameMotion::space(),
         Frame::Other(_) => all[frame.index(&[])].motion(),
         Frame::Segment(n) => Kinematics::new(&model.system().skeleton, &model.start().state).moving(n).motion(),
     }
-}
-
-/// Motion of the vehicle at the start.
-pub(super) fn vehicle_at_start(model: &Model) -> FrameMotion {
-    let start_s = model.setup().time.start_s;
-    let path = &model.setup().path;
-    path.motion(start_s, start_s, &mut PathCursor::default())
 }
 
 /// The stiffest contact of each sphere that can touch anything.

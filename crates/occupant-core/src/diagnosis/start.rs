@@ -7,6 +7,7 @@ use super::rates::frame_at_start;
 use crate::forces::Instant;
 use crate::forces::contact::PASSED;
 use crate::forces::contact::flat_face::FlatFace;
+use crate::forces::contact::material::Material;
 use crate::forces::contact::surface::Outline;
 use crate::forces::rate::Rate;
 use crate::forces::table::Tables;
@@ -53,7 +54,45 @@ pub struct ContactStart {
     pub depth_m: f64,
     /// Normal force.
     pub normal_force_n: f64,
+    /// Friction, as it is with so little slip.
+    pub friction_n: f64,
+    /// What it comes to where it slips fast.
+    pub full_friction_n: f64,
 }
+
+/// What a material's friction is below its full value.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FrictionFigures {
+    /// Name of the material.
+    pub material: String,
+    /// f.
+    pub coefficient: f64,
+    /// v_s, slip at which friction reaches 71 % of its full value.
+    pub speed_m_s: f64,
+    /// With which speed a body creeps down a slope of 10° on it; none where it slides.
+    pub creeps_m_s: Option<f64>,
+}
+
+/// Friction of the materials that something is made of.
+pub(super) fn friction(model: &Model) -> Vec<FrictionFigures> {
+    let setup = model.setup();
+    let used = |i: &usize| (0..setup.surface_names().count()).any(|surface| setup.surface_material(surface) == *i);
+    let rubs = (0..setup.materials.len()).filter(used).map(|i| &setup.materials[i]).filter(|m| m.friction > 0.0);
+    let figures = |m: &Material| {
+        // v_s tan θ/√(f² − tan² θ)
+        let rest = m.friction * m.friction - TAN_10 * TAN_10;
+        FrictionFigures {
+            material: m.name.clone(),
+            coefficient: m.friction,
+            speed_m_s: m.friction_speed_m_s,
+            creeps_m_s: (rest > 0.0).then(|| m.friction_speed_m_s * TAN_10 / rest.sqrt()),
+        }
+    };
+    rubs.map(figures).collect()
+}
+
+/// tan 10°.
+const TAN_10: f64 = 0.176_326_980_708_464_98;
 
 /// A sphere whose centre starts behind a surface, in front of which a user would look for it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -101,6 +140,8 @@ fn contact(sample: &Sample<'_>, contact: &Contact) -> ContactStart {
         surface: setup.surface_name(contact.surface).unwrap_or_default().to_owned(),
         depth_m: contact.depth_m,
         normal_force_n: contact.normal_force_n,
+        friction_n: contact.friction_n.norm(),
+        full_friction_n: setup.materials[setup.surface_material(contact.surface)].friction * contact.normal_force_n,
     }
 }
 

@@ -138,13 +138,13 @@ pub trait Element: Copy + Debug {
 
     /// Where between `before` and `now`, of the times `times_s`, the first switch of the one of this number was due, as a part
     /// of the way; none where it cannot be told. Up to 0 it was due before.
-    fn due(
-        _law: &Self::Law<f64>,
+    fn due<S: Scalar<Mask = bool>>(
+        _law: &Self::Law<S>,
         _number: usize,
-        _before: &Self::Past<f64>,
-        _now: &Self::Past<f64>,
-        _times_s: [f64; 2],
-    ) -> Option<f64> {
+        _before: &Self::Past<S>,
+        _now: &Self::Past<S>,
+        _times_s: [S; 2],
+    ) -> Option<S> {
         None
     }
 
@@ -180,9 +180,11 @@ pub trait Element: Copy + Debug {
     fn stored_j(actions: &[Self::Action<f64>], stored_j: &mut [f64; STORES]);
 }
 
-/// Where on the straight way from one number to another, greater one a level is reached, as a part of the way.
-pub(crate) fn passes(level: f64, before: f64, now: f64) -> f64 {
-    if now > before { (level - before) / (now - before) } else { 0.0 }
+/// Where on the straight way from one number to another, greater one a level is reached, as a part of the way. Its slopes are
+/// those of what is left to the level behind the way.
+pub(crate) fn passes<S: Scalar>(level: S, before: S, now: S) -> S {
+    let way = (now - before).value_alone();
+    S::select(now.gt(before), S::one() + (level - now) / way, S::zero())
 }
 
 /// What spares an evaluation needless work.
@@ -268,6 +270,8 @@ impl<'a, S: Scalar> Instant<'a, S> {
     }
 }
 
+/// Legs of all bodies.
+pub(crate) const MOST_LEGS: usize = 2 * MOST_BODIES;
 /// Most frames that give way.
 pub(crate) const MOST_GIVING: usize = 2;
 
@@ -286,6 +290,11 @@ pub struct Load<S> {
     bodies: usize,
     /// Rates of the numbers of the state that force elements own, which each writes anew, 1/s.
     pub own: [S; MOST_OWN],
+    /// By segment: the moment of all but joints, N·m.
+    pub(crate) outer: [V3<S>; MOST_SEGMENTS],
+    /// By leg: what acts on the spheres at its knee, space axes, N.
+    pub(crate) knees: [V3<S>; MOST_LEGS],
+    segments: usize,
 }
 
 impl<S: Scalar> Load<S> {
@@ -299,7 +308,9 @@ impl<S: Scalar> Load<S> {
         let (wrench, power) = ([Wrench::zero(); MOST_SEGMENTS], [Work::zero(); MOST_BODIES]);
         let (bodies, own) = (layout.trunks().len(), [S::zero(); MOST_OWN]);
         let onto = [[V3::zero(); MOST_GIVING]; MOST_BODIES];
-        let mut load = Load { wrench, power, onto, giving: [0; MOST_FRAMES], body_of, bodies, own };
+        let (outer, knees) = ([V3::zero(); MOST_SEGMENTS], [V3::zero(); MOST_LEGS]);
+        let (none, segments) = ([0; MOST_FRAMES], layout.len());
+        let mut load = Load { wrench, power, onto, giving: none, body_of, bodies, own, outer, knees, segments };
         for (frame, behind) in giving.into_iter().zip(1..=MOST_GIVING as u8) {
             load.giving[frame % MOST_FRAMES] = behind;
         }
@@ -312,6 +323,23 @@ impl<S: Scalar> Load<S> {
         self.wrench[..segments].fill(Wrench::zero());
         self.power[..self.bodies].fill(Work::zero());
         self.onto[..self.bodies].fill([V3::zero(); MOST_GIVING]);
+        self.knees[..2 * self.bodies].fill(V3::zero());
+        self.segments = segments;
+    }
+
+    /// Keeps the moments so far: those that come are of joints.
+    #[inline(always)]
+    pub(crate) fn end_of_outer(&mut self) {
+        let both = self.outer.iter_mut().zip(&self.wrench).take(self.segments);
+        both.for_each(|(outer, wrench)| *outer = wrench.moment);
+    }
+
+    /// Notes a force on a sphere, in space axes, N, where it is `live` and the sphere at a knee.
+    #[inline(always)]
+    pub(crate) fn press_knee(&mut self, site: &Site<S>, force: V3<S>, live: S::Mask) {
+        let Some(knee) = site.knee else { return };
+        let on = &mut self.knees[knee % MOST_LEGS];
+        *on = V3::select(live, *on + force, *on);
     }
 
     /// How many bodies there are.

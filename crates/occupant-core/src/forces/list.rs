@@ -11,7 +11,7 @@ use super::joint::limit::JointLimits;
 use super::joint::muscle::Muscles;
 use super::pace::Pace;
 use super::rate::Rate;
-use super::shown::Reported;
+use super::shown::{Reported, Tracker};
 use super::stored::Archive;
 use crate::body::Body;
 use crate::forces::sphere::Site;
@@ -89,6 +89,19 @@ macro_rules! kinds {
             )+
         }
 
+        /// Follows everything, in the order of the kinds.
+        #[derive(Debug)]
+        pub(crate) struct Follow<T>(pub T);
+
+        impl<S: Scalar, T: Tracker<S>> Observer<S> for Follow<T> {
+            $(
+                #[inline(always)]
+                fn $kind(&mut self, action: &<$Kind as Element>::Action<S>) {
+                    $Kind::track(action, &mut self.0);
+                }
+            )+
+        }
+
         /// Sees what another sees, or nothing: one kernel for what is observed now and then.
         impl<S, O: Observer<S>> Observer<S> for Option<&mut O> {
             $(
@@ -147,6 +160,11 @@ macro_rules! kinds {
         }
 
         impl Actions<f64> {
+            /// Shows all to who follows it, in the order of the kinds.
+            pub(crate) fn follow(&self, tracker: &mut impl Tracker<f64>) {
+                $(self.$kind.iter().for_each(|action| $Kind::track(action, tracker));)+
+            }
+
             /// Stored energies in the order of [`STORED`], J.
             pub(crate) fn stored_j(&self) -> [f64; STORES] {
                 let mut list = [0.0; STORES];
@@ -302,7 +320,7 @@ macro_rules! kinds {
         impl<S: Scalar> Memory<S> {
             /// Where something has switched between this and `now`, of the same elements.
             #[inline(always)]
-            pub(crate) fn has_switched(&self, now: &Self) -> S::Mask {
+            pub fn has_switched(&self, now: &Self) -> S::Mask {
                 let mut mask = S::truth(false);
                 $(
                     for (before, now) in self.$kind.iter().zip(&now.$kind) {
@@ -325,13 +343,16 @@ macro_rules! kinds {
                 )+
                 list
             }
+        }
 
+        impl<S: Scalar<Mask = bool>> Memory<S> {
             /// Where between this and `now` the first switch was due; see [`Element::due`].
-            pub(crate) fn due(&self, now: &Self, forces: &Forces<f64>, times_s: [f64; 2]) -> Due {
-                let mut due = Due { share: f64::INFINITY, is_known: true };
+            pub fn due(&self, now: &Self, forces: &Forces<S>, times_s: [S; 2]) -> Due<S> {
+                let mut due = Due { share: S::of(f64::INFINITY), is_known: true };
                 $(
                     for (i, (before, now)) in self.$kind.iter().zip(&now.$kind).enumerate() {
-                        if $Kind::switches::<f64>(before) != $Kind::switches::<f64>(now) {
+                        let [was, is] = [before, now].map($Kind::switches::<S>);
+                        if was.lt(is) || is.lt(was) {
                             due.see($Kind::due(&forces.$kind, i, before, now, times_s));
                         }
                     }
@@ -471,17 +492,17 @@ impl<S> Observer<S> for () {}
 
 /// When the first of several switches was due.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Due {
+pub struct Due<S> {
     /// As a part of the way between two memories; of one that cannot tell, the middle.
-    pub share: f64,
+    pub share: S,
     /// Whether all can tell.
     pub is_known: bool,
 }
 
-impl Due {
-    fn see(&mut self, share: Option<f64>) {
+impl<S: Scalar> Due<S> {
+    fn see(&mut self, share: Option<S>) {
         self.is_known &= share.is_some();
-        self.share = self.share.min(share.unwrap_or(0.5));
+        self.share = self.share.min(share.unwrap_or(S::of(0.5)));
     }
 }
 

@@ -4,6 +4,7 @@ use std::marker::PhantomData;
 
 use nalgebra::{Point3, Vector3};
 
+use super::contact::Touch;
 use super::contact::surface::Frame;
 use super::element::Element;
 use super::stored::Archive;
@@ -22,10 +23,14 @@ pub trait Reported: Element + 'static {
     /// Fields of that message and time histories of one of them.
     const QUANTITIES: &'static [Quantity<OneOf<Self>>] = &[];
     /// The numbers of one of them whose peaks a run's summary tells.
-    const PEAKS: &'static [Tracked<Self::Action<f64>>] = &[];
+    const PEAKS: &'static [Tracked] = &[];
 
     /// Whether a run's summary tells what happens to them: [`Reported::event`].
     const TELLS: bool = false;
+
+    /// Shows what one of them does to who follows it: the numbers of [`Reported::PEAKS`] in their order.
+    #[inline(always)]
+    fn track<S: Scalar>(_action: &Self::Action<S>, _tracker: &mut impl Tracker<S>) {}
 
     /// Exchanges what they remember with a result file; at the start of a step `like` is what they remember at the output.
     fn keep(_past: &mut Vec<Self::Past<f64>>, _like: Option<&[Self::Past<f64>]>, _file: &mut dyn Archive) {}
@@ -138,11 +143,17 @@ pub struct Pull<'a> {
     pub force_n: Vector3<f64>,
 }
 
-/// A number whose greatest value in a run is kept.
+/// Follows what force elements do from step to step.
+pub trait Tracker<S> {
+    /// A number whose greatest value is kept.
+    fn number(&mut self, number: S);
+    /// A sphere touches something.
+    fn touch(&mut self, touch: &Touch<S>);
+}
+
+/// A number whose greatest value in a run is kept: [`Reported::track`] shows it.
 #[derive(Clone, Copy, Debug)]
-pub struct Tracked<A> {
-    /// Where it comes from.
-    pub of: fn(&A) -> f64,
+pub struct Tracked {
     /// Column of the peak.
     pub column: Column,
     /// Column of its time, which is absent where the peak is not above 0.

@@ -14,18 +14,25 @@ pub struct Site<S> {
     pub offset: V3<S>,
     /// r, m.
     pub radius: S,
+    /// The leg at whose knee it is, among those of all bodies; none of other spheres.
+    pub knee: Option<usize>,
 }
 
 impl<S: Copy> Site<S> {
     pub(crate) fn zip<A: Copy, T>(&self, other: &Site<A>, f: &impl Fn(S, A) -> T) -> Site<T> {
-        Site { segment: self.segment, offset: self.offset.zip(&other.offset, f), radius: f(self.radius, other.radius) }
+        Site {
+            segment: self.segment,
+            offset: self.offset.zip(&other.offset, f),
+            radius: f(self.radius, other.radius),
+            knee: self.knee,
+        }
     }
 }
 
 impl<S: Scalar> Site<S> {
     pub(crate) fn new(body: &Body, sphere: &ContactSphere) -> Site<S> {
         let offset = sphere.centre_from_lower_end_m.coords - body.joint_m(sphere.segment);
-        Site { segment: sphere.segment.index(), offset: V3::of(&offset), radius: S::of(sphere.radius_m) }
+        Site { segment: sphere.segment.index(), offset: V3::of(&offset), radius: S::of(sphere.radius_m), knee: None }
     }
 
     /// The spheres of `body`, in its order.

@@ -6,7 +6,7 @@
 //! - F = (K₁/μ₁) e for 0 < e ≤ μ₁a, then slope K₂/μ₂: the unloading line, which meets the loading curve at Δ_m;
 //! - U = ∫F de, the energy that unloading gives back: exactly μ₁ of what range 1 took and μ₂ of what range 2 took.
 //!
-//! Loading is the case Δ = Δ_m of the same formula.
+//! Loading is the case Δ = Δ_m of the same formula. K₁ = 0 is a gap: no force up to Δ_b, whatever μ₁ is.
 
 use crate::motion::scalar::Scalar;
 use placed_text::Problems;
@@ -64,6 +64,10 @@ impl BilinearSpring {
         problems.check_at_least_zero(&format!("{path}.k2"), self.k2_n_per_m, "N/m");
         problems.check_at_least_zero(&format!("{path}.break_at"), self.break_m, "m");
         let (k1, k2) = (self.k1_n_per_m, self.k2_n_per_m);
+        if k1 == 0.0 && k2 == 0.0 {
+            let expected = "a stiffness above 0, or behind a gap `k2` above 0 from `delta_b` on";
+            problems.error(format!("{path}.k1"), "0 N/m, and no stiffness behind it", expected);
+        }
         if k2 > 0.0 && k2 < k1 && self.returned_2 > YIELDING {
             let found = format!("{k2} N/m, softer than k1 = {k1} N/m, of a spring that gives back {}", self.returned_2);
             let expected =
@@ -151,5 +155,67 @@ impl<S: Scalar> Spring<S> {
     /// Slope of the stiffest branch, N/m, for estimates of the fastest time scale.
     pub fn steepest(&self) -> S {
         self.k1.max(self.k2).max(self.k1_back).max(self.k2_back)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::forces::function::DeflectionLaw;
+    use crate::forces::function::{ForceDeflection, Function};
+
+    /// A gap of 25 mm before 40 kN/m, of which 30 % come back.
+    fn gap(returned_1: f64) -> BilinearSpring {
+        BilinearSpring { returned_2: 0.3, ..BilinearSpring::linear(0.0, returned_1).then(0.025, 40e3) }
+    }
+
+    #[test]
+    fn a_first_slope_of_zero_is_a_gap() {
+        for returned_1 in [0.0, 0.3, 1.0] {
+            let spring = Spring::<f64>::new(&gap(returned_1));
+            for depth in [0.0, 0.01, 0.025] {
+                assert_eq!(spring.respond(depth, depth), (0.0, 0.0));
+            }
+            let top = 0.075;
+            let (force, energy) = spring.respond(top, top);
+            assert!((force - 2000.0).abs() < 1e-9, "{force}"); // 2.3e-13
+            assert!((energy - 0.3 * 0.5 * 40e3 * 0.05 * 0.05).abs() < 1e-9, "{energy}"); // 7e-15
+            // what comes back on the way down is what was stored
+            let steps = 200_000;
+            let at = |i: i32| spring.respond(top * f64::from(i) / f64::from(steps), top).0;
+            let back: f64 = (0..steps).map(|i| 0.5 * (at(i) + at(i + 1)) * top / f64::from(steps)).sum();
+            assert!((back - energy).abs() < 1e-6, "{back} {energy}"); // 1.0e-9
+            let mut problems = Problems::new();
+            gap(returned_1).check("k", &mut problems);
+            assert!(!problems.has_errors());
+        }
+        let mut problems = Problems::new();
+        BilinearSpring::linear(0.0, 0.5).check("k", &mut problems);
+        assert!(problems.has_errors(), "a spring that never resists");
+    }
+
+    #[test]
+    fn a_force_function_with_a_gap_is_the_same_spring() {
+        let loading = Function {
+            points: vec![[0.0, 0.0], [0.025, 0.0], [0.125, 4000.0]],
+            returned: vec![0.6, 0.3],
+            ..Function::lines(Vec::new(), 1.0)
+        };
+        let data = ForceDeflection { loading, ..ForceDeflection::lines(Vec::new(), 1.0) };
+        let mut problems = Problems::new();
+        data.check("f", &mut problems);
+        assert!(!problems.has_errors(), "{problems:?}");
+        let (law, spring) = (DeflectionLaw::new(&data, 1.0), Spring::<f64>::new(&gap(0.6)));
+        for i in 0..40 {
+            for j in i..40 {
+                let [depth, top] = [i, j].map(|k| 0.0031 * f64::from(k));
+                let (of_law, of_spring) = (law.respond(depth, top, 0.0), spring.respond(depth, top));
+                assert!((of_law.0 - of_spring.0).abs() < 1e-9 && (of_law.1 - of_spring.1).abs() < 1e-9); // 2e-12
+            }
+        }
+        let none = ForceDeflection::lines(vec![[0.0, 0.0], [0.1, 0.0]], 1.0);
+        let mut problems = Problems::new();
+        none.check("f", &mut problems);
+        assert!(problems.has_errors(), "a function without force");
     }
 }

@@ -40,6 +40,13 @@ impl dyn Archive + '_ {
         if let Value::Numbers(stored) = value { stored } else { Vec::new() }
     }
 
+    /// Exchanges a long list of numbers of single precision.
+    pub(crate) fn singles(&mut self, words: FieldWords, list: Vec<f32>) -> Vec<f32> {
+        let mut value = Value::Singles(list);
+        self.exchange(words, &mut value);
+        if let Value::Singles(stored) = value { stored } else { Vec::new() }
+    }
+
     /// Exchanges a list of indices.
     pub(crate) fn indices(&mut self, words: FieldWords, list: Vec<u32>) -> Vec<u32> {
         let mut value = Value::Indices(list);

@@ -43,8 +43,8 @@ impl System<f64> {
     ) -> Evaluation<f64> {
         let mut scratch = Scratch::blank(self);
         self.derive_once(&mut scratch, situation, history, observer);
-        let Scratch { kinematics, load: Load { wrench, power, .. }, sweep, .. } = scratch;
-        Evaluation { kinematics, wrench, accelerations: sweep.accelerations, power }
+        let Scratch { kinematics, load: Load { wrench, power, outer, knees, .. }, sweep, .. } = scratch;
+        Evaluation { kinematics, wrench, accelerations: sweep.accelerations, power, outer, knees }
     }
 
     /// [`System::rate_with`] by [`System::derive_once`].

@@ -6,11 +6,14 @@
 //! Results that are not integrated (which surface is touched, how strongly) go to an [`Observer`]; the unit observer `()`
 //! costs nothing.
 
+pub(crate) mod carried;
 mod dispatch;
+pub(crate) mod instruments;
 
 use crate::forces::column;
 use crate::forces::sphere::Site;
-use crate::forces::{Forces, History, Instant, Load, Observer, Unlike};
+use crate::forces::{Forces, History, Instant, Load, MOST_LEGS, Observer, Unlike};
+use crate::kernel::instruments::Instruments;
 use crate::motion::dynamics::{Accelerations, Sweep, Wrench};
 use crate::motion::frame::{Frames, Moving};
 use crate::motion::kinematics::Kinematics;
@@ -36,12 +39,14 @@ pub struct System<S> {
     pub carriers: Vec<usize>,
     /// Force elements.
     pub forces: Forces<S>,
+    /// Instruments of the bodies; none are read of bodies that have not been fitted with them.
+    pub(crate) instruments: Vec<Instruments<S>>,
 }
 
 impl<S> System<S> {
     /// Of these parts; the segments that carry faces are those of contacts.
     pub fn new(skeleton: Skeleton<S>, spheres: Vec<Site<S>>, forces: Forces<S>) -> Self {
-        System { skeleton, spheres, carriers: forces.contacts.carriers.clone(), forces }
+        System { skeleton, spheres, carriers: forces.contacts.carriers.clone(), forces, instruments: Vec::new() }
     }
 }
 
@@ -57,7 +62,9 @@ impl<S: Copy> System<S> {
         if self.spheres.len() != other.spheres.len() || spheres.clone().any(|(a, b)| a.segment != b.segment) {
             return Err(OTHER_SPHERES);
         }
-        if !self.skeleton.is_like(&other.skeleton) || self.carriers != other.carriers {
+        let instruments = self.instruments.iter().zip(&other.instruments);
+        let is_like = self.skeleton.is_like(&other.skeleton) && instruments.clone().all(|(a, b)| a.is_like(b));
+        if !is_like || self.carriers != other.carriers {
             return Err(OTHER_TREE);
         }
         Ok(System {
@@ -65,6 +72,7 @@ impl<S: Copy> System<S> {
             spheres: spheres.map(|(a, b)| a.zip(b, &f)).collect(),
             carriers: self.carriers.clone(),
             forces: self.forces.zip(&other.forces, &f)?,
+            instruments: instruments.map(|(a, b)| a.zip(b, &f)).collect(),
         })
     }
 }
@@ -103,6 +111,10 @@ pub struct Evaluation<S> {
     pub accelerations: Accelerations<S>,
     /// Powers for the energy ledger by body, W.
     pub power: [Work<S>; MOST_BODIES],
+    /// By segment: the moment of all loads but those of joints, N·m.
+    pub(crate) outer: [V3<S>; MOST_SEGMENTS],
+    /// By leg: what acts on the spheres at its knee, N.
+    pub(crate) knees: [V3<S>; MOST_LEGS],
 }
 
 /// What an evaluation writes on its way: a place that the next one uses again.
@@ -189,18 +201,6 @@ impl<S: Scalar> System<S> {
     #[inline(always)]
     pub(crate) fn carry(&self, state: &State<S>, frames: &mut Frames<S>) {
         column::carry(&self.forces.columns, state, frames);
-    }
-
-    /// Resultants of what accelerometers of head, chest and pelvis read at the evaluation that has just been made, m/s²; 0 of
-    /// what the body lacks.
-    #[inline(always)]
-    pub(crate) fn readings(&self, Scratch { kinematics, sweep, .. }: &Scratch<S>) -> [S; 3] {
-        let of = |n: usize| {
-            let mut a = sweep.accelerations.cg(&self.skeleton, kinematics, n);
-            a.z += self.skeleton.gravity;
-            a.norm_squared().sqrt()
-        };
-        self.skeleton.instruments.map(|segment| segment.map_or(S::zero(), of))
     }
 
     /// A sphere's centre seen from its segment's joint, in space, and its velocity; all in space axes.

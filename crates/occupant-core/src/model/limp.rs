@@ -3,15 +3,12 @@
 //! Our decision (the report has none): where it comes to lie is the minimum of the potential energy V below the posture that
 //! it was seated in, at rest, without friction and damping; its muscles rest. Freedoms x are the displacement of T1, the turn
 //! of the first segment, of all that hangs on a ball joint about that joint, and of a hinge about its axis; −∂V/∂x is the load
-//! there. Newton's method, shifted so that it goes downhill:
-//!
-//! (H + λ1) δ = −g,   g = ∂V/∂x, H its differences, made symmetric
-//!
-//! A step is taken where V falls, ½(g + g′)·δ < 0. It begins where the body as one piece has settled: there springs and locks are
+//! there, and [`descend`] goes down. It begins where the body as one piece has settled: there springs and locks are
 //! at rest, and belts of one loop have their length and slack.
 
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use nalgebra::{DVector, Matrix3, Vector3};
 
+use super::descent::{Movable, descend};
 use super::settle::{LEVER_M, MOST_LOOKS, Settled, at_rest, loads_beyond, turned_by};
 use crate::forces::belt::Belts;
 use crate::forces::joint::JointSystem;
@@ -29,15 +26,6 @@ use crate::motion::state::State;
 use crate::motion::vector::V3;
 use crate::vehicle::FrameMotion;
 use crash_measures::trig;
-
-/// A step moves or turns no freedom by more, m: the forces are stiff and only piecewise smooth.
-const MOST_STEP_M: f64 = 0.03;
-/// Each freedom is moved by so much for differences, m.
-const DIFFERENCE_M: f64 = 1e-6;
-/// Loads below this part of the weight are none.
-const REST: f64 = 1e-8;
-/// Steps at most.
-const MOST_STEPS: usize = 1000;
 
 /// A limp body at rest in a vehicle that stands still.
 struct Limp {
@@ -65,27 +53,7 @@ pub(super) fn sink(
     limp.system.forces.muscles.clear();
     limp.rest.keep(&mut limp.system.forces);
     let weight_n = setup.body.mass_kg() * setup.gravity_m_s2;
-    let (mut state, mut g) = (seated, limp.gradient(&seated));
-    let mut shift = 1e-3;
-    for _ in 0..MOST_STEPS {
-        if g.amax() < REST * weight_n.max(1.0) || limp.looks > 2 * MOST_LOOKS {
-            break;
-        }
-        let hessian = limp.hessian(&state, &g);
-        let scale = hessian.diagonal().amax();
-        let taken = std::iter::repeat_with(|| {
-            let tried = downhill(&hessian, &g, shift * scale).map(|step| {
-                let next = moved(&limp.system.skeleton, &state, &step);
-                let slope = limp.gradient(&next);
-                (next, (&g + &slope).dot(&step) < 0.0, slope)
-            });
-            let found = tried.filter(|(_, falls, _)| *falls);
-            shift = if found.is_some() { (shift * 0.2).max(1e-12) } else { shift * 4.0 };
-            found
-        });
-        let Some((next, _, slope)) = taken.take(40).flatten().next() else { break };
-        (state, g) = (next, slope);
-    }
+    let (state, g) = descend(&mut limp, &seated, weight_n);
     (state, settled(&seated, &state, &g, weight_n), limp.rest)
 }
 
@@ -124,7 +92,7 @@ impl Rest {
     }
 }
 
-impl Limp {
+impl Movable for Limp {
     /// ∂V/∂x at a place, in the order of [`moved`]: N, and N·m over the lever.
     fn gradient(&mut self, state: &State<f64>) -> DVector<f64> {
         let k = Kinematics::new(&self.system.skeleton, state);
@@ -146,20 +114,17 @@ impl Limp {
         -DVector::from_vec(g)
     }
 
-    /// ∂²V/∂x².
-    fn hessian(&mut self, state: &State<f64>, g: &DVector<f64>) -> DMatrix<f64> {
-        let column = |i: usize| {
-            let step = DVector::from_fn(g.len(), |j, _| if i == j { DIFFERENCE_M } else { 0.0 });
-            let next = moved(&self.system.skeleton, state, &step);
-            (self.gradient(&next) - g) / DIFFERENCE_M
-        };
-        let columns: Vec<DVector<f64>> = (0..g.len()).map(column).collect();
-        let hessian = DMatrix::from_columns(&columns);
-        (&hessian + hessian.transpose()) * 0.5
+    fn moved(&self, state: &State<f64>, x: &DVector<f64>) -> State<f64> {
+        moved(&self.system.skeleton, state, x)
+    }
+
+    fn is_spent(&self) -> bool {
+        self.looks > 2 * MOST_LOOKS
     }
 }
 
-fn settled(seated: &State<f64>, state: &State<f64>, g: &DVector<f64>, weight_n: f64) -> Settled {
+/// What a body has come to that went down from where it was `seated`.
+pub(super) fn settled(seated: &State<f64>, state: &State<f64>, g: &DVector<f64>, weight_n: f64) -> Settled {
     let [from, to] = [seated, state].map(|state| axes(&state.orientation(0)).to_matrix());
     let turn = quaternion(&(to * from.transpose()));
     Settled {
@@ -170,14 +135,6 @@ fn settled(seated: &State<f64>, state: &State<f64>, g: &DVector<f64>, weight_n: 
         weight_n,
         lack: None,
     }
-}
-
-/// −(H + λ1)⁻¹g, shortened where it is too long; none where H + λ1 is not positive definite.
-fn downhill(hessian: &DMatrix<f64>, g: &DVector<f64>, shift: f64) -> Option<DVector<f64>> {
-    let shifted = hessian + DMatrix::from_diagonal_element(g.len(), g.len(), shift + 1e-9);
-    let step = -shifted.cholesky()?.solve(g);
-    let most = step.amax();
-    Some(if most > MOST_STEP_M { step * (MOST_STEP_M / most) } else { step })
 }
 
 /// The body with T1 moved by x[0..3] (m) and each joint turned by what follows (rad times the lever), with all that hangs on it.

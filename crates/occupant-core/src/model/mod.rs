@@ -1,6 +1,7 @@
 //! The model: a checked [`Setup`] with all that can be computed before the first step. Immutable, shared by all threads.
 
 mod begin;
+mod descent;
 mod limp;
 mod pose;
 pub mod seat;
@@ -20,12 +21,15 @@ use crate::kernel::System;
 use crate::model::begin::begin;
 use crate::model::seat::Seated;
 use crate::model::settle::Settled;
-use crate::model::setup::{Member, Setup};
+use crate::model::setup::{Integrator, Member, Setup};
 use crate::motion::frame::{Frames, Moving, VEHICLE};
 use crate::motion::layout::MOST_BODIES;
 use crate::motion::state::State;
 use crate::vehicle::{FrameMotion, PathCursor, VehiclePath};
 use placed_text::Problems;
+
+/// Times nearer than this are one time, s.
+pub const ROUNDING_S: f64 = 1e-12;
 
 /// A scenario ready to run.
 #[derive(Clone, Debug)]
@@ -129,22 +133,48 @@ impl Model {
         }
     }
 
+    /// The same, integrated in another way.
+    #[must_use]
+    pub fn with_integrator(mut self, integrator: Integrator) -> Self {
+        self.setup.integrator = integrator;
+        self
+    }
+
+    /// The same, recorded at other times.
+    #[must_use]
+    pub fn with_outputs_every(mut self, interval_s: f64) -> Self {
+        self.setup.time.output_s = interval_s;
+        self
+    }
+
     /// Number of outputs of a whole run.
     pub fn output_count(&self) -> usize {
         self.setup.time.whole_intervals() as usize + 2
     }
 
+    /// Times at which the vehicle's motion jumps, or that of another frame, s, in the order of the setup.
+    fn corners_s(&self) -> Vec<f64> {
+        let frames = self.setup.frames.iter().flat_map(|frame| frame.path.breaks_s());
+        self.setup.path.breaks_s().into_iter().chain(frames).collect()
+    }
+
+    /// Times at which a muscle begins or ends to act, or a device of a belt or bag does, s, in the order of the setup.
+    fn dues_s(&self) -> Vec<f64> {
+        let mut dues_s: Vec<f64> = self.setup.joints.muscles.iter().flat_map(|muscle| muscle.times_s).collect();
+        dues_s.extend(self.setup.chains.iter().flat_map(Chain::breaks_s));
+        dues_s.extend(self.setup.bags.iter().flat_map(Bag::breaks_s));
+        dues_s
+    }
+
+    /// [`Model::breaks_s`] one by one, in an order that models of one structure share.
+    pub fn each_break_s(&self) -> Vec<f64> {
+        [self.corners_s(), self.dues_s()].concat()
+    }
+
     /// Times at which the vehicle's motion jumps, a muscle begins or ends to act, or a device of a belt or bag does, s, in increasing order: no step goes
     /// across one where the error control chooses it.
     pub(crate) fn breaks_s(&self) -> Vec<f64> {
-        let mut breaks_s = self.setup.path.breaks_s();
-        breaks_s.extend(self.setup.frames.iter().flat_map(|frame| frame.path.breaks_s()));
-        breaks_s.extend(self.setup.joints.muscles.iter().flat_map(|muscle| muscle.times_s));
-        breaks_s.extend(self.setup.chains.iter().flat_map(Chain::breaks_s));
-        breaks_s.extend(self.setup.bags.iter().flat_map(Bag::breaks_s));
-        breaks_s.sort_by(f64::total_cmp);
-        breaks_s.dedup();
-        breaks_s
+        in_order(self.each_break_s())
     }
 
     /// Frames at `t_s` within a step whose middle is `step_middle_s`.
@@ -183,12 +213,17 @@ impl Model {
 }
 
 impl Model {
-    /// Motions of the homes of the bodies, among `frames` with the motion of the vehicle.
+    /// Motions of the homes of the bodies for output, among `frames` with the motion of the vehicle.
     pub(crate) fn homes(&self, frames: &Frames<f64>, vehicle: &FrameMotion) -> [FrameMotion; MOST_BODIES] {
         let mut homes = [*vehicle; MOST_BODIES];
         for (motion, Member { home, .. }) in homes.iter_mut().zip(&self.setup.members) {
-            if *home != Frame::Vehicle {
-                *motion = frames[home.index(&[])].motion();
+            match home {
+                Frame::Vehicle => {}
+                // vehicles hang on nothing
+                Frame::Other(i) => {
+                    *motion = self.setup.frames[*i].path.shown_motion(frames.time, &mut PathCursor::default())
+                }
+                _ => *motion = frames[home.index(&[])].motion(),
             }
         }
         homes
@@ -200,4 +235,15 @@ pub fn frames(time_s: f64, vehicle: &FrameMotion) -> Frames<f64> {
     let mut frames = Frames::still(time_s);
     frames[VEHICLE] = Moving::of(vehicle);
     frames
+}
+
+/// In increasing order, each once: of times that rounding alone keeps apart the last, at which all of them are due.
+fn in_order(mut times_s: Vec<f64>) -> Vec<f64> {
+    times_s.sort_by(f64::total_cmp);
+    times_s.dedup_by(|later_s, kept_s| {
+        let is_same = *later_s - *kept_s <= ROUNDING_S;
+        *kept_s = if is_same { *later_s } else { *kept_s };
+        is_same
+    });
+    times_s
 }

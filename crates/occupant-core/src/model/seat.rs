@@ -156,8 +156,11 @@ fn depth_under(force: &Force, load: f64) -> Option<f64> {
         Force::Deflection(law) => return DeflectionLaw::new(law, 1.0).depth_under(load),
     };
     let first = spring.k1_n_per_m * spring.break_m;
-    let depth =
-        if load <= first { load / spring.k1_n_per_m } else { spring.break_m + (load - first) / spring.k2_n_per_m };
+    let depth = if load <= first && first > 0.0 {
+        load / spring.k1_n_per_m
+    } else {
+        spring.break_m + (load - first) / spring.k2_n_per_m
+    };
     let force = Spring::<f64>::new(spring).respond(depth, 0.0).0;
     (depth.is_finite() && (force - load).abs() < 1e-6 * load.max(1.0)).then_some(depth)
 }

@@ -3,15 +3,18 @@
 //!
 //! Our decision (the report has none): joints locked, posture kept; the six freedoms of the rigid body are found by a
 //! damped Newton iteration on the resultant force and moment of contacts, belts and weight, every contact on its loading
-//! curve, at rest relative to the vehicle. Directions that nothing resists are left alone; what friction holds stays.
+//! curve, at rest relative to the vehicle. Directions that nothing resists are left alone; what friction holds stays. Where that
+//! finds no rest, since the feet do not reach the floor yet, say, the body goes down in potential energy until something carries it.
 
-use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use nalgebra::{DVector, Matrix3, Matrix6, Vector3, Vector6};
 use serde::{Serialize, Serializer};
 
 use crate::body::Body;
 use crate::forces::{Data, History, Instant, Memory};
 use crate::kernel::{Evaluation, Situation, System};
+use crate::model::descent::{Movable, REST, descend};
 use crate::model::frames;
+use crate::model::limp;
 use crate::model::setup::Setup;
 use crate::motion::dynamics::Wrench;
 use crate::motion::frame::Frames;
@@ -174,7 +177,42 @@ pub(crate) fn settle(
             damping *= 4.0;
         }
     }
-    (moved(&state, &x), settled(setup, &x, &r))
+    let (end, found) = (moved(&state, &x), settled(setup, &x, &r));
+    let lower = || lowered(Locked { body, free }, &state, weight_n);
+    let rests = r.amax() < REST * weight_n.max(1.0);
+    if rests { None } else { lower() }.unwrap_or((end, found))
+}
+
+/// A body that goes down farther than this to its rest, m, or turns farther, rad, falls from its seat.
+const FALLS: [f64; 2] = [0.3, 0.5];
+
+/// The body where it rests below the place where it was `seated`, if it does so near there.
+fn lowered(mut body: Locked<'_, '_>, seated: &State<f64>, weight_n: f64) -> Option<(State<f64>, Settled)> {
+    let (state, g) = descend(&mut body, seated, weight_n);
+    let found = limp::settled(seated, &state, &g, weight_n);
+    let rests = g.amax() < REST * weight_n.max(1.0);
+    (rests && found.moved_m < FALLS[0] && found.turned_rad < FALLS[1]).then_some((state, found))
+}
+
+/// A body with locked joints that is moved by what friction does not hold.
+struct Locked<'s, 'd> {
+    body: Resting<'s, 'd>,
+    free: Matrix6<f64>,
+}
+
+impl Movable for Locked<'_, '_> {
+    fn gradient(&mut self, state: &State<f64>) -> DVector<f64> {
+        let load = self.free * self.body.load(state);
+        -DVector::from_iterator(6, load.iter().copied())
+    }
+
+    fn moved(&self, state: &State<f64>, x: &DVector<f64>) -> State<f64> {
+        moved(state, &(self.free * Vector6::from_iterator(x.iter().copied())))
+    }
+
+    fn is_spent(&self) -> bool {
+        self.body.looks > 2 * MOST_LOOKS
+    }
 }
 
 /// What friction holds sideways, as a part of the weight: less than that of any seat.

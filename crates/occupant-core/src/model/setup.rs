@@ -114,6 +114,8 @@ pub struct OutputOptions {
     pub report_coordinates: bool,
     /// Points of segments whose motion is recorded.
     pub markers: Vec<Marker>,
+    /// How often instruments are read for measures, s; 0.1 ms if nobody says.
+    pub readings_s: Option<f64>,
 }
 
 /// A named point of a segment whose motion is recorded.
@@ -207,6 +209,9 @@ impl Member {
     }
 }
 
+/// What the frame is called that stands still.
+pub const GROUND: &str = "ground";
+
 /// What the body is called of which a loose one consists.
 pub const LOOSE: &str = "body";
 
@@ -285,10 +290,25 @@ impl Setup {
         all.last().unwrap_or(frame)
     }
 
+    /// Whether a frame is space or the ground.
+    pub(crate) fn is_ground(&self, frame: Frame) -> bool {
+        match frame {
+            Frame::Space => true,
+            Frame::Other(i) => self.frames.get(i).is_some_and(|frame| frame.name == GROUND),
+            Frame::Vehicle | Frame::Segment(_) => false,
+        }
+    }
+
     /// Whether there is more than one body in one vehicle: whether any may be struck.
     pub(crate) fn is_open(&self) -> bool {
         let mut frames = self.surfaces.iter().map(|s| s.frame).chain(self.solids.iter().map(|s| s.frame));
         !self.members.is_empty() || frames.any(|frame| matches!(self.belongs_to(frame), Frame::Other(_)))
+    }
+
+    /// By body: the frame of its home, and the condyles seen from the neck's joint.
+    pub(crate) fn instrument_sites(&self) -> Vec<(usize, Option<nalgebra::Vector3<f64>>)> {
+        let condyles_m = |of: usize| self.members.get(of).map_or(self.body.condyles_m, |m| m.alone.body.condyles_m);
+        self.homes().iter().enumerate().map(|(of, home)| (home.index(&[]), condyles_m(of))).collect()
     }
 
     /// Homes of the bodies.

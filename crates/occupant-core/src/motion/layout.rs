@@ -240,9 +240,16 @@ impl Layout {
         self.rows[segment].parent
     }
 
-    /// The segments that one carries.
-    pub(crate) fn children(&self, segment: usize) -> impl Iterator<Item = usize> + '_ {
-        (0..self.rows.len()).filter(move |&n| self.rows[n].parent == Some(segment))
+    /// A segment and all that it carries, from the inside outwards.
+    pub(crate) fn subtree(&self, segment: usize) -> impl Iterator<Item = usize> + '_ {
+        let is_beyond = move |n: &usize| {
+            let mut inner = *n;
+            while inner > segment {
+                inner = self.rows[inner].parent.unwrap_or(0);
+            }
+            inner == segment && (*n == segment || self.rows[*n].parent.is_some())
+        };
+        (segment..self.rows.len()).filter(is_beyond)
     }
 }
 
@@ -257,7 +264,7 @@ mod tests {
         let layout = Layout::of(&TTI12);
         assert_eq!(layout.free(), [0, 1, 2, 3, 4, 5, 8, 9]);
         assert_eq!(layout.hinged(), [6, 7, 10, 11]);
-        assert_eq!(layout.children(1).collect::<Vec<_>>(), [2, 4, 5]);
+        assert_eq!(layout.subtree(1).filter(|n| layout.parent(*n) == Some(1)).collect::<Vec<_>>(), [2, 4, 5]);
         assert_eq!((layout.free_slot(8), layout.hinge_slot(8)), (Some(6), None));
         assert_eq!((layout.free_slot(11), layout.hinge_slot(11)), (None, Some(3)));
     }

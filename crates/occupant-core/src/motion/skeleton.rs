@@ -72,8 +72,6 @@ pub struct Skeleton<S> {
     pub gravity: S,
     /// By body.
     pub(crate) roots: Vec<Root<S>>,
-    /// Segments that carry the accelerometers of head, chest and pelvis of the first body.
-    pub(crate) instruments: [Option<usize>; 3],
 }
 
 /// How a body is carried and computed.
@@ -155,9 +153,7 @@ impl<S: Copy> Skeleton<S> {
     /// Whether another has the same trees, carried by the same frames, and is computed in the same way.
     pub(crate) fn is_like<A>(&self, other: &Skeleton<A>) -> bool {
         let roots = self.roots.iter().map(Root::structure);
-        self.layout == other.layout
-            && self.instruments == other.instruments
-            && roots.eq(other.roots.iter().map(Root::structure))
+        self.layout == other.layout && roots.eq(other.roots.iter().map(Root::structure))
     }
 
     /// f applied to every number and the one in the same place of `other`, which [is like](Skeleton::is_like) it.
@@ -176,7 +172,6 @@ impl<S: Copy> Skeleton<S> {
             links: self.links.iter().zip(&other.links).map(|(a, b)| a.zip(b, f)).collect(),
             gravity: f(self.gravity, other.gravity),
             roots: self.roots.iter().zip(&other.roots).map(root).collect(),
-            instruments: self.instruments,
         }
     }
 }
@@ -192,8 +187,7 @@ impl Skeleton<f64> {
     /// Constants of `body` under gravity `gravity_m_s2`.
     pub fn new(body: &Body, gravity_m_s2: f64) -> Self {
         let parts: Vec<Part> = body.tree.segments().map(|segment| part(body, segment)).collect();
-        let instruments = body.tree.landmarks().instruments().map(|segment| segment.map(Segment::index));
-        let skeleton = Skeleton { instruments, ..Skeleton::of(Layout::of(body.tree), &parts, gravity_m_s2) };
+        let skeleton = Skeleton::of(Layout::of(body.tree), &parts, gravity_m_s2);
         // joints that a body places itself may be where no closed form has them
         if body.places.is_empty() { skeleton } else { skeleton.without_closed_forms() }
     }
@@ -203,13 +197,7 @@ impl Skeleton<f64> {
         debug_assert_eq!(layout.len(), parts.len());
         let is_closed = closed::holds(&layout) && parts.iter().all(Part::is_plain);
         let links = parts.iter().map(Link::new).collect();
-        Skeleton {
-            layout,
-            links,
-            gravity: gravity_m_s2,
-            instruments: [None; 3],
-            roots: vec![Root { mount: None, is_closed }],
-        }
+        Skeleton { layout, links, gravity: gravity_m_s2, roots: vec![Root { mount: None, is_closed }] }
     }
 
     /// Several bodies under the gravity of the first.
@@ -218,7 +206,6 @@ impl Skeleton<f64> {
             layout: Layout::together(all.iter().map(|one| &one.layout)),
             links: all.iter().flat_map(|one| one.links.iter().copied()).collect(),
             gravity: all.first().map_or(0.0, |one| one.gravity),
-            instruments: all.first().map_or([None; 3], |one| one.instruments),
             roots: all.iter().flat_map(|one| one.roots.iter().cloned()).collect(),
         }
     }

@@ -25,48 +25,16 @@ pub struct Checkpoint {
     pub memory: Memory<f64>,
     /// First touches so far, in the order in which they happened.
     pub first_touches: Vec<FirstTouch>,
-    /// Greatest values at the accepted steps so far.
-    pub step_peaks: StepPeaks,
+    /// Greatest values at the accepted steps so far, as plain numbers: [`Peaks`](super::peaks::Peaks); none where nobody has looked.
+    pub peaks: Vec<f64>,
+    /// The step before, of which instruments were read: the number of the next sample, its time, its readings.
+    pub readings_before: Vec<f64>,
+    /// Readings of instruments since the output before: [`Fine`](super::fine::Fine).
+    pub readings: Vec<f32>,
     /// Sums and extremes.
     pub progress: Progress,
     /// The step of the error control in which the output lies, if it goes on beyond it.
     pub under_way: Option<StepStart>,
-}
-
-/// Greatest values at the accepted steps of a run so far, which see what happens between its outputs. No figure is made of
-/// them: they tell whether the outputs are close enough.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct StepPeaks {
-    /// Resultants that accelerometers of head, chest and pelvis read, m/s².
-    pub readings_m_s2: [f64; 3],
-    /// Normal force of one contact on each sphere, N.
-    pub contacts_n: Vec<f64>,
-}
-
-impl StepPeaks {
-    /// None seen yet of so many spheres.
-    pub(crate) fn none(spheres: usize) -> Self {
-        StepPeaks { readings_m_s2: [0.0; 3], contacts_n: vec![0.0; spheres] }
-    }
-
-    /// Looks at readings of accelerometers.
-    #[inline]
-    pub(crate) fn see(&mut self, readings_m_s2: [f64; 3]) {
-        for (greatest, now) in self.readings_m_s2.iter_mut().zip(readings_m_s2) {
-            *greatest = greatest.max(now);
-        }
-    }
-
-    /// Looks at a contact on a sphere.
-    #[inline]
-    pub(crate) fn touch(&mut self, sphere: usize, normal_force_n: f64) {
-        let greatest = &mut self.contacts_n[sphere];
-        *greatest = greatest.max(normal_force_n);
-    }
-
-    fn numbers(&self) -> impl Iterator<Item = f64> {
-        self.readings_m_s2.iter().chain(&self.contacts_n).copied()
-    }
 }
 
 /// A step that leads beyond an output, by its start: taking it again gives the same bits.
@@ -170,6 +138,9 @@ pub enum CheckpointError {
         /// Time of the output, s.
         time_s: f64,
     },
+    /// Readings and greatest values of other elements, instruments or parts than the model has.
+    #[error("the checkpoint has greatest values or readings that are not those of the scenario")]
+    Readings,
     /// A first touch of a sphere or surface that the model does not have.
     #[error("the checkpoint knows a touch of sphere {sphere} and surface {surface}, which the scenario does not have")]
     Touch {
@@ -211,7 +182,9 @@ impl Checkpoint {
             state: Vec::new(),
             memory: Memory::none(),
             first_touches: Vec::new(),
-            step_peaks: StepPeaks::default(),
+            peaks: Vec::new(),
+            readings_before: Vec::new(),
+            readings: Vec::new(),
             progress: Progress::default(),
             under_way: None,
         };
@@ -229,19 +202,24 @@ impl Checkpoint {
         self.memory.keep(None, file);
         self.keep_touches(file);
         self.progress.keep(file);
-        self.keep_step_peaks(file);
+        self.keep_seen(file);
         self.keep_step(file);
     }
 
-    fn keep_step_peaks(&mut self, file: &mut dyn Archive) {
-        let meaning = "greatest values at the accepted steps so far: resultants that accelerometers of head, chest and pelvis \
-                       read (m/s²), then the normal force of one contact on each sphere (N)";
-        // files before 0.2 have none
-        if let [head, chest, pelvis, contacts_n @ ..] =
-            &file.numbers(words(60, "step_peaks", meaning), self.step_peaks.numbers().collect())[..]
-        {
-            self.step_peaks = StepPeaks { readings_m_s2: [*head, *chest, *pelvis], contacts_n: contacts_n.to_vec() };
-        }
+    /// What the run has seen at its steps; files of 0.1.0 have none of it.
+    fn keep_seen(&mut self, file: &mut dyn Archive) {
+        // never written any more
+        file.numbers(words(60, "step_peaks", "none: see greatest"), Vec::new());
+        let peaks = "greatest values at the accepted steps so far, each with its time: what force elements track, what instruments of \
+                     each body read, what each part of the body touches";
+        let before = "the latest step: number of the next of the readings, its time, what instruments read there";
+        let readings = "what instruments read since the output before, at equal times from the start of the run: of each body with \
+                        any, in SAE J211 axes, accelerations of head, chest and pelvis (m/s²), angular velocity and acceleration of the \
+                        head, force (N) and moment (N·m) of the neck, tension of the right and left femur (N)";
+        self.peaks = file.numbers(words(61, "greatest", peaks), std::mem::take(&mut self.peaks));
+        let own = std::mem::take(&mut self.readings_before);
+        self.readings_before = file.numbers(words(62, "readings_before", before), own);
+        self.readings = file.singles(words(63, "readings", readings), std::mem::take(&mut self.readings));
     }
 
     fn keep_touches(&mut self, file: &mut dyn Archive) {
@@ -366,7 +344,7 @@ impl Checkpoint {
         let p = &self.progress;
         // a balance may be lost without end
         let numbers = [p.wanted_s, p.step_error, p.greatest.kinetic_j, p.greatest.work_j, p.energy_start.mechanical_j];
-        check_finite(numbers.into_iter().chain(p.energy_start.stored_j).chain(self.step_peaks.numbers()))
+        check_finite(numbers.into_iter().chain(p.energy_start.stored_j))
     }
 }
 

@@ -3,20 +3,23 @@
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 
 use crate::body::Joint;
+use crate::body::Segment;
 use crate::body::tti12::TTI12;
-use crate::body::{Landmarks, Segment};
 use crate::forces::contact::Touch;
 use crate::forces::contact::surface::Frame;
 use crate::forces::{Actions, History};
 use crate::kernel::Evaluation;
+use crate::kernel::instruments::Reading;
 use crate::model::Model;
 use crate::motion::frame::{Frames, MOST_FRAMES, VEHICLE};
 use crate::motion::report_coordinates::ReportCoordinates;
 use crate::motion::state::State;
 use crate::motion::vector::{M3, V3};
-use crate::results::checkpoint::{Checkpoint, Progress, StepPeaks, StepUnderWay};
+use crate::results::checkpoint::{Checkpoint, Progress, StepUnderWay};
 use crate::results::energy::EnergyLedger;
+use crate::results::fine::Fine;
 use crate::results::outcome::FirstTouch;
+use crate::results::peaks::Peaks;
 use crate::vehicle::{FrameMotion, VehiclePose};
 
 /// Work of the integrator so far.
@@ -74,7 +77,13 @@ pub struct Sample<'a> {
     /// What has switched since the output before, in the order in which it happened, unless that was within a step beyond.
     pub switched: &'a [Switched],
     /// Greatest values at the accepted steps so far.
-    pub step_peaks: &'a StepPeaks,
+    pub step_peaks: &'a Peaks,
+    /// What there is to see at this output alone.
+    pub now: &'a Peaks,
+    /// Readings of the instruments since the output before.
+    pub fine: &'a Fine,
+    /// What they read at this output, by body.
+    pub(crate) readings: &'a [Reading<f64>],
     /// The step of the error control in which this output lies, if it goes on beyond it.
     pub under_way: Option<StepUnderWay<'a>>,
 }
@@ -132,12 +141,6 @@ impl<'a> Sample<'a> {
         Sample { watcher: Some(self.vehicle), ..self }
     }
 
-    /// Landmarks of the body that is asked for.
-    pub(crate) fn landmarks(&self) -> Landmarks {
-        let tree = self.model.body().tree;
-        if self.of == 0 { *tree.landmarks() } else { tree.bodies()[self.of].landmarks }
-    }
-
     /// Whether no output follows: the end of the run's time, or all bodies at rest in a run that ends then.
     pub fn is_last(&self) -> bool {
         self.index + 1 == self.model.output_count() || self.progress.rest.is_over(self.time_s)
@@ -167,7 +170,9 @@ impl<'a> Sample<'a> {
             state: self.state.numbers().to_vec(),
             memory: self.history.memory.clone(),
             first_touches: self.first_touches.to_vec(),
-            step_peaks: self.step_peaks.clone(),
+            peaks: self.step_peaks.numbers(),
+            readings_before: self.fine.numbers(),
+            readings: self.fine.samples.clone(),
             progress: self.progress,
             under_way: self.under_way.map(|step| step.to_start()),
         }
@@ -252,6 +257,27 @@ impl<'a> Sample<'a> {
     /// Sum of contact and friction forces on a sphere, vehicle axes, N; other elements apart (item 5).
     pub fn sphere_force_n(&self, sphere: usize) -> Vector3<f64> {
         self.touches().filter(|t| t.sphere == sphere).map(|t| self.contact(&t).force_n).sum()
+    }
+
+    /// Sum of contact and friction forces of a surface or solid on all bodies, N: in axes of what carries it, vehicle axes or
+    /// space axes, and on a segment in those of its body's home.
+    pub(crate) fn surface_force_n(&self, surface: usize, carrier: Frame) -> Vector3<f64> {
+        let force = |t: Touch<f64>| self.axes_of(t.frame).out(t.normal * t.normal_force + t.edge + t.friction);
+        let space: Vector3<f64> = self.touches_of(surface).map(|t| force(t).to_vector()).sum();
+        match carrier {
+            Frame::Segment(segment) => self.seen_from(segment).vector_to_frame(space),
+            carrier => self.frame(carrier).vector_to_frame(space),
+        }
+    }
+
+    /// Greatest Δ in a surface or solid, m; 0 without contact.
+    pub(crate) fn surface_depth_m(&self, surface: usize) -> f64 {
+        self.touches_of(surface).map(|t| t.depth).fold(0.0, f64::max)
+    }
+
+    fn touches_of(&self, surface: usize) -> impl Iterator<Item = Touch<f64>> + use<'a> {
+        let contacts = &self.model.system().forces.contacts;
+        self.touches().filter(move |t| contacts.surface(t.pair, t.part as usize) == surface)
     }
 
     /// Greatest Δ of a sphere, m; 0 without contact.

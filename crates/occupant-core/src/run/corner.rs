@@ -24,20 +24,12 @@ const BEGINNING: f64 = 0.1;
 #[derive(Clone, Copy)]
 pub(super) struct Touching {
     pub meeting: Meeting,
-    depth_m: f64,
-}
-
-impl Touching {
-    /// A meeting this deep, m.
-    pub(super) fn new(meeting: Meeting, depth_m: f64) -> Self {
-        Touching { meeting, depth_m }
-    }
 }
 
 impl From<&Touch<f64>> for Touching {
     #[inline(always)]
     fn from(touch: &Touch<f64>) -> Self {
-        Touching { meeting: touch.into(), depth_m: touch.depth }
+        Touching { meeting: touch.into() }
     }
 }
 
@@ -70,14 +62,14 @@ impl Crossing<'_> {
     /// A contact that begins, as seen from the end.
     fn beginning(&self, end: &Touching) -> Option<f64> {
         let h = self.step.length_s();
-        let since_s = (end.depth_m / end.meeting.closing_m_s.max(1e-3)).min(h);
+        let since_s = (end.meeting.depth_m / end.meeting.closing_m_s.max(1e-3)).min(h);
         self.if_it_matters(1.0 - since_s / h, BEGINNING * end.meeting.normal_force_n * since_s, end)
     }
 
     /// A contact that ends, as seen from the start.
     fn ending(&self, start: &Touching) -> Option<f64> {
         let h = self.step.length_s();
-        let left_s = (start.depth_m / (-start.meeting.closing_m_s).max(1e-3)).min(h);
+        let left_s = (start.meeting.depth_m / (-start.meeting.closing_m_s).max(1e-3)).min(h);
         self.if_it_matters(left_s / h, BEGINNING * start.meeting.normal_force_n * left_s, start)
     }
 
@@ -90,7 +82,7 @@ impl Crossing<'_> {
             return None;
         }
         // Δ(s) of the cubic through depths and closing speeds, s = 0…1
-        let (d0, way) = (start.depth_m, end.depth_m - start.depth_m);
+        let (d0, way) = (start.meeting.depth_m, end.meeting.depth_m - start.meeting.depth_m);
         let (square, cube) = (3.0 * way - h * (2.0 * v0 + v1), h * (v0 + v1) - 2.0 * way);
         let speed = |s: f64| h * v0 + s * (2.0 * square + 3.0 * cube * s);
         let (mut rising, mut falling) = (0.0, 1.0);
@@ -101,8 +93,8 @@ impl Crossing<'_> {
         let s = falling;
         let deepest_m = d0 + s * (h * v0 + s * (square + cube * s));
         let greatest_m = self.history.memory.contacts[end.meeting.pair].greatest;
-        let missed_m = deepest_m - end.depth_m.max(greatest_m);
-        let stiffness = end.meeting.normal_force_n / end.depth_m.max(1e-6);
+        let missed_m = deepest_m - end.meeting.depth_m.max(greatest_m);
+        let stiffness = end.meeting.normal_force_n / end.meeting.depth_m.max(1e-6);
         let impulse = stiffness * missed_m * (1.0 - s) * h / 3.0;
         self.if_it_matters(s, impulse, end)
     }

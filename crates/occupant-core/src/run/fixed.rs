@@ -3,14 +3,14 @@
 use super::Run;
 use super::corner::Touching;
 use super::switch::Search;
-use crate::forces::{History, Memory};
+use crate::forces::{Follow, History, Memory};
 use crate::kernel::{Scratch, Situation};
 use crate::model::Model;
 use crate::motion::frame::Frames;
 use crate::motion::integrate::rk4::Stages;
 use crate::motion::state::State;
 use crate::results::outcome::StepError;
-use crate::run::observers::Met;
+use crate::run::observers::{Felt, Met};
 use crate::vehicle::PathCursor;
 
 /// In most parts a step is taken in which something switches, each up to its next switch.
@@ -106,35 +106,32 @@ struct Stepper<'a> {
     scratch: Scratch<f64>,
     stages: Stages<f64>,
     frames: [Frames<f64>; 3],
-    /// What accelerometers read at the start of the step.
-    readings: [f64; 3],
 }
 
 impl<'a> Stepper<'a> {
     fn new(model: &'a Model, state: &State<f64>) -> Self {
         let (scratch, stages) = (Scratch::blank(model.system()), Stages::new(state.shape()));
-        Stepper { model, scratch, stages, frames: [Frames::still(0.0); 3], readings: [0.0; 3] }
+        Stepper { model, scratch, stages, frames: [Frames::still(0.0); 3] }
     }
 
-    /// Begins a step at the start of `rest`, which `history` takes over and where `met` is what touches: all of it, or the part
-    /// that what is near bears.
+    /// Begins a step at the start of `rest`, which `history` takes over, where `met` is what touches and `felt` what is felt:
+    /// all of it, or the part that what is near bears.
     fn begin(
         &mut self,
         rest: Step,
         from: &State<f64>,
-        (history, met): (&mut History<f64>, &mut Vec<Touching>),
+        (history, met, felt): (&mut History<f64>, &mut Vec<Touching>, &mut Felt),
         cursor: &mut PathCursor,
     ) -> Step {
-        let Stepper { model, scratch, stages, frames, readings } = self;
+        let Stepper { model, scratch, stages, frames } = self;
         let [start_s, middle_s, _] = rest.times_s();
         model.move_frames(&mut frames[0], start_s, middle_s, cursor);
-        met.clear();
-        let (system, mut met) = (model.system(), Met(met));
+        let (system, mut met) = (model.system(), Follow(Met::anew(met, felt)));
         stages.begin(from, |_, state, rate| {
             let situation = Situation::accepted(state, &frames[0]);
             system.rate_alone(scratch, situation, history, &mut Some(&mut met), rate);
         });
-        *readings = system.readings(scratch);
+        system.read(scratch, &frames[0], &mut |of, reading| felt.readings[of] = *reading);
         rest.first_part(|h| history.step(h))
     }
 
@@ -144,7 +141,7 @@ impl<'a> Stepper<'a> {
         step.move_frames(frames, model, cursor);
         *stages.go(from, step.length_s(), |stage, state, rate| {
             let situation = Situation::within(state, &frames[stage as usize]);
-            model.system().rate_alone(scratch, situation, history, &mut None::<&mut Met<'_>>, rate);
+            model.system().rate_alone(scratch, situation, history, &mut None::<&mut Follow<Met<'_>>>, rate);
         })
     }
 
@@ -153,7 +150,13 @@ impl<'a> Stepper<'a> {
         let frames = &mut self.frames[0];
         self.model.move_frames(frames, time_s, time_s, cursor);
         let (situation, mut rate) = (Situation::accepted(state, frames), State::zero(state.shape()));
-        self.model.system().rate_alone(&mut self.scratch, situation, history, &mut None::<&mut Met<'_>>, &mut rate);
+        self.model.system().rate_alone(
+            &mut self.scratch,
+            situation,
+            history,
+            &mut None::<&mut Follow<Met<'_>>>,
+            &mut rate,
+        );
     }
 }
 
@@ -177,14 +180,15 @@ impl Run {
         if let Some(rear) = &mut self.rear {
             rear.keep(&self.history);
         }
-        let step = stepper.begin(rest, &self.state, (&mut self.history, &mut self.met), &mut self.cursor);
+        let step =
+            stepper.begin(rest, &self.state, (&mut self.history, &mut self.met, &mut self.felt), &mut self.cursor);
         if let Some(latest) = self.take_back() {
             self.take_again(stepper, latest)?;
             return Ok(rest.start_s);
         }
         let next = stepper.go(step, &self.state, &mut self.history, &mut self.cursor);
         self.effort.evaluations += 4;
-        self.note(stepper.model, step.start_s, stepper.readings);
+        self.note_by_own(stepper.model, step.start_s);
         if let Some(rear) = &mut self.rear {
             let (forces, now) = (&stepper.model.system().forces, &self.history.memory);
             self.switches.note(forces, step.start_s, rear.kept(), now);
@@ -258,7 +262,7 @@ impl Run {
             let (forces, before) = (&stepper.model.system().forces, &self.history.memory);
             self.switches.note(forces, start_s, before, &rear.history.memory);
             self.history.take_over(&rear.history);
-            self.note(stepper.model, start_s, stepper.readings);
+            self.note_by_own(stepper.model, start_s);
             done = self.accept(stepper.model, next, part);
             (start_s, parts, last_s) = (part.end_s, parts + 1, part.length_s());
         }
@@ -280,7 +284,8 @@ impl Run {
         rear.search.rest();
         loop {
             rear.history.take_over(&self.history);
-            part = stepper.begin(part, &self.state, (&mut rear.history, &mut self.met), &mut self.cursor);
+            part =
+                stepper.begin(part, &self.state, (&mut rear.history, &mut self.met, &mut self.felt), &mut self.cursor);
             let next = stepper.go(part, &self.state, &mut rear.history, &mut self.cursor);
             self.effort.evaluations += 4;
             if !looks || !next.is_finite() {
@@ -296,12 +301,15 @@ impl Run {
         }
     }
 
-    /// Notes what touches and what is felt at the start of an accepted step.
-    pub(super) fn note(&mut self, model: &Model, time_s: f64, readings: [f64; 3]) {
-        self.seen.peaks.see(readings);
-        for touching in &self.met {
-            self.seen.note(model, time_s, touching.meeting);
-        }
+    /// Notes what touches and what is felt at the start of an accepted step, which the history has taken over.
+    fn note_by_own(&mut self, model: &Model, time_s: f64) {
+        let past = &self.history.memory.contacts;
+        self.seen.see(model, time_s, &self.met, &self.felt, |pair| past[pair].phase);
+    }
+
+    /// The same where `phase` tells what pairs remember.
+    pub(super) fn note(&mut self, model: &Model, time_s: f64, phase: impl Fn(usize) -> f64) {
+        self.seen.see(model, time_s, &self.met, &self.felt, phase);
     }
 }
 

@@ -7,14 +7,14 @@ use std::mem::swap;
 
 use super::Step;
 use super::corner::{Crossing, Touching};
-use crate::forces::History;
+use crate::forces::{Follow, History};
 use crate::kernel::{Scratch, Situation};
 use crate::model::Model;
 use crate::motion::frame::Frames;
 use crate::motion::integrate::bogacki_shampine::{Stage, Tolerance, Trial, attempt, within};
 use crate::motion::state::State;
 use crate::results::checkpoint::{StepStart, StepUnderWay};
-use crate::run::observers::{Met, Seen};
+use crate::run::observers::{Felt, Met, Seen};
 use crate::run::switch::{Search, Switches};
 use crate::vehicle::PathCursor;
 
@@ -47,6 +47,9 @@ pub(super) struct Front {
     met: Vec<Touching>,
     /// What touches at the end of a trial.
     met_in_trial: Vec<Touching>,
+    /// What is felt at `to`, and at the end of a trial.
+    felt: Felt,
+    felt_in_trial: Felt,
     /// For what switches, if anything can.
     search: Option<Search>,
     scratch: Scratch<f64>,
@@ -68,6 +71,8 @@ impl Front {
             trial: history.clone(),
             met: Vec::with_capacity(history.memory.contacts.len()),
             met_in_trial: Vec::with_capacity(history.memory.contacts.len()),
+            felt: Felt::new(model),
+            felt_in_trial: Felt::new(model),
             search: model.system().forces.can_switch().then(|| Search::new(&history.memory)),
             scratch: Scratch::blank(model.system()),
             frames: Frames::still(time_s),
@@ -106,10 +111,10 @@ impl Front {
         let middle_s = step.start_s + if follows { -half_s } else { half_s };
         model.move_frames(&mut self.frames, step.start_s, middle_s, cursor);
         let system = model.system();
-        self.met.clear();
         let situation = Situation::accepted(&self.to, &self.frames);
-        let mut met = Met(&mut self.met);
+        let mut met = Follow(Met::anew(&mut self.met, &mut self.felt));
         system.rate_alone(&mut self.scratch, situation, &mut self.after, &mut Some(&mut met), &mut self.rates[1]);
+        system.read(&self.scratch, &self.frames, &mut |of, reading| self.felt.readings[of] = *reading);
     }
 
     /// The part of `step`, which begins where the front stands, in which nothing is passed unseen: all of it, as a rule.
@@ -128,8 +133,10 @@ impl Front {
         let (system, h) = (model.system(), step.length_s());
         let middle_s = 0.5 * (step.start_s + step.end_s);
         self.trial.take_over(&self.after);
+        let Felt { numbers, readings } = &mut self.felt_in_trial;
         self.met_in_trial.clear();
-        let (history, mut met) = (&mut self.trial, Met(&mut self.met_in_trial));
+        numbers.clear();
+        let (history, mut met) = (&mut self.trial, Follow(Met { met: &mut self.met_in_trial, numbers }));
         let (scratch, frames) = (&mut self.scratch, &mut self.frames);
         attempt(&self.to, &self.rates[1], h, tolerance, |stage, state, rate| {
             let (time_s, accepted) = match stage {
@@ -139,6 +146,9 @@ impl Front {
             model.move_frames(frames, time_s, middle_s, cursor);
             let situation = Situation { state, frames, accepted };
             system.rate_alone(scratch, situation, history, &mut accepted.then_some(&mut met), rate);
+            if accepted {
+                system.read(scratch, frames, &mut |of, reading| readings[of] = *reading);
+            }
         })
     }
 
@@ -152,6 +162,7 @@ impl Front {
         swap(&mut self.before, &mut self.after);
         swap(&mut self.after, &mut self.trial);
         swap(&mut self.met, &mut self.met_in_trial);
+        swap(&mut self.felt, &mut self.felt_in_trial);
     }
 
     /// Looks for no switch until a trial shows one.
@@ -193,17 +204,15 @@ impl Front {
     }
 
     /// Notes what is felt and what touches at the end of the step, as all outputs before it are recorded.
-    pub(super) fn note(&mut self, model: &Model, seen: &mut Seen, switches: &mut Switches) {
+    pub(super) fn note(&self, model: &Model, seen: &mut Seen, switches: &mut Switches) {
         // before the first step nothing was evaluated
         if self.step.length_s() > 0.0 {
             if self.search.is_some() {
                 let [before, now] = [&self.before.memory, &self.after.memory];
                 switches.note(&model.system().forces, self.step.end_s, before, now);
             }
-            seen.peaks.see(model.system().readings(&self.scratch));
-        }
-        for touching in &self.met {
-            seen.note(model, self.step.end_s, touching.meeting);
+            let past = &self.after.memory.contacts;
+            seen.see(model, self.step.end_s, &self.met, &self.felt, |pair| past[pair].phase);
         }
     }
 

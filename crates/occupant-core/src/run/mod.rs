@@ -20,6 +20,7 @@ use adaptive::{Control, Memory as Wanted};
 use front::Front;
 
 use crate::forces::{Actions, History, Memory};
+use crate::kernel::carried::Carried;
 use crate::kernel::{Evaluation, Situation};
 use crate::model::Model;
 use crate::model::setup::Integrator;
@@ -31,10 +32,11 @@ use crate::motion::state::State;
 use crate::results::checkpoint::{Checkpoint, CheckpointError, Progress};
 use crate::results::energy::{self, EnergyLedger, EnergyStart, Greatest, Rest};
 use crate::results::outcome::{Outcome, RecordingFailed, Status, StepError};
+use crate::results::peaks::Peaks;
 use crate::results::recorder::{Flow, Recorder, RecorderError, Watch};
 use crate::results::sample::{Effort, Sample};
 use crate::run::corner::Touching;
-use crate::run::observers::Seen;
+use crate::run::observers::{Felt, Met, Seen, none_of};
 use crate::vehicle::PathCursor;
 
 /// A run in progress.
@@ -49,8 +51,11 @@ pub struct Run {
     pub history: History<f64>,
     pub(crate) cursor: PathCursor,
     seen: Seen,
-    /// What touches at the start of a step of fixed length.
+    /// What touches, and what is felt, at the start of a step of fixed length or at an output.
     met: Vec<Touching>,
+    felt: Felt,
+    /// What there is to see at the latest output.
+    now: Peaks,
     pub(crate) effort: Effort,
     /// The integration under error control; none at a fixed step.
     front: Option<Box<Front>>,
@@ -106,6 +111,8 @@ impl Run {
             actions: Actions::with_room(&model.system().forces),
             seen: Seen::new(model),
             met: Vec::with_capacity(start.history.memory.contacts.len()),
+            felt: Felt::new(model),
+            now: none_of(model),
             breaks_s: model.breaks_s(),
             taken: None,
             switches: Switches::new(),
@@ -137,7 +144,9 @@ impl Run {
         };
         run.greatest = progress.greatest;
         run.rest = progress.rest;
-        run.seen.know(&from.first_touches, &from.step_peaks);
+        if !run.seen.know(from) {
+            return Err(CheckpointError::Readings);
+        }
         Ok(run)
     }
 
@@ -153,13 +162,20 @@ impl Run {
         let vehicle = path.motion(t, t, &mut self.cursor);
         let vehicle_pose = path.attitude(t, &mut self.cursor);
         let mut frames = model.frames_with(t, t, &vehicle);
+        // no force depends on what is told of the accelerations
+        let vehicle = path.shown_motion(t, &mut self.cursor);
         let homes = model.homes(&frames, &vehicle);
         let system = model.system();
         let evaluation = self.evaluate(model, &frames);
         system.carry(&self.state, &mut frames);
-        for touch in &self.actions.contacts {
-            self.seen.note(model, t, touch.into());
+        self.actions.follow(&mut Met::anew(&mut self.met, &mut self.felt));
+        let derived = Carried::of_evaluation(&system.skeleton, &evaluation);
+        system.read_from(&derived, &frames, &mut |of, reading| self.felt.readings[of] = *reading);
+        let past = &self.history.memory.contacts;
+        if self.index == 0 {
+            self.seen.see(model, t, &self.met, &self.felt, |pair| past[pair].phase);
         }
+        self.seen.look_at(model, t, (&self.met, &self.felt), past, &mut self.now);
         let bodies = 0..system.skeleton.layout.trunks().len();
         let mut ledgers = [EnergyLedger::default(); MOST_BODIES];
         for body in bodies.clone() {
@@ -212,10 +228,14 @@ impl Run {
             first_touches: &self.seen.touches,
             switched: &switches,
             step_peaks: &self.seen.peaks,
+            now: &self.now,
+            fine: &self.seen.fine,
+            readings: &self.felt.readings,
             under_way: self.front.as_ref().and_then(|front| front.under_way(t)),
         });
         self.switches.told = switches;
         self.switches.told.clear();
+        self.seen.fine.clear();
         recorded.map_err(|e| self.unrecorded(e))
     }
 

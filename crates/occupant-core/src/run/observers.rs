@@ -1,14 +1,21 @@
-//! What a run watches in evaluations: which sphere has touched which surface.
+//! What a run watches in evaluations: what touches, what force elements do, what instruments read.
 
-use crate::forces::Observer;
-use crate::forces::contact::Touch;
+use crate::forces::Actions;
+use crate::forces::contact::{PairHistory, Touch};
+use crate::forces::shown::Tracker;
+use crate::kernel::instruments::{PLACE, READINGS, Reading};
 use crate::model::Model;
+use crate::motion::kinematics::Kinematics;
 use crate::motion::vector::V3;
-use crate::results::checkpoint::StepPeaks;
+use crate::results::checkpoint::Checkpoint;
+use crate::results::fine::Fine;
 use crate::results::outcome::FirstTouch;
+use crate::results::peaks::{EXCURSIONS, FELT, Peaks};
+use crate::results::summary::Peak;
 use crate::run::corner::Touching;
+use crate::vehicle::PathCursor;
 
-/// A sphere against a part of a face, as first touches tell it.
+/// A sphere against a part of a face, as first touches and peaks tell it.
 #[derive(Clone, Copy)]
 pub(super) struct Meeting {
     pub sphere: usize,
@@ -19,6 +26,9 @@ pub(super) struct Meeting {
     /// Relative to the face.
     pub velocity_m_s: V3<f64>,
     pub normal_force_n: f64,
+    pub depth_m: f64,
+    /// On the sphere, space axes.
+    pub force_n: V3<f64>,
 }
 
 impl From<&Touch<f64>> for Meeting {
@@ -26,38 +36,130 @@ impl From<&Touch<f64>> for Meeting {
     fn from(touch: &Touch<f64>) -> Self {
         let (sphere, pair, part) = (touch.sphere, touch.pair, touch.part as usize);
         let (closing_m_s, velocity_m_s) = (touch.closing, touch.velocity);
-        Meeting { sphere, pair, part, closing_m_s, velocity_m_s, normal_force_n: touch.normal_force }
+        let (normal_force_n, depth_m, force_n) = (touch.normal_force, touch.depth, touch.force);
+        Meeting { sphere, pair, part, closing_m_s, velocity_m_s, normal_force_n, depth_m, force_n }
     }
 }
 
-/// Remembers which sphere has touched which surface, and the greatest values.
+/// What was seen at one instant beside what touches: the numbers that force elements track, and readings by body.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Felt {
+    pub numbers: Vec<f64>,
+    pub readings: Vec<Reading<f64>>,
+}
+
+impl Felt {
+    /// With room for all that `model` can show.
+    pub(super) fn new(model: &Model) -> Self {
+        let nothing = [f64::NAN; READINGS];
+        Felt { numbers: Vec::with_capacity(tracked(model)), readings: vec![nothing; model.system().instruments.len()] }
+    }
+}
+
+/// How many numbers the force elements of a model track.
+fn tracked(model: &Model) -> usize {
+    let start = model.start();
+    let mut cursor = PathCursor::default();
+    let start_s = model.setup().time.start_s;
+    let frames = model.frames(start_s, start_s, &mut cursor);
+    let mut actions = Actions::with_room(&model.system().forces);
+    let situation = crate::kernel::Situation::within(&start.state, &frames);
+    model.system().evaluate(situation, &mut start.history.clone(), &mut actions);
+    let mut count = 0;
+    actions.follow(&mut Count(&mut count));
+    count
+}
+
+struct Count<'a>(&'a mut usize);
+
+impl Tracker<f64> for Count<'_> {
+    fn number(&mut self, _number: f64) {
+        *self.0 += 1;
+    }
+    fn touch(&mut self, _touch: &Touch<f64>) {}
+}
+
+/// Remembers which sphere has touched which surface, the greatest values and the readings.
 pub(super) struct Seen {
     surfaces: usize,
     /// By sphere and surface.
     known: Vec<bool>,
     pub touches: Vec<FirstTouch>,
-    pub peaks: StepPeaks,
+    pub peaks: Peaks,
+    pub fine: Fine,
+    look: Look,
+}
+
+/// What greatest values are found with.
+struct Look {
+    /// By sphere.
+    part_of: Vec<usize>,
+    /// By body: where the head begins, axes of its home, m.
+    starts_m: Vec<[f64; 3]>,
+    /// By part.
+    sums: Vec<Sum>,
+}
+
+/// What a part of the body feels at one instant.
+#[derive(Clone, Copy)]
+struct Sum {
+    force_n: V3<f64>,
+    hardest: Peak,
+    surface: usize,
 }
 
 impl Seen {
     pub(super) fn new(model: &Model) -> Self {
         let surfaces = model.setup().surface_names().count();
-        let spheres = model.body().spheres.len();
-        let combinations = spheres * surfaces;
+        let combinations = model.body().spheres.len() * surfaces;
         let (known, touches) = (vec![false; combinations], Vec::with_capacity(combinations));
-        Seen { surfaces, known, touches, peaks: StepPeaks::none(spheres) }
+        let (look, peaks) = (Look::new(model), none_of(model));
+        Seen { surfaces, known, touches, peaks, fine: Fine::new(model), look }
     }
 
     /// Takes over what an earlier part of the run has seen; all of it is of the model.
-    pub(super) fn know(&mut self, touches: &[FirstTouch], peaks: &StepPeaks) {
-        self.peaks.readings_m_s2 = peaks.readings_m_s2;
-        for (greatest, earlier_n) in self.peaks.contacts_n.iter_mut().zip(&peaks.contacts_n) {
-            *greatest = *earlier_n;
-        }
-        for touch in touches {
+    pub(super) fn know(&mut self, from: &Checkpoint) -> bool {
+        for touch in &from.first_touches {
             self.known[touch.sphere * self.surfaces + touch.surface] = true;
         }
-        self.touches.extend_from_slice(touches);
+        self.touches.extend_from_slice(&from.first_touches);
+        if from.peaks.is_empty() {
+            // nobody has looked
+            self.peaks = Peaks::default();
+            return true;
+        }
+        self.peaks.read(&from.peaks) && self.fine.read(&from.readings_before, &from.readings)
+    }
+
+    /// Notes what is there at an accepted step; `phases` tells what pairs remember.
+    pub(super) fn see(
+        &mut self,
+        model: &Model,
+        time_s: f64,
+        met: &[Touching],
+        felt: &Felt,
+        phase: impl Fn(usize) -> f64,
+    ) {
+        for touching in met {
+            self.note(model, time_s, touching.meeting);
+        }
+        if !self.peaks.are_unknown() {
+            self.look.at(model, time_s, (met, felt), phase, &mut self.peaks);
+            self.fine.see(time_s, &felt.readings);
+        }
+    }
+
+    /// What there is to see at one instant alone.
+    pub(super) fn look_at(
+        &mut self,
+        model: &Model,
+        time_s: f64,
+        seen: (&[Touching], &Felt),
+        past: &[PairHistory<f64>],
+        peaks: &mut Peaks,
+    ) {
+        peaks.clear();
+        self.look.at(model, time_s, seen, |pair| past[pair].phase, peaks);
     }
 
     /// Notes a touch of `model`, the one that this was made for.
@@ -65,7 +167,6 @@ impl Seen {
     pub(super) fn note(&mut self, model: &Model, time_s: f64, meeting: Meeting) {
         let surface = model.system().forces.contacts.surface(meeting.pair, meeting.part);
         let sphere = meeting.sphere;
-        self.peaks.touch(sphere, meeting.normal_force_n);
         let known = &mut self.known[sphere * self.surfaces + surface];
         if !*known {
             *known = true;
@@ -75,12 +176,133 @@ impl Seen {
     }
 }
 
-/// Collects what touches: the one observer of steps, as each kind is a whole kernel in the build.
-pub(super) struct Met<'a>(pub &'a mut Vec<Touching>);
+/// Peaks of a run of `model` that has seen nothing.
+pub(super) fn none_of(model: &Model) -> Peaks {
+    Peaks::none(tracked(model), model.system().instruments.len(), model.body().parts().count())
+}
 
-impl Observer<f64> for Met<'_> {
+impl Look {
+    fn new(model: &Model) -> Self {
+        let body = model.body();
+        let parts: Vec<&str> = body.parts().collect();
+        let part_of = |part: &str| parts.iter().position(|of| *of == part).unwrap_or(0);
+        let none = Sum { force_n: V3::zero(), hardest: Peak::NONE, surface: 0 };
+        Look {
+            part_of: body.spheres.iter().map(|sphere| part_of(&sphere.part)).collect(),
+            starts_m: starts_m(model),
+            sums: vec![none; parts.len()],
+        }
+    }
+
+    fn at(
+        &mut self,
+        model: &Model,
+        time_s: f64,
+        (met, felt): (&[Touching], &Felt),
+        phase: impl Fn(usize) -> f64,
+        peaks: &mut Peaks,
+    ) {
+        for (peak, number) in peaks.elements.iter_mut().zip(&felt.numbers) {
+            peak.see(*number, time_s);
+        }
+        for ((own, reading), start_m) in peaks.felt.iter_mut().zip(&felt.readings).zip(&self.starts_m) {
+            for (peak, number) in own.iter_mut().zip(felt_of(reading, start_m)) {
+                peak.see(number, time_s);
+            }
+        }
+        if !met.is_empty() {
+            self.at_parts(model, time_s, met, phase, peaks);
+        }
+    }
+
+    /// Touches come sphere by sphere or frame by frame: they are added up first, then compared.
+    fn at_parts(
+        &mut self,
+        model: &Model,
+        time_s: f64,
+        met: &[Touching],
+        phase: impl Fn(usize) -> f64,
+        peaks: &mut Peaks,
+    ) {
+        let contacts = &model.system().forces.contacts;
+        for sum in &mut self.sums {
+            (sum.force_n, sum.hardest) = (V3::zero(), Peak::NONE);
+        }
+        for Meeting { sphere, pair, part, normal_force_n, depth_m, force_n, .. } in met.iter().map(|one| one.meeting) {
+            let thickness_m = contacts.thickness_of(pair, part, &phase);
+            let other = contacts.other_sphere(pair, part).map(|other| (other, 1 - part, -force_n));
+            for (sphere, side, force_n) in [Some((sphere, part, force_n)), other].into_iter().flatten() {
+                let of = self.part_of[sphere];
+                let (sum, peak) = (&mut self.sums[of], &mut peaks.parts[of]);
+                sum.force_n += force_n;
+                peak.penetration.see(depth_m, time_s);
+                peak.used = peak.used.max(depth_m / thickness_m);
+                if sum.hardest.see(normal_force_n, time_s) {
+                    sum.surface = contacts.surface(pair, side);
+                }
+            }
+        }
+        for (sum, peak) in self.sums.iter().zip(&mut peaks.parts) {
+            if sum.hardest.value > Peak::NONE.value && peak.force.see(sum.force_n.norm_squared().sqrt(), time_s) {
+                peak.surface = sum.surface;
+            }
+        }
+    }
+}
+
+/// Where the heads of a model begin, by body.
+fn starts_m(model: &Model) -> Vec<[f64; 3]> {
+    let (system, start_s) = (model.system(), model.setup().time.start_s);
+    let k = Kinematics::new(&system.skeleton, &model.start().state);
+    let frames = model.frames(start_s, start_s, &mut PathCursor::default());
+    system
+        .instruments
+        .iter()
+        .map(|own| own.head_in(system, &k, &frames).map_or([0.0; 3], |v| [v.x, v.y, v.z]))
+        .collect()
+}
+
+/// What is compared of a reading; see [`Peaks`].
+fn felt_of(reading: &Reading<f64>, start_m: &[f64; 3]) -> [f64; FELT] {
+    let length = |from: usize| {
+        let [x, y, z] = [reading[from], reading[from + 1], reading[from + 2]];
+        (x * x + y * y + z * z).sqrt()
+    };
+    let [shear_x, shear_y, tension, flexion] = [reading[15], reading[16], reading[17], reading[19]];
+    let mut all = [f64::NAN; FELT];
+    [all[0], all[1], all[2]] = [length(0), length(3), length(6)];
+    [all[3], all[4], all[5]] = [tension, -tension, (shear_x * shear_x + shear_y * shear_y).sqrt()];
+    [all[6], all[7], all[8], all[9]] = [flexion, -flexion, -reading[21], -reading[22]];
+    for (i, start_m) in start_m.iter().enumerate() {
+        let moved = reading[PLACE + i] - start_m;
+        [all[EXCURSIONS + 2 * i], all[EXCURSIONS + 2 * i + 1]] = [moved, -moved];
+    }
+    all
+}
+
+/// Collects what touches and what force elements track: the one observer of steps, as each kind is a whole kernel in the build.
+pub(super) struct Met<'a> {
+    pub met: &'a mut Vec<Touching>,
+    pub numbers: &'a mut Vec<f64>,
+}
+
+impl<'a> Met<'a> {
+    /// Of what is there alone.
+    pub(super) fn anew(met: &'a mut Vec<Touching>, felt: &'a mut Felt) -> Self {
+        met.clear();
+        felt.numbers.clear();
+        Met { met, numbers: &mut felt.numbers }
+    }
+}
+
+impl Tracker<f64> for Met<'_> {
     #[inline(always)]
-    fn contacts(&mut self, touch: &Touch<f64>) {
-        self.0.push(touch.into());
+    fn number(&mut self, number: f64) {
+        self.numbers.push(number);
+    }
+
+    #[inline(always)]
+    fn touch(&mut self, touch: &Touch<f64>) {
+        self.met.push(touch.into());
     }
 }

@@ -21,6 +21,7 @@
 
 mod attitude;
 mod cursor;
+mod differences;
 mod fixed;
 mod frame;
 mod own;
@@ -41,7 +42,9 @@ pub use frame::FrameMotion;
 pub use own::{OwnPath, VehicleMotion, VehicleState};
 pub use problem::PathProblem;
 pub use pulse::{DecelerationPoint, PulseDefinition, PulsePath, PulseShape, Stop, Strength, TravelDirection};
-pub use sensors::{AccelerationRecord, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord};
+pub use sensors::{
+    AccelerationRecord, Baseline, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord,
+};
 pub use station::{Station, unwrap_angles};
 pub use table::{AfterEnd, Interpolation, TablePath};
 
@@ -120,6 +123,16 @@ impl VehiclePath {
             acceleration_m_s2: within.acceleration_m_s2,
             angular_acceleration_rad_s2: within.angular_acceleration_rad_s2,
             ..self.motion(t_s, step_middle_s, cursor)
+        }
+    }
+
+    /// Pose and motion at `t_s` for output, in space axes: as [`VehiclePath::motion`], but the accelerations of a table that is
+    /// read along straight lines, whose velocity jumps at its stations, are second differences of the stations.
+    pub fn shown_motion(&self, t_s: f64, cursor: &mut PathCursor) -> FrameMotion {
+        let motion = self.motion(t_s, t_s, cursor);
+        match self {
+            VehiclePath::Table(table) => table.with_differences(t_s, motion, cursor),
+            _ => motion,
         }
     }
 

@@ -12,6 +12,7 @@
 //! Between samples the rates are straight lines, and so are recorded accelerations; [`strapdown`] says how they are
 //! integrated.
 
+mod baseline;
 mod delta_v;
 mod readings;
 mod record;
@@ -26,6 +27,7 @@ use super::cursor::PathCursor;
 use super::frame::{FrameMotion, rotation_to_space, to_space};
 use super::problem::{PathProblem, expect_finite};
 use super::{AfterEnd, TravelDirection, VehiclePose, expect_finite_pose};
+pub use baseline::Baseline;
 use crash_measures::signal::ChannelClass;
 pub use record::{AccelerationRecord, DeltaVRecord, SensorRecord};
 use strapdown::{Piece, integrate};
@@ -65,6 +67,10 @@ pub struct SensorDefinition {
     pub filter: Option<ChannelClass>,
     /// Length of the rest at the beginning of the record whose mean gives the sensors' zero errors, s.
     pub baseline_s: Option<f64>,
+    /// Length of a rest at its end as well, s: the zero errors go along a straight line from one mean to the other.
+    pub baseline_end_s: Option<f64>,
+    /// What accelerations, without gravity, and changes of the rates are multiplied by; 1 leaves the motion as it was recorded.
+    pub strength: f64,
     /// Time of the record at which the path starts and pose and speed hold, s; the first sample if none.
     pub starts_at_s: Option<f64>,
     /// What the vehicle does after the last sample.
@@ -182,7 +188,11 @@ fn check_start(definition: &SensorDefinition, problems: &mut Vec<PathProblem>) -
     for (quantity, value) in names.into_iter().zip(definition.offset_m.iter()) {
         expect_finite(problems, quantity, *value);
     }
-    for (quantity, value) in [("speed", definition.initial_speed_m_s), ("gravity", definition.gravity_m_s2)] {
+    for (quantity, value) in [
+        ("speed", definition.initial_speed_m_s),
+        ("gravity", definition.gravity_m_s2),
+        ("strength", definition.strength),
+    ] {
         expect_finite(problems, quantity, value);
         if value < 0.0 {
             problems.push(PathProblem::of_value(quantity, value, "0 or more"));

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::attitude::Attitude;
 use super::cursor::PathCursor;
+use super::differences::Differences;
 use super::frame::FrameMotion;
 use super::problem::PathProblem;
 use super::spline::{End, Piece, linear_pieces, spline_pieces};
@@ -72,6 +73,8 @@ pub struct TablePath {
     interpolation: Interpolation,
     after: AfterEnd,
     pieces: Vec<Piece>,
+    /// Of straight lines alone.
+    differences: Option<Differences>,
     /// Motion at the first and at the last station, from which it coasts.
     ends: [FrameMotion; 2],
     /// Roll, pitch and yaw rates at the last station, rad/s.
@@ -103,7 +106,23 @@ impl TablePath {
         let (first_s, last_s) = (times_s[0], times_s[times_s.len() - 1]);
         let ends = [motion_of(first, first, first_s), motion_of(last, last, last_s)];
         let last_rates_rad_s = last.rate(last_s).fixed_rows::<3>(3).into_owned();
-        Ok(TablePath { stations, interpolation, after, pieces, ends, last_rates_rad_s })
+        let differences = (interpolation == Interpolation::Linear).then(|| Differences::new(&times_s, &values, after));
+        Ok(TablePath { stations, interpolation, after, pieces, differences, ends, last_rates_rad_s })
+    }
+
+    /// The same path with accelerations, those of its angles too, times `strength`: place, angles and their rates at the first time stay.
+    ///
+    /// # Errors
+    /// As [`TablePath::new`]: a strength that is not finite, or so large that angles jump.
+    pub fn with_strength(&self, strength: f64) -> Result<Self, Vec<PathProblem>> {
+        let first = &self.stations[0];
+        let (from_s, start, rate) = (first.time_s, first.channels(), self.pieces[0].rate(first.time_s));
+        let scaled = |station: &Station| {
+            let steady = start + rate * (station.time_s - from_s);
+            let v = steady + (station.channels() - steady) * strength;
+            Station::new(station.time_s, [v[0], v[1], v[2]], [v[3], v[4], v[5]])
+        };
+        TablePath::new(self.stations.iter().map(scaled).collect(), self.interpolation, self.after)
     }
 
     /// The stations.
@@ -154,6 +173,19 @@ impl TablePath {
         if self.after == AfterEnd::Hold && step_middle_s > last_s { motion.held() } else { motion }
     }
 
+    /// The motion at `t_s` with accelerations that are differences, where the table is read along straight lines.
+    pub(super) fn with_differences(&self, t_s: f64, motion: FrameMotion, cursor: &mut PathCursor) -> FrameMotion {
+        let Some(differences) = &self.differences else { return motion };
+        let (first_s, last_s) = self.span_s();
+        let piece = self.piece_at(t_s.clamp(first_s, last_s), cursor);
+        let mut state = state_of(piece, piece, t_s.clamp(first_s, last_s));
+        let seconds = differences.at(t_s);
+        state.acceleration_m_s2 = seconds.fixed_rows::<3>(0).into_owned();
+        state.angle_accelerations_rad_s2 = seconds.fixed_rows::<3>(3).into_owned();
+        let FrameMotion { acceleration_m_s2, angular_acceleration_rad_s2, .. } = state.motion();
+        FrameMotion { acceleration_m_s2, angular_acceleration_rad_s2, ..motion }
+    }
+
     /// Place and attitude at `t_s` as the table tells them, for output.
     pub(crate) fn pose(&self, t_s: f64, cursor: &mut PathCursor) -> VehiclePose {
         let (first_s, last_s) = self.span_s();
@@ -192,17 +224,20 @@ impl TablePath {
 
 /// Motion at `t_s`: pose from the piece `place`, derivatives from the piece `pace`.
 fn motion_of(place: &Piece, pace: &Piece, t_s: f64) -> FrameMotion {
+    state_of(place, pace, t_s).motion()
+}
+
+fn state_of(place: &Piece, pace: &Piece, t_s: f64) -> VehicleState {
     let (values, rates, seconds) = (place.value(t_s), pace.rate(t_s), pace.second_rate(t_s));
     let linear = |channels: &Vector6<f64>| channels.fixed_rows::<3>(0).into_owned();
     let angular = |channels: &Vector6<f64>| channels.fixed_rows::<3>(3).into_owned();
-    let state = VehicleState {
+    VehicleState {
         pose: VehiclePose { position_m: linear(&values), attitude: Attitude::from_vector(angular(&values)) },
         velocity_m_s: linear(&rates),
         acceleration_m_s2: linear(&seconds),
         angle_rates_rad_s: angular(&rates),
         angle_accelerations_rad_s2: angular(&seconds),
-    };
-    state.motion()
+    }
 }
 
 #[cfg(test)]

@@ -27,8 +27,8 @@ pub(crate) struct BeltSection {
     pub(crate) sphere: Option<String>,
     /// The two anchor points [x, y, z] of a loop, vehicle axes.
     pub(crate) anchors: Option<[[Length; 3]; 2]>,
-    /// K₁, loop force per elongation of the belt up to `delta_b`.
-    pub(crate) k1: Option<Stiffness<POSITIVE>>,
+    /// K₁, loop force per elongation of the belt up to `delta_b`; 0: a gap before it pulls.
+    pub(crate) k1: Option<Stiffness<NOT_NEGATIVE>>,
     /// Elongation at which the stiffness changes. Without it the loop is linear.
     pub(crate) delta_b: Option<Length<NOT_NEGATIVE>>,
     /// K₂, stiffness beyond `delta_b`.

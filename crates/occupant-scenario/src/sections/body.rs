@@ -60,7 +60,8 @@ pub(crate) struct BodySection {
     /// One segment is carried by no joint: its upper end is the reference point T1.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) joints: IndexMap<String, BodyJointSection>,
-    /// Which spheres there are besides those of `spheres` that you name yourself; "report" if absent.
+    /// Which spheres there are besides those of `spheres` that you name yourself; "report" if absent. Each sphere has a force of
+    /// its own: a limb that lies flat is as many times stiffer as it has spheres there, whatever the area.
     pub(crate) sphere_set: Option<SphereSet>,
     /// Contact spheres by name. The report's 17 (`head`, `chest`, `pelvis`, `left_shoulder`, …) know their place and need
     /// only a radius; `shoulders`, `elbows`, `hands`, `thighs`, `knees`, `shins`, `feet` stand for left and right.
@@ -134,7 +135,9 @@ pub(crate) struct SegmentSection {
     pub(crate) weight: Option<Force<POSITIVE>>,
     /// I_x, I_y, I_z about the centre of gravity; X ahead, Y left, Z up when standing.
     pub(crate) inertia: Option<[Inertia; 3]>,
-    /// Yaw, pitch and roll that turn the principal axes into the segment's, if `inertia` is about other axes than these.
+    /// Yaw, pitch and roll that turn the principal axes into the segment's, if `inertia` is about other axes than these. They are
+    /// about the segment's own axes, X ahead, Y left, Z up: yaw is to the left, pitch leans the top ahead. Of `mount`, loose bodies
+    /// and paths, whose axes are a vehicle's with Z down, yaw is to the right and pitch leans the top back.
     pub(crate) principal_axes: Option<[Angle; 3]>,
 }
 

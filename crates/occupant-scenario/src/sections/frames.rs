@@ -91,7 +91,7 @@ pub(crate) enum Meets {
 }
 
 /// What the ground is called as a frame and as a surface.
-pub(super) const GROUND: &str = "ground";
+pub(super) use occupant_core::model::setup::GROUND;
 /// The first vehicle.
 pub(super) const VEHICLE: &str = "vehicle";
 

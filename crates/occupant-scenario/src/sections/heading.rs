@@ -1,22 +1,93 @@
 //! Headings of recorders, in words: "Delta-V, longitudinal" is what `dvx` is.
 
-/// A thing that headings speak of, and the words that they have for it.
-type Sense = (char, &'static [&'static str]);
+use crash_measures::unit::{Dimension, Unit};
 
-/// What is measured, which way, and words that say neither.
-const SENSES: [Sense; 12] = [
-    ('t', &["time", "t", "zeit", "temps"]),
-    ('d', &["delta", "deltav", "dv", "change", "cumulative"]),
-    ('v', &["v", "velocity", "speed"]),
-    ('a', &["acceleration", "accel", "acc", "a"]),
-    ('w', &["rate", "angular", "omega", "gyro"]),
-    ('x', &["longitudinal", "long", "x", "xpos"]),
-    ('y', &["lateral", "lat", "y", "ypos"]),
-    ('z', &["vertical", "vert", "z", "zpos"]),
-    ('p', &["roll"]),
-    ('q', &["pitch"]),
-    ('r', &["yaw", "heading"]),
-    (' ', &["in", "of", "the", "vehicle", "cg", "event", "crash", "position", "angle", "axis", "direction"]),
+/// Things that headings speak of, and the words that they have for them.
+type Sense = (&'static str, &'static [&'static str]);
+
+/// What is measured, which way, words that say both, and words that say neither.
+const SENSES: [Sense; 25] = [
+    ("t", &["time", "t", "zeit", "temps", "tiempo", "tempo", "times"]),
+    ("d", &["delta", "deltav", "dv", "δv", "change", "cumulative", "änderung", "aenderung", "variation", "cambio"]),
+    ("v", &["v", "velocity", "speed", "vitesse", "velocidad", "geschwindigkeit"]),
+    ("dv", &["geschwindigkeitsänderung", "geschwindigkeitsaenderung"]),
+    (
+        "a",
+        &[
+            "acceleration",
+            "accel",
+            "acc",
+            "a",
+            "beschleunigung",
+            "beschl",
+            "accélération",
+            "aceleración",
+            "accelerometer",
+        ],
+    ),
+    ("w", &["rate", "angular", "omega", "gyro", "winkelgeschwindigkeit", "drehrate"]),
+    ("x", &["longitudinal", "long", "x", "xpos", "xo", "xcg", "längs", "laengs", "longitudinale"]),
+    ("y", &["lateral", "lat", "y", "ypos", "yo", "ycg", "quer", "latérale", "transversal"]),
+    ("z", &["vertical", "vert", "z", "zpos", "zo", "zcg", "vertikal", "verticale"]),
+    ("p", &["roll", "phi", "wanken", "wankwinkel", "rollwinkel", "roulis"]),
+    ("q", &["pitch", "theta", "nicken", "nickwinkel", "tangage"]),
+    ("r", &["yaw", "psi", "heading", "gier", "gieren", "gierwinkel", "lacet"]),
+    ("ax", &["ax", "accx", "xacc", "longacc", "längsbeschl", "längsbeschleunigung", "laengsbeschleunigung"]),
+    ("ay", &["ay", "accy", "yacc", "latacc", "querbeschl", "querbeschleunigung"]),
+    ("az", &["az", "accz", "zacc", "vertacc", "vertikalbeschleunigung", "hochbeschleunigung"]),
+    ("wx", &["wx", "avx", "gyrox", "omegax"]),
+    ("wy", &["wy", "avy", "gyroy", "omegay"]),
+    ("wz", &["wz", "avz", "gyroz", "omegaz"]),
+    ("pw", &["rollrate", "wankrate"]),
+    ("qw", &["pitchrate", "nickrate"]),
+    ("rw", &["yawrate", "gierrate"]),
+    ("dvx", &["dvx"]),
+    ("dvy", &["dvy"]),
+    (
+        "",
+        &[
+            "in",
+            "of",
+            "the",
+            "vehicle",
+            "cg",
+            "event",
+            "crash",
+            "position",
+            "angle",
+            "axis",
+            "direction",
+            "sensor",
+            "center",
+            "centre",
+        ],
+    ),
+    (
+        "",
+        &[
+            "gravity",
+            "cog",
+            "c",
+            "g",
+            "vehicle's",
+            "car",
+            "body",
+            "chassis",
+            "raw",
+            "filtered",
+            "channel",
+            "der",
+            "des",
+            "schwerpunkt",
+        ],
+    ),
+];
+
+/// What the unit of a column says that its words leave open: `X (g)` is an acceleration, `Roll (deg/s)` a rate.
+const BY_UNIT: [(Unit, [&str; 3], &str); 3] = [
+    (Unit::MetrePerSecondSquared, ["x", "y", "z"], "a"),
+    (Unit::RadianPerSecond, ["x", "y", "z"], "w"),
+    (Unit::RadianPerSecond, ["p", "q", "r"], "w"),
 ];
 
 /// The senses of a heading, sorted, and the column that they mean.
@@ -51,14 +122,57 @@ const COLUMNS: [(&str, &str); 26] = [
 
 /// The column of a path's table that a heading means, if every word of it is known.
 pub fn heading(text: &str) -> Option<&'static str> {
+    column_of(&senses(text)?)
+}
+
+/// The same of a column whose unit has this dimension, which settles what the words leave open; none where unit and words are at odds.
+pub fn heading_in(text: &str, measured: Dimension) -> Option<&'static str> {
+    let rates = [("p", "wx"), ("q", "wy"), ("r", "wz")];
+    if let Some((_, rate)) = rates.iter().find(|(name, _)| text.trim().eq_ignore_ascii_case(name)) {
+        return (measured == Unit::RadianPerSecond.dimension()).then_some(rate);
+    }
+    let mut senses = senses(text)?;
+    let open =
+        |(unit, axes, _): &&(Unit, [&str; 3], &str)| unit.dimension() == measured && axes.contains(&senses.as_str());
+    if let Some((.., what)) = BY_UNIT.iter().find(open) {
+        senses = sorted(&(senses + what));
+    }
+    column_of(&senses).filter(|column| dimension(column) == measured)
+}
+
+/// What a column holds.
+fn dimension(column: &str) -> Dimension {
+    match column {
+        "t" => Unit::Second,
+        "x" | "y" | "z" => Unit::Metre,
+        "roll" | "pitch" | "yaw" => Unit::Radian,
+        "wx" | "wy" | "wz" => Unit::RadianPerSecond,
+        "dvx" | "dvy" => Unit::MetrePerSecond,
+        _ => Unit::MetrePerSecondSquared,
+    }
+    .dimension()
+}
+
+/// The senses of a heading, sorted; none where a word is not known. Numbers of channels and of filter classes say nothing.
+fn senses(text: &str) -> Option<String> {
     let text = text.to_lowercase();
-    let words = text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
-    let sense = |word: &str| SENSES.iter().find(|(_, names)| names.contains(&word)).map(|(sense, _)| *sense);
-    let mut senses: Vec<char> = words.map(sense).collect::<Option<_>>()?;
-    senses.retain(|sense| *sense != ' ');
+    let words = text.split(|c: char| !(c.is_alphanumeric() || c == '\'')).filter(|word| !word.is_empty());
+    let says_nothing = |word: &str| word.strip_prefix("cfc").unwrap_or(word).bytes().all(|b| b.is_ascii_digit());
+    let sense = |word: &str| match says_nothing(word) {
+        true => Some(""),
+        false => SENSES.iter().find(|(_, names)| names.contains(&word)).map(|(sense, _)| *sense),
+    };
+    words.map(sense).collect::<Option<String>>().map(|senses| sorted(&senses))
+}
+
+fn sorted(senses: &str) -> String {
+    let mut senses: Vec<char> = senses.chars().collect();
     senses.sort_unstable();
     senses.dedup();
-    let senses: String = senses.into_iter().collect();
+    senses.into_iter().collect()
+}
+
+fn column_of(senses: &str) -> Option<&'static str> {
     COLUMNS.iter().find(|(of, _)| *of == senses).map(|(_, column)| *column)
 }
 
@@ -79,6 +193,13 @@ mod tests {
             ("Accel X", Some("ax")),
             ("Yaw rate", Some("wz")),
             ("angular velocity roll", Some("wx")),
+            ("CG Ax", Some("ax")),
+            ("Längsbeschl.", Some("ax")),
+            ("Delta-V quer", Some("dvy")),
+            ("PHI", Some("roll")),
+            ("THETA", Some("pitch")),
+            ("PSI", Some("yaw")),
+            ("AVz", Some("wz")),
             ("Vehicle speed", None),
             ("Engine rpm", None),
             ("", None),
@@ -86,5 +207,21 @@ mod tests {
             assert_eq!(heading(text), column, "{text}");
         }
         assert!(COLUMNS.iter().all(|(senses, _)| senses.chars().is_sorted()));
+    }
+
+    #[test]
+    fn the_unit_settles_what_words_leave_open() {
+        let of = |text: &str, unit: Unit| heading_in(text, unit.dimension());
+        assert_eq!(of("CG X", Unit::MetrePerSecondSquared), Some("ax"));
+        assert_eq!(of("X", Unit::MetrePerSecondSquared), Some("ax"));
+        assert_eq!(of("X", Unit::Metre), Some("x"));
+        assert_eq!(of("Yaw", Unit::RadianPerSecond), Some("wz"));
+        assert_eq!(of("Gyro Z", Unit::RadianPerSecond), Some("wz"));
+        assert_eq!(of("Yaw", Unit::Radian), Some("yaw"));
+        assert_eq!(of("R", Unit::RadianPerSecond), Some("wz"));
+        assert_eq!(of("ax", Unit::Metre), None);
+        assert_eq!(of("Accel X CFC60", Unit::MetrePerSecondSquared), Some("ax"));
+        assert_eq!(of("Vehicle speed", Unit::MetrePerSecond), None);
+        assert_eq!(of("Head X", Unit::MetrePerSecondSquared), None);
     }
 }

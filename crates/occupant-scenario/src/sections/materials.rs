@@ -26,8 +26,9 @@ pub(crate) struct MaterialSection {
         "head_dummy", "head_dummy_1973"
     ]))]
     pub(crate) library: Option<String>,
-    /// K₁, stiffness up to `delta_b`.
-    pub(crate) k1: Option<Stiffness<POSITIVE>>,
+    /// K₁, stiffness up to `delta_b`, against one sphere: several spheres of a part that touch are so many times stiffer (`share` of
+    /// a sphere multiplies its force). 0: a gap before the spring bears.
+    pub(crate) k1: Option<Stiffness<NOT_NEGATIVE>>,
     /// Δ_b, deformation at which the stiffness changes. Without it the spring is linear.
     pub(crate) delta_b: Option<Length<NOT_NEGATIVE>>,
     /// K₂, stiffness beyond `delta_b`.
@@ -66,7 +67,9 @@ pub(crate) struct MaterialSection {
     pub(crate) viscous: Option<DamperSection>,
     /// Coefficient of friction.
     pub(crate) friction: Option<Ratio<NOT_NEGATIVE>>,
-    /// v_s, sliding speed at which friction reaches 71 % of its full value; 5 in/s if absent.
+    /// v_s, sliding speed at which friction reaches 71 % of its full value; 5 in/s if absent. Friction grows with slip and never
+    /// sticks: on a slope θ a body creeps at v_s tan θ/√(f² − tan² θ). A smaller speed comes nearer to sticking and takes
+    /// shorter steps in proportion: `check` and `run` say what a fixed step bears.
     pub(crate) friction_speed: Option<Speed<POSITIVE>>,
     /// A factor of friction over the sliding speed.
     pub(crate) friction_over_slip: Option<SlipSection>,
@@ -245,7 +248,7 @@ fn by_quadratic(b: &mut Builder, path: &str, s: &AtbSection) -> Unloading {
 
 /// A bilinear spring; linear where no break is given.
 pub(super) fn spring(
-    k1: &Stiffness<POSITIVE>,
+    k1: &Stiffness<NOT_NEGATIVE>,
     k2: &Option<Stiffness<NOT_NEGATIVE>>,
     delta_b: &Option<Length<NOT_NEGATIVE>>,
     returned_1: f64,

@@ -45,7 +45,7 @@ use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use heading::heading as column_named;
+pub use heading::{heading as column_named, heading_in as column_in};
 pub(super) use many::together;
 pub use quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, Quantity};
 pub use record_file::{RecordFile, read_record};
@@ -109,6 +109,7 @@ type MassFlow<const RANGE: usize = ANY> = Quantity<{ kind::MASS_FLOW }, RANGE>;
 type MolarMass<const RANGE: usize = ANY> = Quantity<{ kind::MOLAR_MASS }, RANGE>;
 type SpecificHeat<const RANGE: usize = ANY> = Quantity<{ kind::SPECIFIC_HEAT }, RANGE>;
 type SpecificHeatSlope<const RANGE: usize = ANY> = Quantity<{ kind::SPECIFIC_HEAT_SLOPE }, RANGE>;
+type Frequency<const RANGE: usize = ANY> = Quantity<{ kind::FREQUENCY }, RANGE>;
 type HeatTransfer<const RANGE: usize = ANY> = Quantity<{ kind::HEAT_TRANSFER }, RANGE>;
 
 /// A crash or a violent manoeuvre with one occupant, or several.

@@ -26,18 +26,19 @@ pub(crate) struct MountSection {
     /// head and neck on an upper torso. Words such as `upper_arms` stand for left and right. None if absent.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) without: Vec<String>,
-    /// What it is fixed to; "vehicle", whose path `path` is, if absent.
+    /// What it is fixed to; "vehicle", whose path `path` is, if absent. In "space" z is up and y left in `place` and `let_go`;
+    /// in all other frames z is down and y right. Roll, pitch and yaw mean the same in both.
     pub(crate) frame: Option<MountFrame>,
     /// The point of the segment that it is held by and for which its load is given, from the segment's lower end in segment axes
     /// (X ahead, Y left, Z up when standing); [0, 0, 0] if absent.
     pub(crate) point: Option<[Length; 3]>,
-    /// Where that point is in the frame; [0, 0, 0] if absent.
+    /// Where that point is in the frame, whose z is down, or up of "space"; [0, 0, 0] if absent.
     pub(crate) place: Option<[Length; 3]>,
     /// Roll of the segment from upright and facing forward, right side down; 0 if absent.
     pub(crate) roll: Option<Angle>,
     /// Pitch, its top leant back; 0 if absent.
     pub(crate) pitch: Option<Angle>,
-    /// Yaw, to the right; 0 if absent.
+    /// Yaw, to the right, also in "space"; 0 if absent.
     pub(crate) yaw: Option<Angle>,
     /// Velocity beside that of the frame, along its axes, with which it lets the body go at the start: a head that falls. It holds
     /// the body throughout if absent.
@@ -54,7 +55,7 @@ pub(crate) struct MountSection {
 pub(crate) enum MountFrame {
     /// The vehicle: x forward, y right, z down from its centre of gravity.
     Vehicle,
-    /// Space: x forward, y left, z up.
+    /// Space: x forward, y left, z up, unlike all other frames.
     Space,
 }
 
@@ -93,11 +94,26 @@ pub(super) fn held(b: &mut Builder, section: &MountSection, body: &Body) -> Opti
 /// How a body begins that hangs on a mount, or that it lets go.
 pub(super) fn beginning(b: &mut Builder, section: &MountSection, body: &Body) -> (InitialPosture, InitialVelocity) {
     let at = mounting(b, section, body);
+    tell_of_space(b, section);
     let Some(velocity) = &section.let_go else {
         return (InitialPosture::Mounted(Box::new(at)), InitialVelocity::default());
     };
     let placing = Placing { at, stands: false, spin_rad_s: Vector3::zeros() };
     (InitialPosture::Placed(Box::new(placing)), InitialVelocity::Given(all_si(velocity).into()))
+}
+
+/// Says which way is up where that is another way than everywhere else.
+fn tell_of_space(b: &mut Builder, section: &MountSection) {
+    let place = section.place.as_ref().map(|place| ("mount.place", point(place).z, "m"));
+    let let_go = section.let_go.as_ref().map(|v| ("mount.let_go", all_si(v)[2], "m/s"));
+    for (path, z, unit) in place.into_iter().chain(let_go) {
+        if section.frame == Some(MountFrame::Space) && z != 0.0 {
+            let way = if z > 0.0 { "up" } else { "down" };
+            let found = format!("z = {z} {unit} in \"space\", which is {way}: there z is up and y left");
+            let expected = "so, or frame = \"vehicle\", in which z is down and y right as in all other frames";
+            b.report(Problem::warning(path, found, expected));
+        }
+    }
 }
 
 /// The mount of a body that hangs on it.

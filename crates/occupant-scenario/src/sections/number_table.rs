@@ -5,9 +5,9 @@
 //! separate them; blank lines and lines that start with `#` are skipped. Where the scenario names the columns of a file, its
 //! own headings do not count.
 
-use super::heading::heading;
+use super::heading::{heading, heading_in};
 use crate::kind::{KINDS, UnitSystem};
-use crash_measures::unit::parse;
+use crash_measures::unit::parse_heading;
 use placed_text::{
     CELL, Cell, Diagnostic, Diagnostics, Node, Problem, Separator, SourceId, Sources, Span, TextTable, did_you_mean,
     name_and_unit, one_of, shortened,
@@ -64,7 +64,7 @@ pub(super) fn read_csv(
     columns: &[Column],
     names: Option<(Vec<Cell>, Span)>,
 ) -> Result<NumberTable, Diagnostics> {
-    let Some(text) = TextTable::of(sources, id, |unit| parse(unit, 0).is_ok()) else {
+    let Some(text) = TextTable::of(sources, id, |unit| parse_heading(unit).is_ok()) else {
         let mut reader = Reader::new(sources, columns, Separator::of(""));
         reader.error(sources.start_of(id), "an empty table", "a line that names the columns");
         return Err(reader.problems);
@@ -74,7 +74,12 @@ pub(super) fn read_csv(
     match names {
         Some((names, span)) => reader.header(&names, |_| None, span),
         None => {
-            if text.headings.iter().all(|cell| reader.place(name_and_unit(cell.text).0).is_none()) {
+            let is_known = |(i, cell): (usize, &Cell)| {
+                let unit = text.unit(i).and_then(|(unit, _)| parse_heading(unit).ok());
+                let name = name_and_unit(cell.text).0;
+                reader.place(name).or_else(|| reader.place(heading_in(name, unit?.dimension)?)).is_some()
+            };
+            if !text.headings.iter().enumerate().any(is_known) {
                 // any file can be named in a scenario: what is no such table is not shown
                 let expected = one_of(&reader.names(), '`');
                 reader.error(text.first, "a first line that names no column of such a table", expected);
@@ -82,6 +87,9 @@ pub(super) fn read_csv(
             }
             reader.header(&text.headings, |i| text.unit(i).map(|(unit, _)| unit), text.first);
         }
+    }
+    if let Some(behind) = text.behind {
+        reader.error(behind, "a line that is no part of the table", "numbers up to the end of the file");
     }
     for line in text.lines {
         let cells = text.separator.cells(sources, line);
@@ -180,7 +188,8 @@ impl<'a> Reader<'a> {
             self.left_out.push(self.columns.len());
             return None;
         }
-        let Some(i) = self.place(name) else {
+        let by_unit = || heading_in(name, parse_heading(unit_text?).ok()?.dimension).and_then(|name| self.place(name));
+        let Some(i) = by_unit().or_else(|| self.place(name)) else {
             let names = self.names();
             let problem =
                 Problem::error("", format!("unknown column `{}`", shortened(name, CELL)), one_of(&names, '`'));

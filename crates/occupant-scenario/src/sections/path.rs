@@ -7,10 +7,11 @@ use serde::{Deserialize, Serialize};
 use super::builder::Builder;
 use super::number_table::{Column, NumberTable, column, names_of, read_csv, read_inline};
 use super::pulse::{self, PulseSection};
-use super::quantity::{all_si, si_or};
+use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, si_or};
 use super::sensors::{self, SensorAxes, SensorsSection};
-use super::{Angle, Length, Ratio, Scenario};
+use super::{Angle, Frequency, Length, Ratio, Scenario};
 use crate::kind;
+use crash_measures::signal::smooth;
 use occupant_core::vehicle::{
     AfterEnd, Attitude, FixedPath, Interpolation, PathProblem, Station, TablePath, TravelDirection, VehiclePath,
     VehiclePose,
@@ -65,6 +66,12 @@ pub(crate) struct TableSection {
     /// The point of the vehicle whose places the table gives, such as the middle of its rear axle, [x, y, z] from the vehicle's centre of gravity,
     /// forward, right, down; [0, 0, 0] if absent.
     pub(crate) offset: Option<[Length; 3]>,
+    /// Frequency from which on places and angles are smoothed, without phase lag and 3 dB down there, as where they are rounded and their second
+    /// derivatives are mostly that; not smoothed if absent.
+    pub(crate) filter: Option<Frequency<POSITIVE>>,
+    /// What the accelerations of the path are multiplied by, those of its angles too; place, angles and their rates at the first time stay. 1 if
+    /// absent.
+    pub(crate) strength: Option<Ratio<NOT_NEGATIVE>>,
     /// How the table is read between its times; "spline" if absent.
     pub(crate) interpolation: Option<Interpolation>,
     /// What the vehicle does after the last time; a run that goes on is refused if absent.
@@ -140,9 +147,36 @@ pub(super) fn pose(position: &Option<[Length; 3]>, [roll, pitch, yaw]: [&Option<
 
 fn table_path(b: &mut Builder, s: &TableSection, file: Option<SourceId>) -> Option<TablePath> {
     let table = numbers(b, file, &COLUMNS)?;
-    let stations = stations(s, &table.rows);
+    let mut stations = stations(s, &table.rows);
+    if let Some(filter) = &s.filter {
+        stations = smoothed(&stations, filter.si()).map_err(|found| b.error("path.filter", found, SMOOTHED)).ok()?;
+    }
     let path = TablePath::new(stations, s.interpolation.unwrap_or_default(), s.after.unwrap_or_default());
+    let path = path.and_then(|path| match &s.strength {
+        Some(strength) => path.with_strength(strength.si()),
+        None => Ok(path),
+    });
     path.map_err(|p| refuse(b, &p, Some(&table))).ok()
+}
+
+const SMOOTHED: &str = "three times or more that increase, and a frequency below half of their rate";
+
+/// The stations without what is faster than `cutoff_hz`.
+fn smoothed(stations: &[Station], cutoff_hz: f64) -> Result<Vec<Station>, String> {
+    let time_s: Vec<f64> = stations.iter().map(|station| station.time_s).collect();
+    let channel = |of: &dyn Fn(&Station) -> f64| -> Result<Vec<f64>, String> {
+        let values: Vec<f64> = stations.iter().map(of).collect();
+        smooth(&time_s, &values, cutoff_hz).map_err(|error| error.to_string())
+    };
+    let [x, y, z] = [0, 1, 2].map(|axis| channel(&|station| station.pose.position_m[axis]));
+    let angles = [
+        channel(&|station| station.pose.attitude.roll_rad)?,
+        channel(&|station| station.pose.attitude.pitch_rad)?,
+        channel(&|station| station.pose.attitude.yaw_rad)?,
+    ];
+    let places = [x?, y?, z?];
+    let at = |i: usize| Station::new(time_s[i], [0, 1, 2].map(|a| places[a][i]), [0, 1, 2].map(|a| angles[a][i]));
+    Ok((0..time_s.len()).map(at).collect())
 }
 
 /// The vehicle's centre of gravity and angles, z down, at the times of the table.

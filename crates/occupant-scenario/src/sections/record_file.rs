@@ -3,7 +3,7 @@
 use super::number_table::read_csv;
 use super::sensors::{COLUMNS, RECORDED};
 use occupant_core::vehicle::AccelerationRecord;
-use placed_text::{Diagnostic, Diagnostics, Problem, Separator, Sources, Span, text_of};
+use placed_text::{Diagnostic, Diagnostics, Problem, Separator, Sources, Span, table_text};
 
 /// Recorded accelerations and rates in SI, as the file's axes have them, with the places of its lines.
 #[derive(Clone, Debug)]
@@ -20,11 +20,11 @@ pub struct RecordFile {
 /// that is left out, in place of the file's own headings. `name` is what messages call it.
 ///
 /// # Errors
-/// Everything that is wrong with it: bytes that are not UTF-8, unknown, doubled and missing columns, wrong units, cells that
+/// Everything that is wrong with it: bytes that are no text, unknown, doubled and missing columns, wrong units, cells that
 /// are no number, lines that are too long or too short, times that do not increase, fewer than two lines, no channel.
 pub fn read_record(bytes: &[u8], name: &str, columns: Option<&str>) -> Result<RecordFile, Diagnostics> {
     let mut sources = Sources::new();
-    let id = sources.add(name, text_of(bytes, name)?);
+    let id = sources.add(name, table_text(bytes, name)?);
     let given = columns.map(|columns| sources.add("columns", columns));
     let table = {
         let names = given.map(|given| {

@@ -108,5 +108,6 @@ pub(super) fn output(b: &mut Builder, s: &Scenario, body: &Body) -> OutputOption
     OutputOptions {
         report_coordinates: s.output.as_ref().and_then(|o| o.report_coordinates) == Some(true),
         markers: markers(b, &s.markers, body),
+        readings_s: None,
     }
 }

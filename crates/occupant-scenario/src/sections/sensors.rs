@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::builder::Builder;
 use super::number_table::{Column, NumberTable, column};
 use super::path::{direction, numbers, pose, refuse};
-use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si};
+use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, si_or};
 use super::{Angle, Length, Ratio, Speed, Time};
 use crate::kind;
 use crash_measures::signal::ChannelClass;
@@ -20,7 +20,7 @@ use placed_text::{Diagnostic, Problem, SourceId};
 /// What sensors in the vehicle recorded, along its axes: x forward, y right, z down.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("x-exactly-one" = [["file", "rows"]], "dependentRequired" = {"rows": ["columns"]}))]
+#[schemars(extend("x-exactly-one" = [["file", "rows"]], "dependentRequired" = {"rows": ["columns"], "baseline_end": ["baseline"]}))]
 pub(crate) struct SensorsSection {
     /// CSV file beside the scenario; its first line names the columns and their units: `t`, accelerations `ax`, `ay`, `az`
     /// and rates `wx`, `wy`, `wz` (or `roll_rate`, `pitch_rate`, `yaw_rate`), such as `t[s],ax[g],ay[g],wz[deg/s]`; or
@@ -49,6 +49,12 @@ pub(crate) struct SensorsSection {
     /// Length of the rest, or steady travel, at the beginning of the record; what each channel reads there on average
     /// beyond what it should is taken away from all of it. Nothing is taken away if absent.
     pub(crate) baseline: Option<Time<POSITIVE>>,
+    /// Length of a rest, level as at the start, at the end of the record as well: what is taken away then follows a straight line from one mean
+    /// to the other, as sensors drift.
+    pub(crate) baseline_end: Option<Time<POSITIVE>>,
+    /// What the recorded motion is multiplied by: accelerations without gravity, velocity changes, and the changes of rates; the state at the start
+    /// stays. 1 if absent.
+    pub(crate) strength: Option<Ratio<NOT_NEGATIVE>>,
     /// Time of the record at which the path starts and position, angles and speed hold; its first time if absent.
     /// With `time.start` at the same time a run leaves out the braking before a crash, under which a body without muscles folds.
     pub(crate) start: Option<Time>,
@@ -140,6 +146,8 @@ pub(super) fn path(
         },
         filter: s.filter.map(|word| ChannelClass::ALL[word as usize]),
         baseline_s: s.baseline.as_ref().map(Time::si),
+        baseline_end_s: s.baseline_end.as_ref().map(Time::si),
+        strength: si_or(&s.strength, 1.0),
         starts_at_s: s.start.as_ref().map(Time::si),
         after: s.after.unwrap_or_default(),
     });
@@ -192,6 +200,6 @@ fn check_delta_v(b: &mut Builder, table: &NumberTable) -> bool {
     }
     let expected = "a record of accelerations, or no such key";
     let found = |key: &str| format!("`{key}` with a record of velocity changes");
-    b.refuse_keys("path", &["gravity", "filter", "baseline"], found, expected);
+    b.refuse_keys("path", &["gravity", "filter", "baseline", "baseline_end"], found, expected);
     b.problems.len() == before
 }

@@ -90,7 +90,8 @@ pub(crate) enum FacingChoice {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ContactSection {
-    /// Where the in-plane force of a surface's edge acts on a sphere; "contact_point" if absent.
+    /// Where the in-plane force of a surface's edge acts on a sphere; "contact_point" if absent, as in all runs so far. "centre" is
+    /// better where bodies turn at edges: no energy is made there (solids have no such force).
     pub(crate) edge_force: Option<EdgeForce>,
     /// Name of the material of which the skins of several bodies are, where they have no other: spheres of two bodies that touch
     /// deform both skins in series.

@@ -8,8 +8,11 @@ use occupant_core::body::tti12;
 use occupant_core::model::setup::Integrator;
 
 fn cart(name: &str) -> Loaded {
-    let path = format!("{}/../../scenarios/{name}", env!("CARGO_MANIFEST_DIR"));
-    let bytes = std::fs::read(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
+    read(&format!("{}/../../scenarios/{name}", env!("CARGO_MANIFEST_DIR")), name)
+}
+
+fn read(path: &str, name: &str) -> Loaded {
+    let bytes = std::fs::read(path).unwrap_or_else(|e| panic!("{path}: {e}"));
     let draft = Draft::read_bytes(&bytes, None, name).unwrap_or_else(|e| panic!("{e}"));
     draft.load(&no_files).unwrap_or_else(|e| panic!("{e}"))
 }
@@ -23,13 +26,14 @@ fn each_gives_a_model_without_a_warning() {
         assert!(warnings.is_empty(), "{name}: {warnings}");
         let names: Vec<&str> = model.setup().belts.iter().map(|b| b.name.as_str()).collect();
         assert_eq!(names, belts);
-        assert_eq!(model.setup().surfaces.len(), 9);
+        assert_eq!(model.setup().surfaces.len(), 12);
     }
 }
 
 #[test]
 fn numbers_arrive_in_si() {
-    let (setup, _) = cart("cart-lap-torso.toml").build().unwrap();
+    let place = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/carts/cart-lap-torso.toml");
+    let (setup, _) = read(place, "cart-lap-torso.toml").build().unwrap();
     // 173.55 lb over 386.04 in/s².
     let lbf_s2_per_in = 4.4482216152605 / 0.0254;
     assert_relative_eq!(setup.body.mass_kg(), 173.55 / 386.04 * lbf_s2_per_in, max_relative = 1e-14);

@@ -20,7 +20,7 @@ fn caveats_of(scenario: &str, changes: &[(&str, &str)]) -> (Summary, Vec<String>
     (summary, names)
 }
 
-const BELTED: &str = include_str!("../../../../scenarios/cart-lap-torso.toml");
+const BELTED: &str = include_str!("../../../../tests/data/carts/cart-lap-torso.toml");
 
 #[test]
 fn a_neck_beyond_its_stop_takes_the_neck_figures_with_it_and_no_others() {
@@ -74,7 +74,7 @@ fn outputs_too_coarse_say_so_and_closer_ones_do_not() {
 /// A chest that meets the wheel between two outputs.
 #[test]
 fn a_peak_between_two_outputs_is_told_by_the_steps() {
-    let unbelted = include_str!("../../../../scenarios/cart-unbelted.toml");
+    let unbelted = include_str!("../../../../tests/data/carts/cart-unbelted.toml");
     let of = |interval: &str| {
         let (summary, _) = caveats_of(unbelted, &[("output.interval", interval)]);
         let chest = summary.accelerations.chest.peak_m_s2;

@@ -36,6 +36,13 @@ fn values_are_toml_or_plain_text() {
 }
 
 #[test]
+fn a_number_without_a_digit_before_its_point_is_one() {
+    let setup = changed(&["integrator.kind=rk4", "integrator.step=.0002", "belts.lap.anchors[1][2]=+.25"]).unwrap();
+    assert_eq!(setup.integrator, occupant_core::model::setup::Integrator::Rk4 { step_s: 2e-4 });
+    assert_eq!(setup.belts[0].anchors_m[1].z, 0.25);
+}
+
+#[test]
 fn null_takes_away_what_stands_there() {
     let setup = changed(&["belts.lap=null"]).unwrap();
     assert_eq!(setup.belts.len(), changed(&[]).unwrap().belts.len() - 1);

@@ -135,6 +135,7 @@ fn wrong_units_are_refused_with_their_place() {
         ("5 kn", FORCE, "kn", "unknown unit `kn`", Some("did you mean `kN`?")),
         ("3 blorp", LENGTH, "blorp", "unknown unit `blorp`", None),
         ("15", ANGLE, "15", "a number without unit in quotes, `15`", Some("write 15 without quotes")),
+        (".2", ANGLE, ".2", "a number without unit in quotes, `.2`", Some("write 0.2 without quotes")),
         ("1,5 m", LENGTH, "1,5 m", "a comma in the number `1,5 m`", Some("decimals are written with a point")),
         ("fast", SPEED, "fast", "`fast` does not start with a number", None),
         ("", SPEED, "", "`` does not start with a number", None),

@@ -22,7 +22,7 @@ pub(super) fn bind(binder: &mut Binder, base: &Draft, parameters: &[Parameter]) 
     let groups = [
         ("posture", posture, "a posture"),
         ("place", place, "a posture"),
-        ("path", path, "a pulse with `peak` or `delta_v`"),
+        ("path", path, "a path that moves: a pulse with `peak` or `delta_v`, a table or a record"),
         ("stiffness", stiffness, "materials or belts"),
         ("segments", segments, "a body"),
     ];

@@ -16,6 +16,8 @@ use occupant_core::vehicle::{
 pub struct Angles {
     /// Roll, pitch, yaw of largest magnitude, rad. Yaw counts from the heading at the start.
     pub largest: [Measured<Peak>; 3],
+    /// Roll, pitch, yaw over time, rad.
+    pub histories: [Measured<Vec<f64>>; 3],
     /// True if all three rates were there, so that the angles are roll, pitch and yaw of the attitude; otherwise each is
     /// the integral of its own rate.
     pub of_attitude: bool,
@@ -33,7 +35,11 @@ impl Angles {
         } else {
             [0, 1, 2].map(|axis| alone(signals, axis))
         };
-        Angles { largest: histories.map(|angle| Ok(largest_magnitude(&angle?, signals.dt_s)?)), of_attitude }
+        let largest = [0, 1, 2].map(|axis: usize| {
+            let angle = histories[axis].as_ref().map_err(Missing::clone)?;
+            Ok(largest_magnitude(angle, signals.dt_s)?)
+        });
+        Angles { largest, histories, of_attitude }
     }
 }
 
@@ -54,6 +60,8 @@ fn attitudes(signals: &VehicleSignals) -> Measured<[Vec<f64>; 3]> {
         gravity_m_s2: 0.0,
         filter: None,
         baseline_s: None,
+        baseline_end_s: None,
+        strength: 1.0,
         starts_at_s: None,
         after: AfterEnd::Error,
     })

@@ -1,11 +1,21 @@
 //! Measures against the limits of rules.
 
 use super::VehicleRisk;
-use crash_measures::measure::limits::{Grade, LIMITS, Limit, Quantity, Rule, Verdict};
+use crash_measures::measure::limits::{LIMITS, Limit, Quantity, Rule, Verdict};
 
 /// The rules that judge a vehicle's motion.
-pub const ROADSIDE_RULES: [Rule; 5] =
-    [Rule::Mash2016, Rule::Mash2016Supports, Rule::Nchrp350, Rule::En1317Edition1998, Rule::En1317Edition2010];
+pub const ROADSIDE_RULES: [Rule; 10] = [
+    Rule::Mash2016,
+    Rule::Mash2016Supports,
+    Rule::Nchrp350,
+    Rule::Nchrp350Supports,
+    Rule::En1317Edition1998,
+    Rule::En1317Edition2010,
+    Rule::En1317CushionHeadOn,
+    Rule::En1317CushionSide,
+    Rule::En12767,
+    Rule::En12767Slow,
+];
 
 /// A measure against a limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,10 +31,9 @@ pub struct Judgement {
 }
 
 impl Judgement {
-    /// Whether the rule is broken: a maximum, or the last severity class, is exceeded.
+    /// Whether the rule is broken: a maximum, or the last class or level that the rule has, is exceeded.
     pub fn breaks_the_rule(&self) -> bool {
-        let last = matches!(self.limit.grade, Grade::Maximum | Grade::ClassC);
-        last && self.verdict.is_some_and(|verdict| !verdict.passed)
+        self.limit.is_last() && self.verdict.is_some_and(|verdict| !verdict.passed)
     }
 }
 
@@ -50,6 +59,7 @@ fn values(risk: &VehicleRisk, limit: &Limit) -> Vec<(&'static str, Option<f64>)>
         Quantity::OccupantImpactVelocity => {
             vec![("OIV x", flail.map(|f| f.oiv_x_mps)), ("OIV y", flail.map(|f| f.oiv_y_mps))]
         }
+        Quantity::LongitudinalImpactVelocity => vec![("OIV x", flail.map(|f| f.oiv_x_mps))],
         Quantity::RidedownAcceleration => vec![
             ("ORA x", flail.and_then(|f| Some(f.ora_x?.value))),
             ("ORA y", flail.and_then(|f| Some(f.ora_y?.value))),
@@ -57,11 +67,14 @@ fn values(risk: &VehicleRisk, limit: &Limit) -> Vec<(&'static str, Option<f64>)>
         Quantity::Thiv => vec![("THIV", thiv.map(|t| t.speed_mps))],
         Quantity::Phd => vec![("PHD", thiv.and_then(|t| Some(t.phd?.value)))],
         Quantity::Asi => match limit.rule {
-            Rule::En1317Edition1998 => {
+            // EN 12767:2007 goes with the edition of its time
+            Rule::En1317Edition1998 | Rule::En12767 | Rule::En12767Slow => {
                 vec![("ASI (1998)", risk.asi_1998.as_ref().ok().map(|p| p.value))]
             }
             _ => vec![("ASI (2010)", risk.asi_2010.as_ref().ok().map(|p| p.value))],
         },
+        Quantity::Roll => vec![("roll", risk.angles.largest[0].as_ref().ok().map(|p| p.value))],
+        Quantity::Pitch => vec![("pitch", risk.angles.largest[1].as_ref().ok().map(|p| p.value))],
         _ => Vec::new(),
     }
 }

@@ -10,17 +10,18 @@
 //! its reason, never computed from zeros. The formulas are those of [`crash_measures::measure`].
 
 mod angles;
+mod errors;
 mod judgement;
 mod missing;
 mod prepare;
 mod sampled;
 
-pub(crate) use angles::Angles;
+pub use angles::Angles;
 use crash_measures::measure::{
-    Asi, AsiEdition, FlailDistances, FlailSpace, HeadFlight, Olc, Peak, Thiv, asi, flail_space, max_50ms_average, olc,
-    thiv,
+    AsiEdition, FlailDistances, FlailSpace, HeadFlight, Olc, Peak, Thiv, asi, flail_space, max_50ms_average, olc, thiv,
 };
 use crash_measures::signal::{CumulativeIntegral, WindowExtreme};
+pub use errors::SensorErrors;
 pub use judgement::{Judgement, ROADSIDE_RULES, judge};
 pub use missing::{Measured, Missing};
 use occupant_core::vehicle::Attitude;
@@ -42,6 +43,8 @@ pub struct VehicleSignals {
     pub dt_s: f64,
     /// Accelerations along x, y, z, m/s², gravity not in them; rates about x, y, z, rad/s.
     pub channels: [Option<Vec<f64>>; 6],
+    /// Accelerations before the first sample, as far as the record has them: filters of measures run through them. Of no rates.
+    pub lead: [Vec<f64>; 3],
     /// Attitude at the first sample.
     pub initial: Attitude,
 }
@@ -92,6 +95,8 @@ pub struct VehicleRisk {
     pub asi_1998: Measured<Peak>,
     /// ASI of EN 1317-1:2010.
     pub asi_2010: Measured<Peak>,
+    /// How much of its maximum that index still has where the record ends: what comes after is not known.
+    pub asi_left_at_end: Option<f64>,
     /// Largest 50 ms averages along x, y, z, m/s².
     pub max_50ms: [Measured<WindowExtreme>; 3],
     /// Velocity changes along x, y, z.
@@ -105,11 +110,13 @@ pub struct VehicleRisk {
 impl VehicleRisk {
     /// Computes what the channels allow.
     pub fn of(signals: &VehicleSignals, flight: &Flight) -> Self {
+        let asi_2010 = severity(signals, AsiEdition::Edition2010);
         VehicleRisk {
             flail: flail(signals, flight),
             thiv: head_impact(signals, flight),
-            asi_1998: severity(signals, AsiEdition::Edition1998),
-            asi_2010: severity(signals, AsiEdition::Edition2010),
+            asi_1998: severity(signals, AsiEdition::Edition1998).map(|(peak, _)| peak),
+            asi_left_at_end: asi_2010.as_ref().ok().map(|(_, left)| *left),
+            asi_2010: asi_2010.map(|(peak, _)| peak),
             max_50ms: [0, 1, 2].map(|axis| {
                 let a = signals.channel(axis)?;
                 Ok(max_50ms_average(a, signals.dt_s)?)
@@ -132,11 +139,19 @@ fn head_impact(signals: &VehicleSignals, flight: &Flight) -> Measured<Thiv> {
     Ok(thiv(ax, ay, yaw_rate, signals.dt_s, flight.head)?)
 }
 
-fn severity(signals: &VehicleSignals, edition: AsiEdition) -> Measured<Peak> {
+/// The index, and how much of it is left at the end of the record. It is that from first contact on; the filter of the 2010 edition knows what
+/// was before.
+fn severity(signals: &VehicleSignals, edition: AsiEdition) -> Measured<(Peak, f64)> {
     let planar = missing::both(signals.channel(0), signals.channel(1));
     let ((ax, ay), az) = missing::both(planar, signals.channel(2))?;
-    let Asi { peak, .. } = asi(ax, ay, az, signals.dt_s, edition)?;
-    Ok(peak)
+    if edition == AsiEdition::Edition1998 {
+        return Ok((asi(ax, ay, az, signals.dt_s, edition)?.peak, 0.0));
+    }
+    let [x, y, z] = &signals.lead;
+    let whole = |lead: &[f64], part: &[f64]| [lead, part].concat();
+    let found = asi(&whole(x, ax), &whole(y, ay), &whole(z, az), signals.dt_s, edition)?;
+    let peak = found.peak_from(x.len(), signals.dt_s)?;
+    Ok((Peak { time_s: peak.time_s - x.len() as f64 * signals.dt_s, ..peak }, found.left_at_end()))
 }
 
 fn velocity_change(signals: &VehicleSignals, axis: usize) -> Measured<VelocityChange> {

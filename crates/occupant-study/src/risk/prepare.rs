@@ -7,7 +7,7 @@ use crash_measures::signal::{
     CfcFamily, ChannelClass, Interpolant, Interpolation, STANDARD_GRAVITY_MPS2, SignalError, filter_cfc,
     uniform_interval,
 };
-use occupant_core::vehicle::{AccelerationRecord, Attitude};
+use occupant_core::vehicle::{AccelerationRecord, Attitude, Baseline, PathProblem};
 use placed_text::number;
 
 /// Gravity in the vertical channel.
@@ -31,6 +31,9 @@ pub struct Preparation {
     pub offset_m: [f64; 3],
     /// Gravity in az.
     pub gravity: VerticalGravity,
+    /// Lengths of the rests at the beginning of the record and at its end, s: what a channel reads there beyond what it should is taken away, with
+    /// both along a straight line. A rest at the end needs one at the beginning.
+    pub baseline_s: [Option<f64>; 2],
     /// Time of first contact, s; the first sample if none.
     pub start_s: Option<f64>,
     /// Time up to which the record is looked at, s; its last sample if none.
@@ -60,6 +63,9 @@ pub enum Unprepared {
         /// Which.
         missing: Vec<&'static str>,
     },
+    /// The rest whose readings are the sensors' zero errors cannot be used.
+    #[error("{0}")]
+    Baseline(PathProblem),
     /// First contact and end do not lie in the record, in this order.
     #[error(
         "the window from {} s to {} s does not lie in the record, which goes from {} s to {} s",
@@ -84,6 +90,7 @@ pub enum Unprepared {
 /// rates that it needs; a window outside the record.
 pub fn prepare(record: &AccelerationRecord, preparation: &Preparation) -> Result<VehicleSignals, Unprepared> {
     let mut signals = even(record, preparation.interval_s)?;
+    take_baseline(&mut signals, preparation)?;
     if let Some((class, family)) = preparation.filter {
         for (name, channel) in CHANNELS.into_iter().zip(&mut signals.channels) {
             if let Some(samples) = channel {
@@ -99,6 +106,19 @@ pub fn prepare(record: &AccelerationRecord, preparation: &Preparation) -> Result
         az.iter_mut().for_each(|a| *a += STANDARD_GRAVITY_MPS2);
     }
     window(signals, preparation)
+}
+
+/// Takes the zero errors of the sensors away.
+fn take_baseline(signals: &mut VehicleSignals, preparation: &Preparation) -> Result<(), Unprepared> {
+    let [Some(start_s), end_s] = preparation.baseline_s else { return Ok(()) };
+    let time_s: Vec<f64> = (0..signals.samples()).map(|i| i as f64 * signals.dt_s).collect();
+    let rests = Baseline::of(&time_s, start_s, end_s).map_err(Unprepared::Baseline)?;
+    for (i, channel) in signals.channels.iter_mut().enumerate() {
+        let is_lifted = i == 2 && preparation.gravity == VerticalGravity::Included;
+        let should_read = if is_lifted { -STANDARD_GRAVITY_MPS2 } else { 0.0 };
+        channel.iter_mut().for_each(|samples| rests.take(&time_s, samples, should_read));
+    }
+    Ok(())
 }
 
 /// The whole record, evenly sampled.
@@ -126,7 +146,7 @@ fn even(record: &AccelerationRecord, interval_s: Option<f64>) -> Result<VehicleS
         channels[i] = Some(even.map_err(|error| Unprepared::Channel { name, error })?);
     }
     let start_s = record.time_s.first().copied().unwrap_or(0.0);
-    Ok(VehicleSignals { start_s, dt_s, channels, initial: Attitude::default() })
+    Ok(VehicleSignals { start_s, dt_s, channels, lead: Default::default(), initial: Attitude::default() })
 }
 
 /// a_cg = a_s − ω̇ × r − ω × (ω × r), with ω̇ from central differences of the filtered rates.
@@ -166,6 +186,9 @@ fn window(mut signals: VehicleSignals, preparation: &Preparation) -> Result<Vehi
     }
     let (from, to) = (from as usize, to as usize);
     signals.start_s = first_s + from as f64 * dt_s;
+    for (channel, lead) in signals.channels.iter_mut().zip(&mut signals.lead) {
+        *lead = channel.as_ref().map_or_else(Vec::new, |channel| channel[..from].to_vec());
+    }
     signals.channels.iter_mut().flatten().for_each(|channel| *channel = channel[from..=to].to_vec());
     Ok(signals)
 }

@@ -12,7 +12,7 @@ use super::parameter::{Family, Parameter};
 use super::trouble::Trouble;
 use occupant_core::forces::{History, Memory};
 use occupant_core::kernel::System;
-use occupant_core::model::Model;
+use occupant_core::model::{Model, ROUNDING_S};
 use occupant_core::motion::dual::Dual;
 use occupant_core::motion::frame::{Frames, Moving, VEHICLE};
 use occupant_core::motion::state::State;
@@ -35,6 +35,8 @@ pub struct Built {
     system: Vec<f64>,
     state: Vec<f64>,
     history: Vec<f64>,
+    /// Times at which steps end and how they shift, s and s per unit, in increasing order.
+    shifts: Vec<[f64; 2]>,
     path: Option<Path>,
     /// Greatest distance of two extrapolations, as a part of the number or of its change.
     pub doubt: f64,
@@ -74,6 +76,20 @@ impl Built {
         let state = slopes(&|m| m.start().state.numbers().to_vec());
         let history = slopes(&|m| remembered(&m.start().history.memory));
         let mut notes = Vec::new();
+        let count = base.each_break_s().len();
+        let shifts = if family.models.iter().all(|m| m.each_break_s().len() == count) {
+            in_order(base.each_break_s(), slopes(&Model::each_break_s))
+        } else {
+            notes.push(format!("{}: beside its value other devices fire, or other corners of a path", parameter.name));
+            Vec::new()
+        };
+        if let Some(time_s) = coincidence(base, &shifts) {
+            notes.push(format!(
+                "{}: two things fall together at {:.3} ms that it shifts apart: the two sides differ",
+                parameter.name,
+                time_s * 1e3
+            ));
+        }
         if let Some(reason) = &family.one_sided {
             let reason = reason.lines().next().unwrap_or_default();
             notes.push(format!("{}: a derivative to one side only, as the other is refused: {reason}", parameter.name));
@@ -90,7 +106,14 @@ impl Built {
         if doubt.is_nan() || doubt > ROUGH {
             return Err(Trouble::Rough { parameter: parameter.name.clone(), doubt });
         }
-        Ok(Built { system, state, history, path: Path::new(base, family, parameter.size), doubt, notes })
+        Ok(Built { system, state, history, shifts, path: Path::new(base, family, parameter.size), doubt, notes })
+    }
+
+    /// How the end of a step at a time shifts, s per unit; of things that fall together the last in the order of the setup.
+    pub(super) fn shift(&self, time_s: f64) -> f64 {
+        let from = self.shifts.partition_point(|[at_s, _]| *at_s < time_s - ROUNDING_S);
+        let here = self.shifts[from..].iter().take_while(|[at_s, _]| *at_s <= time_s + ROUNDING_S);
+        here.last().map_or(0.0, |[_, shift]| *shift)
     }
 
     /// Greatest distance of two extrapolations of the vehicle's motion and its time, s; none if the parameter leaves the
@@ -98,6 +121,22 @@ impl Built {
     pub fn path_doubt(&self) -> Option<(f64, f64)> {
         self.path.as_ref().map(|p| p.doubt)
     }
+}
+
+/// Times with their shifts in increasing order; those of one time stay in theirs.
+fn in_order(times_s: Vec<f64>, shifts: Vec<f64>) -> Vec<[f64; 2]> {
+    let mut list: Vec<[f64; 2]> = times_s.into_iter().zip(shifts).map(|(time_s, shift)| [time_s, shift]).collect();
+    list.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    list
+}
+
+/// The first time within the run at which two things fall together that shift apart, s.
+fn coincidence(base: &Model, shifts: &[[f64; 2]]) -> Option<f64> {
+    let time = &base.setup().time;
+    let within = |[a, b]: [[f64; 2]; 2]| b[0] - a[0] <= ROUNDING_S && time.start_s < a[0] && a[0] < time.end_s;
+    let apart = |[a, b]: [[f64; 2]; 2]| (a[1] - b[1]).abs() > ROUGH * a[1].abs().max(b[1].abs());
+    let mut pairs = shifts.windows(2).map(|pair| [pair[0], pair[1]]);
+    pairs.find(|pair| within(*pair) && apart(*pair)).map(|[a, _]| a[0])
 }
 
 /// Distance of two extrapolations of a slope as a part of the change that a change of `size` makes, or of the number.

@@ -140,6 +140,10 @@ fn values(
     let mut progress: Option<Progress> = None;
     for i in 0..trajectory.checkpoints.len() {
         let mut checkpoint = output(i);
+        // what steps between outputs have seen is not displaced: figures are made of these outputs alone
+        checkpoint.peaks.clear();
+        checkpoint.readings_before.clear();
+        checkpoint.readings.clear();
         checkpoint.progress = match progress {
             Some(progress) => progress,
             None => from_the_start(model, &checkpoint)?,
@@ -174,7 +178,7 @@ fn from_the_start(model: &Model, checkpoint: &Checkpoint) -> Result<Progress, Tr
 }
 
 /// The values of named figures; not a number for one that is not there or has no value.
-pub(super) fn pick(figures: &[Figure], names: &[String]) -> Vec<f64> {
+pub fn pick(figures: &[Figure], names: &[String]) -> Vec<f64> {
     let value = |name: &String| {
         let figure = figures.iter().find(|f| f.name == *name);
         figure.and_then(|f| f.value).unwrap_or(f64::NAN)

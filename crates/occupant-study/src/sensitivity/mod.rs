@@ -2,8 +2,8 @@
 //!
 //! The run is computed once more in dual numbers ([`occupant_core::motion::dual`]): every operation of the derivative kernel and
 //! of the integrator carries derivatives along, so the derivative of the motion is exact to rounding and no step size is
-//! chosen. The values are to the bit those of the plain run, on whose steps it goes; with error control the derivative of
-//! the choice of steps is not taken.
+//! chosen. The values are to the bit those of the plain run, on whose steps it goes. A step that ends at an event ends with it
+//! when a parameter shifts it (`clock`); of all other steps the derivative of their choice is not taken.
 //!
 //! ```text
 //! scenario numbers ─ differences, extrapolated ─ constants and start ─ dual numbers ─ outputs ─ differences ─ figures
@@ -14,9 +14,10 @@
 //! two extrapolations lie apart is reported with each.
 //!
 //! A derivative says what an infinitely small change does. Contacts that begin and end, springs that unload, belts that
-//! tighten, stops of joints ([`events`]) limit how far that carries; finite changes, run in full ([`finite`]), say how far.
+//! tighten, stops of joints ([`events`]) limit how far that carries; finite changes, run in full ([`finite`], [`verdict`]), say how far.
 
 mod built;
+mod clock;
 pub mod events;
 pub mod finite;
 mod ladder;
@@ -26,10 +27,11 @@ mod parameter;
 mod tangent;
 mod trajectory;
 mod trouble;
+pub mod verdict;
 
 pub use built::Built;
 pub use ladder::Slope;
 pub use of_scenario::parameter;
-pub use parameter::{ModelAt, Parameter, size_of};
+pub use parameter::{ModelAt, Parameter, fine_interval_s, size_of};
 pub use trajectory::{Trajectory, follow};
 pub use trouble::Trouble;

@@ -5,6 +5,7 @@ use std::fmt;
 use super::ladder::{Ladder, Side};
 use super::trouble::Trouble;
 use occupant_core::model::Model;
+use occupant_core::model::setup::Integrator;
 
 /// Makes the model that belongs to a value of a parameter, or says in words why there is none.
 pub type ModelAt<'a> = dyn Fn(f64) -> Result<Model, String> + 'a;
@@ -27,6 +28,33 @@ impl fmt::Debug for Parameter<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Parameter").field("name", &self.name).field("nominal", &self.nominal).finish_non_exhaustive()
     }
+}
+
+impl<'a> Parameter<'a> {
+    /// The same number of the same models, recorded at other times.
+    #[must_use]
+    pub fn with_outputs_every(&'a self, interval_s: f64) -> Parameter<'a> {
+        let model_at = move |value: f64| (self.model_at)(value).map(|model| model.with_outputs_every(interval_s));
+        let (name, unit) = (self.name.clone(), self.unit.clone());
+        Parameter { name, unit, model_at: Box::new(model_at), ..*self }
+    }
+}
+
+/// The longest interval of outputs of which figures are made to be differentiated, s.
+const FINE_S: f64 = 1e-4;
+
+/// The interval at which a run is recorded for the derivatives of its figures, s: a part of its own, and where steps end at
+/// outputs so many steps that the run stays as it is.
+pub fn fine_interval_s(model: &Model) -> f64 {
+    let (own_s, setup) = (model.setup().time.output_s, model.setup());
+    let Integrator::Rk4 { step_s } = setup.integrator else { return own_s / (own_s / FINE_S - 1e-9).ceil().max(1.0) };
+    let steps = (own_s / step_s).round();
+    if (steps * step_s - own_s).abs() > 1e-9 * own_s {
+        return own_s;
+    }
+    let fits = |of: &f64| steps % of == 0.0 && of * step_s >= FINE_S * (1.0 - 1e-9);
+    let of = (1..=steps as u32).map(f64::from).find(fits).unwrap_or(steps);
+    own_s / (steps / of)
 }
 
 /// The size of a change of a parameter: its own, or for 0 that of 0.1 in units of length and angle, 0.01 kg·m² and 1 in any other.

@@ -1,6 +1,7 @@
 //! A run in dual numbers, on the very steps that the plain run takes.
 
 use super::built::{Built, dual_frames, dual_history, dual_state, dual_system};
+use super::clock::{Clock, Jerk};
 use super::events::Scene;
 use super::trouble::Trouble;
 use occupant_core::forces::{Actions, History};
@@ -15,29 +16,35 @@ use occupant_core::motion::state::State;
 use occupant_core::run::Step;
 use occupant_core::vehicle::PathCursor;
 
-/// A run in progress, with its derivatives in `N` directions.
+/// A run in progress, with its derivatives in `N` directions, of which the last is the end of the latest step.
 pub(super) struct Tangent<'a, const N: usize> {
     model: &'a Model,
     built: &'a mut [Built],
     system: System<Dual<N>>,
     scratch: Scratch<Dual<N>>,
+    /// As an output shows them, at a fixed time.
     pub state: State<Dual<N>>,
     pub history: History<Dual<N>>,
     cursor: PathCursor,
-    /// The integration under error control, which runs ahead of the outputs.
     front: Front<N>,
 }
 
-/// The latest step under error control, as the plain run's front keeps it.
+/// The latest step, at whose end the integration stands. Under error control that runs ahead of the outputs, as the plain run's
+/// front does.
 struct Front<const N: usize> {
     step: Step,
+    /// The time of the start and of the end. The end is free until the next step begins.
+    begun: Clock<N>,
+    end: Clock<N>,
     from: State<Dual<N>>,
     to: State<Dual<N>>,
     /// Rates at `from` and `to`.
     rates: [State<Dual<N>>; 2],
     /// Whether the rate at `to` is that of the step to come.
     rate_is_known: bool,
-    /// History at `from`.
+    /// At a fixed step: whether the history has taken over `to`.
+    is_committed: bool,
+    /// History at `from`; at a fixed step that before `to` is taken over.
     before: History<Dual<N>>,
     /// History at `to`.
     after: History<Dual<N>>,
@@ -54,10 +61,13 @@ impl<'a, const N: usize> Tangent<'a, N> {
         let time_s = model.setup().time.start_s;
         let front = Front {
             step: Step { start_s: time_s, end_s: time_s },
+            begun: Clock::FIXED,
+            end: Clock::FIXED,
             from: state,
             to: state,
             rates: [State::zero(state.shape()); 2],
             rate_is_known: false,
+            is_committed: false,
             before: history.clone(),
             after: history.clone(),
             spare: history.clone(),
@@ -74,20 +84,48 @@ impl<'a, const N: usize> Tangent<'a, N> {
         })
     }
 
-    fn frames(&mut self, t_s: f64, middle_s: f64) -> Frames<Dual<N>> {
+    /// The frames at `t_s`, a time that shifts as `clock` says.
+    fn frames(&mut self, t_s: f64, middle_s: f64, clock: &Clock<N>, jerk: &Jerk) -> Frames<Dual<N>> {
         let plain = self.model.frames(t_s, middle_s, &mut self.cursor);
-        dual_frames(&plain, self.built, t_s, middle_s)
+        let mut frames = dual_frames(&plain, self.built, t_s, middle_s);
+        clock.carry(&mut frames, jerk);
+        frames
+    }
+
+    /// How fast accelerations change over a step.
+    fn jerk(&mut self, step: Step, middle_s: f64) -> Jerk {
+        let ends = [step.start_s, step.end_s].map(|t_s| self.model.frames(t_s, middle_s, &mut self.cursor));
+        Jerk::between(&ends[0], &ends[1])
     }
 
     /// Takes an output's position over into the history, as [`occupant_core::run::Run::record`] does.
     pub fn output(&mut self, time_s: f64, scene: &mut Scene<N>) {
-        if let Integrator::Adaptive { .. } = self.model.setup().integrator {
-            self.front.show(time_s, &mut self.state, &mut self.history);
+        match self.model.setup().integrator {
+            Integrator::Adaptive { .. } => {
+                self.front.show(time_s, &mut self.state, &mut self.history);
+                let frames = self.frames(time_s, time_s, &Clock::FIXED, &Jerk::NONE);
+                self.look(time_s, &frames, scene);
+            }
+            Integrator::Rk4 { .. } => {
+                let end = self.front.end;
+                let frames = self.frames(time_s, time_s, &end, &Jerk::NONE);
+                self.front.keep();
+                self.state = self.front.to;
+                self.history.take_over(&self.front.after);
+                self.look(time_s, &frames, scene);
+                // the step to come commits what the output has committed
+                self.front.after.take_over(&self.history);
+                Clock::FIXED.fix_state(&mut self.state);
+                Clock::FIXED.fix_memory(&mut self.history.memory, &mut self.front.spare.memory);
+            }
         }
-        let frames = self.frames(time_s, time_s);
+    }
+
+    /// Evaluates what is shown, with a commit.
+    fn look(&mut self, time_s: f64, frames: &Frames<Dual<N>>, scene: &mut Scene<N>) {
         scene.begin(time_s, &self.state);
         let Tangent { system, scratch, state, history, .. } = self;
-        let (situation, mut k) = (Situation::accepted(state, &frames), State::zero(state.shape()));
+        let (situation, mut k) = (Situation::accepted(state, frames), State::zero(state.shape()));
         rate(system, scratch, situation, history, Some(&mut scene.actions), &mut k);
     }
 
@@ -99,27 +137,72 @@ impl<'a, const N: usize> Tangent<'a, N> {
         }
     }
 
+    /// Where the latest step ends when a parameter changes: where something switches, or what is due before the run.
+    fn end(&self) -> Clock<N> {
+        let now_s = self.front.step.end_s;
+        let shift = |k: usize| self.built.get(k).map_or(0.0, |built| built.shift(now_s));
+        if self.front.end == Clock::FIXED {
+            return Clock::FIXED;
+        }
+        self.switch().unwrap_or_else(|| Clock(std::array::from_fn(shift)))
+    }
+
+    /// The time of a switch at the end of the latest step, if there is one that can be followed.
+    fn switch(&self) -> Option<Clock<N>> {
+        let Front { step, begun, end, before, after, .. } = &self.front;
+        let [from, to] = [before, after].map(|history| &history.memory);
+        if !from.has_switched(to) {
+            return None;
+        }
+        let times_s = [Dual::new(step.start_s, begun.0), Dual::new(step.end_s, end.0)];
+        let due = from.due(to, &self.system.forces, times_s);
+        Clock::of_level(&due.share).filter(|_| due.is_known)
+    }
+
     fn rk4(&mut self, step: Step, scene: &mut Scene<N>) {
         let middle_s = 0.5 * (step.start_s + step.end_s);
-        let [start, middle, end] = [step.start_s, middle_s, step.end_s].map(|t| self.frames(t, middle_s));
-        let Tangent { system, scratch, history, .. } = self;
-        let h = Dual::new(step.length_s(), [0.0; N]);
-        scene.begin(step.start_s, &self.state);
-        self.state = rk4::step(&self.state, h, |stage, state, k| match stage {
-            rk4::Stage::Start => {
-                rate(system, scratch, Situation::accepted(state, &start), history, Some(&mut scene.actions), k);
-            }
+        let jerk = self.jerk(step, middle_s);
+        let end = self.front.end;
+        let start = self.frames(step.start_s, middle_s, &end, &jerk);
+        scene.begin(step.start_s, &self.front.to);
+        self.front.keep();
+        let Tangent { system, scratch, front, .. } = self;
+        let Front { to, after, rates: [_, k], .. } = front;
+        rate(system, scratch, Situation::accepted(to, &start), after, Some(&mut scene.actions), k);
+        let begun = self.depart();
+        let places = [(middle_s, 0.5), (step.end_s, 1.0)];
+        let [middle, end] = places.map(|(t_s, s)| self.frames(t_s, middle_s, &begun.towards_end(s), &jerk));
+        let Tangent { system, scratch, front, .. } = self;
+        let h = begun.until(&Clock::free(), step.length_s());
+        let (from, k1, history) = (front.to, front.rates[1], &mut front.after);
+        front.to = rk4::step(&from, h, |stage, state, k| match stage {
+            rk4::Stage::Start => *k = k1,
             rk4::Stage::Middle => rate(system, scratch, Situation::within(state, &middle), history, None, k),
             rk4::Stage::End => rate(system, scratch, Situation::within(state, &end), history, None, k),
         });
+        (front.step, front.begun, front.end, front.is_committed) = (step, begun, Clock::free(), false);
+    }
+
+    /// Puts the end of the latest step where the parameters shift it to; the next step begins there.
+    fn depart(&mut self) -> Clock<N> {
+        let begun = self.end();
+        let Front { to, rates: [_, rate], after, spare, .. } = &mut self.front;
+        begun.fix_state(to);
+        begun.fix_state(rate);
+        begun.fix_memory(&mut after.memory, &mut spare.memory);
+        begun
     }
 
     /// As the adaptive run takes an accepted step; `scene` sees where it ended.
     fn embedded(&mut self, step: Step, stop_s: f64, scene: &mut Scene<N>) {
-        let (t, h) = (step.start_s, step.length_s());
+        let t = step.start_s;
         let middle_s = 0.5 * (t + step.end_s);
-        let places = [t, t + 0.5 * h, t + 0.75 * h, step.end_s];
-        let [start, half, late, end] = places.map(|at_s| self.frames(at_s, middle_s));
+        let begun = self.depart();
+        let jerk = self.jerk(step, middle_s);
+        let h = begun.until(&Clock::free(), step.length_s());
+        let places = [(t, 0.0), (t + 0.5 * h.value, 0.5), (t + 0.75 * h.value, 0.75), (step.end_s, 1.0)];
+        let frames = places.map(|(at_s, s)| self.frames(at_s, middle_s, &begun.towards_end(s), &jerk));
+        let [start, half, late, end] = frames;
         let Tangent { system, scratch, front, .. } = self;
         if !front.rate_is_known {
             scene.begin(t, &front.to);
@@ -136,7 +219,7 @@ impl<'a, const N: usize> Tangent<'a, N> {
                 rate(system, scratch, Situation::accepted(state, &end), history, Some(&mut scene.actions), k);
             }
         });
-        front.step = step;
+        (front.step, front.begun, front.end) = (step, begun, Clock::free());
         front.from = std::mem::replace(&mut front.to, to);
         front.rates = [k1, k4];
         front.rate_is_known = step.end_s < stop_s;
@@ -146,23 +229,30 @@ impl<'a, const N: usize> Tangent<'a, N> {
 
     /// The history after the latest step.
     pub fn latest(&self) -> &History<Dual<N>> {
-        match self.model.setup().integrator {
-            Integrator::Rk4 { .. } => &self.history,
-            Integrator::Adaptive { .. } => &self.front.after,
-        }
+        &self.front.after
     }
 }
 
 impl<const N: usize> Front<N> {
-    /// State and history at `time_s` within the step; the history is that of the step's start.
+    /// Keeps the history as it is before the end of a fixed step is taken over.
+    fn keep(&mut self) {
+        if !self.is_committed {
+            self.before.take_over(&self.after);
+            self.is_committed = true;
+        }
+    }
+
+    /// State and history at the fixed time `time_s` within the step; the history is that of the step's start.
     fn show(&self, time_s: f64, state: &mut State<Dual<N>>, history: &mut History<Dual<N>>) {
-        let h = self.step.length_s();
+        let (mut to, [k1, mut k4]) = (self.to, self.rates);
+        Clock::FIXED.fix_state(&mut to);
+        Clock::FIXED.fix_state(&mut k4);
         *state = if time_s >= self.step.end_s {
-            self.to
+            to
         } else {
-            let s = (time_s - self.step.start_s) / h;
-            let [k1, k4] = &self.rates;
-            within([&self.from, k1], [&self.to, k4], h, s)
+            let h = self.begun.until(&Clock::FIXED, self.step.length_s());
+            let s = self.begun.until(&Clock::FIXED, time_s - self.step.start_s) / h;
+            within([&self.from, &k1], [&to, &k4], h, s)
         };
         history.take_over(&self.before);
     }

@@ -22,6 +22,8 @@ use occupant_core::run::{Run, Step};
 /// 13, 7 instructions with two slopes in a register, 4 with four: a parameter alone takes at most 1.75 times as long as in a
 /// kernel of its own.
 const SIDE_BY_SIDE: usize = 4;
+/// Those of them that are of parameters; the last is of the ends of steps.
+const OF_PARAMETERS: usize = SIDE_BY_SIDE - 1;
 
 /// A run with the derivatives of all that is integrated and remembered, at every output.
 #[derive(Clone, Debug)]
@@ -53,7 +55,7 @@ struct Displacement {
 /// A run that does not come to its end.
 pub fn follow(model: &Model, built: &mut [Built]) -> Result<Trajectory, Trouble> {
     let mut whole: Option<Trajectory> = None;
-    for some in built.chunks_mut(SIDE_BY_SIDE) {
+    for some in built.chunks_mut(OF_PARAMETERS) {
         let pass = pass::<SIDE_BY_SIDE>(model, some)?;
         match &mut whole {
             None => whole = Some(pass),
@@ -78,7 +80,7 @@ impl Recorder for Keeper {
 
 /// The plain run and beside it, step by step, that in duals.
 fn pass<const N: usize>(model: &Model, built: &mut [Built]) -> Result<Trajectory, Trouble> {
-    let count = built.len().min(N);
+    let count = built.len().min(N - 1);
     let mut run = Run::new(model);
     run.taken = Some(Vec::with_capacity(steps_to_an_output(model)));
     let breaks_s = run.breaks_s.clone();

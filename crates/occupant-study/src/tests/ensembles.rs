@@ -111,7 +111,7 @@ fn a_tolerance_without_a_place_is_told() {
 2 | ensemble = { members = 8, path = 0.01 }
   |                                  ^^^^
   = in: ensemble.path
-  = expected: a pulse with `peak` or `delta_v`"
+  = expected: a path that moves: a pulse with `peak` or `delta_v`, a table or a record"
     );
 }
 

@@ -98,8 +98,9 @@ function buildToggles(stage, runs) {
     const other = element("select", { id: "other" });
     for (const name of ["ghost", "beside", "hidden"])
       other.append(element("option", { value: name }, name));
+    other.value = stage.other;
     other.addEventListener("change", () => stage.setOther(other.value));
-    row.append(element("label", {}, "other run ", other));
+    row.append(element("label", {}, runs.length > 2 ? "other runs " : "other run ", other));
   }
   const { greatest } = stage.actors[0].arrows;
   if (greatest > 0) {

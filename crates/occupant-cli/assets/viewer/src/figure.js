@@ -28,7 +28,7 @@ export class Figure {
     this.run = run;
     this.group = new Group();
     this.material = new MeshLambertMaterial({ vertexColors: true });
-    const tones = number === 0 ? TONES : OTHER_TONES;
+    const tones = number === 0 ? TONES : OTHER_TONES[number - 1];
     this.meshes = run.segments.map((name, segment) => {
       const parts = run.parts.filter((part) => part.segment === segment);
       const mesh = new Mesh(mergeGeometries(parts.map((part) => hull(part, tones))), this.material);

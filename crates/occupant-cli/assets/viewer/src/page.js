@@ -10,7 +10,7 @@ export function buildPage(root, report) {
   const plots = element("section", { class: "plots", "aria-label": "Time histories" });
   const tables = element("section", { class: "tables", "aria-label": "Results in numbers" });
   const scene = element("section", { class: "scene", "aria-label": "Motion" }, stage, controls);
-  root.append(
+  const parts = [
     heading(runs),
     ...runs.flatMap((run) => notes(run, runs.length > 1)),
     buildVerdicts(runs),
@@ -18,7 +18,9 @@ export function buildPage(root, report) {
     element("main", {}, scene, element("div", { class: "beside" }, plots)),
     tables,
     footer(report),
-  );
+  ];
+  // a run without caveats has no part for them
+  root.append(...parts.filter((part) => part !== null));
   return { stage, controls, plots, tables };
 }
 
@@ -38,13 +40,13 @@ function footer(report) {
 }
 
 function heading(runs) {
-  const [first, second] = runs;
+  const [first, ...others] = runs;
   const title = element("h1", {}, first.title || first.label);
-  const against =
-    second &&
-    element("p", {}, swatch(1), `against ${second.label}, ${second.title}: ${second.facts}`);
-  const own = element("p", {}, second ? swatch(0) : null, `${first.label}: ${first.facts}`);
-  return element("header", {}, title, own, against);
+  const own = element("p", {}, others.length ? swatch(0) : null, `${first.label}: ${first.facts}`);
+  const against = others.map((run, i) =>
+    element("p", {}, swatch(i + 1), `against ${run.label}, ${run.title}: ${run.facts}`),
+  );
+  return element("header", {}, title, own, ...against);
 }
 
 /** A patch of the colour of a run. */

@@ -37,7 +37,11 @@ export function buildPlots(root, runs, clock) {
   });
 }
 
-/** Curves of one plot of all runs: the second run's are dashed. */
+/** How the lines of the runs are broken, and the classes of their legends. */
+const DASHES = [undefined, [5, 3], [2, 2], [9, 3, 2, 3]];
+const LINES = ["line", "line dashed", "line dotted", "line double"];
+
+/** Curves of one plot of all runs: those of the others are dashed. */
 function curvesOf(title, runs) {
   const names = [];
   const curves = [];
@@ -58,9 +62,10 @@ class Chart {
     const unit = runs[0].plots.find((p) => p.title === title).unit;
     this.values = this.curves.map(() => element("b", {}));
     const legend = this.curves.map((curve, i) => {
-      const line = element("i", { class: curve.run === 0 ? "line" : "line dashed" });
+      const line = element("i", { class: LINES[curve.run] });
       line.style.borderColor = curve.color;
-      const name = runs.length > 1 && curve.run === 1 ? `${curve.name} (other)` : curve.name;
+      const whose = runs.length > 2 ? runs[curve.run].label : "other";
+      const name = curve.run > 0 ? `${curve.name} (${whose})` : curve.name;
       return element("span", { title: curve.meaning }, line, `${name} `, this.values[i]);
     });
     this.place = element("div", { class: "canvas" });
@@ -123,7 +128,7 @@ class Chart {
           label: curve.name,
           stroke: curve.color,
           width: 1.5,
-          dash: curve.run === 0 ? undefined : [5, 3],
+          dash: DASHES[curve.run],
           spanGaps: true,
           points: { show: false },
         })),

@@ -19,7 +19,7 @@ import { Eye } from "./eye.js";
 import { Labels } from "./labels.js";
 import { poseAt } from "./pose.js";
 
-/** How far behind the first run the second stands when it stands beside, m. */
+/** How far behind the run before it each stands when they stand beside, m. */
 const BESIDE_M = 2;
 
 export class Stage {
@@ -36,7 +36,7 @@ export class Stage {
       labels: false,
       spheres: false,
     };
-    this.other = "ghost";
+    this.other = runs.length > 2 ? "beside" : "ghost";
     this.world = "vehicle";
     this.renderer = new WebGLRenderer({ antialias: !drawsInSoftware() });
     this.resolution = new Resolution(this.renderer, clock);
@@ -62,6 +62,7 @@ export class Stage {
     this.paint();
     this.resize();
     this.show({});
+    this.setOther(this.other);
     this.eye.look("oblique");
     clock.listen(() => this.move());
   }
@@ -97,10 +98,10 @@ export class Stage {
     this.move();
   }
 
-  /** Where the second run is: "ghost", "beside" or "hidden". */
+  /** Where the other runs are: "ghost", "beside" or "hidden". */
   setOther(other) {
     this.other = other;
-    this.eye.behind = other === "beside" ? BESIDE_M : 0;
+    this.eye.behind = other === "beside" ? BESIDE_M * (this.runs.length - 1) : 0;
     this.move();
     this.eye.look(this.eye.preset);
   }
@@ -118,7 +119,7 @@ export class Stage {
       this.putVehicle(actor);
       if (number > 0) {
         actor.group.visible = this.other !== "hidden";
-        actor.group.position.x = this.other === "beside" ? -BESIDE_M : 0;
+        actor.group.position.x = this.other === "beside" ? -BESIDE_M * number : 0;
         actor.setGhost(this.other === "ghost");
       }
     }

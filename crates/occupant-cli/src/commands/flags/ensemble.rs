@@ -7,11 +7,11 @@ use crash_measures::unit::UnitError;
 use occupant_core::run::batch::Kernel;
 use occupant_scenario::Draft;
 use occupant_scenario::kind::{self, KINDS, UnitSystem};
-use occupant_study::{Study, Tolerances};
+use occupant_study::{Study, Tolerances, without_place};
 use placed_text::Value;
 
 use super::sweep::engine;
-use crate::base::{Existing, Failure, Units, refuse_input};
+use crate::base::{Existing, Failure, Units, note, refuse_input};
 use crate::files::scenario::{Opened, inputs};
 use crate::files::table::Form;
 use crate::jobs::ensemble::bands::{choose, refuse_too_much};
@@ -50,7 +50,7 @@ pub(crate) struct EnsembleArgs {
 
     /// Channels of the bands, by name or pattern with commas between, such as 'head.*,belt.*.force'; if absent, the main
     /// accelerations, forces and places
-    #[arg(long, value_name = "NAMES", requires = "ensemble")]
+    #[arg(long = "channel", alias = "channels", value_name = "NAMES", requires = "ensemble")]
     channels: Vec<String>,
 }
 
@@ -70,6 +70,15 @@ impl EnsembleArgs {
             return Ok(None);
         };
         let changes = changes(&self.change)?;
+        let lost = without_place(draft, &changes);
+        let asked = |name: &&&str| self.change.iter().any(|change| change.trim_start().starts_with(**name));
+        if let Some(name) = lost.iter().find(asked) {
+            let found = format!("--change {name}: the scenario has nothing that it could change");
+            return Err(Failure::with_help(found, "leave it out"));
+        }
+        if !lost.is_empty() {
+            note(&format!("not changed, for the scenario has no place for it: {}", lost.join(", ")));
+        }
         let within = part("--stable-within", &self.stable_within)?;
         let channels = choose(&opened.model, &self.channels)?;
         refuse_too_much(members, channels.len(), opened.model.output_count())?;

@@ -1,32 +1,31 @@
 //! What `occupant risk` measures: recorded data, or the path of a scenario or run.
 
-use crash_measures::signal::{ChannelClass, STANDARD_GRAVITY_MPS2, SignalError};
-use occupant_scenario::{Diagnostics, RecordFile, read_record};
+use crash_measures::signal::{ChannelClass, STANDARD_GRAVITY_MPS2, SignalError, smooth};
+use nalgebra::Vector3;
+use occupant_core::vehicle::{
+    AccelerationRecord, AfterEnd, DeltaVRecord, Interpolation, SensorDefinition, SensorGravity, SensorPath,
+    SensorRecord, Station, TablePath, TravelDirection, VehiclePath, VehiclePose,
+};
 use occupant_study::risk::{Preparation, Unprepared, VehicleSignals, prepare};
 
 use super::Args;
 use crate::base::{Failure, ending, input_file, note};
 use crate::files::mcap::StoredRun;
+use crate::files::measured::{self, Axes, Known, Motion, MotionKind, Placed, Reading, doubts};
 use crate::files::scenario::{self, ScenarioArgs};
-use crate::jobs::risk::Subject;
-
-/// Sample interval of paths, s, where none is asked for.
-const PATH_INTERVAL_S: f64 = 1e-4;
+use crate::jobs::import::PathFilter;
+use crate::jobs::risk::{PATH_INTERVAL_S, Subject};
 
 /// Length of the beginning of a record that says whether gravity is in it, s.
 const BEFORE_S: f64 = 0.01;
 
-/// What the file holds, and the signals that it gives.
-pub(crate) fn measured(args: &Args, wanted: &Preparation) -> Result<(Subject, VehicleSignals), Failure> {
+/// What the file holds, the signals that it gives, and what to know of them.
+pub(crate) fn measured(args: &Args, wanted: &Preparation) -> Result<(Subject, VehicleSignals, Vec<String>), Failure> {
     let name = args.file.display().to_string();
     let extension = ending(&args.file);
     if matches!(extension.as_str(), "toml" | "json" | "mcap") {
         let subject = path_of(args, &name, &extension, wanted)?;
-        // the path was sampled as asked, and it knows neither sensors nor gravity
-        let of_path = Preparation { interval_s: None, ..wanted.clone() };
-        let mut signals = prepare(&subject.record, &of_path).map_err(|error| unprepared(&name, None, &error))?;
-        signals.initial = subject.initial;
-        return Ok((subject, signals));
+        return sampled(&name, subject, wanted).map(|(subject, signals)| (subject, signals, Vec::new()));
     }
     if !args.overrides.is_empty() {
         return Err(Failure::with_help(
@@ -34,10 +33,42 @@ pub(crate) fn measured(args: &Args, wanted: &Preparation) -> Result<(Subject, Ve
             "leave --set out, or give a scenario (.toml, .json)",
         ));
     }
-    let file = recorded(args, &name)?;
-    let subject = Subject::recorded(&name, &file);
-    let signals = prepare(&subject.record, wanted).map_err(|error| unprepared(&name, Some(&file), &error))?;
+    let mut notes = Vec::new();
+    let (motion, axes) = motion(args, &name, &mut notes)?;
+    let known = Known {
+        contact_s: wanted.start_s,
+        speed_m_s: None,
+        baseline: wanted.baseline_s.map(|length| length.is_some()),
+        smoothed_hz: hertz(args),
+    };
+    notes.extend(doubts(&motion, known));
+    if motion.kind == MotionKind::Accelerations {
+        let record = record(&motion, axes);
+        notes.extend(doubt_of_gravity(&record, args.gravity_included));
+        let signals = prepare(&record, wanted).map_err(|error| unprepared(&name, &error))?;
+        return Ok((Subject::recorded(&name, record), signals, notes));
+    }
+    let path = path(&motion, axes, hertz(args)).map_err(|reason| Failure::plain(format!("{name}: {reason}")))?;
+    let ends = [motion.time_s[0], motion.time_s[motion.time_s.len() - 1]];
+    let interval_s = wanted.interval_s.unwrap_or(PATH_INTERVAL_S);
+    let subject = Subject::path(&name, &path, ends, interval_s).ok_or_else(|| unsampled(&name, interval_s))?;
+    let (subject, signals) = sampled(&name, subject, &Preparation { baseline_s: [None; 2], ..wanted.clone() })?;
+    Ok((subject, signals, notes))
+}
+
+/// The signals of a path, which was sampled as asked and knows neither sensors nor gravity.
+fn sampled(name: &str, subject: Subject, wanted: &Preparation) -> Result<(Subject, VehicleSignals), Failure> {
+    let of_path = Preparation { interval_s: None, ..wanted.clone() };
+    let mut signals = prepare(&subject.record, &of_path).map_err(|error| unprepared(name, &error))?;
+    signals.initial = subject.initial;
     Ok((subject, signals))
+}
+
+fn hertz(args: &Args) -> Option<f64> {
+    match args.filter {
+        Some(PathFilter::Frequency(hertz)) => Some(hertz),
+        _ => None,
+    }
 }
 
 /// The path of the scenario or run in the file.
@@ -47,6 +78,11 @@ fn path_of(args: &Args, name: &str, extension: &str, wanted: &Preparation) -> Re
         ("--offset", args.offset.is_some()),
         ("--gravity-included", args.gravity_included),
         ("--z-up", args.z_up),
+        ("--axes", args.axes.is_some()),
+        ("--bridge", args.bridge.is_some()),
+        ("--baseline", args.baseline.is_some()),
+        ("--at", args.at.is_some()),
+        ("--filter as a frequency", hertz(args).is_some()),
         ("--set", extension == "mcap" && !args.overrides.is_empty()),
     ];
     if let Some((flag, _)) = foreign.iter().find(|(_, given)| *given) {
@@ -68,49 +104,132 @@ fn path_of(args: &Args, name: &str, extension: &str, wanted: &Preparation) -> Re
         _ => {
             let opened =
                 scenario::open(&ScenarioArgs { scenario: args.file.clone(), overrides: args.overrides.clone() })?;
-            scenario::warn(&opened.warnings);
+            opened.warn();
             opened.model
         }
     };
     let interval_s = wanted.interval_s.unwrap_or(PATH_INTERVAL_S);
-    Subject::path(name, model.setup(), interval_s).ok_or_else(|| {
+    let subject = Subject::of_run(name, model.setup(), args.vehicle.as_deref(), interval_s).map_err(|known| {
+        let known: Vec<&str> = known.iter().map(String::as_str).collect();
+        let asked = args.vehicle.as_deref().unwrap_or_default();
         Failure::with_help(
-            format!("the path of {name} cannot be sampled every {interval_s} s"),
-            "give an interval that the run has at least one and at most 1.5 million of",
+            format!("--vehicle {asked}: {name} has no such vehicle"),
+            &format!("name {}", placed_text::one_of(&known, '`')),
         )
-    })
+    })?;
+    subject.ok_or_else(|| unsampled(name, interval_s))
 }
 
-/// The record in a CSV file, with its axes forward, right, down.
-fn recorded(args: &Args, name: &str) -> Result<RecordFile, Failure> {
-    let bytes = input_file::read(&args.file)?;
-    let mut file = read_record(&bytes, name, args.columns.as_deref()).map_err(|problems| {
-        let count = scenario::counted(problems.len());
-        Failure::CouldNotRun(format!("{problems}\n\n{name}: {count}, nothing was measured"))
+fn unsampled(name: &str, interval_s: f64) -> Failure {
+    Failure::with_help(
+        format!("the path of {name} cannot be sampled every {interval_s} s"),
+        "give an interval that the run has at least one and at most 1.5 million of",
+    )
+}
+
+/// The motion in a record, and which way its axes point.
+fn motion(args: &Args, name: &str, notes: &mut Vec<String>) -> Result<(Motion, Axes), Failure> {
+    let vehicle = args.vehicle.as_deref().map(|number| {
+        number.parse().map_err(|_| {
+            Failure::with_help(format!("--vehicle {number}: a record numbers its vehicles"), "give a number, such as 2")
+        })
+    });
+    let reading = Reading { vehicle: vehicle.transpose()?, object: None, columns: args.columns.as_deref() };
+    let imported = measured::import(&args.file, reading)?;
+    notes.extend(imported.recording.notes.iter().cloned());
+    let placed = Placed { at: args.at.as_deref(), bridge_s: args.bridge };
+    let found = Motion::of(&imported.recording, placed, notes)?;
+    let names: Vec<String> = imported.recording.signals.iter().take(12).map(|s| format!("`{}`", s.name)).collect();
+    let motion = found.ok_or_else(|| {
+        Failure::with_help(
+            format!("{name} has no acceleration, no rate, no velocity change and no place; it has {}", names.join(", ")),
+            "name its columns ax, ay, az, wx, wy, wz with their units, by their headings or by --columns 't[s],ax[g],-,wz[deg/s]'",
+        )
     })?;
-    if args.z_up {
-        let record = &mut file.record;
-        for channels in [&mut record.acceleration_m_s2, &mut record.rate_rad_s] {
-            for channel in channels[1..].iter_mut().flatten() {
-                channel.iter_mut().for_each(|value| *value = -*value);
-            }
+    let unused = imported.recording.signals.iter().filter(|signal| !motion.signals.contains(&signal.name));
+    let unused: Vec<&str> = unused.map(|signal| signal.name.as_str()).take(12).collect();
+    if !unused.is_empty() {
+        notes.push(format!("not used: {}", unused.join(", ")));
+    }
+    let told = args.axes.or(args.z_up.then_some(Axes::ZUp)).or(imported.axes);
+    if told.is_none() && motion.names().iter().any(|name| !["ax", "x", "dvx"].contains(name)) {
+        notes.push(Axes::TAKEN.to_owned());
+    }
+    Ok((motion, told.unwrap_or(Axes::ZDown)))
+}
+
+/// A column along or about axes forward, right, down.
+fn turned(motion: &Motion, axes: Axes, name: &str, axis: usize) -> Option<Vec<f64>> {
+    let mut values = motion.si(name)?;
+    if axes == Axes::ZUp && axis > 0 {
+        values.iter_mut().for_each(|value| *value = -*value);
+    }
+    Some(values)
+}
+
+fn record(motion: &Motion, axes: Axes) -> AccelerationRecord {
+    let three = |names: [&str; 3]| [0, 1, 2].map(|axis| turned(motion, axes, names[axis], axis));
+    AccelerationRecord {
+        time_s: motion.time_s.clone(),
+        acceleration_m_s2: three(["ax", "ay", "az"]),
+        rate_rad_s: three(["wx", "wy", "wz"]),
+    }
+}
+
+/// The path that velocity changes, or places and angles, tell of.
+fn path(motion: &Motion, axes: Axes, smoothed_hz: Option<f64>) -> Result<VehiclePath, String> {
+    let problems = |problems: Vec<occupant_core::vehicle::PathProblem>| {
+        problems.first().map_or_else(String::new, ToString::to_string)
+    };
+    if motion.kind == MotionKind::Changes {
+        let record = DeltaVRecord {
+            time_s: motion.time_s.clone(),
+            longitudinal_m_s: turned(motion, axes, "dvx", 0),
+            lateral_m_s: turned(motion, axes, "dvy", 1),
+            yaw_rate_rad_s: turned(motion, axes, "wz", 2),
+        };
+        let definition = SensorDefinition {
+            record: SensorRecord::DeltaV(record),
+            initial: VehiclePose::default(),
+            initial_speed_m_s: 0.0,
+            direction: TravelDirection::Heading,
+            offset_m: Vector3::zeros(),
+            gravity: SensorGravity::Removed,
+            gravity_m_s2: STANDARD_GRAVITY_MPS2,
+            filter: None,
+            baseline_s: None,
+            baseline_end_s: None,
+            strength: 1.0,
+            starts_at_s: None,
+            after: AfterEnd::Coast,
+        };
+        return SensorPath::new(definition).map(|path| VehiclePath::Sensors(Box::new(path))).map_err(problems);
+    }
+    let count = motion.time_s.len();
+    let column = |name: &str, axis: usize| {
+        let values = turned(motion, axes, name, axis).unwrap_or_else(|| vec![0.0; count]);
+        match smoothed_hz {
+            Some(hertz) => smooth(&motion.time_s, &values, hertz).map_err(|error| error.to_string()),
+            None => Ok(values),
         }
-    }
-    if let Some(words) = doubt_of_gravity(&file, args.gravity_included) {
-        note(&format!("{name}: {words}"));
-    }
-    Ok(file)
+    };
+    let places = [column("x", 0)?, column("y", 1)?, column("z", 2)?];
+    let angles = [column("roll", 0)?, column("pitch", 1)?, column("yaw", 2)?];
+    let station =
+        |i: usize| Station::new(motion.time_s[i], [0, 1, 2].map(|a| places[a][i]), [0, 1, 2].map(|a| angles[a][i]));
+    let path = TablePath::new((0..count).map(station).collect(), Interpolation::Spline, AfterEnd::Coast);
+    path.map(VehiclePath::Table).map_err(problems)
 }
 
 /// What speaks against what is said of gravity: a level vehicle before its crash reads −1 g along z, or 0 without gravity.
-fn doubt_of_gravity(file: &RecordFile, included: bool) -> Option<String> {
-    let az = file.record.acceleration_m_s2[2].as_ref()?;
-    let first_s = file.record.time_s.first()? + BEFORE_S;
-    let count = file.record.time_s.iter().take_while(|t| **t <= first_s).count();
+fn doubt_of_gravity(record: &AccelerationRecord, included: bool) -> Option<String> {
+    let az = record.acceleration_m_s2[2].as_ref()?;
+    let first_s = record.time_s.first()? + BEFORE_S;
+    let count = record.time_s.iter().take_while(|t| **t <= first_s).count();
     let mean_g = az[..count].iter().sum::<f64>() / count as f64 / STANDARD_GRAVITY_MPS2;
     let near = |expected: f64| (mean_g - expected).abs() < 0.2;
     let remedy = match included {
-        _ if near(1.0) => "z seems to point up: say --z-up",
+        _ if near(1.0) => "z seems to point up: say --axes z_up",
         false if near(-1.0) => "gravity seems to be in the record: say --gravity-included",
         true if near(0.0) => "gravity seems not to be in the record: leave --gravity-included out",
         _ => return None,
@@ -122,23 +241,21 @@ fn doubt_of_gravity(file: &RecordFile, included: bool) -> Option<String> {
 fn remedy(nyquist_hz: f64) -> String {
     // the corner of one pass of two lies at 2.08 times the class
     let fits = ChannelClass::ALL.into_iter().rev().find(|class| 2.1 * class.hertz() < nyquist_hz);
-    let class = fits.map_or_else(|| "no class fits so few samples".to_owned(), |c| format!("use --cfc {}", c.hertz()));
-    format!("{class}; --cfc none is for data that are filtered already")
+    let class =
+        fits.map_or_else(|| "no class fits so few samples".to_owned(), |c| format!("use --filter CFC{}", c.hertz()));
+    format!("{class}; --filter none is for data that are filtered already")
 }
 
 /// Why a record cannot be measured, with the remedy.
-fn unprepared(name: &str, file: Option<&RecordFile>, error: &Unprepared) -> Failure {
-    if let (Some(file), Unprepared::Channel { name: "t", error }) = (file, error)
-        && let SignalError::NotUniform { index, found_s, expected_s } = error
-    {
-        let mut problems = Diagnostics::new();
-        problems.push(file.at(
-            *index,
-            format!("samples that are not evenly spaced: t = {found_s} s"),
-            &format!("{expected_s} s"),
-            Some("resample by straight lines with --interval, such as --interval '0.1 ms'"),
-        ));
-        return Failure::CouldNotRun(problems.to_string());
+fn unprepared(name: &str, error: &Unprepared) -> Failure {
+    if let Unprepared::Channel { name: "t", error: SignalError::NotUniform { index, found_s, expected_s } } = error {
+        return Failure::with_help(
+            format!(
+                "{name}: samples that are not evenly spaced: sample {} stands at {found_s} s, not {expected_s} s",
+                index + 1
+            ),
+            "resample by straight lines with --interval, such as --interval '0.1 ms'",
+        );
     }
     let help = match error {
         Unprepared::Channel { error: SignalError::CornerAboveNyquist { nyquist_hz, .. }, .. } => &remedy(*nyquist_hz),
@@ -147,6 +264,7 @@ fn unprepared(name: &str, file: Option<&RecordFile>, error: &Unprepared) -> Fail
         Unprepared::OffsetNeedsRates { .. } => {
             "add the columns (zeros, if the vehicle did not turn), or leave --offset out"
         }
+        Unprepared::Baseline(_) => "give the length of the rest, such as --baseline '50 ms'",
         Unprepared::Window { .. } => "give --start and --end inside the record",
     };
     Failure::with_help(format!("{name} cannot be measured: {error}"), help)

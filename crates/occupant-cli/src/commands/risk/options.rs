@@ -1,22 +1,64 @@
 //! The flags of `occupant risk` in SI.
 
-use occupant_scenario::kind::{KINDS, LENGTH, TIME};
-use occupant_study::risk::{Flight, Preparation, VerticalGravity};
+use crash_measures::signal::ChannelClass;
+use occupant_scenario::kind::{ACCELERATION, ANGLE, ANGULAR_VELOCITY, KINDS, LENGTH, RATIO, TIME};
+use occupant_study::risk::{Flight, Preparation, SensorErrors, VerticalGravity};
 
 use super::Args;
 use crate::base::Failure;
+use crate::jobs::import::PathFilter;
 
 /// What is done with the record.
 pub(crate) fn preparation(args: &Args) -> Result<Preparation, Failure> {
     let interval_s = quantity("--interval", TIME, &args.interval)?;
     Ok(Preparation {
-        filter: args.cfc.map(|class| (class, args.coefficients)),
+        filter: class(args).map(|class| (class, args.coefficients)),
+        baseline_s: [
+            quantity("--baseline", TIME, &args.baseline)?,
+            quantity("--baseline-end", TIME, &args.baseline_end)?,
+        ],
         interval_s: interval_s.map(|interval_s| positive("--interval", interval_s)).transpose()?,
         offset_m: offset(args.offset.as_deref())?,
         gravity: if args.gravity_included { VerticalGravity::Included } else { VerticalGravity::Removed },
         start_s: quantity("--start", TIME, &args.start)?,
         end_s: quantity("--end", TIME, &args.end)?,
     })
+}
+
+/// The class that --filter asks for; a frequency smooths places and leaves the class as it is.
+fn class(args: &Args) -> Option<ChannelClass> {
+    match args.filter {
+        None | Some(PathFilter::Frequency(_)) => ChannelClass::from_number(180),
+        Some(PathFilter::None) => None,
+        Some(PathFilter::Class(number)) => ChannelClass::from_number(number),
+    }
+}
+
+/// The bounds of the errors of the sensors.
+pub(crate) fn errors(args: &Args) -> Result<SensorErrors, Failure> {
+    let mut errors = SensorErrors::default();
+    for text in &args.sensor_error {
+        let refused = |found: &str| {
+            let help = "give gain='1 %', offset='0.05 g', rate='0.2 deg/s', angle='1 deg' or place='20 mm'";
+            Failure::with_help(format!("--sensor-error {text}: {found}"), help)
+        };
+        let (what, amount) = text.split_once('=').ok_or_else(|| refused("it has no ="))?;
+        let (bound, kind) = match what.trim() {
+            "gain" => (&mut errors.gain, RATIO),
+            "offset" => (&mut errors.offset_m_s2, ACCELERATION),
+            "rate" => (&mut errors.rate_rad_s, ANGULAR_VELOCITY),
+            "angle" => (&mut errors.angle_rad, ANGLE),
+            "place" => (&mut errors.place_m, LENGTH),
+            other => return Err(refused(&format!("nothing is called `{other}`"))),
+        };
+        let value =
+            KINDS[kind].read(amount.trim()).map_err(|e| refused(&format!("{}; expected {}", e.found, e.expected)))?;
+        if !(value >= 0.0 && value.is_finite()) {
+            return Err(refused("the bound is not 0 or more"));
+        }
+        *bound = value;
+    }
+    Ok(errors)
 }
 
 /// Where the occupant starts and how far it may fly.

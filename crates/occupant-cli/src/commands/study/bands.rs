@@ -24,7 +24,7 @@ pub(crate) struct BandsArgs {
     folder: PathBuf,
 
     /// Channels, such as head.acceleration.resultant,belt.*.force; the main ones if absent
-    #[arg(long, value_name = "CHANNELS", value_delimiter = ',')]
+    #[arg(long = "channel", alias = "channels", value_name = "NAMES", value_delimiter = ',')]
     channels: Vec<String>,
 
     /// Number of threads; one for each core if absent

@@ -6,14 +6,14 @@ use std::sync::atomic::AtomicBool;
 
 use occupant_core::run::batch::Kernel;
 
-use crate::base::{Done, Failure, UnitsArg};
+use crate::base::{Done, Failure, UnitsArg, quoted};
 use crate::commands::flags::sweep::{engine, keep};
 use crate::files::study_folder::checksums::Checksums;
 use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::problem::Problem;
 use crate::jobs::sweep::results::refuse_gaps;
 use crate::jobs::sweep::stored::{MadeBy, Stored, open};
-use crate::jobs::sweep::words::{tell, tell_damaged};
+use crate::jobs::sweep::words::{judged, tell, tell_damaged};
 use crate::jobs::sweep::{kept, results};
 
 /// Make one table of a sweep's shards
@@ -68,6 +68,10 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     let (wanted, engine) = (found.worst.iter().copied().chain(runs), engine(args.threads, Kernel::best())?);
     kept::write_missing(&plan, (&target, &sums), &journal, wanted, &engine, &AtomicBool::new(false))?;
     sums.close()?;
-    let next = format!("occupant study report {}", target.path.display());
-    if args.quiet { Ok(Done::Well) } else { tell(&found, None, &next, args.units.or(Some(plan.study.base.units()))) }
+    let next = format!("occupant study report {}", quoted(target.path.display()));
+    if args.quiet {
+        Ok(judged(&found.census))
+    } else {
+        tell(&found, None, &next, args.units.or(Some(plan.study.base.units())))
+    }
 }

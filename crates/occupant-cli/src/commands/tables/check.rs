@@ -19,6 +19,9 @@ pub(crate) fn check_text(d: &Diagnosis, units: Units) -> String {
         parts.push(seating(seat, units));
     }
     parts.push(contacts(d, units));
+    if !d.friction.is_empty() {
+        parts.push(friction(d, units));
+    }
     if !d.corners.is_empty() {
         parts.push(corners(d));
     }
@@ -143,10 +146,26 @@ fn contacts(d: &Diagnosis, units: Units) -> String {
     }
     let rows = d.contacts.iter().map(|c| {
         let [depth, force] = [units.number(c.depth_m * 1e3, "mm", 2), units.number(c.normal_force_n, "N", 1)];
-        [c.sphere.clone(), c.surface.clone(), depth, force]
+        let [rubs, fully] = [c.friction_n, c.full_friction_n].map(|n| units.number(n, "N", 1));
+        [c.sphere.clone(), c.surface.clone(), depth, force, rubs, fully]
     });
-    let [depth, force] = ["depth, mm", "force, N"].map(|head| units.heading(head));
-    table(&[(Left, &["touches at the start", "surface"]), (Right, &[&depth, &force])], rows)
+    let heads = ["depth, mm", "force, N", "friction, N", "when it slides, N"].map(|head| units.heading(head));
+    let heads = heads.each_ref().map(String::as_str);
+    table(&[(Left, &["touches at the start", "surface"]), (Right, &heads)], rows)
+}
+
+/// How far friction is from sticking.
+fn friction(d: &Diagnosis, units: Units) -> String {
+    let heads = ["friction", "71 % of it at, m/s", "creeps on 10°, m/s"].map(|head| units.heading(head));
+    let heads = heads.each_ref().map(String::as_str);
+    let rows = d.friction.iter().map(|f| {
+        let speed = |m_s: f64| units.number(m_s, "m/s", 3);
+        let creeps = f.creeps_m_s.map_or("slides".to_owned(), speed);
+        [f.material.clone(), trimmed(f.coefficient, 3), speed(f.speed_m_s), creeps]
+    });
+    let note = "friction grows with slip and never sticks: at rest there is none; a smaller friction_speed of a material comes \
+                nearer, with shorter steps\n";
+    table(&[(Left, &["material that rubs"]), (Right, &heads)], rows) + note
 }
 
 /// Corners that a sphere may come round.
@@ -162,26 +181,33 @@ fn sphere_rates(d: &Diagnosis, units: Units) -> String {
     let heads = heads.each_ref().map(String::as_str);
     let rows = d.sphere_rates.iter().map(|s| {
         let r = &s.rate;
-        let [mass, slope] = [units.number(r.effective, "kg", 3), units.number(r.coefficient / 1e3, "kN/m", 1)];
+        // what is held gives way to nothing
+        let mass = if r.effective.is_finite() { units.number(r.effective, "kg", 3) } else { NONE.to_owned() };
+        let slope = units.number(r.coefficient / 1e3, "kN/m", 1);
         let limit = s.friction_limit_n.map_or(NONE.to_owned(), |n| units.number(n, "N", 0));
-        [r.of.clone(), r.by.clone(), mass, slope, format!("{:.3}", r.time_scale_s * 1e3), by_step(d, r), limit]
+        [r.of.clone(), r.by.clone(), mass, slope, time_scale(r), by_step(d, r), limit]
     });
     table(&[(Left, &["sphere", "stiffest material"]), (Right, &heads)], rows)
 }
 
 fn other_rates(d: &Diagnosis) -> String {
     let rows = d.other_rates.iter();
-    let rows = rows.map(|r| [r.of.clone(), r.by.clone(), format!("{:.3}", r.time_scale_s * 1e3), by_step(d, r)]);
+    let rows = rows.map(|r| [r.of.clone(), r.by.clone(), time_scale(r), by_step(d, r)]);
     table(&[(Left, &["belt or joint", ""]), (Right, &["time scale, ms", "step/time scale"])], rows)
 }
 
+/// In ms; none of what is held, which answers nothing.
+fn time_scale(rate: &Rate) -> String {
+    if rate.time_scale_s.is_finite() { format!("{:.3}", rate.time_scale_s * 1e3) } else { NONE.to_owned() }
+}
+
 fn by_step(d: &Diagnosis, rate: &Rate) -> String {
-    let step_s = d.run.step_s;
+    let step_s = d.run.step_s.filter(|_| rate.time_scale_s.is_finite());
     step_s.map_or(NONE.to_owned(), |h| format!("{:.3}", h / rate.time_scale_s))
 }
 
 fn verdict(d: &Diagnosis) -> String {
-    let Some(fastest) = &d.fastest else {
+    let Some(fastest) = d.fastest.as_ref().filter(|fastest| fastest.time_scale_s.is_finite()) else {
         return "no contact, belt or joint sets a time scale\n".to_owned();
     };
     let scale = format!("fastest time scale: {:.4} ms ({}, {})", fastest.time_scale_s * 1e3, fastest.of, fastest.by);

@@ -4,3 +4,4 @@ pub(crate) mod check;
 mod elements;
 pub(crate) mod measures;
 pub(crate) mod summary;
+mod throws;

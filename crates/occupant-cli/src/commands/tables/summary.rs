@@ -4,15 +4,15 @@ use std::collections::BTreeSet;
 
 use occupant_core::results::energy::EnergyCheck;
 use occupant_core::results::summary::{
-    Acceleration, Caveat, ContactBegin, Event, FirstContact, Landing, Level, Peak, Person, RunStatus, Summary, Throw,
-    word,
+    Acceleration, Caveat, ContactBegin, Event, FirstContact, Level, Peak, Person, RunStatus, Summary, word,
 };
 use placed_text::shown;
 
+use super::throws::{ejections, throws};
 use super::{elements, measures};
-use crate::base::Units;
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, facts, number, table, without_zeros};
+use crate::base::{Units, quoted};
 use crate::jobs::run::recording::Written;
 
 /// Figures that are not to be quoted as they stand: those that a caveat touches carry a `!`, those that are not stable in an
@@ -78,7 +78,8 @@ pub(crate) fn summary_table(summary: &Summary, written: &Written, marks: &Marks,
         let own = measures::table(person.measures.iter().filter(|m| m.brief), &marks.of_occupant(&prefix), units);
         parts.push(if prefix.is_empty() { own } else { format!("{}\n{own}", shown(prefix.trim_end_matches('.'))) });
     }
-    parts.extend(throws(summary, units));
+    parts.extend(ejections(summary));
+    parts.extend(throws(summary, marks, units));
     parts.extend(marks.explained());
     parts.push(trust(summary, written, marks, units));
     parts.join("\n")
@@ -122,37 +123,6 @@ fn acceleration(name: &str, part: &Acceleration, marks: &Marks) -> [String; 6] {
         mark("three_ms_contiguous", held.map_or(NONE.to_owned(), |l| format!("{}–{}", ms(l.from_s), ms(l.to_s)))),
         mark("three_ms_cumulative", level(total)),
     ]
-}
-
-/// Where bodies went that were struck; none where nothing was.
-fn throws(summary: &Summary, units: Units) -> Option<String> {
-    let heads = [
-        "struck at, ms",
-        "airborne from–to, ms",
-        "lands at, ms",
-        "at, m",
-        "speed, m/s",
-        "distance, m",
-        "end speed, m/s",
-    ]
-    .map(|head| units.heading(head));
-    let heads = heads.each_ref().map(String::as_str);
-    let row = |(name, throw): (&&str, &Throw)| {
-        let landing = |of: &dyn Fn(&Landing) -> String| throw.landing.as_ref().map_or(NONE.to_owned(), of);
-        let flights = throw.airborne_s.iter().map(|[from, to]| format!("{}–{}", ms(*from), ms(*to)));
-        [
-            if name.is_empty() { "occupant".to_owned() } else { shown(name).to_string() },
-            ms(throw.struck_s),
-            flights.take(1).next().unwrap_or(NONE.to_owned()),
-            landing(&|l| ms(l.time_s)),
-            landing(&|l| units.number(l.distance_m, "m", 2)),
-            landing(&|l| units.number(l.speed_m_s, "m/s", 2)),
-            units.number(throw.distance_m, "m", 2),
-            units.number(throw.end_speed_m_s, "m/s", 2),
-        ]
-    };
-    let rows = summary.throws.iter().map(row);
-    (!summary.throws.is_empty()).then(|| table(&[(Left, &["throw"]), (Right, &heads)], rows))
 }
 
 /// What happened to belts, in order; none where nothing did.
@@ -255,7 +225,7 @@ fn trust(summary: &Summary, written: &Written, marks: &Marks, units: Units) -> S
         Written::Nothing => {}
         Written::Complete(path) => {
             lines.push(("written", path.display().to_string()));
-            lines.push(("next", format!("occupant report {0}; occupant measures {0}", path.display())));
+            lines.push(("next", format!("occupant report {0}; occupant measures {0}", quoted(path.display()))));
         }
         Written::Partial(path) => lines.push(("written", format!("{} (partial)", path.display()))),
     }

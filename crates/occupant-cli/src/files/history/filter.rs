@@ -15,7 +15,7 @@ pub(crate) enum Filter {
 }
 
 /// Coefficients of the filter classes: names on the command line, names elsewhere.
-pub(super) const FAMILIES: [(&str, &str, CfcFamily); 2] =
+pub(crate) const FAMILIES: [(&str, &str, CfcFamily); 2] =
     [("iso6487", "ISO 6487", CfcFamily::Iso6487), ("sae-j211", "SAE J211", CfcFamily::SaeJ211)];
 
 /// Name of a family of filter coefficients.
@@ -70,7 +70,7 @@ fn j211_class(channel: &str) -> Option<ChannelClass> {
         [.., "upper_torso" | "middle_torso", "acceleration", _] => Some(Cfc180),
         [.., "neck", "force" | "moment", _] => Some(Cfc600),
         [.., "right_femur" | "left_femur", "axial"] => Some(Cfc600),
-        ["belt" | "strap", .., "force"] | ["vehicle", "acceleration", _] => Some(Cfc60),
+        ["belt" | "strap", .., "force"] | ["vehicle", .., "acceleration", _] => Some(Cfc60),
         [.., "head", "angular_velocity", _] => Some(Cfc60),
         _ => None,
     }
@@ -115,6 +115,8 @@ mod tests {
         assert_eq!(class("strap.driver.belt.d_ring_shoulder.force"), Some(ChannelClass::Cfc60));
         assert_eq!(class("left_femur.axial"), Some(ChannelClass::Cfc600));
         assert_eq!(class("passenger.upper_torso.acceleration.x"), Some(ChannelClass::Cfc180));
+        assert_eq!(class("vehicle.acceleration.x"), class("vehicle.other.acceleration.x"));
+        assert_eq!(class("vehicle.other.acceleration.x"), Some(ChannelClass::Cfc60));
         assert_eq!(class("energy.kinetic"), None);
         assert_eq!(class("sphere.head.force.x"), None);
     }

@@ -7,7 +7,7 @@ use placed_text::number;
 
 use super::filter::{FAMILIES, family_name};
 use super::{Column, Filter, Histories, filtered};
-use crate::base::{Failure, one_of};
+use crate::base::{Failure, note, one_of};
 use crate::files::results::Results;
 
 /// What is done to histories, in this order: filter, resample.
@@ -194,27 +194,36 @@ pub(crate) fn choose(model: &Model, names: &[String]) -> Result<Vec<Channel>, Fa
     if names.is_empty() {
         return Ok(channels(model));
     }
-    let mut chosen: Vec<Channel> = Vec::new();
+    let (mut chosen, mut missing): (Vec<Channel>, Vec<&str>) = (Vec::new(), Vec::new());
     for name in names.iter().flat_map(|n| n.split(',')).map(str::trim) {
-        for channel in fitting(model, name)? {
+        let found = fitting(model, name);
+        if found.is_empty() {
+            missing.push(name);
+        }
+        for channel in found {
             if chosen.iter().all(|c| c.name != channel.name) {
                 chosen.push(channel);
             }
         }
     }
-    Ok(chosen)
-}
-
-fn fitting(model: &Model, name: &str) -> Result<Vec<Channel>, Failure> {
-    if name.contains('*') {
-        let found = matching(model, name);
-        return if found.is_empty() { Err(unknown(model, name, None)) } else { Ok(found) };
+    match missing.split_first() {
+        None => Ok(chosen),
+        // a pattern asks for what there may be
+        Some(_) if !chosen.is_empty() && missing.iter().all(|name| name.contains('*')) => {
+            missing.iter().for_each(|name| note(&format!("no channel fits `{name}`")));
+            Ok(chosen)
+        }
+        Some((first, others)) => Err(unknown(model, first, others)),
     }
-    let found = find(model, name);
-    found.map(|c| vec![c]).map_err(|nearest| unknown(model, name, nearest))
 }
 
-fn unknown(model: &Model, name: &str, nearest: Option<String>) -> Failure {
+/// The channels that a name or a pattern means.
+fn fitting(model: &Model, name: &str) -> Vec<Channel> {
+    if name.contains('*') { matching(model, name) } else { find(model, name).into_iter().collect() }
+}
+
+fn unknown(model: &Model, name: &str, others: &[&str]) -> Failure {
+    let nearest = if name.contains('*') { None } else { find(model, name).err().flatten() };
     let inside = matching(model, &format!("*{name}*"));
     let help = match (nearest, inside.first()) {
         (Some(nearest), _) => format!("did you mean `{nearest}`?"),
@@ -224,5 +233,6 @@ fn unknown(model: &Model, name: &str, nearest: Option<String>) -> Failure {
                 .to_owned()
         }
     };
-    Failure::with_help(format!("no channel is called `{name}`"), &help)
+    let all: Vec<String> = std::iter::once(&name).chain(others).map(|name| format!("`{name}`")).collect();
+    Failure::with_help(format!("no channel is called {}", all.join(", ")), &help)
 }

@@ -12,7 +12,7 @@ use crash_measures::unit::{Shown, Unit};
 use occupant_core::quantity::Axes;
 use occupant_core::results::channel::Channel;
 
-pub(crate) use filter::{Filter, family_name, filtered};
+pub(crate) use filter::{FAMILIES, Filter, family_name, filtered};
 pub(crate) use load::{Treatment, Untreated, asked, choose, load, treated};
 
 /// Channels of one run over common times.

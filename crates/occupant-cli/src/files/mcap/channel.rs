@@ -93,6 +93,7 @@ fn described(number: u32, name: &str, kind: Kind) -> FieldDescriptorProto {
         Kind::Rotation => "foxglove.Quaternion",
         Kind::Numbers => "repeated double",
         Kind::Indices => "repeated fixed32",
+        Kind::Singles => "repeated float",
         Kind::Parts(message) => {
             parts = format!("repeated {message}");
             &parts

@@ -52,6 +52,7 @@ impl Archive for Words {
             Value::Count(_) => Kind::Count,
             Value::Numbers(_) => Kind::Numbers,
             Value::Indices(_) => Kind::Indices,
+            Value::Singles(_) => Kind::Singles,
             _ => Kind::Number,
         };
         self.fields.push(Field { number, name, meaning, kind, source: None });

@@ -25,6 +25,7 @@ impl Wire {
             Value::Rotation(rotation) => self.rotation(field, rotation),
             Value::Numbers(numbers) => self.numbers(field, numbers),
             Value::Indices(indices) => self.indices(field, indices),
+            Value::Singles(numbers) => self.packed(field, numbers.iter().map(|value| value.to_le_bytes())),
             Value::Parts(parts) => {
                 for part in parts {
                     self.message(field, |wire| part.iter().for_each(|(field, value)| wire.value(*field, value)));
@@ -139,6 +140,7 @@ impl<'a> Rest<'a> {
             Value::Number(number) => *number = f64::from_le_bytes(*ahead.0.split_off(..8)?.first_chunk()?),
             Value::Numbers(list) => *list = ahead.list()?.iter().copied().map(f64::from_le_bytes).collect(),
             Value::Indices(list) => *list = ahead.list()?.iter().copied().map(u32::from_le_bytes).collect(),
+            Value::Singles(list) => *list = ahead.list()?.iter().copied().map(f32::from_le_bytes).collect(),
             _ => return None,
         }
         *self = ahead;

@@ -2,18 +2,27 @@
 //!
 //! Knows no run, only the channels that are wanted. Values stay in their file's unit until a channel claims them; then they are SI in that channel's axes.
 
+mod axes;
+mod doubts;
+mod motion;
 mod nhtsa;
 mod pair;
 mod table;
+mod tdms;
 mod trajectory;
 
 use std::path::Path;
+
+use placed_text::decoded;
 
 use super::mme;
 use super::signals::Recording;
 use super::trouble::Trouble;
 use crate::base::{Failure, ending, input_file, sha256};
 
+pub(crate) use axes::{AXES, Axes};
+pub(crate) use doubts::{Known, doubts};
+pub(crate) use motion::{Motion, MotionKind, Placed, velocity_changes};
 pub(crate) use nhtsa::TestRecord;
 pub(crate) use pair::{MapArgument, Pair, Wanted, pairs};
 
@@ -27,25 +36,43 @@ pub(crate) fn is_recording(path: &Path) -> bool {
 pub(crate) struct Imported {
     pub(crate) record: TestRecord,
     pub(crate) recording: Recording,
-    /// Whether places and angles are along axes forward, left, up.
-    pub(crate) z_up: bool,
+    /// Which way its axes point, where the kind of file says it.
+    pub(crate) axes: Option<Axes>,
 }
 
-/// Reads whatever holds a test or a trajectory; `vehicle` and `object` are asked for where there are several.
+/// What is asked for where a file has several, or does not say it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Reading<'a> {
+    pub(crate) vehicle: Option<u32>,
+    pub(crate) object: Option<&'a str>,
+    /// Names and units of a table's columns in place of its headings.
+    pub(crate) columns: Option<&'a str>,
+}
+
+/// Reads whatever holds a test or a trajectory.
 ///
 /// # Errors
 /// As [`read`].
-pub(crate) fn import(path: &Path, vehicle: Option<u32>, object: Option<&str>) -> Result<Imported, Failure> {
+pub(crate) fn import(path: &Path, reading: Reading) -> Result<Imported, Failure> {
+    let Reading { vehicle, object, columns } = reading;
+    if columns.is_some() {
+        trajectory::one_vehicle(path, vehicle)?;
+        let recording = table_of(path, columns)?;
+        return Ok(Imported { record: TestRecord::default(), recording, axes: None });
+    }
     if let Some(header) = nhtsa::header(path) {
         let (record, recording) = nhtsa::read(&header, vehicle.unwrap_or(1))?;
-        return Ok(Imported { record, recording, z_up: false });
+        return Ok(Imported { record, recording, axes: Some(Axes::ZDown) });
     }
     let trajectory = if path.is_dir() { None } else { trajectory::read(path, vehicle, object)? };
     if trajectory.is_none() {
         trajectory::one_vehicle(path, vehicle)?;
     }
-    let (recording, z_up) = trajectory.map_or_else(|| read(path).map(|recording| (recording, false)), Ok)?;
-    Ok(Imported { record: TestRecord::default(), recording, z_up })
+    let (recording, axes) = match trajectory {
+        Some((recording, axes)) => (recording, Some(axes)),
+        None => (read(path)?, (path.is_dir() || ending(path) == "mme").then_some(Axes::ZDown)),
+    };
+    Ok(Imported { record: TestRecord::default(), recording, axes })
 }
 
 /// Reads a text table (.csv, .txt, .tsv), an ISO-MME test (its folder, or the .mme file in it) or a test of NHTSA (its folder, or the
@@ -60,12 +87,19 @@ pub(crate) fn read(path: &Path) -> Result<Recording, Failure> {
     if path.is_dir() || ending(path) == "mme" {
         return mme::read(path);
     }
+    if ending(path) == "tdms" {
+        return tdms::read(path);
+    }
+    table_of(path, None)
+}
+
+fn table_of(path: &Path, columns: Option<&str>) -> Result<Recording, Failure> {
     let bytes = input_file::read(path)?;
-    let text = String::from_utf8(bytes.clone()).map_err(|e| {
-        let at = e.utf8_error().valid_up_to();
-        let line = 1 + bytes[..at].iter().filter(|b| **b == b'\n').count();
-        Trouble::at(path, line, "bytes that are no UTF-8 text", "a text table")
+    let (text, encoding) = decoded(&bytes).map_err(|found| {
+        Trouble::of(path, found, "a text table")
             .hint("a run of this program has the ending .mcap, an ISO-MME test .mme")
     })?;
-    table::read(path, &text, sha256(&bytes))
+    let mut recording = table::read(path, &text, columns, sha256(&bytes))?;
+    recording.notes.extend(encoding.map(|name| format!("{} was read as {name}", path.display())));
+    Ok(recording)
 }

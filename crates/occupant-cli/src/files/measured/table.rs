@@ -1,48 +1,96 @@
 //! Text tables: a line of headings with units, `t[s],head_x[g]`, and a line of numbers for each time.
 //!
-//! They are read as tables of scenarios are ([`TextTable`]); but without headings the first column is the time in seconds, and an
-//! empty cell, `NaN` or `NOVALUE` is a missing value.
+//! They are read as tables of scenarios are ([`TextTable`]); but without headings the first column is the time in seconds, an
+//! empty cell, `N/A`, `NaN` or `NOVALUE` is a missing value, and a column of words is left out.
 
 use std::path::Path;
 
-use crash_measures::unit::parse;
+use occupant_scenario::column_named;
 use placed_text::{
-    CELL, Cell, Diagnostic, Diagnostics, MOST_CELLS, Problem, Separator, Sources, Span, TextTable, name_and_unit,
-    shortened,
+    CELL, Cell, Diagnostic, Diagnostics, MOST_CELLS, Problem, Separator, Sources, Span, TextTable, is_missing,
+    name_and_unit, shortened,
 };
 
 use crate::base::Failure;
 use crate::files::signals::{Recording, Signal, scale_of, seconds_in};
+use crash_measures::signal::usual_interval;
 
 #[derive(Clone, Debug)]
 struct Heading {
     name: String,
     unit: Option<String>,
+    /// What its numbers are multiplied by: −1 where `--columns` turns them.
+    sign: f64,
     /// Where its unit stands, or it itself.
     span: Span,
 }
 
-/// Reads a table.
+impl Heading {
+    /// A heading of the file, or of `--columns`; `below` is the unit that stands in a line of its own.
+    fn of(cell: &Cell, below: Option<(&str, Span)>) -> Self {
+        let (name, unit) = name_and_unit(cell.text);
+        let (name, sign) = match name.strip_prefix('-').filter(|rest| !rest.is_empty()) {
+            Some(rest) => (rest, -1.0),
+            None => (name, 1.0),
+        };
+        // `MPH [km/h]`: the first of two
+        let unit = unit.map(|unit| (unit.split('[').next().unwrap_or(unit).trim(), cell.span)).or(below);
+        let (name, unit) = match unit {
+            Some(unit) => (name, Some(unit)),
+            None => in_words(name).map_or((name, None), |(name, unit)| (name, Some((unit, cell.span)))),
+        };
+        let span = unit.map_or(cell.span, |(_, span)| span);
+        Heading { name: name.to_owned(), unit: unit.map(|(unit, _)| unit.to_owned()), sign, span }
+    }
+
+    fn is_left_out(&self) -> bool {
+        self.name == "-"
+    }
+}
+
+/// A heading's name and a unit that is its last word, as `dV long MPH`; a unit of time alone is the time.
+fn in_words(heading: &str) -> Option<(&str, &str)> {
+    if seconds_in(heading).is_some_and(|_| heading.len() > 1) {
+        return Some(("t", heading));
+    }
+    let (name, unit) = heading.rsplit_once([' ', '_', ','])?;
+    let is_told = unit.len() > 1 || unit.eq_ignore_ascii_case("g");
+    (is_told && !name.trim().is_empty() && scale_of(unit).is_some())
+        .then(|| (name.trim_end_matches(['_', ',', ' ']), unit))
+}
+
+/// Reads a table; `columns` names its columns in place of its headings, `-` one that is left out, `-NAME` one whose sign is turned.
 ///
 /// # Errors
 /// What is wrong with it.
-pub(crate) fn read(path: &Path, text: &str, sha256: String) -> Result<Recording, Failure> {
+pub(crate) fn read(path: &Path, text: &str, columns: Option<&str>, sha256: String) -> Result<Recording, Failure> {
     let mut sources = Sources::new();
     let id = sources.add_named(path.display().to_string(), text);
+    let given = columns.map(|columns| sources.add("--columns", columns));
     let problems = Diagnostics::new();
-    let Some(table) = TextTable::of(&sources, id, |unit| parse(unit, 0).is_ok()) else {
+    let Some(table) = TextTable::of(&sources, id, |unit| scale_of(unit).is_some()) else {
         let mut reader = Reader { sources: &sources, separator: Separator::of(""), headings: Vec::new(), problems };
         reader.wrong(sources.start_of(id), "an empty table", "headings and numbers");
         return Err(reader.failure());
     };
-    let headings = headings(&table, table.separator.cells(&sources, table.first).len());
+    let headings = match given {
+        Some(given) => {
+            let all = Span { end: sources.text(given).len(), ..sources.start_of(given) };
+            Separator::of(sources.slice(all)).cells(&sources, all).iter().map(|cell| Heading::of(cell, None)).collect()
+        }
+        None => headings(&table, table.separator.cells(&sources, table.first).len()),
+    };
     let mut reader = Reader { sources: &sources, separator: table.separator, headings, problems };
-    let mut notes = Vec::new();
+    let mut notes = reader.about(&table);
     let time = time_column(&reader.headings);
     let time_factor = reader.time_factor(time, !table.headings.is_empty(), path, &mut notes);
-    let columns = reader.columns(&table.lines);
+    let mut columns = reader.columns(&table.lines, time, &mut notes);
     let time_s: Vec<f64> = columns.get(time).map(|c| c.iter().map(|t| t * time_factor).collect()).unwrap_or_default();
     reader.check_times(&time_s, &table);
+    reader.ask_for_the_unit(time, &time_s, table.first);
+    for (column, heading) in columns.iter_mut().zip(&reader.headings).filter(|(_, heading)| heading.sign < 0.0) {
+        column.iter_mut().for_each(|value| *value *= heading.sign);
+    }
     if columns.len() < 2 && reader.problems.is_empty() {
         reader.wrong(table.first, "a table with one column", "a column of times and one of values");
     }
@@ -56,20 +104,20 @@ pub(crate) fn read(path: &Path, text: &str, sha256: String) -> Result<Recording,
 /// Headings; numbers from 1 where the table has none.
 fn headings(table: &TextTable, columns: usize) -> Vec<Heading> {
     if table.headings.is_empty() {
-        return (1..=columns).map(|i| Heading { name: i.to_string(), unit: None, span: table.first }).collect();
+        let number = |i: usize| Heading { name: i.to_string(), unit: None, sign: 1.0, span: table.first };
+        return (1..=columns).map(number).collect();
     }
     let heading = |(i, cell): (usize, &Cell)| {
-        let unit = table.unit(i);
-        let (name, span) = (name_and_unit(cell.text).0.to_owned(), unit.map_or(cell.span, |(_, span)| span));
-        Heading { name, unit: unit.map(|(unit, _)| unit.to_owned()), span }
+        // in its heading, or below
+        let below = table.unit(i).filter(|_| name_and_unit(cell.text).1.is_none());
+        Heading::of(cell, below)
     };
     table.headings.iter().enumerate().map(heading).collect()
 }
 
 /// The column called time, else the first.
 fn time_column(headings: &[Heading]) -> usize {
-    let names = ["t", "time", "time_s", "zeit", "temps"];
-    let named = |h: &Heading| names.contains(&h.name.to_lowercase().as_str());
+    let named = |h: &Heading| h.name == "time_s" || column_named(&h.name) == Some("t");
     headings.iter().position(named).unwrap_or(0)
 }
 
@@ -100,6 +148,32 @@ impl Reader<'_> {
         })
     }
 
+    /// What was passed over.
+    fn about(&self, table: &TextTable) -> Vec<String> {
+        let mut notes = Vec::new();
+        let line = |span: Span| self.sources.position(span).line;
+        if table.before > 0 {
+            notes.push(format!("the table begins in line {}; what stands before it was not read", line(table.first)));
+        }
+        notes.extend(
+            table.behind.map(|span| format!("the table ends before line {}; what follows was not read", line(span))),
+        );
+        notes
+    }
+
+    /// Times in steps of 5 and more without a unit are milliseconds as likely as seconds.
+    fn ask_for_the_unit(&mut self, time: usize, time_s: &[f64], first: Span) {
+        let is_told = self.headings.get(time).is_none_or(|h| h.unit.is_some() || h.name.ends_with("_s"));
+        if is_told || time_s.len() < 3 || usual_interval(time_s) < 5.0 || !self.problems.is_empty() {
+            return;
+        }
+        let found = format!("times from {} to {} without a unit", time_s[0], time_s[time_s.len() - 1]);
+        let problem = Problem::error("", found, "their unit in the heading, such as `t[ms]`");
+        let names: Vec<String> = (1..self.headings.len()).map(|_| "-".to_owned()).collect();
+        let hint = format!("--columns names all columns with their units, such as 't[ms],{}'", names.join(","));
+        self.report(first, problem.with_hint(Some(&hint)));
+    }
+
     fn wrong(&mut self, span: Span, found: impl Into<String>, expected: impl Into<String>) {
         self.report(span, Problem::error("", found, expected));
     }
@@ -113,7 +187,13 @@ impl Reader<'_> {
     }
 
     /// Numbers column by column, as far as lines are right.
-    fn columns(&mut self, lines: &[Span]) -> Vec<Vec<f64>> {
+    fn columns(&mut self, lines: &[Span], time: usize, notes: &mut Vec<String>) -> Vec<Vec<f64>> {
+        let words = self.columns_of_words(lines, time);
+        for (heading, _) in
+            self.headings.iter().zip(&words).filter(|(heading, words)| **words && !heading.is_left_out())
+        {
+            notes.push(format!("the column `{}` holds words: left out", shortened(&heading.name, CELL)));
+        }
         let mut columns = vec![Vec::with_capacity(lines.len()); self.headings.len()];
         if columns.len() > MOST_CELLS {
             let span = self.headings[0].span;
@@ -130,19 +210,34 @@ impl Reader<'_> {
                 columns.iter_mut().for_each(|c| c.push(f64::NAN));
                 continue;
             }
-            for (column, cell) in columns.iter_mut().zip(&cells) {
-                column.push(self.number(cell));
+            for (i, (column, cell)) in columns.iter_mut().zip(&cells).enumerate() {
+                column.push(if words.get(i) == Some(&true) { f64::NAN } else { self.number(cell) });
             }
         }
         columns
     }
 
+    /// Which columns are to be left out: those of the heading `-`, and those of which most cells are words.
+    fn columns_of_words(&self, lines: &[Span], time: usize) -> Vec<bool> {
+        let mut counts = vec![[0, 0]; self.headings.len()];
+        for line in lines {
+            for (count, cell) in counts.iter_mut().zip(self.separator.cells(self.sources, *line)) {
+                let is_number = number_in(self.separator, &cell).is_some();
+                count[usize::from(is_number)] += usize::from(is_number || !is_missing(cell.text));
+            }
+        }
+        let of = |(i, ([words, numbers], heading)): (usize, (&[usize; 2], &Heading))| {
+            heading.is_left_out() || (i != time && words > numbers)
+        };
+        counts.iter().zip(&self.headings).enumerate().map(of).collect()
+    }
+
     /// A number; none is missing where the cell says so.
     fn number(&mut self, cell: &Cell) -> f64 {
-        if let Ok(number) = self.separator.number(cell) {
+        if let Some(number) = number_in(self.separator, cell) {
             return number;
         }
-        if !["", "nan", "novalue"].contains(&cell.text.to_ascii_lowercase().as_str()) {
+        if !is_missing(cell.text) {
             self.wrong(cell.span, format!("`{}`", shortened(cell.text, CELL)), "a number");
         }
         f64::NAN
@@ -176,7 +271,11 @@ impl Reader<'_> {
             place: self.place(heading.span),
         };
         let named = self.headings.iter().zip(columns).enumerate();
-        named.filter(|(i, _)| *i != time).map(|(_, column)| signal(column)).collect()
+        let holds_something = |values: &[f64]| values.iter().any(|value| !value.is_nan());
+        let is_kept = |i: usize, heading: &Heading, values: &[f64]| {
+            i != time && !heading.is_left_out() && holds_something(values)
+        };
+        named.filter(|(i, (heading, values))| is_kept(*i, heading, values)).map(|(_, column)| signal(column)).collect()
     }
 
     fn place(&self, span: Span) -> String {
@@ -184,12 +283,21 @@ impl Reader<'_> {
     }
 }
 
+/// The number of a cell; of two in one cell, `-12.4 [-20]`, the first.
+fn number_in(separator: Separator, cell: &Cell) -> Option<f64> {
+    let first = || {
+        let (first, _) = cell.text.strip_suffix(']')?.split_once('[')?;
+        separator.number(&Cell { text: first.trim(), span: cell.span }).ok()
+    };
+    separator.number(cell).ok().or_else(first)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn table(text: &str) -> Result<Recording, String> {
-        read(Path::new("t.csv"), text, String::new()).map_err(|f| match f {
+        read(Path::new("t.csv"), text, None, String::new()).map_err(|f| match f {
             Failure::CouldNotRun(m) | Failure::BrokeOff(m) => m,
         })
     }

@@ -3,11 +3,12 @@
 
 use std::path::Path;
 
-use placed_text::{Cell, Sources, TextTable, name_and_unit, one_of, shown};
+use placed_text::{Cell, Sources, TextTable, decoded, name_and_unit, one_of, shown};
 use roxmltree::{Document, Node};
 
 use super::super::signals::{Recording, Signal, finite, scale_of, seconds_in};
 use super::super::trouble::Trouble;
+use super::Axes;
 use crate::base::{Failure, ending, input_file, sha256};
 
 /// Names of the columns as paths of scenarios have them; lengths, then angles.
@@ -24,8 +25,8 @@ struct Layout {
     object: Option<&'static str>,
     /// Units of lengths and angles whose headings tell none.
     units: [&'static str; 2],
-    /// Whether axes are forward, left, up.
-    z_up: bool,
+    /// Which way its axes point.
+    axes: Axes,
     /// What to know of it.
     note: Option<&'static str>,
     /// What to know where headings tell no units.
@@ -37,7 +38,7 @@ const OPEN: Layout = Layout {
     heads: ["time", "x", "y", "z", "h", "p", "r"],
     object: Some("name"),
     units: ["m", "rad"],
-    z_up: true,
+    axes: Axes::ZUp,
     note: Some("a trajectory follows the middle of the rear axle; --cg says how far ahead the centre of gravity is"),
     without_units: None,
 };
@@ -56,10 +57,10 @@ const LAYOUTS: [Layout; 3] = [
         heads: ["time", "xpos", "ypos", "zpos", "yaw", "pitch", "roll"],
         object: None,
         units: ["ft", "deg"],
-        z_up: false,
+        axes: Axes::ZDown,
         note: Some(
             "Rec-Tec's table does not tell its axes: taken as y to the right and z down; where a turn to the right has y or yaw \
-             below 0, axes = \"z_up\" belongs into [path]",
+             below 0, --axes z_up says so",
         ),
         without_units: Some(
             "without units: taken as feet and degrees; in a metric project [ft] in the headings of the path is to be [m]",
@@ -75,7 +76,7 @@ struct Found {
     notes: Vec<String>,
 }
 
-/// Reads the trajectory of `object` (of the only one, if absent) or of the vehicle of this number (of the first, if absent), and whether its axes are forward, left, up; none of a file that
+/// Reads the trajectory of `object` (of the only one, if absent) or of the vehicle of this number (of the first, if absent), and which way its axes point; none of a file that
 /// holds none.
 ///
 /// # Errors
@@ -84,13 +85,14 @@ pub(super) fn read(
     path: &Path,
     vehicle: Option<u32>,
     object: Option<&str>,
-) -> Result<Option<(Recording, bool)>, Failure> {
+) -> Result<Option<(Recording, Axes)>, Failure> {
     let is_scenario = matches!(ending(path).as_str(), "xosc" | "xml");
     if !is_scenario && !matches!(ending(path).as_str(), "csv" | "txt" | "tsv" | "asc" | "dat") {
         return Ok(None);
     }
     let bytes = input_file::read(path)?;
-    let Ok(text) = std::str::from_utf8(&bytes) else { return Ok(None) };
+    let Ok((text, _)) = decoded(&bytes) else { return Ok(None) };
+    let text = text.as_str();
     let found = if is_scenario {
         one_vehicle(path, vehicle)?;
         let rows = of_scenario(path, text, object)?;
@@ -118,7 +120,7 @@ pub(super) fn read(
     };
     let signals = COLUMNS.iter().enumerate().map(signal).collect();
     notes.extend(layout.note.map(str::to_owned));
-    Ok(Some((Recording { path: path.to_owned(), sha256: sha256(&bytes), signals, notes }, layout.z_up)))
+    Ok(Some((Recording { path: path.to_owned(), sha256: sha256(&bytes), signals, notes }, layout.axes)))
 }
 
 /// Refuses a vehicle that is asked for by another number than 1, where the file numbers none.
@@ -227,14 +229,9 @@ fn own_columns(path: &Path, vehicles: Vehicles, asked: Option<u32>) -> Result<(V
 
 fn of_table(path: &Path, text: &str, vehicle: Option<u32>, object: Option<&str>) -> Result<Option<Found>, Trouble> {
     let mut sources = Sources::new();
-    // a line about the log may stand first
-    let below = text.split_once('\n').map(|(_, below)| format!("\n{below}")).unwrap_or_default();
-    let texts = [text, &below].map(|text| sources.add_named(path.display().to_string(), text));
-    let told = texts.into_iter().find_map(|id| {
-        let table = TextTable::of(&sources, id, |unit| scale_of(unit).is_some())?;
-        layout_of(&table.headings).map(|found| (table, found))
-    });
-    let Some((table, (layout, vehicles))) = told else { return Ok(None) };
+    let id = sources.add_named(path.display().to_string(), text);
+    let Some(table) = TextTable::of(&sources, id, |unit| scale_of(unit).is_some()) else { return Ok(None) };
+    let Some((layout, vehicles)) = layout_of(&table.headings) else { return Ok(None) };
     let (columns, others) = own_columns(path, vehicles, vehicle)?;
     let (second, units, note) = layout.units_in(path, &table, &columns, sources.position(table.first).line)?;
     let mut rows = rows(path, &sources, &table, (layout, &columns), object)?;
@@ -274,7 +271,44 @@ fn rows(
     Ok(rows.into_iter().filter(|(name, _)| *name == own).map(|(_, row)| row).collect())
 }
 
+/// An element with more attributes is none of OpenSCENARIO, and the parser compares each with all others.
+const MOST_ATTRIBUTES: usize = 200;
+
+/// The greatest number of attributes of an element of XML, in one pass.
+fn most_attributes(text: &str) -> usize {
+    let (mut most, mut rest) = (0, text);
+    while let Some(at) = rest.find('<') {
+        rest = &rest[at..];
+        let ends = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>"), ("<!", ">")];
+        if let Some((_, end)) = ends.iter().find(|(begin, _)| rest.starts_with(begin)) {
+            rest = rest.find(end).map_or("", |at| &rest[at..]);
+            continue;
+        }
+        let (mut count, mut quote, mut length) = (0, None, rest.len());
+        for (at, letter) in rest.bytes().enumerate() {
+            match (letter, quote) {
+                (b'>', None) => {
+                    length = at;
+                    break;
+                }
+                (b'"' | b'\'', None) => quote = Some(letter),
+                (letter, Some(open)) if letter == open => quote = None,
+                (b'=', None) => count += 1,
+                _ => {}
+            }
+        }
+        most = most.max(count);
+        rest = &rest[length..];
+    }
+    most
+}
+
 fn of_scenario(path: &Path, text: &str, object: Option<&str>) -> Result<Vec<Row>, Trouble> {
+    let attributes = most_attributes(text);
+    if attributes > MOST_ATTRIBUTES {
+        let found = format!("an element of {attributes} attributes");
+        return Err(Trouble::of(path, found, format!("OpenSCENARIO, whose elements have {MOST_ATTRIBUTES} at most")));
+    }
     let document =
         Document::parse(text).map_err(|error| Trouble::of(path, format!("no XML: {error}"), "OpenSCENARIO"))?;
     let trajectories: Vec<Node> = document.descendants().filter(|n| n.has_tag_name("Trajectory")).collect();
@@ -318,4 +352,22 @@ fn name_of(trajectory: Node) -> String {
     };
     let own = || trajectory.attribute("name").unwrap_or_default().to_owned();
     trajectory.ancestors().find_map(entity).unwrap_or_else(own)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn attributes_are_counted_in_one_pass_whatever_stands_between() {
+        assert_eq!(most_attributes("<a/><b c='=' d=\"x > y\" e = '1'>f = g = h</b>"), 3);
+        assert_eq!(most_attributes("<?xml version='1.0'?><!-- don't = = = --><![CDATA[a=b=c=d]]><a b='1'/>"), 1);
+        assert_eq!(most_attributes("<a b='1' c='2"), 2);
+        assert_eq!(most_attributes("no tag = at > all"), 0);
+        let many: String = (0..100_000).map(|i| format!(" a{i}='1'")).collect();
+        let begun = std::time::Instant::now();
+        assert_eq!(most_attributes(&format!("<a{many}/>")), 100_000);
+        // measured: 4 ms without optimisation
+        assert!(begun.elapsed().as_secs_f64() < 2.0);
+    }
 }

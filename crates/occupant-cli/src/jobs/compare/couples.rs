@@ -5,7 +5,7 @@ use occupant_core::results::channel::{Channel, channels};
 
 use super::{Remarks, Request};
 use crate::base::Failure;
-use crate::files::history::{Filter, choose, load};
+use crate::files::history::{Filter, Treatment, choose, filtered, load};
 use crate::files::measured::{self, Pair, Wanted, is_recording, pairs};
 use crate::files::results::Results;
 use crate::files::signals::Recording;
@@ -50,6 +50,7 @@ pub(super) fn couples(request: &Request<'_>, remarks: &mut Remarks) -> Result<Co
 fn run_and_test(request: &Request<'_>, run: &Results, remarks: &mut Remarks) -> Result<Coupled, Failure> {
     let test = read(request.measured, remarks)?;
     let channels = choose(&run.model, request.channels)?;
+    let channels = filterable(channels, &[run], request.treatment, &mut remarks.notes);
     let wanted: Vec<Wanted> = channels.iter().map(Wanted::from).collect();
     let pairs = pairs(&test, &wanted, request.map, request.seat, &mut remarks.notes)?;
     let sha256 = [run.sha256.clone(), test.sha256];
@@ -59,14 +60,26 @@ fn run_and_test(request: &Request<'_>, run: &Results, remarks: &mut Remarks) -> 
     let chosen = pairs.iter().map(|p| channels[p.channel].clone()).collect();
     let histories = load(run, chosen, request.treatment)?;
     remarks.notes.extend(histories.notes);
-    let couple = |(column, mut measured): (crate::files::history::Column, Pair)| {
-        if let Some(class) = column.class {
-            measured.filter(class, request.treatment.family)?;
-        }
+    let mut couples = Vec::new();
+    for (column, mut measured) in histories.columns.into_iter().zip(pairs) {
+        let filtered = column.class.map(|class| measured.filter(class, request.treatment.family));
+        match filtered.transpose() {
+            // only who asks for one class wants it of every channel
+            Err(failure) if request.treatment.filter == Filter::J211 => {
+                remarks.notes.push(format!("{} is left out: {}", column.channel.name, failure.words()));
+                continue;
+            }
+            filtered => filtered?,
+        };
         let time_s = histories.time_s.clone();
-        Ok(Couple { channel: column.channel.name, class: column.class, time_s, values: column.values, measured })
-    };
-    let couples = histories.columns.into_iter().zip(pairs).map(couple).collect::<Result<_, Failure>>()?;
+        couples.push(Couple {
+            channel: column.channel.name,
+            class: column.class,
+            time_s,
+            values: column.values,
+            measured,
+        });
+    }
     Ok((couples, sha256))
 }
 
@@ -90,7 +103,10 @@ fn two_runs(request: &Request<'_>, run: &Results, remarks: &mut Remarks) -> Resu
     let theirs = channels(&other.model);
     let in_both = |c: &Channel| theirs.iter().find(|t| t.name == c.name).cloned();
     let (ours, theirs): (Vec<Channel>, Vec<Channel>) =
-        wanted.into_iter().filter_map(|c| Some((c.clone(), in_both(&c)?))).unzip();
+        filterable(wanted, &[run, &other], request.treatment, &mut remarks.notes)
+            .into_iter()
+            .filter_map(|c| Some((c.clone(), in_both(&c)?)))
+            .unzip();
     let (ours, theirs) = (load(run, ours, request.treatment)?, load(&other, theirs, request.treatment)?);
     remarks.notes.extend(ours.notes.into_iter().chain(theirs.notes));
     let mut couples = Vec::with_capacity(ours.columns.len());
@@ -110,6 +126,34 @@ fn two_runs(request: &Request<'_>, run: &Results, remarks: &mut Remarks) -> Resu
         });
     }
     Ok((couples, [run.sha256.clone(), other.sha256]))
+}
+
+/// Without the channels whose class the outputs of a run are too far apart for, which is noted: with classes by SAE J211 each channel is
+/// compared that can be. A single class is asked for of every channel, and `load` refuses where one cannot have it.
+fn filterable(
+    channels: Vec<Channel>,
+    runs: &[&Results],
+    treatment: Treatment,
+    notes: &mut Vec<String>,
+) -> Vec<Channel> {
+    if treatment.filter != Filter::J211 {
+        return channels;
+    }
+    let longest_s = runs.iter().map(|run| run.model.setup().time.output_s).fold(0.0, f64::max);
+    let can_be = |channel: &Channel| {
+        let class = treatment.filter.class_of(&channel.name);
+        class.is_none_or(|class| filtered(&[0.0; 100], longest_s, class, treatment.family).is_ok())
+    };
+    let (kept, left): (Vec<Channel>, Vec<Channel>) = channels.into_iter().partition(can_be);
+    if !left.is_empty() {
+        let names: Vec<&str> = left.iter().map(|channel| channel.name.as_str()).collect();
+        notes.push(format!(
+            "left out, as outputs every {} ms are too far apart for their classes of SAE J211: {}; a run with output.interval = \"0.1 ms\" has them",
+            (1e9 * longest_s).round() / 1e6,
+            names.join(", ")
+        ));
+    }
+    kept
 }
 
 /// Computed histories of another program.

@@ -73,7 +73,7 @@ pub(crate) fn refuse_too_much(members: u64, channels: usize, outputs: usize) -> 
             "bands of {channels} channels over {outputs} outputs of {members} members need {:.1} GiB, more than the half GiB allowed",
             bytes as f64 / f64::from(1 << 30)
         ),
-        "ask for fewer --channels or members, or set a longer output.interval",
+        "ask for fewer --channel or members, or set a longer output.interval",
     ))
 }
 

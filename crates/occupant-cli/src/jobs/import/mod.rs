@@ -3,11 +3,13 @@
 mod curves;
 mod path;
 
+use occupant_scenario::kind::{KINDS, SPEED};
+
 use crate::base::Failure;
-use crate::files::measured::Imported;
+use crate::files::measured::{Axes, Imported};
 use crate::files::signals::Recording;
 
-pub(crate) use path::PathTable;
+pub(crate) use path::{PathFilter, PathTable};
 
 /// What is asked for.
 #[derive(Clone, Debug)]
@@ -18,6 +20,14 @@ pub(crate) struct Request<'a> {
     pub(crate) window_s: [Option<f64>; 2],
     /// Speed when the path starts, as a scenario has it.
     pub(crate) speed: Option<&'a str>,
+    /// Which way axes point, if it was said.
+    pub(crate) axes: Option<Axes>,
+    /// The longest hole that is bridged, s.
+    pub(crate) bridge_s: Option<f64>,
+    /// Rests at the beginning and at the end, as a scenario has them.
+    pub(crate) baseline: [Option<&'a str>; 2],
+    /// The low-pass of the path, if it was said.
+    pub(crate) filter: Option<PathFilter>,
     /// How far the centre of gravity lies ahead of the point that a trajectory follows, as a scenario has it.
     pub(crate) cg: Option<&'a str>,
 }
@@ -49,9 +59,19 @@ pub(crate) fn import(imported: &Imported, request: &Request) -> Result<Made, Fai
     let others: Vec<_> = recording.signals.iter().filter(|signal| !used.contains(&signal.name)).collect();
     let curves = if others.is_empty() { None } else { Some((curves::table(&others)?, others.len())) };
     if path.is_none() && request.place.is_none() {
-        notes.push("no signal is the motion of the vehicle: no path and no scenario is written".to_owned());
+        let names: Vec<String> = recording.signals.iter().take(12).map(|s| format!("`{}`", s.name)).collect();
+        notes.push(format!(
+            "no signal is the motion of the vehicle: no path and no scenario is written; the record has {}; --columns names them, such as \
+             't[ms],dvx[km/h]' or 't[s],ax[g],-,wz[deg/s]'",
+            names.join(", ")
+        ));
     }
     Ok(Made { path, curves, notes })
+}
+
+/// A speed in words, m/s.
+fn speed(text: &str) -> Result<f64, String> {
+    KINDS[SPEED].read(text).map_err(|error| error.found)
 }
 
 /// The samples between two times; signals without any are left out.

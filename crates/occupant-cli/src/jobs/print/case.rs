@@ -52,15 +52,6 @@ impl Case {
             return Err(refused(found));
         }
         let (loaded, model, warnings) = stored(path, &file)?;
-        if *model.body().tree != TTI12 {
-            let count = model.body().segments.len();
-            return Err(Failure::with_help(
-                format!(
-                    "{name} cannot be printed: its body has {count} segments, the report's pages have lines for 12"
-                ),
-                "`occupant report`, `export` and `plot` show a run of any body",
-            ));
-        }
         file.checkpoints.iter().try_for_each(|c| c.check(&model)).map_err(|e| refused(e.to_string()))?;
         let report = report_numbers(&model);
         let in_order = || (1..=model.setup().surface_names().count()).collect();
@@ -77,6 +68,11 @@ impl Case {
     /// A fact about the run from its record; `-` where it has none.
     pub(crate) fn known(&self, key: &str) -> &str {
         self.file.run.get(key).map_or("-", String::as_str)
+    }
+
+    /// Whether its body is the report's, for whose coordinates cards have room.
+    pub(crate) fn is_of_report(&self) -> bool {
+        *self.model.body().tree == TTI12
     }
 
     /// The name of a contact sphere; empty for none.

@@ -54,6 +54,9 @@ fn ending(pages: &mut Pages, case: &Case) {
 
 fn extension(pages: &mut Pages, case: &Case, units: Units, checkpoint: &Checkpoint) {
     pages.say("");
+    if !case.is_of_report() {
+        return pages.say("CARDS HAVE ROOM FOR THE REPORT'S BODY ALONE; `occupant run --resume` CONTINUES THIS RUN.");
+    }
     pages.say("TO EXTEND THIS SOLUTION BY CARDS (SERIES 6 AND 14), FROM THE CHECKPOINT OF THE LAST OUTPUT.");
     pages.say("CARDS CARRY NO GREATEST DEFORMATION, SO AN EXTENSION BY CARDS IS APPROXIMATE; `occupant run --resume` IS EXACT.");
     let numbers = if case.numbers_of_report {

@@ -14,9 +14,9 @@ const APPLICATION: [&str; 3] = ["head", "chest", "pelvis"];
 /// Writes the loads' tables.
 pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units, sample: &Sample<'_>) {
     forces(case, units, sample).write(pages);
-    application_points(units, sample).write(pages);
+    application_points(units, sample).write_or(pages, &["6. NO SPHERE OF HEAD, CHEST OR PELVIS"]);
     ELEMENTS.iter().for_each(|element| (element.output)(pages, units, sample));
-    for (of, title) in [("bag", "AIR BAG"), ("column", "COLUMN")] {
+    for (of, title) in [("strap", "STRAP"), ("bag", "AIR BAG"), ("column", "COLUMN")] {
         named(pages, units, sample, of, title);
     }
     joints(pages, sample);
@@ -65,12 +65,12 @@ fn application_points(units: Units, s: &Sample<'_>) -> Table {
         ),
         "NO|<SPHERE|X|Y|Z",
     );
-    for name in APPLICATION {
-        let Some(i) = s.model.body().sphere(name) else {
-            continue;
-        };
+    let spheres = s.model.body().spheres.iter().enumerate();
+    // behind the name of one of several bodies
+    let is_asked = |name: &str| name.rsplit('.').next().is_some_and(|own| APPLICATION.contains(&own));
+    for (i, sphere) in spheres.filter(|(_, sphere)| is_asked(&sphere.name)) {
         let point = s.application_point_m(i).map_or(["-"; 3].map(str::to_owned), |p| units.of(Metre).vector(p));
-        table.row_of(&[&[(i + 1).to_string(), name.to_owned()], &point]);
+        table.row_of(&[&[(i + 1).to_string(), sphere.name.clone()], &point]);
     }
     table
 }
@@ -92,6 +92,9 @@ fn named(pages: &mut Pages, units: Units, s: &Sample<'_>, of: &str, title: &str)
 fn joints(pages: &mut Pages, s: &Sample<'_>) {
     let tree = s.model.body().tree;
     let heads: Vec<String> = tree.joint_rows().iter().map(|row| joint_head(row.name)).collect();
+    if heads.is_empty() {
+        return;
+    }
     let title = "JOINT ANGLES (DEG): BETA OF BALL JOINTS, ALPHA OF ELBOWS AND KNEES";
     let mut table = Table::new(title, &heads.join("|"));
     table.row(tree.joints().map(|j| degree().show(s.joint_angle_rad(j))));

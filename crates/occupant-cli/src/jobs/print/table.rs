@@ -45,9 +45,20 @@ impl Table {
         }
     }
 
-    /// Writes it; its title and head are repeated on pages that continue it.
+    /// Writes it; its title and head are repeated on pages that continue it. Columns of numbers that find no room on a line stand
+    /// below the others.
     pub(crate) fn write(&self, pages: &mut Pages) {
         let widths = self.widths();
+        let fit = (1..=widths.len()).rev().find(|count| taken(&widths[..*count]) <= COLUMNS).unwrap_or(1);
+        if fit < widths.len() && !self.words.contains(&true) {
+            let parts = |from: usize, to: usize| Table {
+                title: self.title.clone(),
+                words: self.words[from..to].to_vec(),
+                rows: self.rows.iter().map(|row| row.iter().take(to).skip(from).cloned().collect()).collect(),
+            };
+            parts(0, fit).write(pages);
+            return parts(fit, widths.len()).write(pages);
+        }
         let mut lines = vec![self.title.clone()];
         lines.extend(self.rows.iter().map(|row| self.line(row, &widths)));
         pages.block(&lines, 2);
@@ -59,8 +70,7 @@ impl Table {
             cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
         };
         let mut widths: Vec<usize> = (0..self.words.len()).map(width).collect();
-        let gaps = GAP * widths.len().saturating_sub(1);
-        let mut excess = (widths.iter().sum::<usize>() + gaps).saturating_sub(COLUMNS);
+        let mut excess = taken(&widths).saturating_sub(COLUMNS);
         while excess > 0 {
             let names = widths.iter_mut().zip(&self.words).filter(|(_, words)| **words);
             match names.map(|(w, _)| w).max() {
@@ -83,9 +93,26 @@ impl Table {
     }
 }
 
+/// Columns of a line that cells of these widths take.
+fn taken(widths: &[usize]) -> usize {
+    widths.iter().sum::<usize>() + GAP * widths.len().saturating_sub(1)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_without_room_stand_below_the_others() {
+        let mut table = Table::new("T", &["LONG HEAD"; 30].join("|"));
+        table.row((0..30).map(|i| i.to_string()));
+        let mut pages = Pages::new(["A".to_owned(), "B".to_owned()]);
+        pages.begin("S");
+        table.write(&mut pages);
+        let text = pages.text();
+        assert!(text.lines().all(|line| line.chars().count() <= COLUMNS && !line.contains('~')));
+        assert!((0..30).all(|i| text.split_whitespace().any(|word| word == i.to_string())));
+    }
 
     #[test]
     fn names_give_way_to_numbers() {

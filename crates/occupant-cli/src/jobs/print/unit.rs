@@ -68,6 +68,7 @@ impl Units {
             M::NewtonMetrePerRadianSquared | M::NewtonMetrePerRadianCubed => [2, 2],
             M::RadianPerSecond | M::NewtonMetreSecondPerRadian => [3, 3],
             M::One => [4, 4],
+            M::Hertz => [2, 2],
             M::Second => [6, 6],
             M::Kelvin | M::Pascal | M::JoulePerKilogramKelvin | M::WattPerMetreSquaredKelvin => [1, 3],
             M::MetreSquared | M::MetreCubed | M::KilogramPerSecond => [4, 2],

@@ -1,36 +1,64 @@
-//! Place, attitude and motion of the vehicle at one output.
+//! Place, attitude and motion of the vehicles at one output.
 
 use crash_measures::unit::Unit::{Metre, MetrePerSecond, RadianPerSecond, RadianPerSecondSquared};
+use occupant_core::results::channel::{Channel, matching};
 use occupant_core::results::sample::Sample;
+use occupant_core::vehicle::VehiclePath;
 
-use super::unit::{degree, g};
+use super::unit::{Unit, degree, g};
 use super::{Pages, Table, Units};
 
-/// Writes the vehicle's lines.
+/// Writes the lines of every vehicle.
 pub(crate) fn write(pages: &mut Pages, units: Units, s: &Sample<'_>) {
+    let all = matching(s.model, "vehicle.*");
+    let setup = s.model.setup();
+    own(pages, units, s, (&all, "vehicle", &setup.path));
+    for frame in &setup.frames {
+        let name = format!("vehicle.{}", frame.name);
+        if all.iter().any(|channel| channel.name == format!("{name}.yaw")) {
+            own(pages, units, s, (&all, &name, &frame.path));
+        }
+    }
+}
+
+fn own(pages: &mut Pages, units: Units, s: &Sample<'_>, (all, name, path): (&[Channel], &str, &VehiclePath)) {
+    let value = |quantity: &str| {
+        let name = format!("{name}.{quantity}");
+        all.iter().find(|channel| channel.name == name).map_or(f64::NAN, |channel| channel.value(s))
+    };
+    let vector =
+        |quantity: &str, unit: Unit| unit.vector(["x", "y", "z"].map(|axis| value(&format!("{quantity}.{axis}"))));
     let title = units.heading(
-        "VEHICLE: POSITION ({}) FORWARD, RIGHT, DOWN; ATTITUDE (DEG) ROLL, PITCH, YAW; THE REST IN VEHICLE COORDINATES",
+        &format!(
+            "{}: POSITION ({{}}) FORWARD, RIGHT, DOWN; ATTITUDE (DEG) ROLL, PITCH, YAW; THE REST IN VEHICLE COORDINATES",
+            name.replace('.', " ").to_uppercase()
+        ),
         &[Metre],
     );
     let mut table = Table::new(title, "<|X|Y|Z|<|X|Y|Z");
-    let attitude = &s.vehicle_pose.attitude;
-    let angles = degree().vector([attitude.roll_rad, attitude.pitch_rad, attitude.yaw_rad]);
-    let along = |v| s.vehicle.vector_to_frame(v);
-    let speed = units.of(MetrePerSecond).vector(along(s.vehicle.velocity_m_s));
-    let turning = units.of(RadianPerSecond).vector(along(s.vehicle.angular_velocity_rad_s));
-    let turning_faster = units.of(RadianPerSecondSquared).vector(along(s.vehicle.angular_acceleration_rad_s2));
+    let of = if path.has_accelerations() { "" } else { " FROM DIFFERENCES OF THE STATIONS" };
     let rows = [
-        ("POSITION", units.of(Metre).vector(s.vehicle_pose.position_m), "ROLL, PITCH, YAW (DEG)", angles),
-        (&units.heading("VELOCITY ({})", &[MetrePerSecond]), speed, "ANGULAR VELOCITY (RAD/S)", turning),
         (
-            "ACCELERATION (G)",
-            g().vector(along(s.vehicle.acceleration_m_s2)),
-            "ANGULAR ACCELERATION (RAD/S2)",
-            turning_faster,
+            "POSITION".to_owned(),
+            vector("position", units.of(Metre)),
+            "ROLL, PITCH, YAW (DEG)".to_owned(),
+            degree().vector(["roll", "pitch", "yaw"].map(value)),
+        ),
+        (
+            units.heading("VELOCITY ({})", &[MetrePerSecond]),
+            vector("velocity", units.of(MetrePerSecond)),
+            "ANGULAR VELOCITY (RAD/S)".to_owned(),
+            vector("angular_velocity", units.of(RadianPerSecond)),
+        ),
+        (
+            format!("ACCELERATION (G){of}"),
+            vector("acceleration", g()),
+            "ANGULAR ACCELERATION (RAD/S2)".to_owned(),
+            vector("angular_acceleration", units.of(RadianPerSecondSquared)),
         ),
     ];
     for (left, place, right, turn) in rows {
-        table.row_of(&[&[left.to_owned()], &place, &[right.to_owned()], &turn]);
+        table.row_of(&[&[left], &place, &[right], &turn]);
     }
     table.write(pages);
 }

@@ -10,6 +10,7 @@ use super::array::Array;
 use super::curves::Plot;
 use super::measures::Measure;
 use super::motion::Motion;
+use super::ride_down::RideDown;
 use super::{curves, measures, provenance};
 use crate::base::{Failure, Units, file_name};
 use crate::files::mcap::scene::compartment::{corners_m, square_m};
@@ -111,7 +112,8 @@ impl Run {
     pub(crate) fn of(results: &Results, units: Units) -> Result<Self, Failure> {
         let model = &results.model;
         let (mut motion, mut series, mut times) = (Motion::default(), curves::series(model), Array::default());
-        results.replay((&mut motion, &mut series))?;
+        let mut ride = RideDown::default();
+        results.replay((&mut ride, (&mut motion, &mut series)))?;
         times.float64(&series.time_s);
         let summary = results.summary()?;
         let prefixes: Vec<String> = summary.people().into_iter().map(|(prefix, _)| prefix).collect();
@@ -130,7 +132,7 @@ impl Run {
             surfaces: surfaces(results).into_iter().chain(sides(results)).collect(),
             motion,
             plots: curves::plots(&series, &prefixes, units),
-            measures: measures::measures(&summary, units),
+            measures: measures::measures(&summary, &ride, units),
             force_unit: units.over("kN"),
             speed_unit: units.over("m/s"),
             first_contacts: summary.contacts.clone(),

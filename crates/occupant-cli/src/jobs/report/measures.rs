@@ -7,6 +7,7 @@ use occupant_core::results::summary::{Caveat, Peak, Person, Summary, word};
 use occupant_scenario::kind::UnitSystem;
 use serde::Serialize;
 
+use super::ride_down::RideDown;
 use crate::base::Units;
 
 /// A row of the table.
@@ -46,7 +47,7 @@ impl Measure {
 }
 
 /// All rows, group by group.
-pub(crate) fn measures(summary: &Summary, units: Units) -> Vec<Measure> {
+pub(crate) fn measures(summary: &Summary, ride: &RideDown, units: Units) -> Vec<Measure> {
     let own = |(prefix, person): (String, Person)| {
         let rows: Vec<_> = person.measures.iter().flat_map(|m| injury_rows(m, units)).collect();
         rows.into_iter().map(move |row| Measure {
@@ -58,6 +59,7 @@ pub(crate) fn measures(summary: &Summary, units: Units) -> Vec<Measure> {
     let mut rows: Vec<_> = summary.people().into_iter().flat_map(own).collect();
     add_loads(&mut rows, summary, units);
     add_excursion(&mut rows, summary, units);
+    add_ride_down(&mut rows, ride, units);
     let energy = &summary.energy;
     let group = "Energy";
     let mut add = |name: &str, figure: &str, value: f64, unit| {
@@ -142,6 +144,35 @@ fn element_rows(list: &str, table: &Table, units: Units) -> impl Iterator<Item =
         let own = Measure::new("Loads", name, figure, Unit::One.shown());
         Some(Measure { value: value.map(|x| x * peak.scale / per), time_s: Some(time_s), unit, ..own })
     })
+}
+
+fn add_ride_down(rows: &mut Vec<Measure>, ride: &RideDown, units: Units) {
+    let group = "Ride-down and work";
+    let (length, joule) =
+        (Unit::Metre.shown_to_people(units.system == UnitSystem::InchPound), engineering(Unit::Joule, units));
+    let mut add = |name: String, figure: String, value: f64, unit: Shown, remark: Option<&str>| {
+        let remark = remark.map(str::to_owned);
+        rows.push(Measure { value: Some(value * unit.per_si()), remark, ..Measure::new(group, name, figure, unit) });
+    };
+    for stopped in ride.stopped() {
+        let (part, figure) = (&stopped.part, |what: &str| format!("ride_down.{}.{what}", word(&stopped.part)));
+        let remark = "way of the vehicle while it is slowed: from the loss of 2 % of its speed to its greatest excursion ahead; with the way ahead in the vehicle it is its stopping distance";
+        add(format!("{part}, ride-down distance"), figure("distance"), stopped.ride_down_m, length, Some(remark));
+        add(format!("{part}, way ahead in the vehicle"), figure("in_vehicle"), stopped.in_vehicle_m, length, None);
+    }
+    if let Some(share) = ride.share() {
+        let remark = "work of the body on the moving vehicle, of its kinetic energy at the start";
+        add(
+            "Kinetic energy ridden down".to_owned(),
+            "ride_down.share".to_owned(),
+            share,
+            Unit::One.shown_in("%"),
+            Some(remark),
+        );
+    }
+    for (name, work_j) in ride.works_j() {
+        add(format!("Work taken up by {name}"), format!("work.{}", word(&name)), work_j, joule, None);
+    }
 }
 
 fn add_excursion(rows: &mut Vec<Measure>, summary: &Summary, units: Units) {

@@ -10,17 +10,21 @@ mod measures;
 mod motion;
 mod page;
 mod provenance;
+mod ride_down;
 
 use crate::base::{Failure, Units, program};
 use crate::files::results::Results;
 
 pub(crate) use data::{Report, subject};
 
-/// The page for a run, or for a run and another to compare it with.
+/// So many runs have colours of their own on a page.
+pub(crate) const MOST_RUNS: usize = 4;
+
+/// The page of a run, or of several abreast.
 ///
 /// # Errors
 /// None for files that were opened.
-pub(crate) fn page(run: &Results, against: Option<&Results>, units: Units) -> Result<String, Failure> {
-    let runs = std::iter::once(run).chain(against).map(|run| data::Run::of(run, units)).collect::<Result<_, _>>()?;
+pub(crate) fn page(runs: &[Results], units: Units) -> Result<String, Failure> {
+    let runs = runs.iter().map(|run| data::Run::of(run, units)).collect::<Result<_, _>>()?;
     page::fill(&Report { program: program(), runs })
 }

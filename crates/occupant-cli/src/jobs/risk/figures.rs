@@ -4,7 +4,7 @@ use crash_measures::measure::{FlailSpace, Peak, Thiv};
 use crash_measures::signal::WindowExtreme;
 use crash_measures::unit::Shown;
 use crash_measures::unit::Unit::{MetrePerSecond, MetrePerSecondSquared, One, Radian};
-use occupant_study::risk::{AXES, Measured, VelocityChange};
+use occupant_study::risk::{AXES, Measured, VehicleRisk, VehicleSignals, VelocityChange};
 use serde::Serialize;
 
 use super::Report;
@@ -18,6 +18,18 @@ pub(crate) fn m_s() -> Unit {
 
 pub(crate) fn km_h() -> Unit {
     (MetrePerSecond.shown_in("km/h"), 1)
+}
+
+pub(crate) fn ft_s() -> Unit {
+    (MetrePerSecond.shown_in("ft/s"), 1)
+}
+
+pub(crate) fn mph() -> Unit {
+    (MetrePerSecond.shown_in("mph"), 1)
+}
+
+pub(crate) fn deg() -> Unit {
+    (Radian.shown_in("deg"), 1)
 }
 
 pub(crate) fn g() -> Unit {
@@ -71,8 +83,12 @@ pub(crate) struct Figures {
 impl Figures {
     /// The measures of a report.
     pub(crate) fn of(report: &Report) -> Self {
-        let mut all = Figures { figures: Vec::new(), left_out: Vec::new(), start_s: report.signals.start_s };
-        let risk = &report.risk;
+        Figures::of_risk(&report.risk, &report.signals)
+    }
+
+    /// The measures of a vehicle's motion.
+    pub(crate) fn of_risk(risk: &VehicleRisk, signals: &VehicleSignals) -> Self {
+        let mut all = Figures { figures: Vec::new(), left_out: Vec::new(), start_s: signals.start_s };
         all.flail(&risk.flail);
         all.head_impact(&risk.thiv);
         for (edition, asi) in [("1998", &risk.asi_1998), ("2010", &risk.asi_2010)] {
@@ -88,10 +104,10 @@ impl Figures {
         let remark = if risk.angles.of_attitude { "" } else { "integral of this rate alone" };
         for (angle, largest) in ["roll", "pitch", "yaw"].into_iter().zip(&risk.angles.largest) {
             let (name, key) = (format!("max {angle}"), format!("max_{angle}_rad"));
-            all.peak(&name, &key, largest, [(Radian.shown_in("deg"), 1); 2], remark);
+            all.peak(&name, &key, largest, [deg(); 2], remark);
         }
         for (axis, change) in AXES.iter().zip(&risk.velocity_change) {
-            all.velocity_change(axis, change, report.signals.end_s());
+            all.velocity_change(axis, change, signals.end_s());
         }
         if let Some(olc) = all.measured("OLC", &risk.olc) {
             all.add("OLC", "olc_m_s2", olc.olc_mps2, accelerations(), &[olc.free_flight_end_s, olc.end_s]);
@@ -140,7 +156,7 @@ impl Figures {
         let Some(flail) = self.measured("OIV and ORA", flail) else {
             return;
         };
-        let units = [m_s(), (MetrePerSecond.shown_in("ft/s"), 1)];
+        let units = [m_s(), ft_s()];
         for (name, key, value) in [("OIV x", "oiv_x_m_s", flail.oiv_x_mps), ("OIV y", "oiv_y_m_s", flail.oiv_y_mps)] {
             let oiv = self.add(name, key, value, units, flail.impact_s.as_slice());
             oiv.remark = flail.impact_s.map_or("no impact: velocity change of the record", |_| "");
@@ -164,7 +180,7 @@ impl Figures {
         for (which, Peak { value, time_s }) in [("max", change.largest), ("final", last)] {
             let name = format!("{which} velocity change {axis}");
             let key = format!("{which}_velocity_change_{axis}_m_s");
-            self.add(&name, &key, value, [m_s(), (MetrePerSecond.shown_in("mph"), 1)], &[time_s]);
+            self.add(&name, &key, value, [m_s(), mph()], &[time_s]);
         }
     }
 }

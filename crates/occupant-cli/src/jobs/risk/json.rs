@@ -3,14 +3,21 @@
 use serde_json::{Map, Value, json as value};
 
 use super::Report;
-use super::figures::Figures;
-use super::table::{basis_name, filter_name, grade_name, source_name, verdict_name};
+use super::figures::{Figure, Figures};
+use super::table::{basis_name, filter_name, source_name, verdict_name};
 use occupant_study::risk::VerticalGravity;
 
 pub(crate) fn json(report: &Report) -> Value {
     let figures = Figures::of(report);
     let (signals, preparation) = (&report.signals, &report.preparation);
-    let measures: Map<String, Value> = figures.figures.iter().map(|f| (f.key.clone(), value!(f))).collect();
+    let measure = |f: &Figure| {
+        let mut measure = value!(f);
+        if let Some(ends) = report.intervals.as_ref().and_then(|intervals| intervals.of_key(&f.key)) {
+            measure["interval_95"] = value!(ends);
+        }
+        (f.key.clone(), measure)
+    };
+    let measures: Map<String, Value> = figures.figures.iter().map(measure).collect();
     let limits = report.judgements.iter();
     value!({
         "vehicle": report.subject.name,
@@ -24,6 +31,9 @@ pub(crate) fn json(report: &Report) -> Value {
         },
         "filter": filter_name(preparation),
         "offset_m": preparation.offset_m,
+        "baseline_s": preparation.baseline_s,
+        "notes": report.notes,
+        "intervals": report.intervals.as_ref().map(|intervals| intervals.words()),
         "gravity_included": preparation.gravity == VerticalGravity::Included,
         "occupant": {
             "longitudinal_m": report.flight.distances.longitudinal_m,
@@ -36,7 +46,7 @@ pub(crate) fn json(report: &Report) -> Value {
             .map(|j| value!({
                 "rule": j.limit.rule.name(),
                 "measure": j.measure,
-                "grade": grade_name(j.limit.grade),
+                "grade": j.limit.grade.name(),
                 "most": j.limit.most,
                 "value": j.value,
                 "margin": j.verdict.map(|v| v.margin),

@@ -2,15 +2,17 @@
 
 use occupant_core::model::setup::Setup;
 use occupant_core::vehicle::{AccelerationRecord, Attitude, Interpolation, PathCursor, VehiclePath};
-use occupant_scenario::RecordFile;
 use occupant_study::risk::sampled;
+
+/// Sample interval of paths, s, where none is asked for.
+pub(crate) const PATH_INTERVAL_S: f64 = 1e-4;
 
 /// Where the motion comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Source {
     /// Sensors.
     Recorded,
-    /// The path of a scenario, sampled.
+    /// The path of a scenario, or that of a table of places or velocity changes, sampled.
     Path,
     /// The path of a scenario that has straight lines between stations, sampled.
     PathOfStraightLines,
@@ -29,25 +31,45 @@ pub(crate) struct Subject {
 
 impl Subject {
     /// Recorded data.
-    pub(crate) fn recorded(name: &str, file: &RecordFile) -> Self {
-        Subject {
-            name: name.to_owned(),
-            source: Source::Recorded,
-            record: file.record.clone(),
-            initial: Attitude::default(),
-        }
+    pub(crate) fn recorded(name: &str, record: AccelerationRecord) -> Self {
+        Subject { name: name.to_owned(), source: Source::Recorded, record, initial: Attitude::default() }
     }
 
-    /// The path of a scenario's vehicle over its run; none if it cannot be sampled at this interval.
-    pub(crate) fn path(name: &str, setup: &Setup, interval_s: f64) -> Option<Self> {
-        let (path, time) = (&setup.path, setup.time);
+    /// The path of a scenario's vehicle over its run, of the first or of one of the others by name; none if it cannot be sampled at this interval.
+    ///
+    /// # Errors
+    /// The names that there are, for a name that is none of them.
+    pub(crate) fn of_run(
+        name: &str,
+        setup: &Setup,
+        vehicle: Option<&str>,
+        interval_s: f64,
+    ) -> Result<Option<Self>, Vec<String>> {
+        let others = setup.frames.iter().filter(|frame| frame.parent.is_none() && frame.name != GROUND);
+        let path = match vehicle {
+            None | Some(FIRST) => &setup.path,
+            Some(asked) => match others.clone().find(|frame| frame.name == asked) {
+                Some(frame) => &frame.path,
+                None => return Err([FIRST.to_owned()].into_iter().chain(others.map(|f| f.name.clone())).collect()),
+            },
+        };
+        let name = vehicle.map_or_else(|| name.to_owned(), |vehicle| format!("{vehicle} of {name}"));
+        Ok(Subject::path(&name, path, [setup.time.start_s, setup.time.end_s], interval_s))
+    }
+
+    /// A path between two times; none if it cannot be sampled at this interval.
+    pub(crate) fn path(name: &str, path: &VehiclePath, [from_s, to_s]: [f64; 2], interval_s: f64) -> Option<Self> {
         let straight = matches!(path, VehiclePath::Table(table) if table.interpolation() == Interpolation::Linear);
-        let pose = path.attitude(time.start_s, &mut PathCursor::default());
+        let pose = path.attitude(from_s, &mut PathCursor::default());
         Some(Subject {
             name: name.to_owned(),
             source: if straight { Source::PathOfStraightLines } else { Source::Path },
-            record: sampled(path, time.start_s, time.end_s, interval_s)?,
+            record: sampled(path, from_s, to_s, interval_s)?,
             initial: pose.attitude,
         })
     }
 }
+
+/// The frame of the ground, and the name of the first vehicle.
+const GROUND: &str = "ground";
+const FIRST: &str = "vehicle";

@@ -1,19 +1,22 @@
 //! The report as text, in the manner of a test report: measures in SI and US units, limits, what was left out.
 
-use crash_measures::measure::limits::{Basis, Grade, Quantity};
+use crash_measures::measure::limits::{Basis, Quantity};
+use occupant_scenario::kind::UnitSystem;
 use occupant_study::risk::{Judgement, Preparation, VerticalGravity};
 
 use super::Report;
-use super::figures::{Figures, Unit, g, km_h, m_s, plain};
+use super::figures::{Figure, Figures, Unit, deg, ft_s, g, km_h, m_s, mph, plain};
 use super::subject::Source;
 use crate::base::text_table::{Align, NONE, Table, facts, number};
 use crate::files::history::family_name;
 
-pub(crate) fn text(report: &Report) -> String {
+/// The report; in one system of units, or in SI beside those of reports in the US.
+pub(crate) fn text(report: &Report, units: Option<UnitSystem>) -> String {
     let figures = Figures::of(report);
-    let mut parts = vec![head(report), measures(&figures)];
+    let head = facts(&head(report));
+    let mut parts = vec![head, measures(&figures, report, units)];
     if !report.judgements.is_empty() {
-        parts.push(limits(&report.judgements));
+        parts.push(limits(&report.judgements, units));
     }
     if !figures.left_out.is_empty() {
         let lines = figures.left_out.iter();
@@ -23,7 +26,8 @@ pub(crate) fn text(report: &Report) -> String {
     parts.join("\n")
 }
 
-fn head(report: &Report) -> String {
+/// What was measured, and what was done with it.
+pub(super) fn head(report: &Report) -> Vec<(&'static str, String)> {
     let (signals, preparation) = (&report.signals, &report.preparation);
     let [x, y, z] = preparation.offset_m;
     let place = match preparation.offset_m {
@@ -36,7 +40,18 @@ fn head(report: &Report) -> String {
         _ => "not in the accelerations",
     };
     let flight = &report.flight;
-    facts(&[
+    let zero = match preparation.baseline_s {
+        [None, _] => "taken as it is".to_owned(),
+        [Some(start_s), None] => format!("the mean of the first {} ms taken away", 1e3 * start_s),
+        [Some(start_s), Some(end_s)] => {
+            format!(
+                "a straight line from the mean of the first {} ms to that of the last {} ms taken away",
+                1e3 * start_s,
+                1e3 * end_s
+            )
+        }
+    };
+    let mut facts = vec![
         ("vehicle", format!("{} ({})", report.subject.name, source_name(report))),
         (
             "record",
@@ -51,6 +66,7 @@ fn head(report: &Report) -> String {
         ),
         ("filter", filter_name(preparation).unwrap_or_else(|| "none: taken as filtered already".to_owned())),
         ("sensors", place),
+        ("zero", zero),
         ("gravity", gravity.to_owned()),
         (
             "occupant",
@@ -64,7 +80,12 @@ fn head(report: &Report) -> String {
             "x forward, y right, z down (SAE J211, J670); OIV, THIV, PHD as magnitudes; roll right side down, pitch nose up, yaw right"
                 .to_owned(),
         ),
-    ])
+    ];
+    if report.subject.source != Source::Recorded {
+        facts.retain(|(name, _)| *name != "zero");
+    }
+    facts.extend(report.intervals.as_ref().map(|intervals| ("intervals", intervals.words())));
+    facts
 }
 
 /// Class and coefficients of the filter.
@@ -85,26 +106,52 @@ pub(crate) fn source_name(report: &Report) -> &'static str {
     }
 }
 
-fn measures(figures: &Figures) -> String {
-    let mut table = Table::new(&[
-        (Align::Left, &["measure"]),
-        (Align::Right, &["value"]),
-        (Align::Left, &["unit"]),
-        (Align::Right, &["or"]),
-        (Align::Left, &["unit", "time, s", ""]),
-    ]);
+/// The units in which a figure is told.
+pub(super) fn told(figure: &Figure, units: Option<UnitSystem>) -> Vec<Unit> {
+    let [si, us] = figure.units;
+    match units {
+        _ if si == us => vec![si],
+        None => vec![si, us],
+        Some(UnitSystem::Si) => vec![si],
+        Some(UnitSystem::InchPound) if si == g() => vec![si],
+        Some(UnitSystem::InchPound) if si == km_h() => vec![mph()],
+        Some(UnitSystem::InchPound) => vec![us],
+    }
+}
+
+/// When it was, and what else there is to say.
+pub(super) fn about(figure: &Figure) -> [String; 2] {
+    let times: Vec<String> = figure.when_s.iter().map(|t| format!("{t:.4}")).collect();
+    [times.join(" – "), figure.remark.to_owned()]
+}
+
+fn measures(figures: &Figures, report: &Report, units: Option<UnitSystem>) -> String {
+    let mut heads = vec![(Align::Left, &["measure"][..]), (Align::Right, &["value"]), (Align::Left, &["unit"])];
+    if report.intervals.is_some() {
+        heads.push((Align::Right, &["95 % from", "to"]));
+    }
+    if units.is_none() {
+        heads.extend([(Align::Right, &["or"][..]), (Align::Left, &["unit"])]);
+    }
+    heads.push((Align::Left, &["time, s", ""]));
+    let mut table = Table::new(&heads);
     for figure in &figures.figures {
-        let [first, second] = figure.units;
-        let [value, other] = figure.units.map(|unit| [shown(figure.value, unit), unit.0.symbol()]);
-        let other = if first == second { [const { String::new() }; 2] } else { other };
-        let times: Vec<String> = figure.when_s.iter().map(|t| format!("{t:.4}")).collect();
-        let about = [times.join(" – "), figure.remark.to_owned()];
-        table.row([figure.name.clone()].into_iter().chain(value).chain(other).chain(about));
+        let told = told(figure, units);
+        let mut cells = vec![figure.name.clone(), shown(figure.value, told[0]), told[0].0.symbol()];
+        if let Some(intervals) = &report.intervals {
+            let ends = intervals.of_key(&figure.key).map(|ends| ends.map(|si| shown(si, told[0])));
+            cells.extend(ends.unwrap_or_else(|| [NONE.to_owned(), NONE.to_owned()]));
+        }
+        if units.is_none() {
+            let other = told.get(1).map(|unit| [shown(figure.value, *unit), unit.0.symbol()]);
+            cells.extend(other.unwrap_or_default());
+        }
+        table.row(cells.into_iter().chain(about(figure)));
     }
     table.text()
 }
 
-fn shown(si: f64, (unit, decimals): Unit) -> String {
+pub(super) fn shown(si: f64, (unit, decimals): Unit) -> String {
     // minus zero is zero
     let text = number(si / unit.si, decimals);
     match text.trim_start_matches(['-', '0', '.']) {
@@ -113,7 +160,7 @@ fn shown(si: f64, (unit, decimals): Unit) -> String {
     }
 }
 
-fn limits(judgements: &[Judgement]) -> String {
+fn limits(judgements: &[Judgement], units: Option<UnitSystem>) -> String {
     let mut table = Table::new(&[
         (Align::Left, &["rule", "measure", "limit"]),
         (Align::Right, &["at most", "value", "margin"]),
@@ -122,12 +169,12 @@ fn limits(judgements: &[Judgement]) -> String {
     // where limits were read, a mark for each such place
     let mut read_in: Vec<&str> = Vec::new();
     for judgement in judgements {
-        let unit = unit_of(judgement.limit.quantity);
+        let unit = unit_of(judgement.limit.quantity, units);
         let perhaps = |si: Option<f64>| si.map_or(NONE.to_owned(), |si| shown(si, unit));
         table.row([
             judgement.limit.rule.name().to_owned(),
             judgement.measure.to_owned(),
-            grade_name(judgement.limit.grade).to_owned(),
+            judgement.limit.grade.name().to_owned(),
             shown(judgement.limit.most, unit) + mark(basis_name(judgement.limit.basis), &mut read_in),
             perhaps(judgement.value),
             perhaps(judgement.verdict.map(|v| v.margin)),
@@ -151,23 +198,17 @@ fn mark<'a>(words: &'a str, known: &mut Vec<&'a str>) -> &'static str {
     MARKS.get(at).copied().unwrap_or_default()
 }
 
-fn unit_of(quantity: Quantity) -> Unit {
+/// The unit of a limit.
+pub(super) fn unit_of(quantity: Quantity, units: Option<UnitSystem>) -> Unit {
+    let is_us = units == Some(UnitSystem::InchPound);
     match quantity {
-        Quantity::OccupantImpactVelocity => m_s(),
+        Quantity::OccupantImpactVelocity | Quantity::LongitudinalImpactVelocity if is_us => ft_s(),
+        Quantity::OccupantImpactVelocity | Quantity::LongitudinalImpactVelocity => m_s(),
+        Quantity::Thiv if is_us => mph(),
         Quantity::Thiv => km_h(),
         Quantity::RidedownAcceleration | Quantity::Phd => g(),
+        Quantity::Roll | Quantity::Pitch => deg(),
         _ => plain(),
-    }
-}
-
-/// What a limit is, in words.
-pub(crate) fn grade_name(grade: Grade) -> &'static str {
-    match grade {
-        Grade::Maximum => "maximum",
-        Grade::Preferred => "preferred",
-        Grade::ClassA => "class A",
-        Grade::ClassB => "class B",
-        Grade::ClassC => "class C",
     }
 }
 

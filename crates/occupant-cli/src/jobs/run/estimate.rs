@@ -6,7 +6,7 @@ use occupant_core::model::setup::{Integrator, Setup};
 use occupant_core::results::outcome::Status;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
-use occupant_core::results::summary::{Figure, Summarizer, Summary};
+use occupant_core::results::summary::{Caveat, Figure, Summarizer, Summary};
 use occupant_core::run::simulate::simulate;
 use serde::Serialize;
 
@@ -16,6 +16,10 @@ use crate::files::scenario::Opened;
 
 /// A figure that differs by more than this part of itself is named in the table.
 const NAMED: f64 = 1e-3;
+/// One that differs by more is not determined.
+const UNDETERMINED: f64 = 0.05;
+/// Differences below these are none, by SI unit; of others, plain numbers among them, those below 1e-3.
+const LEAST: [(&str, f64); 4] = [("m", 1e-4), ("s", 1e-4), ("N", 1.0), ("m/s^2", 0.1)];
 /// So many are, the worst first.
 const MOST_NAMED: usize = 5;
 /// A head whose path differs by so much, m, says that the motion makes much of little.
@@ -51,6 +55,12 @@ struct FigureError {
 }
 
 impl FigureError {
+    /// Whether the difference is more than rounding makes of what is nothing, such as a way to the side in a plane motion.
+    fn matters(&self) -> bool {
+        let least = LEAST.iter().find(|(unit, _)| *unit == self.unit).map_or(1e-3, |(_, least)| *least);
+        self.difference.abs() > least
+    }
+
     /// Of the greater of both values; 0 of two zeros.
     fn relative(&self) -> f64 {
         let greatest = self.value.abs().max((self.value - self.difference).abs());
@@ -117,6 +127,20 @@ fn differences(run: Vec<Figure>, finer: Vec<Figure>) -> Vec<FigureError> {
 }
 
 impl ErrorEstimate {
+    /// What to know of the figures that the finer run has otherwise, and of the measures of their names.
+    pub(crate) fn caveat(&self, summary: &Summary) -> Option<Caveat> {
+        let off = self.figures.iter().filter(|figure| figure.relative() > UNDETERMINED && figure.matters());
+        let changed: Vec<(String, f64)> = off.map(|figure| (figure.name.clone(), figure.relative())).collect();
+        let mut names: Vec<String> = changed.iter().map(|(name, _)| name.clone()).collect();
+        for (prefix, person) in summary.people() {
+            let measures = person.measures.iter().filter_map(|m| Some((m.name, format!("{prefix}{}", m.figure?))));
+            let off = measures.filter(|(_, figure)| changed.iter().any(|(name, _)| name == figure));
+            names.extend(off.map(|(name, _)| format!("{prefix}{name}")).collect::<Vec<_>>());
+        }
+        names.dedup();
+        Caveat::undetermined(self.against, &changed, names)
+    }
+
     /// A fact for the table of the run.
     pub(crate) fn text(&self, units: Units) -> String {
         let mut off: Vec<&FigureError> = self.figures.iter().filter(|f| f.relative() > NAMED).collect();

@@ -160,6 +160,7 @@ fn about(args: &ScenarioArgs, opened: &Opened) -> Result<About, Failure> {
         Failure::with_help(found, "shorten its lists and notes, or use --no-mcap")
     })?;
     let media_type = match args.scenario.extension() {
+        _ if opened.deck.is_some() => "text/plain",
         Some(e) if e.eq_ignore_ascii_case("json") => "application/json",
         _ => "application/toml",
     };

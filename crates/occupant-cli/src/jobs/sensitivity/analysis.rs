@@ -8,9 +8,10 @@ use occupant_core::results::outcome::Status;
 use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::run::simulate::simulate;
 use occupant_scenario::{Draft, Resolver};
-use occupant_study::sensitivity::finite::{CHANGES, Comparison, Finite, compare, finite_changes};
-use occupant_study::sensitivity::measures::{Derivatives, Request, Values, chosen, derivatives, plain_values};
-use occupant_study::sensitivity::{Built, Parameter, Trajectory, follow, parameter};
+use occupant_study::sensitivity::finite::{Neighbours, neighbours};
+use occupant_study::sensitivity::measures::{Derivatives, Request, Values, chosen, derivatives, pick, plain_values};
+use occupant_study::sensitivity::verdict::{Comparison, compare};
+use occupant_study::sensitivity::{Built, Parameter, Trajectory, fine_interval_s, follow, parameter};
 use placed_text::Problem;
 
 use crate::base::Failure;
@@ -33,8 +34,8 @@ pub(crate) struct Analysis {
     /// What the models are built of, by parameter.
     pub(crate) built: Vec<Built>,
     pub(crate) derivatives: Vec<Derivatives>,
-    /// Finite changes by parameter.
-    pub(crate) finite: Vec<Vec<Finite>>,
+    /// Runs with finite changes of the parameters.
+    pub(crate) neighbours: Neighbours,
     /// By parameter, then by figure.
     pub(crate) comparisons: Vec<Vec<Comparison>>,
     /// Time of a plain run and of the run in duals beside it, s.
@@ -64,7 +65,7 @@ pub(crate) fn ask<'a>(
     });
     let channels = gather(words.channels, &mut wrong, |name| {
         choose(model, &[name.to_owned()])
-            .map_err(|refused| refused.words().replacen("error: ", "error: --channels: ", 1))
+            .map_err(|refused| refused.words().replacen("error: ", "error: --channel: ", 1))
     });
     let figures = figures(model)?;
     let names =
@@ -146,26 +147,57 @@ pub(crate) fn analyse(model: &Model, asked: &Asked<'_>) -> Result<Analysis, Fail
         return Err(Failure::CouldNotRun(wrong.join("\n")));
     }
     let begun = Instant::now();
-    simulate(model, ()).map_err(Failure::broke_off)?;
+    let figures = figures(model)?;
     let plain_s = begun.elapsed().as_secs_f64();
-    let begun = Instant::now();
-    let trajectory = follow(model, &mut built).map_err(Failure::broke_off)?;
-    let dual_s = begun.elapsed().as_secs_f64();
-    let values = plain_values(model, &trajectory, &asked.request).map_err(Failure::broke_off)?;
-    let changes: &[f64] = if asked.request.figures.is_empty() { &[] } else { &CHANGES };
-    let finite = finite_changes(&asked.parameters, changes, &asked.request.figures);
-    let (mut all, mut comparisons) = (Vec::new(), Vec::new());
-    for (k, (parameter, changes)) in asked.parameters.iter().zip(&finite).enumerate() {
-        let found = derivatives(model, parameter, &trajectory, k, &asked.request);
-        let found = found.map_err(Failure::broke_off)?;
-        let one = |i: usize| {
-            let value = values.figures[i];
-            compare(&found.figures[i], value, parameter.size, changes, i)
-        };
-        comparisons.push((0..asked.request.figures.len()).map(one).collect());
-        all.push(found);
+    let Request { figures: names, channels } = &asked.request;
+    let mut values = Values { figures: pick(&figures, names), ..Values::default() };
+    let (mut all, mut cost_s) = (vec![Derivatives::default(); asked.parameters.len()], [plain_s, 0.0]);
+    let mut trajectory = None;
+    if !names.is_empty() {
+        let interval_s = fine_interval_s(model);
+        let finely: Vec<Parameter<'_>> = asked.parameters.iter().map(|p| p.with_outputs_every(interval_s)).collect();
+        let request = Request { figures: names.clone(), channels: Vec::new() };
+        let model = model.clone().with_outputs_every(interval_s);
+        let (found, of) = derive(&model, &finely, &mut built, &request, &mut cost_s[1])?;
+        all.iter_mut().zip(of).for_each(|(all, of)| all.figures = of.figures);
+        trajectory = Some(found);
     }
-    Ok(Analysis { values, trajectory, built, derivatives: all, finite, comparisons, cost_s: [plain_s, dual_s] })
+    if !channels.is_empty() {
+        let request = Request { figures: Vec::new(), channels: channels.clone() };
+        let (found, of) = derive(model, &asked.parameters, &mut built, &request, &mut cost_s[1])?;
+        values.channels = plain_values(model, &found, &request).map_err(Failure::broke_off)?.channels;
+        all.iter_mut().zip(of).for_each(|(all, of)| all.channels = of.channels);
+        trajectory = Some(found);
+    }
+    let Some(trajectory) = trajectory else { return Err(Failure::CouldNotRun("nothing is asked for".to_owned())) };
+    let checked: &[Parameter<'_>] = if names.is_empty() { &[] } else { &asked.parameters };
+    let neighbours = neighbours(model, checked, mean_step_s(model, &trajectory), names);
+    let compare = |(k, parameter): (usize, &Parameter<'_>)| {
+        let one = |i: usize| compare(&all[k].figures[i], parameter.size, &neighbours, k, i);
+        (0..names.len()).map(one).collect()
+    };
+    let comparisons = asked.parameters.iter().enumerate().map(compare).collect();
+    Ok(Analysis { values, trajectory, built, derivatives: all, neighbours, comparisons, cost_s })
+}
+
+/// The run in duals, and what follows of it by parameter; `cost_s` is the time of the former.
+fn derive(
+    model: &Model,
+    parameters: &[Parameter<'_>],
+    built: &mut [Built],
+    request: &Request,
+    cost_s: &mut f64,
+) -> Result<(Trajectory, Vec<Derivatives>), Failure> {
+    let begun = Instant::now();
+    let trajectory = follow(model, built).map_err(Failure::broke_off)?;
+    *cost_s = begun.elapsed().as_secs_f64();
+    let of = parameters.iter().enumerate().map(|(k, parameter)| derivatives(model, parameter, &trajectory, k, request));
+    let of = of.collect::<Result<_, _>>().map_err(Failure::broke_off)?;
+    Ok((trajectory, of))
+}
+
+fn mean_step_s(model: &Model, trajectory: &Trajectory) -> f64 {
+    (trajectory.outcome.time_s - model.setup().time.start_s) / trajectory.outcome.effort.steps.max(1) as f64
 }
 
 /// Relative sensitivity: parts of the figure per part of the parameter; none where one of them is 0.

@@ -3,7 +3,8 @@
 use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
 use occupant_study::sensitivity::events::{Change, Event};
-use occupant_study::sensitivity::finite::{Finite, HOLDS, Verdict};
+use occupant_study::sensitivity::finite::Finite;
+use occupant_study::sensitivity::verdict::{HOLDS, Verdict};
 use occupant_study::sensitivity::{Built, Parameter};
 use serde_json::{Value, json};
 
@@ -63,18 +64,18 @@ fn parameters(asked: &Asked<'_>, analysis: &Analysis) -> Vec<Value> {
 }
 
 /// `doubt` is the distance of two extrapolations of the derivative, and rounding; `off_by` the greatest distance of a secant
-/// from the derivative, as a part of it, for changes up to `up_to_part`.
+/// from the derivative, as a part of it, for changes up to `up_to_part`, or at that where it does not hold for a `reason`.
 fn sensitivities(asked: &Asked<'_>, analysis: &Analysis) -> Vec<Value> {
     let mut all = Vec::new();
     for (i, measure) in asked.request.figures.iter().enumerate() {
         for (k, parameter) in asked.parameters.iter().enumerate() {
             let slope = analysis.derivatives[k].figures[i];
             let comparison = &analysis.comparisons[k][i];
-            let (verdict, off_by, up_to_part) = match comparison.verdict {
-                Verdict::Holds { off, up_to } => ("holds", Some(off), Some(up_to)),
-                Verdict::NoInfluence => ("no influence", None, None),
-                Verdict::NotReliable { off, at } => ("not to be relied upon", Some(off), Some(at)),
-                Verdict::Unchecked => ("unchecked", None, None),
+            let (verdict, off_by, up_to_part, reason) = match comparison.verdict {
+                Verdict::Holds { off, up_to } => ("holds", Some(off), Some(up_to), None),
+                Verdict::NoInfluence => ("no influence", None, None, None),
+                Verdict::DoesNotHold { off, at, why } => ("does not hold", Some(off), Some(at), Some(why.words())),
+                Verdict::Unchecked => ("unchecked", None, None, None),
             };
             let change = |(c, finite): (usize, &Finite)| {
                 let [below, above] = comparison.secants[c];
@@ -87,10 +88,11 @@ fn sensitivities(asked: &Asked<'_>, analysis: &Analysis) -> Vec<Value> {
                 "unit": per(asked.units[i], &parameter.unit),
                 "relative": relative(slope.value, analysis.values.figures[i], parameter.nominal),
                 "doubt": slope.doubt,
-                "changes": analysis.finite[k].iter().enumerate().map(change).collect::<Vec<Value>>(),
+                "changes": analysis.neighbours.finite[k].iter().enumerate().map(change).collect::<Vec<Value>>(),
                 "verdict": verdict,
                 "off_by": off_by,
                 "up_to_part": up_to_part,
+                "reason": reason,
             }));
         }
     }

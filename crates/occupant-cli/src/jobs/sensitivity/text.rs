@@ -2,7 +2,7 @@
 
 use occupant_core::model::Model;
 use occupant_study::sensitivity::events::{Change, Event, Happening, Touching};
-use occupant_study::sensitivity::finite::Verdict;
+use occupant_study::sensitivity::verdict::{HOLDS, Verdict, Why};
 
 use super::analysis::{Analysis, Asked, relative};
 use super::units::per;
@@ -20,10 +20,13 @@ pub(crate) fn text(model: &Model, asked: &Asked<'_>, analysis: &Analysis, units:
     if !asked.request.figures.is_empty() {
         text.push('\n');
         text.push_str(&table(asked, analysis, units));
-        text.push_str(
-            "\nrelative: % of the measure per % of the parameter. holds: finite changes, run in full, differ from the\n\
-             derivative by no more than this part of it, for changes of the parameter up to that part of its value.\n",
-        );
+        text.push_str(&format!(
+            "\nrelative: % of the measure per % of the parameter. holds: of finite changes to both sides, run in full at a\n\
+             hundredth of the tolerances, the slopes differ from the derivative by no more than this part of it; more than {} %\n\
+             does not hold. Straight: so far a straight line holds as well.\n",
+            100.0 * HOLDS
+        ));
+        text.push_str(&reasons(analysis));
     }
     text.push('\n');
     text.push_str(&events(model, &analysis.trajectory.events, units));
@@ -112,6 +115,18 @@ fn table(asked: &Asked<'_>, analysis: &Analysis, units: Units) -> String {
     table.text()
 }
 
+/// Why derivatives do not hold, each reason once.
+fn reasons(analysis: &Analysis) -> String {
+    let mut given: Vec<Why> = Vec::new();
+    for comparison in analysis.comparisons.iter().flatten() {
+        match comparison.verdict {
+            Verdict::DoesNotHold { why, .. } if !given.contains(&why) => given.push(why),
+            _ => {}
+        }
+    }
+    given.iter().map(|why| format!("{}: {}\n", why.name(), why.words())).collect()
+}
+
 fn with_unit(value: f64, unit: &str) -> String {
     match unit {
         "1" | "" => number(value),
@@ -137,9 +152,15 @@ fn words(verdict: &Verdict, of_zero: bool) -> String {
     // a parameter of 0 has no parts: its size stands for it
     let part = |part: f64| if of_zero { format!("{} of its size", percent(part)) } else { percent(part) };
     match *verdict {
-        Verdict::Holds { off, up_to } => format!("within {} up to ±{}", percent(off), part(up_to)),
+        Verdict::Holds { off, up_to: 0.0 } => format!("within {}, but curved", percent(off)),
+        Verdict::Holds { off, up_to } => format!("within {}, straight up to ±{}", percent(off), part(up_to)),
         Verdict::NoInfluence => "no influence".to_owned(),
-        Verdict::NotReliable { off, at } => format!("not to be relied upon: {} off at ±{}", percent(off), part(at)),
+        Verdict::DoesNotHold { at, why: why @ Why::NoRun, .. } => {
+            format!("does not hold ({}): ±{}", why.name(), part(at))
+        }
+        Verdict::DoesNotHold { off, at, why } => {
+            format!("does not hold ({}): {} off at ±{}", why.name(), percent(off), part(at))
+        }
         Verdict::Unchecked => "not checked: no run beside it".to_owned(),
     }
 }
@@ -191,7 +212,7 @@ fn events(model: &Model, events: &[Event], units: Units) -> String {
     text.push_str(&format!("besides: {unload}, {reload}, {stiffen}; {reverse}\n"));
     if jumps > 0 {
         text.push_str(
-            "Where a force jumps the derivative lacks the jump times the shift of its instant; the finite changes have it.\n",
+            "Where a force of a contact jumps the derivative lacks the jump times the shift of its instant; the finite changes have it.\n",
         );
     }
     text

@@ -61,7 +61,7 @@ impl StudyBands<'_> {
         {
             return Err(Failure::with_help(
                 format!("{} holds other bands", self.file(sample).display()),
-                "--force replaces them; the same --channels resume",
+                "--force replaces them; the same --channel resume",
             ));
         }
         fs::create_dir_all(&self.folder)

@@ -8,9 +8,9 @@ use occupant_study::engine::Engine;
 use super::progress::Progress;
 use super::simulation::is_kept;
 use super::stored::sha256_of;
-use super::words::{tell, tell_damaged, warn_unlocked};
+use super::words::{judged, tell, tell_damaged, warn_unlocked};
 use super::{Plan, Simulation, kept, results};
-use crate::base::{Done, Failure, Interrupt, Units, say};
+use crate::base::{Done, Failure, Interrupt, Units, quoted, say};
 use crate::files::study_folder::{Checksums, Finished, Folder, Journal, JournalWriter, Problem, Shard};
 
 /// A sweep, or one part of it.
@@ -128,7 +128,7 @@ impl Sweep {
         self.write_kept(journal, &sums, results.worst.iter().copied())?;
         sums.close()?;
         if self.quiet {
-            return Ok(Done::Well);
+            return Ok(judged(&results.census));
         }
         let work = format!(
             "{} samples in {:.1} s, {} threads",
@@ -136,6 +136,6 @@ impl Sweep {
             progress.elapsed_s(),
             self.engine.threads()
         );
-        tell(&results, Some(work), &format!("occupant study report {}", self.folder.path.display()), self.units)
+        tell(&results, Some(work), &format!("occupant study report {}", quoted(self.folder.path.display())), self.units)
     }
 }

@@ -11,10 +11,14 @@ use occupant_study::{Design, Law, Parameter, Setting, Study, StudyText, Value};
 use placed_text::Value as Written;
 
 use crate::base::{Failure, file_name};
-use crate::files::scenario::{Opened, ScenarioArgs, Tables, format_of, refused};
+use crate::files::scenario::{Opened, ScenarioArgs, Tables, format_of, refused, retitle};
 use crate::files::study_folder::{Column, Manifest, NamedBy, Role, Texts};
 use crate::files::table::Cell;
+use crate::jobs::risk::columns as vehicle_columns;
 use crate::jobs::run::FirstOutput;
+
+/// So many samples, spread over a study, are looked at before it is run, if the first are refused.
+const LOOKED_AT: u64 = 32;
 
 /// So many samples are tried to find the columns where the base scenario itself cannot be run.
 const TRIED: u64 = 16;
@@ -104,7 +108,40 @@ impl Plan {
     pub(crate) fn open_sample(&self, index: u64) -> Result<Opened, Diagnostics> {
         let (loaded, model, warnings) = self.model(Some(index))?;
         // only a run that is kept needs the bytes
-        Ok(Opened { bytes: Vec::new(), loaded, model, warnings })
+        Ok(Opened { bytes: Vec::new(), loaded, model, warnings, deck: None })
+    }
+
+    /// Refuses a study of which every sample that is looked at is refused, such as one of a key without meaning in its scenario.
+    ///
+    /// # Errors
+    /// What is wrong with the first of them.
+    pub(crate) fn refuse_hopeless(&self) -> Result<(), Failure> {
+        let samples = self.study.len();
+        let spread = (0..LOOKED_AT).map(|i| i * samples / LOOKED_AT).chain([samples.saturating_sub(1)]);
+        let mut first = None;
+        for index in spread.filter(|index| *index < samples && !self.study.assignments(*index).is_empty()) {
+            match self.open_sample(index) {
+                Ok(_) => return Ok(()),
+                Err(problems) => first = first.or(Some((index, problems))),
+            }
+        }
+        first.map_or(Ok(()), |(index, problems)| {
+            let found = format!("every sample that was looked at is refused, sample {index} for this:\n{problems}");
+            Err(Failure::with_help(found, "nothing was run; vary what the base scenario has a use for"))
+        })
+    }
+
+    /// The same of a sample whose run is kept, as `occupant run` has it: its title says what was changed.
+    ///
+    /// # Errors
+    /// What is wrong with its scenario.
+    pub(crate) fn open_kept(&self, index: u64) -> Result<(Opened, ScenarioArgs), Diagnostics> {
+        let (args, bytes) = self.command(index);
+        let mut draft = self.study.base.clone();
+        self.study.apply(index, &mut draft)?;
+        retitle(&mut draft, &args.overrides);
+        let (loaded, model, warnings) = self.tables.open(draft)?;
+        Ok((Opened { bytes, loaded, model, warnings, deck: None }, args))
     }
 
     /// The words with which `occupant run` runs a sample, and the scenario's bytes.
@@ -181,7 +218,7 @@ impl Plan {
                     // one output is enough to know them
                     let stopped = simulate(&model, (&mut summarizer, FirstOutput));
                     if let (Ok(_), Some(summary)) = (stopped, summarizer.summary(None)) {
-                        return Ok(summary.figures(&model));
+                        return Ok([summary.figures(&model), vehicle_columns(model.setup())].concat());
                     }
                 }
                 Err(problems) => {

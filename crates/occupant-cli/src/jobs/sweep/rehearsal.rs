@@ -4,11 +4,13 @@ use std::time::Instant;
 
 use occupant_core::results::summary::Summarizer;
 use occupant_core::run::simulate::simulate;
+use occupant_study::Value;
+use placed_text::Severity;
 
 use super::job::Sweep;
+use crate::base::Failure;
 use crate::base::text_table::Align::{Left, Right};
-use crate::base::text_table::{NONE, Table, facts};
-use crate::base::{Failure, Told};
+use crate::base::text_table::{NONE, Table, facts, trimmed};
 use crate::files::study_folder::Role;
 use crate::files::table::Cell;
 
@@ -25,17 +27,57 @@ impl Sweep {
     pub(crate) fn rehearse(&self) -> Result<String, Failure> {
         let (manifest, samples) = (&self.plan.manifest, self.shard.range(self.plan.manifest.samples));
         let count = samples.end - samples.start;
-        let seconds = self.of_one(samples.start)?;
+        let (corners, refused) = self.corners();
+        let seconds = self.of_one(samples.start).map_err(|failure| match &refused[..] {
+            [] => failure,
+            some => failure.with_done(&format!(
+                "of {corners} corners of the study {} are refused:\n{}",
+                some.len(),
+                some.concat()
+            )),
+        })?;
         let threads = self.engine.threads() as f64;
         let megabytes = count as f64 * manifest.columns.len() as f64 * CELL / 1e6;
         let lines = [
             ("samples", format!("{count} of {} columns each", manifest.columns.len())),
             ("time", format!("about {}, one sample took {seconds:.2} s", duration(seconds * count as f64 / threads))),
             ("threads", threads.to_string()),
+            (
+                "corners",
+                match refused.len() {
+                    0 => format!("{corners} of the study's least and greatest values tried, none is refused"),
+                    n => format!("{n} of {corners} are REFUSED, see below"),
+                },
+            ),
             ("table", format!("about {megabytes:.1} MB; whole runs that are kept come on top")),
             ("folder", format!("{}; nothing was written", self.folder.path.display())),
         ];
-        Ok(format!("{}\n{}", facts(&lines), self.first(samples.start..samples.end.min(samples.start + SHOWN))))
+        let first = self.first(samples.start..samples.end.min(samples.start + SHOWN));
+        let refused =
+            if refused.is_empty() { String::new() } else { format!("\nrefused corners\n{}", refused.concat()) };
+        Ok(format!("{}\n{first}{refused}", facts(&lines)))
+    }
+
+    /// How many corners the study has, and a line for each that is refused: its values, and why.
+    fn corners(&self) -> (usize, Vec<String>) {
+        let (study, all) = (&self.plan.study, self.plan.study.corners());
+        let refused = all.iter().filter_map(|corner| {
+            let opened = study.draft_at(corner).and_then(|draft| self.plan.tables.open(draft).map(|_| ()));
+            let problems = opened.err()?;
+            let values = corner.values.iter().map(|(i, value)| {
+                let parameter = &study.parameters[*i];
+                let (per, unit) = self.units.told_of(parameter, &study.base).shown;
+                match value {
+                    Value::Number(x) => {
+                        format!("{} = {} {unit}", parameter.name, trimmed(x / per, 4)).trim_end().to_owned()
+                    }
+                    other => format!("{} = {other:?}", parameter.name),
+                }
+            });
+            let why = problems.iter().find(|p| p.problem.severity == Severity::Error).map(|p| p.problem.to_string());
+            Some(format!("  {}: {}\n", values.collect::<Vec<_>>().join(", "), why.unwrap_or_default()))
+        });
+        (all.len(), refused.collect())
     }
 
     /// Seconds that a sample takes.
@@ -57,9 +99,12 @@ impl Sweep {
             unit => format!("{name}, {unit}"),
         };
         let study = &self.plan.study;
-        let told =
-            |i: usize| study.parameters.get(i).map_or_else(Told::default, |p| self.units.told_of(p, &study.base));
-        let shown: Vec<(f64, String)> = (0..inputs.len()).map(|i| told(i).shown).collect();
+        // sample and member of an ensemble are plain numbers
+        let told = |i: usize| {
+            let parameter = study.parameters.get(i);
+            parameter.map_or_else(|| (1.0, String::new()), |p| self.units.told_of(p, &study.base).shown)
+        };
+        let shown: Vec<(f64, String)> = (0..inputs.len()).map(told).collect();
         let heads: Vec<String> = inputs
             .iter()
             .zip(&shown)
@@ -70,7 +115,7 @@ impl Sweep {
         for index in samples {
             let cells = self.plan.inputs(index);
             let text = |(cell, (per, _)): (&Cell, &(f64, String))| match cell {
-                Cell::Number(x) => crate::base::text_table::trimmed(x / per, 4),
+                Cell::Number(x) => trimmed(x / per, 4),
                 Cell::Text(text) => text.to_string(),
                 Cell::Absent => NONE.to_owned(),
             };

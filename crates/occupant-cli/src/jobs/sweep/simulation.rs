@@ -9,6 +9,7 @@ use super::Plan;
 use crate::base::{Existing, Failure};
 use crate::files::study_folder::{Checksums, Folder, Role, Row, Status};
 use crate::files::table::Cell;
+use crate::jobs::risk::columns;
 use crate::jobs::run::recording::{Recording, Written};
 
 /// Runs the samples of a plan.
@@ -35,15 +36,13 @@ impl Source for Simulation<'_> {
     type Error = Failure;
 
     fn begin(&self, index: u64) -> Result<(Model, Self::Recorder), NotBegun<Failure>> {
-        let mut opened = self.plan.open_sample(index)?;
-        let mut recording = Recording::none();
-        if is_kept(self.keep, index) {
-            let (args, bytes) = self.plan.command(index);
-            opened.bytes = bytes;
-            let name = self.folder.run(index);
-            let begun = Recording::begin(&name, Existing::Replace, &args, &opened, None);
-            recording = begun.map_err(NotBegun::Error)?;
+        if !is_kept(self.keep, index) {
+            return Ok((self.plan.open_sample(index)?.model, (Summarizer::new(), Recording::none())));
         }
+        let (opened, args) = self.plan.open_kept(index)?;
+        let name = self.folder.run(index);
+        let begun = Recording::begin(&name, Existing::Replace, &args, &opened, None);
+        let recording = begun.map_err(NotBegun::Error)?;
         Ok((opened.model, (Summarizer::new(), recording)))
     }
 
@@ -75,15 +74,15 @@ impl Simulation<'_> {
     /// Puts the figures into their columns. A run that failed has only those of its work: its peaks are those of numbers
     /// that ran away.
     fn fill(&self, row: &mut Row, summary: &Summary, model: &Model) {
-        let columns = &self.plan.manifest.columns;
-        let first = columns.iter().take_while(|c| c.role != Role::Figure).count();
-        for (i, figure) in summary.figures(model).iter().enumerate() {
+        let kept = &self.plan.manifest.columns;
+        let first = kept.iter().take_while(|c| c.role != Role::Figure).count();
+        for (i, figure) in [summary.figures(model), columns(model.setup())].concat().iter().enumerate() {
             if row.status != Status::Completed && !figure.is_of_work() {
                 continue;
             }
-            let is_it = |at: &usize| columns.get(*at).is_some_and(|c| c.name == figure.name);
+            let is_it = |at: &usize| kept.get(*at).is_some_and(|c| c.name == figure.name);
             // a sample whose belts or spheres are others has its figures in other places
-            let elsewhere = || (first..columns.len()).find(is_it);
+            let elsewhere = || (first..kept.len()).find(is_it);
             let at = Some(first + i).filter(is_it).or_else(elsewhere);
             if let (Some(at), Some(value)) = (at, figure.value) {
                 row.cells[at] = Cell::Number(value);

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::{Ensembles, Results};
+use super::{Census, Ensembles, Results};
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{Table, facts};
 use crate::base::{Done, Failure, Units, talk};
@@ -50,7 +50,22 @@ pub(crate) fn tell(results: &Results, work: Option<String>, next: &str, units: U
     let stable = results.ensembles.as_ref().map(|e| format!("\n{}", stable(e, units)));
     let ranges = if census.completed > 1 { format!("\n{}", ranges(results, units)) } else { String::new() };
     talk::print(&(facts(&lines) + &ranges + &stable.unwrap_or_default()))?;
-    Ok(Done::Well)
+    Ok(judged(census))
+}
+
+/// Whether a study came to anything: one without a single figure that counts did not, which is said.
+pub(crate) fn judged(census: &Census) -> Done {
+    if census.finished() == 0 || census.without_figures() < census.finished() {
+        return Done::Well;
+    }
+    let why = census.first.first().map_or(String::new(), |(index, reason)| format!("; sample {index}: {reason}"));
+    let all = if census.refused == census.finished() {
+        "every sample is refused"
+    } else {
+        "no sample has figures that count"
+    };
+    talk::say(&format!("error: {all}{why}\n = help: `occupant sweep STUDY --dry-run` tries the corners of the study"));
+    Done::Unwell
 }
 
 /// Least and greatest of each figure, and in which samples.

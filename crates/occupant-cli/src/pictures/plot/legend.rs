@@ -76,14 +76,23 @@ pub(crate) fn shortened(text: &str, size: f64, weight: Weight, width: f64) -> St
         return text.to_owned();
     }
     let letters: Vec<char> = text.chars().collect();
-    for kept in (0..letters.len()).rev() {
+    let short = |kept: usize| -> String {
         let (head, tail) = (kept.div_ceil(2), kept / 2);
-        let short: String = letters[..head].iter().chain(&['…']).chain(&letters[letters.len() - tail..]).collect();
-        if font::width(&short, size, weight) <= width {
-            return short;
+        letters[..head].iter().chain(&['…']).chain(&letters[letters.len() - tail..]).collect()
+    };
+    // the more letters are kept, the wider it is: the most that fit are found by halving
+    let fits = |kept: usize| font::width(&short(kept), size, weight) <= width;
+    let (mut fitting, mut wide) = (None, letters.len());
+    while fitting.map_or(0, |fits: usize| fits + 1) < wide {
+        let middle = (fitting.map_or(0, |fits| fits + 1) + wide) / 2;
+        let middle = middle.min(wide - 1);
+        if fits(middle) {
+            fitting = Some(middle);
+        } else {
+            wide = middle;
         }
     }
-    String::new()
+    fitting.map(short).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -99,12 +99,12 @@ impl OutletLaw<f64> {
     }
 }
 
-impl OutletLaw<f64> {
+impl<S: Scalar<Mask = bool>> OutletLaw<S> {
     /// Where between two memories the first vent was due to open.
-    pub(super) fn due(&self, before: &BagPast<f64>, now: &BagPast<f64>) -> Option<f64> {
-        let opens = before.open.iter().zip(&now.open).map(|(before, now)| now > before);
+    pub(super) fn due(&self, before: &BagPast<S>, now: &BagPast<S>) -> Option<S> {
+        let opens = before.open.iter().zip(&now.open).map(|(before, now)| before.lt(*now));
         let vents = self.vents.iter().zip(opens).filter(|(_, opens)| *opens);
-        vents.map(|(vent, _)| passes(vent.opens_at, before.gauge, now.gauge)).reduce(f64::min)
+        vents.map(|(vent, _)| passes(vent.opens_at, before.gauge, now.gauge)).reduce(S::min)
     }
 }
 

@@ -75,14 +75,6 @@ impl BagLaw<f64> {
         }
     }
 
-    /// Where between two times it was due to fire or its first vent to open; none where a sphere came to the middle or left.
-    pub(super) fn due(&self, before: &BagPast<f64>, now: &BagPast<f64>, times_s: [f64; 2]) -> Option<f64> {
-        let held = before.held.iter().zip(&now.held).all(|(a, b)| (*a > 0.0) == (*b > 0.0));
-        let fires = (now.fired > before.fired).then(|| self.unfold.due(times_s));
-        let vent = self.outlet.due(before, now);
-        held.then(|| fires.into_iter().chain(vent).reduce(f64::min)).flatten()
-    }
-
     /// Appends its numbers as they begin: air around it in the folded bag.
     pub(super) fn own(&mut self, numbers: &mut Vec<f64>) {
         self.first = numbers.len();
@@ -90,6 +82,17 @@ impl BagLaw<f64> {
         let energy = FOLDED * self.air.enthalpy(temperature) / (self.air.r * temperature);
         numbers.extend([energy, 0.0, 0.0, 0.0, FOLDED]);
         numbers.extend(self.inflators.iter().map(|_| 0.0));
+    }
+}
+
+impl<S: Scalar<Mask = bool>> BagLaw<S> {
+    /// Where between two times it was due to fire or its first vent to open; none where a sphere came to the middle or left.
+    pub(super) fn due(&self, before: &BagPast<S>, now: &BagPast<S>, times_s: [S; 2]) -> Option<S> {
+        let is_held = |depth: &S| depth.gt(S::zero());
+        let held = before.held.iter().zip(&now.held).all(|(a, b)| is_held(a) == is_held(b));
+        let fires = before.fired.lt(now.fired).then(|| self.unfold.due(times_s));
+        let vent = self.outlet.due(before, now);
+        held.then(|| fires.into_iter().chain(vent).reduce(S::min)).flatten()
     }
 }
 

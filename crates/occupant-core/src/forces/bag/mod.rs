@@ -115,13 +115,13 @@ impl Element for Bags {
         past.switches()
     }
 
-    fn due(
-        law: &Vec<BagLaw<f64>>,
+    fn due<S: Scalar<Mask = bool>>(
+        law: &Vec<BagLaw<S>>,
         number: usize,
-        before: &BagPast<f64>,
-        now: &BagPast<f64>,
-        times_s: [f64; 2],
-    ) -> Option<f64> {
+        before: &BagPast<S>,
+        now: &BagPast<S>,
+        times_s: [S; 2],
+    ) -> Option<S> {
         law[number].due(before, now, times_s)
     }
 
@@ -212,6 +212,7 @@ fn bear<S: Scalar>(law: &BagLaw<S>, at: &Instant<'_, S>, now: &Now<S>, load: &mu
         power.sums[WORK] += taken;
         power.vehicle += normal.dot(carried) + friction.dot(place);
         load.push(law.envelope.frame, site.segment, normal + friction, S::truth(true));
+        load.press_knee(site, normal + friction, S::truth(true));
         pushes.forces[i] = normal + friction;
     }
     pushes

@@ -11,7 +11,7 @@ use super::law::{Flows, Now};
 use super::past::BagPast;
 use super::{BagLaw, Bags, MOST_SPHERES, MOST_VENTS, Pushes, outline};
 use crate::forces::element::{Element, Instant};
-use crate::forces::shown::{Named, OneOf, Pull, Reported, Section, Shown, Tracked};
+use crate::forces::shown::{Named, OneOf, Pull, Reported, Section, Shown, Tracked, Tracker};
 use crate::forces::stored::Archive;
 use crate::forces::table::{Cell, Column, Table};
 use crate::motion::scalar::Scalar;
@@ -53,7 +53,7 @@ pub struct BagAction<S> {
     /// On what it is mounted, vehicle axes, N.
     pub(super) force: V3<S>,
     /// On its spheres, in their order, vehicle axes, N.
-    pub(super) pushes: [V3<S>; MOST_SPHERES],
+    pub(crate) pushes: [V3<S>; MOST_SPHERES],
 }
 
 impl<S: Scalar> BagAction<S> {
@@ -127,18 +127,13 @@ const FOLDED_SCALE: f64 = 0.271_441_761_659_490_7;
 
 type Of = Quantity<OneOf<Bags>>;
 
-const fn peak(of: fn(&BagAction<f64>) -> f64, column: Column) -> Tracked<BagAction<f64>> {
-    Tracked { of, column, time: None, at_least_zero: true }
+const fn peak(column: Column) -> Tracked {
+    Tracked { column, time: None, at_least_zero: true }
 }
 
 /// With the time at which the peak was first reached, under these names in JSON and among the measures.
-const fn timed(
-    of: fn(&BagAction<f64>) -> f64,
-    column: Column,
-    key: &'static str,
-    measure: &'static str,
-) -> Tracked<BagAction<f64>> {
-    Tracked { time: Some(Column::time(key).measure(measure, Second)), ..peak(of, column) }
+const fn timed(column: Column, key: &'static str, measure: &'static str) -> Tracked {
+    Tracked { time: Some(Column::time(key).measure(measure, Second)), ..peak(column) }
 }
 
 const fn scaled(scale: f64, column: Column) -> Column {
@@ -164,16 +159,24 @@ impl Reported for Bags {
     ];
 
     #[rustfmt::skip]
-    const PEAKS: &'static [Tracked<BagAction<f64>>] = &[
-        timed(|b| b.pressure, scaled(1e-3, Column::number("peak_pressure_pa", "pressure, kPa", 1)).measure("peak_pressure", Pascal), "peak_pressure_time_s", "peak_pressure_time"),
-        timed(|b| b.fired * b.share, scaled(1e2, Column::number("unfolded", "unfolded, %", 0)), "full_time_s", "full_time"),
-        timed(|b| f64::from(b.covered > 0.0), Column::number("touched", "touched", 0), "contact_time_s", "contact_time"),
-        peak(|b| b.taken, scaled(1e3, Column::number("displaced_m3", "displaced, l", 1)).measure("displaced", MetreCubed)),
-        timed(|b| f64::from(b.bottoms > 0.0), Column::number("bottomed", "bottomed", 0), "bottomed_time_s", "bottomed_time"),
-        peak(|b| b.vented, scaled(1e3, Column::number("vented_kg", "vented, g", 1)).measure("vented_mass", Kilogram)),
-        peak(|b| b.work, Column::number("energy_j", "work, J", 1).measure("energy", Joule)),
-        peak(|b| b.residual, scaled(1e6, Column::number("gas_balance_error", "gas balance, 1e-6", 1)).measure("gas_balance_error", One)),
+    const PEAKS: &'static [Tracked] = &[
+        timed(scaled(1e-3, Column::number("peak_pressure_pa", "pressure, kPa", 1)).measure("peak_pressure", Pascal), "peak_pressure_time_s", "peak_pressure_time"),
+        timed(scaled(1e2, Column::number("unfolded", "unfolded, %", 0)), "full_time_s", "full_time"),
+        timed(Column::number("touched", "touched", 0), "contact_time_s", "contact_time"),
+        peak(scaled(1e3, Column::number("displaced_m3", "displaced, l", 1)).measure("displaced", MetreCubed)),
+        timed(Column::number("bottomed", "bottomed", 0), "bottomed_time_s", "bottomed_time"),
+        peak(scaled(1e3, Column::number("vented_kg", "vented, g", 1)).measure("vented_mass", Kilogram)),
+        peak(Column::number("energy_j", "work, J", 1).measure("energy", Joule)),
+        peak(scaled(1e6, Column::number("gas_balance_error", "gas balance, 1e-6", 1)).measure("gas_balance_error", One)),
     ];
+
+    #[inline(always)]
+    fn track<S: Scalar>(b: &BagAction<S>, tracker: &mut impl Tracker<S>) {
+        let flag = |x: S| S::select(x.gt(S::zero()), S::one(), S::zero());
+        let gas = [b.pressure, b.fired * b.share, flag(b.covered), b.taken];
+        let books = [flag(b.bottoms), b.vented, b.work, b.residual];
+        gas.into_iter().chain(books).for_each(|number| tracker.number(number));
+    }
 
     fn keep(past: &mut Vec<BagPast<f64>>, like: Option<&[BagPast<f64>]>, file: &mut dyn Archive) {
         let number = if like.is_some() { 54 } else { 53 };

@@ -32,9 +32,9 @@ pub(super) fn later<S: Scalar>(at: &Instant<'_, S>, time: S) -> S::Mask {
     if at.accepted { !now.lt(time) } else { now.gt(time) }
 }
 
-impl UnfoldLaw<f64> {
+impl<S: Scalar> UnfoldLaw<S> {
     /// Where between two times it fires.
-    pub(super) fn due(&self, [before, now]: [f64; 2]) -> f64 {
+    pub(super) fn due(&self, [before, now]: [S; 2]) -> S {
         passes(self.fires, before, now)
     }
 }

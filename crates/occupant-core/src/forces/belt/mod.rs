@@ -175,6 +175,7 @@ impl Element for Belts {
             let wrench = &mut load.wrench[site.segment];
             wrench.force += force;
             wrench.moment += arm.cross(force);
+            load.press_knee(site, force, S::truth(true));
             let power = load.power_at(site.segment);
             power.sums[STRETCH] -= force.dot(velocity - carried);
             power.vehicle += force.dot(carried);

@@ -6,7 +6,7 @@ use super::course::course_m;
 use super::law::{BeltAction, BeltHistory, BeltLaw};
 use super::{Belt, Belts};
 use crate::forces::element::Element;
-use crate::forces::shown::{Line, Named, OneOf, Pull, Reported, Shown, Tracked};
+use crate::forces::shown::{Line, Named, OneOf, Pull, Reported, Shown, Tracked, Tracker};
 use crate::forces::stored::Archive;
 use crate::forces::table::{Cell, Column, Table};
 use crate::motion::scalar::Scalar;
@@ -42,26 +42,30 @@ impl Reported for Belts {
         Of::number(Joule, |b| b.stored).field(8, "stored", "recoverable energy"),
     ];
 
-    const PEAKS: &'static [Tracked<BeltAction<f64>>] = &[
+    const PEAKS: &'static [Tracked] = &[
         Tracked {
-            of: |b| b.loop_force,
             column: Column::number("loop_force_n", "loop force, N", 0).measure("peak", Newton),
             time: Some(Column::time("time_s").measure("peak_time", Unit::Second)),
             at_least_zero: true,
         },
         Tracked {
-            of: |b| b.elongation,
             column: Column { scale: 1e3, ..Column::number("elongation_m", "stretch, mm", 1) }.measure("stretch", Metre),
             time: None,
             at_least_zero: false,
         },
         Tracked {
-            of: |b| b.force.norm_squared().sqrt(),
             column: Column::number("body_force_n", "force on body, N", 0).measure("body_peak", Newton),
             time: None,
             at_least_zero: true,
         },
     ];
+
+    #[inline(always)]
+    fn track<S: Scalar>(b: &BeltAction<S>, tracker: &mut impl Tracker<S>) {
+        [b.loop_force, b.elongation, b.force.norm_squared().sqrt()]
+            .into_iter()
+            .for_each(|number| tracker.number(number));
+    }
 
     fn keep(past: &mut Vec<BeltHistory<f64>>, like: Option<&[BeltHistory<f64>]>, file: &mut dyn Archive) {
         let [normal, greatest] = if like.is_some() { [32, 33] } else { [9, 10] };

@@ -199,6 +199,7 @@ pub(super) fn laid(
                 );
             }
             inside(law, chain, body, (k, &node_path), &now.lies.places, problems);
+            slope(chain, body, (k, &node_path), at, &now.lies.places, problems);
             planes(chain, past, k, now.lies, problems, &node_path);
         }
         for (name, run) in chain.straps.iter().zip(&now.taut.runs) {
@@ -234,6 +235,44 @@ fn planes(chain: &Chain, past: &ChainPast<f64>, k: usize, lies: &Lies<f64>, prob
 
 fn degrees(cosine: f64) -> f64 {
     crash_measures::trig::acos(cosine.clamp(-1.0, 1.0)).to_degrees()
+}
+
+/// From the pelvis to its anchors a lap part goes back and down, at this angle below the level, °: a flatter one slides up to the belly.
+const LEAST_SLOPE_DEG: f64 = 30.0;
+
+/// A lap part that would not stay on the pelvis: webbing is led round a sphere, and cannot slide up from it.
+fn slope(
+    chain: &Chain,
+    body: &Body,
+    (k, path): (usize, &str),
+    at: &Instant<'_, f64>,
+    places: &[super::path::Place<f64>; MOST_NODES],
+    problems: &mut Problems,
+) {
+    let Site::Sphere(sphere) = chain.nodes[k].site else { return };
+    let segment = body.spheres[sphere].segment;
+    if body.tree.landmarks_at(segment).pelvis != Some(segment) {
+        return;
+    }
+    let axes = &at.frames[chain.frame.index(&[])].axes;
+    for other in [k.wrapping_sub(1), k + 1] {
+        if !chain.nodes.get(other).is_some_and(|node| matches!(node.site, Site::Vehicle(..))) {
+            continue;
+        }
+        let to = axes.into_frame(places[other].centre - places[k].centre);
+        let slope_deg = crash_measures::trig::atan2(to.z, -to.x).to_degrees();
+        if (-90.0..LEAST_SLOPE_DEG).contains(&slope_deg) {
+            let found = format!(
+                "the lap belt goes from the pelvis to an anchor at {slope_deg:.0}° below the level, counted from straight back"
+            );
+            let expected = format!(
+                "{LEAST_SLOPE_DEG}° or more: a flatter belt slides up to the belly, and this one cannot: submarining does not show"
+            );
+            let hint = "move the anchor, or check the seat's place";
+            problems.push(Problem::warning(path, found, expected).with_hint(Some(hint)));
+            return;
+        }
+    }
 }
 
 /// A node that lies inside the sphere beside it.

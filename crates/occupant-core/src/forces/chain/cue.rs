@@ -12,24 +12,26 @@ pub(super) struct CueLaw<S> {
 }
 
 /// What a cue and its belt remember of a commit.
-pub(super) struct Cued {
-    pub(super) time_s: f64,
-    pub(super) due_s: f64,
-    pub(super) since_s: f64,
+pub(super) struct Cued<S> {
+    pub(super) time_s: S,
+    pub(super) due_s: S,
+    pub(super) since_s: S,
     /// In the order of [`Watched`]; an acceleration is not remembered.
-    pub(super) seen: [Option<f64>; 4],
+    pub(super) seen: [Option<S>; 4],
 }
 
 impl CueLaw<f64> {
     pub(super) fn can_fire(&self) -> bool {
         self.due < NEVER || self.watch.is_some()
     }
+}
 
+impl<S: Scalar<Mask = bool>> CueLaw<S> {
     /// Where between two commits its condition was due to begin to hold, or to have held for long enough; none where neither
     /// happened or where it cannot be told.
-    pub(super) fn due(&self, before: &Cued, now: &Cued) -> Option<f64> {
+    pub(super) fn due(&self, before: &Cued<S>, now: &Cued<S>) -> Option<S> {
         let (of, [threshold, lasting, _]) = self.watch?;
-        let is = |time_s: f64| time_s < NEVER;
+        let is = |time_s: S| time_s.lt(S::of(NEVER));
         if is(before.since_s) {
             let fires = is(now.due_s) && !is(before.due_s);
             fires.then(|| passes(before.since_s + lasting, before.time_s, now.time_s))

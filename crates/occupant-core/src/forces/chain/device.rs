@@ -60,10 +60,10 @@ impl DeviceLaw<f64> {
 
 /// A commit of a device: what it remembers, the payout, and the tension of the first strap.
 #[derive(Clone, Copy)]
-pub(super) struct Moment<'a> {
-    pub(super) past: &'a DevicePast<f64>,
-    pub(super) payout: f64,
-    pub(super) tension: f64,
+pub(super) struct Moment<'a, S> {
+    pub(super) past: &'a DevicePast<S>,
+    pub(super) payout: S,
+    pub(super) tension: S,
 }
 
 impl DeviceLaw<f64> {
@@ -71,18 +71,20 @@ impl DeviceLaw<f64> {
     pub(super) fn can_switch(&self) -> bool {
         self.reel.is_some() || self.second.is_some() || self.release.can_fire()
     }
+}
 
+impl<S: Scalar<Mask = bool>> DeviceLaw<S> {
     /// Where between two commits the first switch was due.
-    pub(super) fn due(&self, before: &Moment<'_>, now: &Moment<'_>) -> Option<f64> {
+    pub(super) fn due(&self, before: &Moment<'_, S>, now: &Moment<'_, S>) -> Option<S> {
         let (a, b) = (before.past, now.past);
-        let at = |due: f64| (b.time >= due).then(|| passes(due, a.time, b.time));
-        let cued = |of: &Moment<'_>, due_s: f64, since_s: f64| Cued {
+        let at = |due: S| (!b.time.lt(due)).then(|| passes(due, a.time, b.time));
+        let cued = |of: &Moment<'_, S>, due_s: S, since_s: S| Cued {
             time_s: of.past.time,
             due_s,
             since_s,
             seen: [Some(of.tension), Some(of.payout), Some(of.past.speed), None],
         };
-        let cue = |law: Option<&CueLaw<f64>>, due: fn(&DevicePast<f64>) -> [f64; 2]| {
+        let cue = |law: Option<&CueLaw<S>>, due: fn(&DevicePast<S>) -> [S; 2]| {
             let [from, to] = [before, now].map(|of| cued(of, due(of.past)[0], due(of.past)[1]));
             law.and_then(|law| law.due(&from, &to))
         };
@@ -93,14 +95,14 @@ impl DeviceLaw<f64> {
             cue(self.second.as_ref().map(|second| &second.1), |p| [p.switch_due, p.switch_since]),
             cue(reel.map(|reel| &reel.lock), |p| [p.lock_due, p.lock_since]),
             cue(pull.map(|pull| &pull.cue), |p| [p.pull_due, p.pull_since]),
-            at(a.release_due).filter(|_| b.free > a.free),
-            at(a.pull_due).filter(|_| b.pulled > a.pulled),
-            reel.filter(|_| b.phase != a.phase).and_then(|reel| {
+            at(a.release_due).filter(|_| a.free.lt(b.free)),
+            at(a.pull_due).filter(|_| a.pulled.lt(b.pulled)),
+            reel.filter(|_| a.phase.lt(b.phase) || b.phase.lt(a.phase)).and_then(|reel| {
                 let level = self.level(self.share(b.time, b));
                 reel.due(before, now, level)
             }),
         ];
-        all.into_iter().flatten().reduce(f64::min)
+        all.into_iter().flatten().reduce(S::min)
     }
 }
 

@@ -142,9 +142,11 @@ impl ChainLaw<f64> {
         let moves = |node: &NodeLaw<f64>| node.may_leave || node.is_pulled();
         self.straps.can_switch() || self.nodes.iter().any(moves)
     }
+}
 
+impl<S: Scalar<Mask = bool>> ChainLaw<S> {
     /// Where between two commits the first switch was due; none where what they remember does not tell.
-    pub(super) fn due(&self, before: &ChainPast<f64>, now: &ChainPast<f64>) -> Option<f64> {
+    pub(super) fn due(&self, before: &ChainPast<S>, now: &ChainPast<S>) -> Option<S> {
         let mut first = self.straps.due(before, now);
         for (k, node) in self.nodes.iter().enumerate() {
             let (a, b) = (&before.nodes[k], &now.nodes[k]);

@@ -146,13 +146,13 @@ impl Element for Chains {
         past.switches()
     }
 
-    fn due(
-        law: &Vec<ChainLaw<f64>>,
+    fn due<S: Scalar<Mask = bool>>(
+        law: &Vec<ChainLaw<S>>,
         number: usize,
-        before: &ChainPast<f64>,
-        now: &ChainPast<f64>,
-        _times_s: [f64; 2],
-    ) -> Option<f64> {
+        before: &ChainPast<S>,
+        now: &ChainPast<S>,
+        _times_s: [S; 2],
+    ) -> Option<S> {
         law[number].due(before, now)
     }
 
@@ -264,6 +264,9 @@ fn bear<S: Scalar>(chain: &ChainLaw<S>, at: &Instant<'_, S>, now: &Now<'_, S>, l
         let couple = node.is_rough().then(|| chain.couple(now, k, strap));
         if let Some(couple) = couple {
             wrench.moment += couple;
+        }
+        if let Some(site) = node.sphere(at.spheres) {
+            load.press_knee(site, force, S::truth(true));
         }
         let power = load.power_at(segment);
         power.sums[STRETCH] -= force.dot(velocity - carried);

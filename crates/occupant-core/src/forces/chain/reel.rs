@@ -45,26 +45,26 @@ impl ReelLaw<f64> {
     }
 }
 
-impl ReelLaw<f64> {
+impl<S: Scalar<Mask = bool>> ReelLaw<S> {
     /// Where between two commits the phase that has ended was due to end.
-    pub(super) fn due(&self, before: &Moment<'_>, now: &Moment<'_>, level: f64) -> Option<f64> {
+    pub(super) fn due(&self, before: &Moment<'_, S>, now: &Moment<'_, S>, level: S) -> Option<S> {
         let (a, time) = (before.past, now.past.time);
-        let at = |due: f64| (time >= due).then(|| passes(due, a.time, time));
-        let paid = |out: f64| (now.payout >= out).then(|| passes(out, before.payout, now.payout));
+        let at = |due: S| (!time.lt(due)).then(|| passes(due, a.time, time));
+        let paid = |out: S| (!now.payout.lt(out)).then(|| passes(out, before.payout, now.payout));
         let [after, within] = self.lock_after;
-        let ends = if a.phase < Phase::LOCKING {
+        let ends = if a.phase.lt(S::of(Phase::LOCKING)) {
             [at(a.lock_due), paid(self.on_spool), None]
-        } else if a.phase < Phase::PULLING {
+        } else if a.phase.lt(S::of(Phase::PULLING)) {
             [paid(a.mark + after), at(a.lock_due + within), paid(self.on_spool)]
         } else {
-            let tight = |pull: &PullLaw<f64>| {
+            let tight = |pull: &PullLaw<S>| {
                 let most = pull.stall.min(level);
-                (now.tension >= most).then(|| passes(most, before.tension, now.tension))
+                (!now.tension.lt(most)).then(|| passes(most, before.tension, now.tension))
             };
             let end = self.pull.as_ref().map(|pull| a.pull_due + pull.table.end());
             [self.pull.as_ref().and_then(tight), end.and_then(at), None]
         };
-        ends.into_iter().flatten().reduce(f64::min)
+        ends.into_iter().flatten().reduce(S::min)
     }
 }
 

@@ -10,7 +10,7 @@ use super::past::ChainPast;
 use super::site::SiteLaw;
 use super::{ChainLaw, Chains, MOST_ARCS, MOST_NODES};
 use crate::forces::element::{Element, Instant};
-use crate::forces::shown::{Line, Named, OneOf, Pull, Reported, Shown, Tracked};
+use crate::forces::shown::{Line, Named, OneOf, Pull, Reported, Shown, Tracked, Tracker};
 use crate::forces::stored::Archive;
 use crate::forces::table::{Cell, Column, Table};
 use crate::motion::scalar::Scalar;
@@ -212,32 +212,33 @@ impl Reported for Chains {
         ),
     ];
 
-    const PEAKS: &'static [Tracked<StrapAction<f64>>] = &[
+    const PEAKS: &'static [Tracked] = &[
         Tracked {
-            of: |s| s.force,
             column: Column::number("force_n", "force, N", 0).measure("peak", Newton),
             time: Some(Column::time("time_s").measure("peak_time", Unit::Second)),
             at_least_zero: true,
         },
         Tracked {
-            of: |s| s.fed,
             column: Column { scale: 1e3, ..Column::number("payout_m", "payout, mm", 1) }.measure("payout", Metre),
             time: None,
             at_least_zero: false,
         },
         Tracked {
-            of: |s| -s.fed,
             column: Column { scale: 1e3, ..Column::number("pull_in_m", "pull-in, mm", 1) }.measure("pull_in", Metre),
             time: None,
             at_least_zero: true,
         },
         Tracked {
-            of: |s| s.lost,
             column: Column::number("lost_j", "lost, J", 1).measure("lost", Joule),
             time: None,
             at_least_zero: true,
         },
     ];
+
+    #[inline(always)]
+    fn track<S: Scalar>(s: &StrapAction<S>, tracker: &mut impl Tracker<S>) {
+        [s.force, s.fed, -s.fed, s.lost].into_iter().for_each(|number| tracker.number(number));
+    }
 
     fn keep(past: &mut Vec<ChainPast<f64>>, like: Option<&[ChainPast<f64>]>, file: &mut dyn Archive) {
         let number = if like.is_some() { 51 } else { 50 };

@@ -145,17 +145,17 @@ impl NodeLaw<f64> {
     }
 }
 
-impl NodeLaw<f64> {
+impl<S: Scalar<Mask = bool>> NodeLaw<S> {
     /// Where between two memories the webbing was due to come onto the node or off it, or its stroke to stall; none where they
     /// do not tell.
-    pub(super) fn due(&self, before: &NodePast<f64>, now: &NodePast<f64>) -> Option<f64> {
-        let is_torn = self.strength < NEVER;
+    pub(super) fn due(&self, before: &NodePast<S>, now: &NodePast<S>) -> Option<S> {
+        let is_torn = self.strength.lt(S::of(NEVER));
         match &self.site {
             SiteLaw::Vehicle(_, Some(stroke)) if !is_torn => Some(passes(stroke.stall, before.across, now.across)),
-            SiteLaw::Segment(_, _, Some(_)) if !is_torn => Some(passes(0.0, before.across, now.across)),
-            SiteLaw::Sphere(_) if before.is_on() => Some(passes(0.0, -before.across, -now.across)),
-            SiteLaw::Sphere(_) => Some(passes(0.0, before.across, now.across)),
-            SiteLaw::Track(_, track) if now.way > track.length => Some(passes(track.length, before.way, now.way)),
+            SiteLaw::Segment(_, _, Some(_)) if !is_torn => Some(passes(S::zero(), before.across, now.across)),
+            SiteLaw::Sphere(_) if before.is_on() => Some(passes(S::zero(), -before.across, -now.across)),
+            SiteLaw::Sphere(_) => Some(passes(S::zero(), before.across, now.across)),
+            SiteLaw::Track(_, track) if now.way.gt(track.length) => Some(passes(track.length, before.way, now.way)),
             _ => None,
         }
     }
@@ -218,6 +218,12 @@ impl<S: Scalar> NodeLaw<S> {
             SiteLaw::Segment(segment, ..) | SiteLaw::Track(segment, _) => Some(*segment),
             SiteLaw::Sphere(sphere) => Some(spheres[*sphere].segment),
         }
+    }
+
+    /// The sphere that it is on.
+    #[inline(always)]
+    pub(super) fn sphere<'s>(&self, spheres: &'s [Sphere<S>]) -> Option<&'s Sphere<S>> {
+        if let SiteLaw::Sphere(sphere) = self.site { Some(&spheres[sphere]) } else { None }
     }
 
     pub(super) fn is_sphere(&self) -> bool {

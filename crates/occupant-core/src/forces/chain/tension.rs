@@ -155,27 +155,30 @@ impl Straps<f64> {
     pub(super) fn can_switch(&self) -> bool {
         self.strength < NEVER || self.device.can_switch()
     }
+}
 
+impl<S: Scalar<Mask = bool>> Straps<S> {
     /// Tension of a strap at a commit, from what it remembers of it.
-    fn tension(&self, past: &NodePast<f64>) -> f64 {
-        let beside = self.webbing.viscous.map_or(0.0, |[stiffness, _]| stiffness * past.viscous);
-        (self.webbing.curve.respond(past.strain, past.greatest).force + beside).max(0.0)
+    fn tension(&self, past: &NodePast<S>) -> S {
+        let beside = self.webbing.viscous.map_or(S::zero(), |[stiffness, _]| stiffness * past.viscous);
+        (self.webbing.curve.respond(past.strain, past.greatest).force + beside).max(S::zero())
     }
 
     /// Where between two commits the device was due to switch, or a strap to tear.
-    pub(super) fn due(&self, before: &ChainPast<f64>, now: &ChainPast<f64>) -> Option<f64> {
-        let first = |past: &NodePast<f64>| self.tension(past);
+    pub(super) fn due(&self, before: &ChainPast<S>, now: &ChainPast<S>) -> Option<S> {
+        let first = |past: &NodePast<S>| self.tension(past);
         let [from, to] = [before, now].map(|past| Moment {
             past: &past.device,
             payout: past.nodes[0].fed,
             tension: first(&past.nodes[0]),
         });
-        let greatest = |past: &ChainPast<f64>| {
-            self.starts.iter().fold(0.0, |most: f64, &node| most.max(self.tension(&past.nodes[node])))
+        let greatest = |past: &ChainPast<S>| {
+            self.starts.iter().fold(S::zero(), |most: S, &node| most.max(self.tension(&past.nodes[node])))
         };
         let [a, b] = [before, now].map(greatest);
-        let tears = (now.device.free > before.device.free && b > self.strength).then(|| passes(self.strength, a, b));
-        self.device.due(&from, &to).into_iter().chain(tears).reduce(f64::min)
+        let tears =
+            (before.device.free.lt(now.device.free) && b.gt(self.strength)).then(|| passes(self.strength, a, b));
+        self.device.due(&from, &to).into_iter().chain(tears).reduce(S::min)
     }
 }
 

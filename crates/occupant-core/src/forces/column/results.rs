@@ -6,7 +6,7 @@ use super::law::Now;
 use super::past::ColumnPast;
 use super::{Column, Columns};
 use crate::forces::element::Element;
-use crate::forces::shown::{Named, OneOf, Reported, Shown, Tracked};
+use crate::forces::shown::{Named, OneOf, Reported, Shown, Tracked, Tracker};
 use crate::forces::stored::Archive;
 use crate::forces::table::{Cell, Column as TableColumn, Table};
 use crate::motion::scalar::Scalar;
@@ -77,18 +77,13 @@ const GIVEN_M: f64 = 1e-6;
 
 type Of = Quantity<OneOf<Columns>>;
 
-const fn peak(of: fn(&ColumnAction<f64>) -> f64, column: TableColumn) -> Tracked<ColumnAction<f64>> {
-    Tracked { of, column, time: None, at_least_zero: true }
+const fn peak(column: TableColumn) -> Tracked {
+    Tracked { column, time: None, at_least_zero: true }
 }
 
 /// With the time at which the peak was first reached, under these names in JSON and among the measures.
-const fn timed(
-    of: fn(&ColumnAction<f64>) -> f64,
-    column: TableColumn,
-    key: &'static str,
-    measure: &'static str,
-) -> Tracked<ColumnAction<f64>> {
-    Tracked { time: Some(TableColumn::time(key).measure(measure, Second)), ..peak(of, column) }
+const fn timed(column: TableColumn, key: &'static str, measure: &'static str) -> Tracked {
+    Tracked { time: Some(TableColumn::time(key).measure(measure, Second)), ..peak(column) }
 }
 
 const fn scaled(scale: f64, column: TableColumn) -> TableColumn {
@@ -111,13 +106,18 @@ impl Reported for Columns {
     ];
 
     #[rustfmt::skip]
-    const PEAKS: &'static [Tracked<ColumnAction<f64>>] = &[
-        timed(|c| c.stroke, scaled(1e3, TableColumn::number("stroke_max_m", "stroke, mm", 1)).measure("stroke_max", Metre), "stroke_max_time_s", "stroke_max_time"),
-        timed(|c| c.force, scaled(1e-3, TableColumn::number("peak_n", "force, kN", 2)).measure("peak", Newton), "peak_time_s", "peak_time"),
-        peak(|c| c.taken, TableColumn::number("energy_j", "work, J", 1).measure("energy", Joule)),
-        timed(|c| c.bottoms, TableColumn::number("bottomed", "bottomed", 0), "bottomed_time_s", "bottomed_time"),
-        peak(|c| c.residual, scaled(1e6, TableColumn::number("book_error", "book, 1e-6", 1)).measure("book_error", One)),
+    const PEAKS: &'static [Tracked] = &[
+        timed(scaled(1e3, TableColumn::number("stroke_max_m", "stroke, mm", 1)).measure("stroke_max", Metre), "stroke_max_time_s", "stroke_max_time"),
+        timed(scaled(1e-3, TableColumn::number("peak_n", "force, kN", 2)).measure("peak", Newton), "peak_time_s", "peak_time"),
+        peak(TableColumn::number("energy_j", "work, J", 1).measure("energy", Joule)),
+        timed(TableColumn::number("bottomed", "bottomed", 0), "bottomed_time_s", "bottomed_time"),
+        peak(scaled(1e6, TableColumn::number("book_error", "book, 1e-6", 1)).measure("book_error", One)),
     ];
+
+    #[inline(always)]
+    fn track<S: Scalar>(c: &ColumnAction<S>, tracker: &mut impl Tracker<S>) {
+        [c.stroke, c.force, c.taken, c.bottoms, c.residual].into_iter().for_each(|number| tracker.number(number));
+    }
 
     fn keep(past: &mut Vec<ColumnPast<f64>>, like: Option<&[ColumnPast<f64>]>, file: &mut dyn Archive) {
         let number = if like.is_some() { 59 } else { 58 };

@@ -8,6 +8,7 @@ use crate::forces::contact::material::{Force, Material};
 use crate::forces::contact::near::{Bounds, near_pairs};
 use crate::forces::contact::self_contact::is_skin;
 use crate::forces::contact::solid::{CONCAVE_WITHIN_M, Solid, build, concave_rad};
+use crate::forces::contact::surface::Outline;
 use crate::forces::contact::{ContactData, ContactSystem, OPEN, PASSED, PairHistory};
 use crate::forces::element::Instant;
 use crate::forces::function::steps::Steps;
@@ -188,6 +189,44 @@ pub(super) fn overlaps(law: &ContactSystem<f64>, body: &Body, at: &Instant<'_, f
 /// Solids press from above where their normal points down by more than this, and where a sphere is deeper than a graze, m.
 const FROM_ABOVE: f64 = 0.7;
 const GRAZE_M: f64 = 0.005;
+
+/// Refuses bodies that begin behind a plane without bounds, such as the ground: they would not feel it and fall for ever.
+pub(super) fn beneath(
+    law: &ContactSystem<f64>,
+    data: &ContactData<'_>,
+    body: &Body,
+    at: &Instant<'_, f64>,
+    problems: &mut Problems,
+) {
+    // by surface: how many spheres, and the one that is farthest behind
+    let mut worst: Vec<(usize, usize, f64, usize)> = Vec::new();
+    for group in &law.groups {
+        let centre = at.centre_in(group.sphere, group.frame);
+        for i in group.pairs.clone() {
+            let surface = law.pairs[i].parts[0].surface;
+            let behind_m = law.planes[i].depth(centre) - body.spheres[group.sphere].radius_m;
+            if !matches!(data.faces[surface].outline, Outline::Unbounded { .. }) || behind_m <= 0.0 {
+                continue;
+            }
+            match worst.iter_mut().find(|known| known.0 == surface) {
+                Some(known) => {
+                    known.3 += 1;
+                    if behind_m > known.2 {
+                        (known.1, known.2) = (group.sphere, behind_m);
+                    }
+                }
+                None => worst.push((surface, group.sphere, behind_m, 1)),
+            }
+        }
+    }
+    for (surface, sphere, behind_m, count) in worst {
+        let (path, name) = (with_key("surfaces", &data.surfaces[surface].name), &body.spheres[sphere].name);
+        let more = if count > 1 { format!(", and {} more are behind it", count - 1) } else { String::new() };
+        let found = format!("the centre of {name} is {:.1} mm behind it at the start{more}", 1e3 * behind_m);
+        let hint = "move the body or the plane; `space` has z up, all else z down";
+        problems.error_with_hint(path, found, "a body in front of a plane, which would not hold it otherwise", hint);
+    }
+}
 
 /// Refuses spheres whose centre is inside a solid at the start, and warns of those that a solid presses down from above: a head
 /// under the roof.

@@ -161,7 +161,7 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         let sums = &mut power.sums;
         sums[PRESS] = S::select(on, sums[PRESS] - pressing, sums[PRESS]);
         sums[FRICTION] = S::select(on, sums[FRICTION] - rubbing, sums[FRICTION]);
-        show(&t);
+        show(&Touch { force: self.frame.axes.out(press + t.friction), ..t });
     }
 
     /// Puts the gathered load on the sphere's segment.
@@ -179,6 +179,7 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         let vehicle = &mut all.power_at(self.site.segment).vehicle;
         *vehicle = S::select(load.lanes, *vehicle + carrying, *vehicle);
         all.push(self.group.frame, self.site.segment, force, load.lanes);
+        all.press_knee(self.site, force, load.lanes);
     }
 
     /// Its way straight ahead relative to the frame, in the frame's axes, for as long as a step can be.

@@ -9,7 +9,7 @@ pub mod flat_face;
 mod hints;
 mod law;
 pub mod material;
-mod near;
+pub(crate) mod near;
 mod results;
 pub mod self_contact;
 pub mod solid;
@@ -109,6 +109,7 @@ impl Element for Contacts {
         problems: &mut Problems,
     ) {
         check::crowds(data.faces, problems);
+        check::beneath(law, &data, body, at, problems);
         check::centres(law, &data, body, at, problems);
         check::overlaps(law, body, at, problems);
         check::touching(&Self::start(law, at), problems);
@@ -328,14 +329,34 @@ impl ContactSystem<f64> {
 
     /// The solid of a touch and its place in what is remembered.
     pub(crate) fn member(&self, touch: &Touch<f64>) -> Option<&Member> {
-        let union = self.solids.pairs.get(touch.pair.checked_sub(self.pairs.len())?)?;
-        union.members.get(touch.part as usize)
+        self.member_of(touch.pair, touch.part as usize)
+    }
+
+    fn member_of(&self, pair: usize, part: usize) -> Option<&Member> {
+        let union = self.solids.pairs.get(pair.checked_sub(self.pairs.len())?)?;
+        union.members.get(part)
     }
 
     /// How thick the solid of a touch is behind the face that `past` remembers, m; infinite for what is no solid.
     pub(crate) fn thickness_m(&self, touch: &Touch<f64>, past: &[PairHistory<f64>]) -> f64 {
-        let of = |member: &Member| self.solids.shapes[member.solid].thickness_m(past[member.past].phase);
-        self.member(touch).map_or(f64::INFINITY, of)
+        self.thickness_of(touch.pair, touch.part as usize, &|pair| past[pair].phase)
+    }
+
+    /// The same of the part of a pair, where `phase` tells what pairs remember.
+    pub(crate) fn thickness_of(&self, pair: usize, part: usize, phase: &impl Fn(usize) -> f64) -> f64 {
+        let of = |member: &Member| self.solids.shapes[member.solid].thickness_m(phase(member.past));
+        self.member_of(pair, part).map_or(f64::INFINITY, of)
+    }
+
+    /// The sphere that meets the one that this part of a pair is of; none of a pair that is not of two spheres.
+    pub(crate) fn other_sphere(&self, pair: usize, part: usize) -> Option<usize> {
+        self.own.get(pair).map(|own| own.spheres[1 - part])
+    }
+
+    /// Coefficient of friction of a touch of what is no body.
+    pub(crate) fn friction(&self, touch: &Touch<f64>) -> f64 {
+        let faces = self.pairs.get(touch.pair).map(|pair| &pair.parts[touch.part as usize].law);
+        faces.unwrap_or_else(|| &self.solids.pairs[touch.pair - self.pairs.len()].law).friction
     }
 
     /// Normal force law of a part of a pair.

@@ -12,10 +12,7 @@ pub(crate) struct Bounds {
 impl Bounds {
     /// That of points; of none it is empty and near nothing.
     pub(crate) fn of<'a>(points: impl IntoIterator<Item = &'a Point3<f64>>) -> Self {
-        let none = Bounds { least: Vector3::repeat(f64::INFINITY), most: Vector3::repeat(f64::NEG_INFINITY) };
-        points
-            .into_iter()
-            .fold(none, |all, p| Bounds { least: all.least.inf(&p.coords), most: all.most.sup(&p.coords) })
+        points.into_iter().fold(Bounds::NONE, |all, p| all.and(Bounds { least: p.coords, most: p.coords }))
     }
 
     /// That of a ball.
@@ -24,7 +21,46 @@ impl Bounds {
         Bounds { least: centre_m.coords - arm, most: centre_m.coords + arm }
     }
 
-    fn is_near(&self, other: &Self, gap_m: f64) -> bool {
+    /// That of nothing.
+    pub(crate) const NONE: Bounds = {
+        let (least, most) = (f64::INFINITY, f64::NEG_INFINITY);
+        Bounds { least: Vector3::new(least, least, least), most: Vector3::new(most, most, most) }
+    };
+
+    /// That of both.
+    pub(crate) fn and(self, other: Bounds) -> Self {
+        Bounds { least: self.least.inf(&other.least), most: self.most.sup(&other.most) }
+    }
+
+    /// The same with so much room around.
+    pub(crate) fn grown(self, by_m: f64) -> Self {
+        let arm = Vector3::repeat(by_m);
+        Bounds { least: self.least - arm, most: self.most + arm }
+    }
+
+    /// Whether it ends on all sides.
+    pub(crate) fn is_bounded(&self) -> bool {
+        (0..3).all(|i| self.least[i].is_finite() && self.most[i].is_finite())
+    }
+
+    /// How far a point is beyond the side that it is farthest beyond, m, negative inside; the axis, and 1 for its upper end.
+    pub(crate) fn beyond_m(&self, point: &Point3<f64>) -> (f64, usize, usize) {
+        let sides = (0..3).flat_map(|i| [(self.least[i] - point[i], i, 0), (point[i] - self.most[i], i, 1)]);
+        sides.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::NAN, 0, 0))
+    }
+
+    /// How far a point is from it, m.
+    pub(crate) fn distance_m(&self, point: &Point3<f64>) -> f64 {
+        (point.coords.sup(&self.least).inf(&self.most) - point.coords).norm()
+    }
+
+    /// Its upper end along an axis, m.
+    pub(crate) fn most_along(&self, axis: usize) -> f64 {
+        self.most[axis]
+    }
+
+    /// Whether it is at most so far from another along every axis.
+    pub(crate) fn is_near(&self, other: &Self, gap_m: f64) -> bool {
         (0..3).all(|i| self.least[i] <= other.most[i] + gap_m && other.least[i] <= self.most[i] + gap_m)
     }
 }

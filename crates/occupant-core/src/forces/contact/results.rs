@@ -1,14 +1,20 @@
 //! How result files keep what pairs of a sphere and a face remember: the few that are not open and whole, by their numbers.
 
-use super::{Contacts, FACE, OPEN, PASSED, PairHistory, TOUCHING};
-use crate::forces::shown::Reported;
+use super::{Contacts, FACE, OPEN, PASSED, PairHistory, TOUCHING, Touch};
+use crate::forces::shown::{Reported, Tracker};
 use crate::forces::stored::Archive;
+use crate::motion::scalar::Scalar;
 use crate::quantity::FieldWords;
 
 /// A file that has more pairs than this is none of ours.
 const MOST_PAIRS: u64 = 1 << 20;
 
 impl Reported for Contacts {
+    #[inline(always)]
+    fn track<S: Scalar>(touch: &Touch<S>, tracker: &mut impl Tracker<S>) {
+        tracker.touch(touch);
+    }
+
     fn keep(past: &mut Vec<PairHistory<f64>>, like: Option<&[PairHistory<f64>]>, file: &mut dyn Archive) {
         let words = |at_output, at_step, stem, meaning| {
             let number = if like.is_some() { at_step } else { at_output };

@@ -135,6 +135,8 @@ pub struct Touch<S> {
     pub stored: S,
     /// Slip: tangential velocity of A relative to the surface, m/s.
     pub slip: V3<S>,
+    /// Normal, edge and friction force on the sphere, space axes, N.
+    pub force: V3<S>,
 }
 
 /// All pairs of spheres and faces.
@@ -267,6 +269,7 @@ impl<S: Scalar> Pair<S> {
             friction: law.rubbing(&meeting),
             stored,
             slip: meeting.slip,
+            force: V3::zero(),
         }
     }
 
@@ -295,9 +298,9 @@ impl Touch<f64> {
     /// The same as the other sphere of a pair feels it.
     pub(crate) fn mirrored(&self, spheres: [usize; 2]) -> Self {
         let (normal, friction) = (-self.normal, -self.friction);
-        let (velocity, slip) = (-self.velocity, -self.slip);
+        let (velocity, slip, force) = (-self.velocity, -self.slip, -self.force);
         let (sphere, part) = if self.sphere == spheres[0] { (spheres[1], 1.0) } else { (spheres[0], 0.0) };
-        Touch { sphere, part, normal, friction, velocity, slip, ..*self }
+        Touch { sphere, part, normal, friction, velocity, slip, force, ..*self }
     }
 }
 

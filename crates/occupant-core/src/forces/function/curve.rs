@@ -27,8 +27,6 @@ const NOWHERE: f64 = 1e300;
 struct Piece<S> {
     /// f from x₀ on.
     f: Cubic<S>,
-    /// 1/slope at x₀; 0 of a plateau.
-    give: S,
     /// μ.
     returned: S,
     /// M(x₀).
@@ -53,9 +51,8 @@ impl FunctionLaw<f64> {
     fn of(cubics: impl IntoIterator<Item = (Cubic<f64>, f64)>) -> Self {
         let mut law = FunctionLaw { pieces: Vec::new(), end: NOWHERE, stop: NOWHERE };
         for (f, mu) in cubics {
-            let give = if f.c[1] > 0.0 { 1.0 / f.c[1] } else { 0.0 };
             let [way, energy, lost] = law.pieces.last().map_or([0.0; 3], |before| before.returned_to(f.from));
-            law.pieces.push(Piece { f, give, returned: mu.max(LEAST_FRACTION), way, energy, lost });
+            law.pieces.push(Piece { f, returned: mu.max(LEAST_FRACTION), way, energy, lost });
         }
         law
     }
@@ -84,7 +81,6 @@ impl<S: Copy> Piece<S> {
     fn zip<A: Copy, T>(&self, other: &Piece<A>, f: &impl Fn(S, A) -> T) -> Piece<T> {
         Piece {
             f: self.f.zip(&other.f, f),
-            give: f(self.give, other.give),
             returned: f(self.returned, other.returned),
             way: f(self.way, other.way),
             energy: f(self.energy, other.energy),
@@ -105,6 +101,13 @@ impl<S: Scalar> Piece<S> {
     #[inline(always)]
     fn slope(&self) -> S {
         self.f.c[1]
+    }
+
+    /// 1/slope at x₀; 0 of a plateau. No constant of the law: a plateau that begins to rise has no slope of it.
+    #[inline(always)]
+    fn give(&self) -> S {
+        let (o, slope) = (S::zero(), self.slope());
+        S::select(slope.gt(o), S::one() / slope, o)
     }
 }
 
@@ -139,7 +142,7 @@ impl<S: Scalar> FunctionLaw<S> {
     fn piece(&self, begins: impl Fn(&Piece<S>) -> S::Mask) -> Piece<S> {
         let Some((first, others)) = self.pieces.split_first() else {
             let o = S::zero();
-            return Piece { f: Cubic::none(), give: o, returned: o, way: o, energy: o, lost: o };
+            return Piece { f: Cubic::none(), returned: o, way: o, energy: o, lost: o };
         };
         let mut found = *first;
         for next in others {
@@ -190,10 +193,11 @@ impl<S: Scalar> FunctionLaw<S> {
     #[inline(always)]
     pub(crate) fn reach(&self, force: S, greatest: S, set: S) -> (S, S, S) {
         let piece = self.piece(|next| next.f.c[0].lt(force));
-        let loading = piece.f.from + (force - piece.f.c[0]) * piece.give;
+        let give = piece.give();
+        let loading = piece.f.from + (force - piece.f.c[0]) * give;
         let loads = !loading.lt(greatest);
         let x = S::select(loads, loading, piece.way + piece.returned * (loading - piece.f.from) + set);
-        (x, S::select(loads, piece.give, piece.give * piece.returned), loading)
+        (x, S::select(loads, give, give * piece.returned), loading)
     }
 
     /// Like [`FunctionLaw::reach`], with a spring of stiffness κ and length `rest` beside it.

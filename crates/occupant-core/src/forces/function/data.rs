@@ -92,6 +92,8 @@ pub(crate) enum Goes {
     Up,
     /// None falls, the first rises.
     NotDown,
+    /// None falls, and one rises: the first may be a gap without force.
+    NotDownFromGap,
     /// As it will, above 0.
     Anywhere,
 }
@@ -212,10 +214,14 @@ pub(super) fn check_points(points: &[[f64; 2]], path: &str, goes: Goes, falls: &
         let is_right = match goes {
             Goes::Up => next_force > force,
             Goes::NotDown => next_force > force || next_force == force && i > 0,
+            Goes::NotDownFromGap => next_force >= force,
             Goes::Anywhere => next_force >= 0.0,
         };
         if !(is_right && next_force.is_finite()) {
             problems.error(path, format!("a force of {next_force} N after {force} N"), falls);
         }
+    }
+    if goes == Goes::NotDownFromGap && points.iter().all(|[_, force]| *force == 0.0) {
+        problems.error(path, "no force at any point", "a force above 0 behind the gap");
     }
 }

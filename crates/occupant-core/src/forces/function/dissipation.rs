@@ -20,7 +20,7 @@ impl ForceDeflection {
     pub(crate) fn check(&self, path: &str, all: &mut Problems) {
         let problems = &mut Problems::new();
         let by_slope = matches!(self.unloading, Unloading::Slope { .. });
-        let goes = if by_slope && self.spike.is_empty() { Goes::Anywhere } else { Goes::NotDown };
+        let goes = if by_slope && self.spike.is_empty() { Goes::Anywhere } else { Goes::NotDownFromGap };
         let falls = "a force that does not fall; one that falls needs `unload_slope`";
         self.loading.check(&format!("{path}.force"), goes, falls, problems);
         self.check_factors(path, problems);

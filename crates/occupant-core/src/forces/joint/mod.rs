@@ -106,6 +106,7 @@ impl Element for JointMoments {
         load: &mut Load<S>,
         show: &mut impl FnMut(&BallAction<S>),
     ) {
+        load.end_of_outer();
         law.apply(at.k, at.state, load, show);
     }
 

@@ -41,6 +41,7 @@ pub(crate) fn check(setup: &Setup, problems: &mut Problems) {
 
 /// How much of everything several bodies have together; each is looked at by itself.
 fn check_together(setup: &Setup, problems: &mut Problems) {
+    time::check_time(&setup.time, &setup.integrator, problems);
     let hinges = setup.body.tree.joint_rows().iter().map(|row| match row.kind {
         JointKind::Hinge => 1,
         JointKind::Universal => 2,

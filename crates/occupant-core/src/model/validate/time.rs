@@ -1,12 +1,15 @@
 //! Times and the integrator.
 
-use crate::model::setup::{Integrator, TimeSpan};
+use crate::model::setup::{DEFAULT_OUTPUT_S, Integrator, TimeSpan};
 use placed_text::{Problems, number};
 
 /// More steps than this are a slip of the pen.
 const MOST_STEPS: f64 = 1e9;
 /// More outputs than this are, too.
 const MOST_OUTPUTS: f64 = 1e7;
+
+/// An interval as long as this is no slip of the pen, however short the run, s.
+const LONGEST_ANYWAY_S: f64 = 10.0 * DEFAULT_OUTPUT_S;
 
 pub(super) fn check_time(time: &TimeSpan, integrator: &Integrator, problems: &mut Problems) {
     let span_s = time.end_s - time.start_s;
@@ -17,20 +20,20 @@ pub(super) fn check_time(time: &TimeSpan, integrator: &Integrator, problems: &mu
             "an end after the start",
         );
     }
-    let mut at_most = |path: &str, interval_s: f64, most: f64, what: &str| {
-        if problems.check_positive(path, interval_s, "s") && span_s / interval_s > most {
-            problems.error(
-                path,
-                format!("{} s, which makes {:.1e} {what}", number(interval_s), span_s / interval_s),
-                format!("at most {most:.0e} {what}"),
-            );
-        }
-    };
-    at_most("output.interval", time.output_s, MOST_OUTPUTS, "outputs");
+    at_most(problems, ("output.interval", time.output_s), span_s, (MOST_OUTPUTS, "outputs"));
+    if span_s > 0.0 && time.output_s > span_s.max(LONGEST_ANYWAY_S) {
+        problems.error(
+            "output.interval",
+            format!("{} s, in a run of {} s", number(time.output_s), number(span_s)),
+            "an interval no longer than the run",
+        );
+    }
     match *integrator {
-        Integrator::Rk4 { step_s } => at_most("integrator.step", step_s, MOST_STEPS, "steps"),
+        Integrator::Rk4 { step_s } => {
+            at_most(problems, ("integrator.step", step_s), span_s, (MOST_STEPS, "steps"));
+        }
         Integrator::Adaptive { relative, absolute_m, absolute_m_s, min_step_s, max_step_s } => {
-            at_most("integrator.max_step", max_step_s, MOST_STEPS, "steps");
+            at_most(problems, ("integrator.max_step", max_step_s), span_s, (MOST_STEPS, "steps"));
             problems.check_positive("integrator.relative", relative, "");
             problems.check_positive("integrator.absolute_length", absolute_m, "m");
             problems.check_positive("integrator.absolute_speed", absolute_m_s, "m/s");
@@ -43,5 +46,16 @@ pub(super) fn check_time(time: &TimeSpan, integrator: &Integrator, problems: &mu
                 );
             }
         }
+    }
+}
+
+/// Reports an interval that is not positive, or so short that the span has more than `most` of what it makes.
+fn at_most(problems: &mut Problems, (path, interval_s): (&str, f64), span_s: f64, (most, what): (f64, &str)) {
+    if problems.check_positive(path, interval_s, "s") && span_s / interval_s > most {
+        problems.error(
+            path,
+            format!("{} s, which makes {:.1e} {what}", number(interval_s), span_s / interval_s),
+            format!("at most {most:.0e} {what}"),
+        );
     }
 }

@@ -355,10 +355,13 @@ mod tests {
         assert_eq!(LIMBS.map(|limb| limb.1), layout.hinged());
         assert!(LIMBS.iter().all(|&(upper, lower)| layout.parent(lower) == Some(upper)));
         for (n, children) in TRUNKS {
-            let own = layout.children(n).filter(|child| !hinged(child) && !ROOTS.contains(child));
+            let own = layout
+                .subtree(n)
+                .filter(|child| layout.parent(*child) == Some(n))
+                .filter(|child| !hinged(child) && !ROOTS.contains(child));
             assert_eq!(own.collect::<Vec<_>>(), children);
         }
-        assert!(LEAVES.iter().all(|&n| layout.children(n).next().is_none()));
+        assert!(LEAVES.iter().all(|&n| layout.subtree(n).count() == 1));
         let of_trunks =
             TRUNKS.iter().flat_map(|(parent, children)| children.iter().map(move |child| (*child, *parent)));
         assert!(of_trunks.chain(LIMBS.map(|(upper, lower)| (lower, upper))).eq(HUNG));

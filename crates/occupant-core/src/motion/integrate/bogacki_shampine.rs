@@ -81,28 +81,28 @@ pub(crate) fn attempt(
 pub fn stages<S: Scalar>(
     state: &State<S>,
     k1: &State<S>,
-    h: f64,
+    h: S,
     mut rate: impl FnMut(Stage, &State<S>, &mut State<S>),
 ) -> (State<S>, [State<S>; 3]) {
     let [mut k2, mut k3, mut k4] = [State::zero(state.shape()); 3];
-    rate(Stage::Within(0.5), &state.advanced(S::of(0.5 * h), k1), &mut k2);
-    rate(Stage::Within(0.75), &state.advanced(S::of(0.75 * h), &k2), &mut k3);
+    rate(Stage::Within(0.5), &state.advanced(S::of(0.5) * h, k1), &mut k2);
+    rate(Stage::Within(0.75), &state.advanced(S::of(0.75) * h, &k2), &mut k3);
     let mut sum = k1.advanced(S::of(1.5), &k2);
     sum.add(S::of(2.0), &k3);
-    let mut end = state.advanced(S::of(h * (2.0 / 9.0)), &sum);
+    let mut end = state.advanced(h * S::of(2.0 / 9.0), &sum);
     end.normalize();
     rate(Stage::End, &end, &mut k4);
     (end, [k2, k3, k4])
 }
 
 /// The state at fraction `s` of a step `h` (s), from states and rates at its ends: cubic in time, third order like the step.
-pub fn within<S: Scalar>(from: [&State<S>; 2], to: [&State<S>; 2], h: f64, s: f64) -> State<S> {
+pub fn within<S: Scalar>(from: [&State<S>; 2], to: [&State<S>; 2], h: S, s: S) -> State<S> {
     let ([start, k1], [end, k4]) = (from, to);
-    let r = 1.0 - s;
+    let r = S::one() - s;
     let way = end.advanced(S::of(-1.0), start);
-    let mut state = start.advanced(S::of(s * s * (3.0 - 2.0 * s)), &way);
-    state.add(S::of(h * s * r * r), k1);
-    state.add(S::of(-h * s * s * r), k4);
+    let mut state = start.advanced(s * s * (S::of(3.0) - S::of(2.0) * s), &way);
+    state.add(h * s * r * r, k1);
+    state.add(-h * s * s * r, k4);
     state.normalize();
     state
 }

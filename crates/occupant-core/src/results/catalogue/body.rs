@@ -5,9 +5,10 @@ use crash_measures::unit::Unit::{
 };
 use nalgebra::Vector3;
 
-use crate::body::tree::{Landmarks, Limb, Segment};
+use crate::body::tree::{Landmarks, Segment};
+use crate::kernel::instruments;
 use crate::quantity::{Axes, Owner, Quantity, Take, to_j211};
-use crate::results::reaction::{Reaction, femur_axial_n, mount_load, upper_neck};
+use crate::results::reaction::{Reaction, carried_by_mount, mount_load};
 use crate::results::sample::Sample;
 
 /// A segment.
@@ -71,12 +72,8 @@ impl Owner for OfBody {
 
 type Instrument = Quantity<OfBody>;
 
-fn marks(s: &Sample<'_>) -> Landmarks {
-    s.landmarks()
-}
-
 /// Message `Instruments`: what the load cells of a dummy would read.
-pub(super) fn instruments(marks: &Landmarks) -> impl Iterator<Item = Instrument> {
+pub(super) fn of_dummy(marks: &Landmarks) -> impl Iterator<Item = Instrument> {
     let femurs = marks.legs.right.map(|_| RIGHT_FEMUR).into_iter().chain(marks.legs.left.map(|_| LEFT_FEMUR));
     marks.neck.map(|_| NECK).into_iter().flatten().chain(femurs)
 }
@@ -89,36 +86,51 @@ pub(super) const MOUNT: &[Instrument] = &[
     Instrument::vector(NewtonMetre, Axes::J211, |s| to_j211(at_mount(s).moment_n_m))
         .channel("mount.moment", "moment of the mount on the segment that it holds, at the point where it holds it")
         .field(3, "moment", "moment on the segment that is held, at the point where it is held"),
+    Instrument::vector(Newton, Axes::J211, |s| to_j211(carried(s).force_n))
+        .channel("mount.carried_force", "force of the segment that the mount holds on all that it carries: mount.force without what the segment's own mass and contacts ask")
+        .field(4, "carried_force", "force of the segment that is held on all that it carries, without its own mass and contacts"),
+    Instrument::vector(NewtonMetre, Axes::J211, |s| to_j211(carried(s).moment_n_m))
+        .channel("mount.carried_moment", "moment of the segment that the mount holds on all that it carries, at the point where it is held: mount.moment without what the segment's own mass and contacts ask")
+        .field(5, "carried_moment", "moment of the segment that is held on all that it carries, at the point where it is held"),
 ];
 
 fn at_mount(s: &Sample<'_>) -> Reaction {
-    let none = Vector3::repeat(f64::NAN);
-    mount_load(s).unwrap_or(Reaction { force_n: none, moment_n_m: none })
+    mount_load(s).unwrap_or(NONE)
+}
+
+fn carried(s: &Sample<'_>) -> Reaction {
+    carried_by_mount(s).unwrap_or(NONE)
+}
+
+const NONE: Reaction = {
+    let none = Vector3::new(f64::NAN, f64::NAN, f64::NAN);
+    Reaction { force_n: none, moment_n_m: none }
+};
+
+/// Three numbers of what the instruments of a body read.
+fn read(s: &Sample<'_>, from: usize) -> Vector3<f64> {
+    Vector3::from_column_slice(&s.readings[s.of][from..from + 3])
 }
 
 const NECK: [Instrument; 2] = [
-    Instrument::vector(Newton, Axes::J211, |s| to_j211(upper_neck(s).force_n))
+    Instrument::vector(Newton, Axes::J211, |s| read(s, instruments::NECK))
         .channel(
             "neck.force",
             "upper neck force on the head at its joint: +x shear that pushes the head ahead, +z tension",
         )
         .field(2, "neck_force", "upper neck force on the head at its joint, SAE J211 axes: +z tension"),
-    Instrument::vector(NewtonMetre, Axes::J211, |s| to_j211(upper_neck(s).moment_n_m))
+    Instrument::vector(NewtonMetre, Axes::J211, |s| read(s, instruments::NECK + 3))
         .channel("neck.moment", "upper neck moment on the head at the condyles (at its joint where the body has none): +y in flexion")
         .field(3, "neck_moment", "upper neck moment on the head at the condyles (at its joint where the body has none), SAE J211 axes: +y flexion"),
 ];
-const RIGHT_FEMUR: Instrument = Instrument::number(Newton, |s| femur_n(s, marks(s).legs.right))
+const RIGHT_FEMUR: Instrument = Instrument::number(Newton, |s| s.readings[s.of][instruments::FEMURS])
     .channel("right_femur.axial", FEMUR)
     .field(4, "right_femur_axial", "axial force at the knee end of the right thigh, tension positive");
-const LEFT_FEMUR: Instrument = Instrument::number(Newton, |s| femur_n(s, marks(s).legs.left))
+const LEFT_FEMUR: Instrument = Instrument::number(Newton, |s| s.readings[s.of][instruments::FEMURS + 1])
     .channel("left_femur.axial", FEMUR)
     .field(5, "left_femur_axial", "axial force at the knee end of the left thigh, tension positive");
 
 const FEMUR: &str = "axial force at the knee end of the thigh, tension positive";
-
-fn femur_n(s: &Sample<'_>, leg: Option<Limb>) -> f64 {
-    leg.map_or(f64::NAN, |leg| femur_axial_n(s, leg.upper))
-}
 
 /// Message `ReportCoordinates`, on request.
 pub(super) const REPORT_COORDINATES: &[Instrument] = &[

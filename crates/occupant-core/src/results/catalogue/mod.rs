@@ -8,6 +8,7 @@ mod energy;
 mod joint;
 mod marker;
 mod sphere;
+mod surface;
 mod vehicle;
 
 use std::borrow::Cow;
@@ -44,14 +45,6 @@ impl fmt::Debug for Source {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("Source")
     }
-}
-
-/// The run as a whole: what a model has once.
-#[derive(Clone, Copy, Debug)]
-pub struct Run;
-
-impl Owner for Run {
-    type At<'a> = &'a Sample<'a>;
 }
 
 /// A message type of the result file, its topic and its fields by number.
@@ -151,7 +144,7 @@ pub(super) struct Catalogue {
 impl Catalogue {
     pub(super) fn of(model: &Model) -> Self {
         let mut all = Catalogue::default();
-        all.whole("VehicleMotion", "/vehicle", "vehicle", vehicle::QUANTITIES, |s| s);
+        all.vehicles(model);
         let tree = model.body().tree;
         for segment in tree.segments() {
             let name = tree[segment].name;
@@ -160,7 +153,7 @@ impl Catalogue {
             all.add(&place, body::SEGMENT, move |s| (s, segment));
         }
         for (of, row) in tree.bodies().into_iter().enumerate() {
-            let instruments: Vec<_> = body::instruments(&row.landmarks).collect();
+            let instruments: Vec<_> = body::of_dummy(&row.landmarks).collect();
             let topic = if row.name.is_empty() {
                 "/occupant/instruments".to_owned()
             } else {
@@ -181,6 +174,7 @@ impl Catalogue {
                 all.add(&place, sphere::OF_BAGS, move |s| (s, i));
             }
         }
+        all.surfaces(model);
         visit_kinds(&mut Elements { model, all: &mut all });
         for joint in tree.joints() {
             let name = tree[joint].name;
@@ -202,6 +196,30 @@ impl Catalogue {
             all.whole("ReportCoordinates", "/occupant/report_coordinates", "", body::REPORT_COORDINATES, |s| *s);
         }
         all
+    }
+
+    fn vehicles(&mut self, model: &Model) {
+        let setup = model.setup();
+        let place = Place { message: "VehicleMotion", topic: "/vehicle".to_owned(), name: "vehicle", words: "vehicle" };
+        self.add(&place, &vehicle::quantities(&setup.path), vehicle::first);
+        let names = named("/vehicle", vehicle::others(setup).map(|(_, frame)| frame.name.as_str()));
+        for ((i, frame), (name, topic)) in vehicle::others(setup).zip(names) {
+            let (channel, words) = (format!("vehicle.{name}"), format!("vehicle {name}"));
+            let place = Place { message: "VehicleMotion", topic, name: &channel, words: &words };
+            self.add(&place, &vehicle::quantities(&frame.path), move |s| vehicle::other(s, i));
+        }
+    }
+
+    fn surfaces(&mut self, model: &Model) {
+        let setup = model.setup();
+        let surfaces = setup.surfaces.iter().map(|surface| ("surface", &surface.name, surface.frame));
+        let solids = setup.solids.iter().map(|solid| ("solid", &solid.name, solid.frame));
+        for (i, (of, name, frame)) in surfaces.chain(solids).enumerate() {
+            let (channel, words) = (format!("{of}.{name}"), format!("{of} {name}"));
+            let place = Place { message: "", topic: String::new(), name: &channel, words: &words };
+            let carrier = setup.belongs_to(frame);
+            self.add(&place, &surface::quantities(carrier), move |s| (s, i, carrier));
+        }
     }
 
     fn markers(&mut self, model: &Model) {
@@ -294,6 +312,9 @@ impl Catalogue {
     }
 
     fn add_fields<O: Owner>(&mut self, place: &Place<'_>, quantity: &Quantity<O>, source: Source) {
+        if quantity.field.is_none() && quantity.resultant.is_none() {
+            return;
+        }
         let fields = fields(quantity, source);
         match self.messages.iter_mut().find(|m| m.topic == place.topic) {
             Some(message) => message.fields.extend(fields),

@@ -1,55 +1,109 @@
-//! Motion of the vehicle.
+//! Motion of the vehicles.
 
 use crash_measures::unit::Unit::{
     Metre, MetrePerSecond, MetrePerSecondSquared, Radian, RadianPerSecond, RadianPerSecondSquared,
 };
 
-use super::Run;
-use crate::quantity::{Axes, Quantity};
+use crate::model::setup::{OtherFrame, Setup};
+use crate::quantity::{Axes, Owner, Quantity};
+use crate::results::sample::Sample;
+use crate::vehicle::{FrameMotion, PathCursor, VehiclePath, VehiclePose};
 
-type Of = Quantity<Run>;
+/// A vehicle at one output.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OfVehicle;
 
-/// Message `VehicleMotion`.
-pub(super) const QUANTITIES: &[Of] = &[
-    Of::vector(MetrePerSecondSquared, Axes::Vehicle, |s| s.vehicle.vector_to_frame(s.vehicle.acceleration_m_s2))
-        .channel("acceleration", "kinematic acceleration of the vehicle's centre of gravity")
-        .field(9, "acceleration", "the same along the vehicle's axes"),
-    Of::vector(MetrePerSecond, Axes::Vehicle, |s| s.vehicle.vector_to_frame(s.vehicle.velocity_m_s))
-        .channel("velocity", "velocity of the vehicle's centre of gravity")
+impl Owner for OfVehicle {
+    type At<'a> = Vehicle;
+}
+
+/// Its motion in space, and its pose as the path gives it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Vehicle {
+    motion: FrameMotion,
+    pose: VehiclePose,
+}
+
+/// The first vehicle.
+pub(super) fn first(s: &Sample<'_>) -> Vehicle {
+    Vehicle { motion: *s.vehicle, pose: s.vehicle_pose }
+}
+
+/// The vehicle that is another frame (index).
+pub(super) fn other(s: &Sample<'_>, frame: usize) -> Vehicle {
+    let (path, cursor) = (&s.model.setup().frames[frame].path, &mut PathCursor::default());
+    Vehicle { motion: path.shown_motion(s.time_s, cursor), pose: path.attitude(s.time_s, cursor) }
+}
+
+/// The other frames (index) that are vehicles: they hang on none, and are not the ground, which stands in the origin.
+pub(super) fn others(setup: &Setup) -> impl Iterator<Item = (usize, &OtherFrame)> {
+    let is_vehicle = |frame: &OtherFrame| frame.parent.is_none() && frame.path != VehiclePath::parked();
+    setup.frames.iter().enumerate().filter(move |(_, frame)| is_vehicle(frame))
+}
+
+type Of = Quantity<OfVehicle>;
+
+/// Message `VehicleMotion` of a vehicle that follows `path`.
+pub(super) fn quantities(path: &VehiclePath) -> Vec<Of> {
+    let [acceleration, field, angular, angular_words] =
+        if path.has_accelerations() { FROM_PATH } else { FROM_DIFFERENCES };
+    let own = [
+        Of::vector(MetrePerSecondSquared, Axes::Vehicle, |v| v.motion.vector_to_frame(v.motion.acceleration_m_s2))
+            .channel("acceleration", acceleration)
+            .field(9, "acceleration", "the same along the vehicle's axes"),
+        Of::vector(MetrePerSecondSquared, Axes::Space, |v| v.motion.acceleration_m_s2).field(8, "acceleration", field),
+        Of::vector(RadianPerSecondSquared, Axes::Vehicle, |v| {
+            v.motion.vector_to_frame(v.motion.angular_acceleration_rad_s2)
+        })
+        .channel("angular_acceleration", angular_words)
+        .field(11, "angular_acceleration", angular),
+    ];
+    own.into_iter().chain(QUANTITIES).collect()
+}
+
+/// What accelerations are: as channel, as field, and about the axes as both.
+const FROM_PATH: [&str; 4] = [
+    "kinematic acceleration of the {}'s centre of gravity",
+    "acceleration of the centre of gravity",
+    "angular acceleration along the vehicle's axes",
+    "angular acceleration of the {}",
+];
+/// The same where a table is read along straight lines, whose velocity jumps.
+const FROM_DIFFERENCES: [&str; 4] = [
+    "kinematic acceleration of the {}'s centre of gravity, from second differences of the stations of its path",
+    "acceleration of the centre of gravity, from second differences of the stations of the path",
+    "angular acceleration along the vehicle's axes, from second differences of the stations of the path",
+    "angular acceleration of the {}, from second differences of the stations of its path",
+];
+
+const QUANTITIES: [Of; 7] = [
+    Of::vector(MetrePerSecond, Axes::Vehicle, |v| v.motion.vector_to_frame(v.motion.velocity_m_s))
+        .channel("velocity", "velocity of the {}'s centre of gravity")
         .field(7, "velocity", "the same along the vehicle's axes"),
-    Of::vector(RadianPerSecond, Axes::Vehicle, |s| s.vehicle.vector_to_frame(s.vehicle.angular_velocity_rad_s))
-        .channel("angular_velocity", "angular velocity of the vehicle")
+    Of::vector(RadianPerSecond, Axes::Vehicle, |v| v.motion.vector_to_frame(v.motion.angular_velocity_rad_s))
+        .channel("angular_velocity", "angular velocity of the {}")
         .field(10, "angular_velocity", "angular velocity along the vehicle's axes"),
-    Of::vector(Metre, Axes::VehicleSpace, |s| s.vehicle_pose.position_m)
-        .channel("position", "place of the vehicle's centre of gravity")
+    Of::vector(Metre, Axes::VehicleSpace, |v| v.pose.position_m)
+        .channel("position", "place of the {}'s centre of gravity")
         .field(2, "position", "centre of gravity as the path gives it: forward, right, down"),
-    Of::number(Radian, |s| s.vehicle_pose.attitude.roll_rad).channel("roll", "roll of the vehicle").field(
+    Of::number(Radian, |v| v.pose.attitude.roll_rad).channel("roll", "roll of the {}").field(
         3,
         "roll",
         "roll, right side down positive",
     ),
-    Of::number(Radian, |s| s.vehicle_pose.attitude.pitch_rad).channel("pitch", "pitch of the vehicle").field(
+    Of::number(Radian, |v| v.pose.attitude.pitch_rad).channel("pitch", "pitch of the {}").field(
         4,
         "pitch",
         "pitch, nose up positive",
     ),
-    Of::number(Radian, |s| s.vehicle_pose.attitude.yaw_rad).channel("yaw", "yaw of the vehicle").field(
+    Of::number(Radian, |v| v.pose.attitude.yaw_rad).channel("yaw", "yaw of the {}").field(
         5,
         "yaw",
         "yaw, nose to the right positive",
     ),
-    Of::vector(MetrePerSecond, Axes::Space, |s| s.vehicle.velocity_m_s).field(
+    Of::vector(MetrePerSecond, Axes::Space, |v| v.motion.velocity_m_s).field(
         6,
         "velocity",
         "velocity of the centre of gravity",
     ),
-    Of::vector(MetrePerSecondSquared, Axes::Space, |s| s.vehicle.acceleration_m_s2).field(
-        8,
-        "acceleration",
-        "acceleration of the centre of gravity",
-    ),
-    Of::vector(RadianPerSecondSquared, Axes::Vehicle, |s| {
-        s.vehicle.vector_to_frame(s.vehicle.angular_acceleration_rad_s2)
-    })
-    .field(11, "angular_acceleration", "angular acceleration along the vehicle's axes"),
 ];

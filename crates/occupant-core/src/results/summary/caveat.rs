@@ -4,10 +4,14 @@ use crash_measures::injury::Measure;
 use crash_measures::measure::Dummy;
 use serde::Serialize;
 
-use super::{Peak, RunStatus, word};
+use super::{Exit, Peak, RunStatus, Summary, Throw, word};
 use crate::body::{Body, Joint, Limb, Segment};
+use crate::diagnosis::RK4_STABILITY_LIMIT;
+use crate::forces::rate::Rate;
 use crate::results::energy::{Balance, EnergyCheck};
 
+/// Runs of every kind keep their energy better than this where their steps are short enough: by 1e-4 and less, as a rule.
+const ROUGH: f64 = 1e-3;
 /// Peaks of forces, depths and places are known of outputs this far apart, s, and a rounding error more.
 const APART_S: f64 = 2e-3 + 1e-9;
 /// The figures that are such peaks.
@@ -57,6 +61,16 @@ impl Caveat {
         Some(Caveat::new(name, text, owned(&["*"])))
     }
 
+    /// A body that is still on its way when the run ends.
+    pub(super) fn not_at_rest(body: &str, throw: &Throw) -> Option<Self> {
+        let figures = ["distance", "slide_distance", "from_launch", "height"].map(|name| format!("throw.{name}"));
+        let text = format!(
+            "thrown, and still at {:.1} m/s when the run ends: its distances are those so far",
+            throw.end_speed_m_s
+        );
+        (!throw.at_rest).then(|| Caveat::new("not_at_rest", text, figures.to_vec()).of_occupant(body))
+    }
+
     /// A run that did not keep its energy; none for one that did.
     pub(super) fn of_balance(energy: &EnergyCheck) -> Option<Self> {
         let (name, means) = match energy.balance {
@@ -65,6 +79,48 @@ impl Caveat {
             Balance::Lost => (Caveat::BALANCE_LOST, "the results mean nothing"),
         };
         Some(Caveat::new(name, format!("the energy balance is {}: {means}", energy.found()), owned(&["*"])))
+    }
+
+    /// A run that kept its energy, but not as well as one whose steps are short enough; none for one that did.
+    pub(super) fn of_rough_balance(energy: &EnergyCheck) -> Option<Self> {
+        let is_rough = energy.balance == Balance::Kept && energy.balance_error > ROUGH;
+        let text = format!(
+            "the energy balance is off by {:.2} % of the {}, where steps that are short enough keep it to {:.1} %: the figures may be those of the step, \
+             not of the scenario; a shorter step, error control or --estimate-error shows which hold",
+            1e2 * energy.balance_error,
+            energy.reference,
+            1e2 * ROUGH
+        );
+        is_rough.then(|| Caveat::new("energy_balance_rough", text, owned(&["*"])))
+    }
+
+    /// A fixed step that is too long for what acted in the run: of `rates`, which are too fast for it, those of spheres that touched
+    /// something, and all others; none if there are none.
+    pub fn step_too_long(step_s: f64, rates: &[&Rate], summary: &Summary) -> Option<Self> {
+        let is_sphere = |rate: &Rate| summary.first_contacts.iter().any(|first| first.sphere == rate.of);
+        let touched =
+            |rate: &Rate| summary.contacts.iter().any(|contact| contact.sphere == rate.of || contact.part == rate.of);
+        let acted = rates.iter().filter(|rate| !is_sphere(rate) || touched(rate));
+        let worst = acted.min_by(|a, b| a.time_scale_s.total_cmp(&b.time_scale_s))?;
+        let text = format!(
+            "the step of {:.4} ms is {:.1} times the time scale of {} ({}), where {RK4_STABILITY_LIMIT} times is the most that it bears: the figures are those of the step",
+            1e3 * step_s,
+            step_s / worst.time_scale_s,
+            worst.of,
+            worst.by
+        );
+        Some(Caveat::new("step_too_long", text, owned(&["*"])))
+    }
+
+    /// Figures that a finer integration changes, by their names with the part by which each does; none if there are none.
+    pub fn undetermined(against: &str, changed: &[(String, f64)], figures: Vec<String>) -> Option<Self> {
+        let (name, part) = changed.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let text = format!(
+            "{} figures are not determined: with {against} {name} differs by {:.0} %; quote what is stable in an ensemble (--ensemble)",
+            changed.len(),
+            1e2 * part
+        );
+        Some(Caveat::new("undetermined", text, figures))
     }
 
     /// A joint that turned to `turned` beyond the end of a stop.
@@ -153,6 +209,35 @@ impl Caveat {
         Caveat::of_sphere(body, sphere, sign, seen)
     }
 
+    /// A sphere that touched what stands behind a bag, while that was between.
+    pub(super) fn touched_through(body: &Body, sphere: usize, bag: &str, what: &str, time_s: f64) -> Self {
+        let seen = format!("touched {what} through the bag {bag} at {:.1} ms", 1e3 * time_s);
+        Caveat::of_sphere(body, sphere, "through_bag", seen)
+    }
+
+    /// A sphere that left the compartment where nothing is modelled that would have stopped it.
+    pub(super) fn left_compartment(body: &Body, sphere: usize, exit: &Exit) -> Self {
+        let past = exit.past.as_ref().map_or(String::new(), |past| format!(", past {past}"));
+        let seen = format!(
+            "left the modelled compartment {} at {:.1} ms{past}: nothing stands there that would have met it",
+            exit.side.words(),
+            1e3 * exit.time_s
+        );
+        Caveat::of_sphere(body, sphere, "left_compartment", seen)
+    }
+
+    /// Measures whose greatest value stands in a window that ends with the run; none if there are none.
+    pub(super) fn cut_off(reached_s: f64, cut: &[&Measure]) -> Option<Self> {
+        let worst = cut.first()?;
+        let (label, of) = (worst.label, cut.len());
+        let others = if of == 1 { String::new() } else { format!(" and {} more", of - 1) };
+        let text = format!(
+            "{label}{others}: the greatest value stands in a window that ends with the run, at {:.1} ms; a longer run may find a greater one",
+            1e3 * reached_s
+        );
+        Some(Caveat::new("window_at_end", text, names_of(cut.iter().copied())))
+    }
+
     /// A sphere whose centre went through the axis of a bar or a rim, and was pushed on.
     pub(super) fn through(body: &Body, sphere: usize, solid: &str, depth: Peak) -> Self {
         let seen = format!("went through {solid} {} and was pushed out beyond", at(depth));
@@ -175,36 +260,29 @@ impl Caveat {
         Caveat::new(format!("{}_cut", row.name), text, figures_of(body, limb))
     }
 
-    /// Outputs between which too much happens: measures that change by a part of their value when every other one is left out,
-    /// peaks that the steps between them pass by a part of their value, and peaks of what nobody has looked at so; none if all are
-    /// close enough.
-    pub(super) fn too_coarse(interval_s: f64, off: &[(&Measure, f64)], passed: &[(String, f64)]) -> Option<Self> {
+    /// Readings between which too much happens: measures that change by a part of their value when every other one is left out;
+    /// none if all are close enough. `are_of_steps`: as of every run but those of whose steps nothing is known, which has peaks at
+    /// its outputs alone.
+    pub(super) fn too_coarse(interval_s: f64, off: &[(&Measure, f64)], are_of_steps: bool) -> Option<Self> {
         let worst = off.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+        let readings = if are_of_steps { "reading" } else { "output" };
         let of_measures = worst.map(|(worst, most)| {
             let (count, label, percent) = (off.len(), worst.label, 100.0 * most);
             let measures = if count == 1 { "measure" } else { "measures" };
-            format!("{count} {measures}: without every other output {label} changes by {percent:.0} %")
+            format!("{count} {measures}: without every other {readings} {label} changes by {percent:.0} %")
         });
-        let is_apart = interval_s > APART_S;
+        let is_apart = interval_s > APART_S && !are_of_steps;
         let of_peaks = is_apart.then(|| "peaks of forces, depths and places, which ask for 2 ms at most".to_owned());
-        let highest = passed.iter().max_by(|a, b| a.1.total_cmp(&b.1));
-        let of_steps = highest.map(|(name, part)| {
-            let peaks = if passed.len() == 1 { "peak" } else { "peaks" };
-            let by =
-                if part.is_finite() { format!("passed by {:.0} %", 100.0 * part) } else { "reached unseen".to_owned() };
-            format!("{} {peaks}: between two outputs {name} is {by}", passed.len())
-        });
-        let spoiled: Vec<String> = of_peaks.into_iter().chain(of_steps).chain(of_measures).collect();
+        let spoiled: Vec<String> = of_peaks.into_iter().chain(of_measures).collect();
+        let mends = if are_of_steps { "a shorter step" } else { "a shorter output.interval" };
         let text = format!(
-            "outputs every {} ms are too coarse for {}; a shorter output.interval mends it, or `measures --interval`",
+            "{readings}s every {} ms are too coarse for {}; {mends} mends it, or `measures --interval`",
             (1e9 * interval_s).round() / 1e6,
             spoiled.join(", and for ")
         );
         let mut figures = names_of(off.iter().map(|(m, _)| *m));
-        let new = passed.iter().filter(|(name, _)| !figures.contains(name)).map(|(name, _)| name.clone());
-        figures.extend(new.collect::<Vec<_>>());
         figures.extend(PEAKS.iter().filter(|_| is_apart).map(|name| (*name).to_owned()));
-        (!spoiled.is_empty()).then(|| Caveat::new("outputs_too_coarse", text, figures))
+        (!spoiled.is_empty()).then(|| Caveat::new(format!("{readings}s_too_coarse"), text, figures))
     }
 
     /// A body that the dummy of limits and risks is not.

@@ -2,9 +2,11 @@
 
 use std::collections::HashSet;
 
-use crash_measures::unit::Unit::{self, Joule, Metre, MetrePerSecond, MetrePerSecondSquared, Newton, One, Second};
+use crash_measures::unit::Unit::{
+    self, Joule, Metre, MetrePerSecond, MetrePerSecondSquared, Newton, One, Radian, Second,
+};
 
-use super::{Acceleration, Excursion, FirstContact, Level, Person, Summary};
+use super::{Acceleration, Excursion, FirstContact, Level, Person, Summary, Throw};
 use crate::forces::table::{Cell, Table};
 use crate::model::Model;
 
@@ -52,17 +54,9 @@ impl Summary {
                 }
             }
         }
-        let several = |name: &str| if name.is_empty() { String::new() } else { format!("{name}.") };
         for body in model.body().tree.bodies().iter().filter(|_| model.setup().is_open()) {
-            let (prefix, throw) = (several(body.name), self.throws.get(body.name));
-            let landing = throw.and_then(|throw| throw.landing.as_ref());
-            list.add(format!("{prefix}throw.struck_time"), Second, throw.map(|t| t.struck_s));
-            list.add(format!("{prefix}throw.distance"), Metre, throw.map(|t| t.distance_m));
-            list.add(format!("{prefix}throw.height"), Metre, throw.map(|t| t.height_m));
-            list.add(format!("{prefix}throw.end_speed"), MetrePerSecond, throw.map(|t| t.end_speed_m_s));
-            list.add(format!("{prefix}throw.landing_time"), Second, landing.map(|l| l.time_s));
-            list.add(format!("{prefix}throw.landing_distance"), Metre, landing.map(|l| l.distance_m));
-            list.add(format!("{prefix}throw.landing_speed"), MetrePerSecond, landing.map(|l| l.speed_m_s));
+            let prefix = if body.name.is_empty() { String::new() } else { format!("{}.", body.name) };
+            list.throw(&prefix, self.throws.get(body.name));
         }
         list.add("run.reached", Second, self.reached_s);
         list.add("energy.balance_error", One, self.energy.balance_error);
@@ -138,6 +132,34 @@ impl List {
         self.add(format!("{part}.three_ms_contiguous"), MetrePerSecondSquared, held);
         let total = level(readings.three_ms_cumulative);
         self.add(format!("{part}.three_ms_cumulative"), MetrePerSecondSquared, total);
+    }
+
+    /// How a body was thrown, without numbers if it was not.
+    fn throw(&mut self, prefix: &str, throw: Option<&Throw>) {
+        let launch = throw.and_then(|throw| throw.launch.as_ref());
+        let landing = throw.and_then(|throw| throw.landing.as_ref());
+        let searle = throw.and_then(|throw| throw.searle.as_ref());
+        let figures = [
+            ("struck_time", Second, throw.map(|t| t.struck_s)),
+            ("distance", Metre, throw.map(|t| t.distance_m)),
+            ("height", Metre, throw.map(|t| t.height_m)),
+            ("end_speed", MetrePerSecond, throw.map(|t| t.end_speed_m_s)),
+            ("landing_time", Second, landing.map(|l| l.time_s)),
+            ("landing_distance", Metre, landing.map(|l| l.distance_m)),
+            ("landing_speed", MetrePerSecond, landing.map(|l| l.speed_m_s)),
+            ("launch_time", Second, launch.map(|l| l.time_s)),
+            ("launch_speed", MetrePerSecond, launch.map(|l| l.speed_m_s)),
+            ("launch_angle", Radian, launch.map(|l| l.angle_deg.to_radians())),
+            ("airborne_distance", Metre, throw.and_then(|t| t.airborne_m)),
+            ("slide_distance", Metre, throw.and_then(|t| t.slide_m)),
+            ("from_launch", Metre, throw.and_then(|t| t.from_launch_m)),
+            ("searle_least_speed", MetrePerSecond, searle.map(|s| s.speeds_m_s[0])),
+            ("searle_greatest_speed", MetrePerSecond, searle.map(|s| s.speeds_m_s[1])),
+            ("drag_factor", One, searle.and_then(|s| s.drag_factor)),
+        ];
+        for (name, unit, value) in figures {
+            self.add(format!("{prefix}throw.{name}"), unit, value);
+        }
     }
 
     fn excursion(&mut self, prefix: &str, of: Option<&Excursion>) {

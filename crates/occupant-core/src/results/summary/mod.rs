@@ -4,12 +4,15 @@
 //! output times, straight lines between them: an output interval of 1 ms or less does them justice. Nothing is filtered.
 
 mod caveat;
+mod compartment;
 mod elements;
 mod events;
 mod excursion;
 mod figures;
+mod flight;
 mod peak;
 mod person;
+mod searle;
 mod signs;
 mod strokes;
 mod summarizer;
@@ -24,12 +27,14 @@ use crate::forces::table::Tables;
 use crate::results::energy::EnergyCheck;
 
 pub use caveat::Caveat;
+pub use compartment::{Degree, Ejection, Exit, Side};
 pub use events::Event;
 pub(crate) use excursion::Excursion;
 pub use figures::{Figure, word};
 pub use peak::Peak;
+pub use searle::Searle;
 pub use summarizer::Summarizer;
-pub use throw::{Landing, Throw};
+pub use throw::{Landing, Launch, Throw, ThrowStart};
 
 /// What one run came to. Serialised, it is the answer of `occupant run --json`; every name carries its unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -74,6 +79,9 @@ pub struct Summary {
     /// How bodies that were struck were thrown, by their names, where there are other frames than one vehicle's and space.
     #[serde(skip_serializing_if = "IndexMap::is_empty")]
     pub throws: IndexMap<&'static str, Throw>,
+    /// What left the compartment of its vehicle, by the names of the bodies whose head, chest or pelvis did.
+    #[serde(skip_serializing_if = "IndexMap::is_empty")]
+    pub ejections: IndexMap<&'static str, Ejection>,
     /// Which figures are not to be quoted as they stand, and why.
     pub caveats: Vec<Caveat>,
     /// Energy balance.

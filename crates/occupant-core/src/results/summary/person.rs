@@ -1,14 +1,12 @@
 //! What is seen of the instruments of one body in a run.
 
-use nalgebra::Point3;
-
 use super::{Acceleration, Accelerations, Excursion, Level, Peak, Person};
 use crate::model::Model;
 use crate::model::setup::STANDARD_GRAVITY_M_S2;
-use crate::results::recorder::{Recorder, RecorderError};
-use crate::results::sample::Sample;
+use crate::results::fine::Fine;
+use crate::results::peaks::{EXCURSIONS, FELT, Peaks};
 use crash_measures::injury::{self, Options, Readings, Signals};
-use crash_measures::measure::ThreeMs;
+use crash_measures::measure::{Peak as Extreme, ThreeMs};
 
 /// What is seen of the instruments of a body.
 #[derive(Clone, Debug, Default)]
@@ -17,76 +15,71 @@ pub(super) struct Watched {
     of: usize,
     pub(super) name: &'static str,
     pub(super) mass_kg: f64,
-    head: Option<usize>,
-    /// Of head, chest and pelvis.
-    pub(super) accelerations: [Option<Peak>; 3],
+    has_head: bool,
+    has: [bool; 3],
     pub(super) signals: Signals,
-    head_start: Option<Point3<f64>>,
-    /// Of the head.
-    excursion: Option<Excursion>,
 }
 
 impl Watched {
-    /// The bodies of a model that have anything to tell; at least the first.
-    pub(super) fn all(model: &Model) -> Result<Vec<Watched>, RecorderError> {
-        let body = model.body();
-        let mut all = Vec::new();
-        for (of, row) in body.tree.bodies().into_iter().enumerate() {
-            let marks = &row.landmarks;
-            if of > 0 && marks.head.or(marks.chest).or(marks.pelvis).is_none() {
-                continue;
-            }
+    /// The bodies of a model that have anything to tell, those that [`Fine`] reads; at least the first.
+    pub(super) fn all(model: &Model, fine: &Fine) -> Vec<Watched> {
+        let (body, rows) = (model.body(), model.body().tree.bodies());
+        let watched = |&of: &usize| {
+            let row = &rows[of];
             let head = if row.name.is_empty() { "head".to_owned() } else { format!("{}.head", row.name) };
             let own = body.tree.segments().filter(|segment| body.tree.body_of(*segment) == of);
-            all.push(Watched {
+            Watched {
                 of,
                 name: row.name,
                 mass_kg: own.map(|segment| body.segment(segment).mass_kg).sum(),
-                head: body.sphere(&head),
-                signals: begun(model)?,
-                ..Watched::default()
-            });
-        }
-        Ok(all)
-    }
-
-    pub(super) fn see(&mut self, sample: &Sample<'_>) -> Result<(), RecorderError> {
-        let sample = &sample.of_body(self.of);
-        let marks = sample.landmarks();
-        for (peak, segment) in self.accelerations.iter_mut().zip(marks.instruments()) {
-            if let Some(segment) = segment {
-                peak.get_or_insert(Peak::NONE).see(sample.specific_force_m_s2(segment).norm(), sample.time_s);
+                has_head: body.sphere(&head).is_some(),
+                has: row.landmarks.instruments().map(|segment| segment.is_some()),
+                signals: begun(model, fine),
             }
-        }
-        self.see_head(sample);
-        self.signals.record(sample).map(|_| ())
-    }
-
-    fn see_head(&mut self, sample: &Sample<'_>) {
-        let Some(head) = self.head else {
-            return;
         };
-        let place = sample.sphere_centre_m(head);
-        let moved = place - *self.head_start.get_or_insert(place);
-        let Excursion { forward, rearward, left, right, up, down } = self.excursion.get_or_insert(Excursion::NONE);
-        let axes = [[forward, rearward], [right, left], [down, up]];
-        for ([along, against], moved) in axes.into_iter().zip([moved.x, moved.y, moved.z]) {
-            along.see(moved, sample.time_s);
-            against.see(-moved, sample.time_s);
+        fine.bodies.iter().map(watched).collect()
+    }
+
+    /// Takes over readings: those of the body that is number `place` of all that are watched.
+    pub(super) fn take(&mut self, place: usize, fine: &Fine) {
+        if self.signals.is_empty() {
+            (self.signals.start_s, self.signals.interval_s) = (fine.first_s(), fine.interval_s);
+        }
+        for sample in fine.of(place) {
+            self.signals.all_mut().zip(sample).for_each(|(values, number)| values.push(f64::from(*number)));
         }
     }
 
-    pub(super) fn person(&self, options: &Options) -> Person {
-        let readings = Readings::new(&self.signals, options);
+    /// What came of it; `fine` holds what is still to be taken, `are_of_steps`: whether peaks are those of steps.
+    pub(super) fn person(
+        &self,
+        place: usize,
+        options: &Options,
+        fine: &Fine,
+        peaks: &Peaks,
+        are_of_steps: bool,
+    ) -> (Person, Signals) {
+        let mut whole = self.clone();
+        whole.take(place, fine);
+        let own = peaks.felt.get(self.of).copied().unwrap_or([Peak::NONE; FELT]);
+        whole.signals.peaks =
+            are_of_steps.then(|| std::array::from_fn(|i| Extreme { value: own[i].value, time_s: own[i].time_s }));
+        let readings = Readings::new(&whole.signals, options);
         let parts = [&readings.head, &readings.chest, &readings.pelvis];
-        let [head, chest, pelvis] = std::array::from_fn(|i| self.acceleration(i, parts[i]));
+        let [head, chest, pelvis] = std::array::from_fn(|i| self.acceleration(i, own[i], parts[i]));
         let accelerations = Accelerations { head, chest, pelvis };
-        Person { accelerations, head_excursion: self.excursion, measures: readings.measures() }
+        let person = Person { accelerations, head_excursion: self.excursion(&own), measures: readings.measures() };
+        (person, whole.signals)
     }
 
-    fn acceleration(&self, i: usize, levels: &injury::Acceleration) -> Acceleration {
+    fn excursion(&self, own: &[Peak; FELT]) -> Option<Excursion> {
+        let [forward, rearward, right, left, down, up] = std::array::from_fn(|i| own[EXCURSIONS + i]);
+        (self.has_head && forward.value.is_finite()).then_some(Excursion { forward, rearward, left, right, up, down })
+    }
+
+    fn acceleration(&self, i: usize, peak: Peak, levels: &injury::Acceleration) -> Acceleration {
         // no numbers of what a part of a body lacks
-        let peak = self.accelerations[i].unwrap_or(Peak { value: f64::NAN, time_s: f64::NAN });
+        let peak = if self.has[i] { peak } else { Peak { value: f64::NAN, time_s: f64::NAN } };
         let level = |held: &ThreeMs| Level {
             level_m_s2: held.level_mps2,
             level_g: in_g(held.level_mps2),
@@ -103,11 +96,11 @@ impl Watched {
     }
 }
 
-/// Instruments with room for a whole run.
-fn begun(model: &Model) -> Result<Signals, RecorderError> {
-    let mut signals = Signals::new();
-    signals.begin(model)?;
-    Ok(signals)
+/// Signals with room for a whole run.
+fn begun(model: &Model, fine: &Fine) -> Signals {
+    let mut signals = Signals { interval_s: fine.interval_s, ..Signals::new() };
+    signals.all_mut().for_each(|values| values.reserve(Fine::most(model).max(model.output_count())));
+    signals
 }
 
 fn in_g(acceleration_m_s2: f64) -> f64 {

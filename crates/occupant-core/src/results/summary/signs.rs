@@ -48,6 +48,8 @@ pub(super) struct Signs {
     run_out: Vec<Peak>,
     /// By bag and by its spheres: when it fired with the sphere in its way, and when the sphere pressed it in as far as its mount, s.
     bags: Vec<Vec<[Option<f64>; 2]>>,
+    /// By bag and by its spheres: when the sphere first touched what stands behind the bag, s, and what that was.
+    behind: Vec<Vec<Option<(f64, usize)>>>,
     strokes: Strokes,
     /// By what pairs remember, of bars and rims.
     normals: Vec<Option<Bar>>,
@@ -108,6 +110,7 @@ impl Signs {
             stretched: vec![Peak::NONE; model.setup().chains.iter().map(|chain| chain.straps.len()).sum()],
             run_out: vec![Peak::NONE; model.setup().chains.len()],
             bags: model.setup().bags.iter().map(|bag| vec![[None; 2]; bag.spheres.len()]).collect(),
+            behind: model.setup().bags.iter().map(|bag| vec![None; bag.spheres.len()]).collect(),
             strokes: Strokes::new(model),
             normals: vec![None; model.start().history.memory.contacts.len()],
             deep: spheres,
@@ -191,6 +194,15 @@ impl Signs {
     /// Spheres in the way of a bag that fires, and those that press one in as far as its mount.
     fn see_bags(&mut self, sample: &Sample<'_>) {
         let is = |flags: f64, i: usize| flags as u32 >> i & 1 == 1;
+        let of_bags = sample.model.setup().bags.iter().zip(&sample.actions.bags);
+        for ((bag, action), behind) in of_bags.zip(&mut self.behind) {
+            for (((sphere, _), push), seen) in bag.spheres.iter().zip(&action.pushes).zip(behind) {
+                if seen.is_none() && push.norm_squared() > 0.0 {
+                    let touched = sample.contacts().find(|touch| touch.sphere == *sphere && is_behind(push, touch));
+                    *seen = touched.map(|touch| (sample.time_s, touch.surface));
+                }
+            }
+        }
         for (spheres, action) in self.bags.iter_mut().zip(&sample.actions.bags) {
             for (i, seen) in spheres.iter_mut().enumerate() {
                 for (seen, flags) in seen.iter_mut().zip([action.caught, action.bottoms]) {
@@ -276,7 +288,7 @@ impl Signs {
         joints
             .chain(of_sphere)
             .chain(self.of_chains(chains))
-            .chain(self.of_bags(body, bags))
+            .chain(self.of_bags(body, surfaces, bags))
             .chain(self.strokes.caveats())
             .collect()
     }
@@ -295,15 +307,33 @@ impl Signs {
 
 impl Signs {
     /// What to know of bags.
-    fn of_bags(&self, body: &Body, bags: &[Bag]) -> impl Iterator<Item = Caveat> {
-        let all =
-            bags.iter().zip(&self.bags).flat_map(|(bag, seen)| seen.iter().zip(&bag.spheres).map(move |s| (bag, s)));
-        all.flat_map(move |(bag, ([caught, bottoms], (sphere, _)))| {
-            let new = |sign, time_s| Caveat::of_bag(body, *sphere, sign, &bag.name, time_s);
-            [caught.map(|time_s| new("caught", time_s)), bottoms.map(|time_s| new("through_bag", time_s))]
+    fn of_bags(&self, body: &Body, surfaces: &[String], bags: &[Bag]) -> impl Iterator<Item = Caveat> {
+        let all = bags.iter().zip(&self.bags).zip(&self.behind).flat_map(|((bag, seen), behind)| {
+            seen.iter()
+                .zip(behind)
+                .zip(&bag.spheres)
+                .map(move |((seen, behind), (sphere, _))| (bag, *sphere, seen, behind))
+        });
+        all.flat_map(move |(bag, sphere, [caught, bottoms], behind)| {
+            let new = |sign, time_s| Caveat::of_bag(body, sphere, sign, &bag.name, time_s);
+            let touched = |(time_s, what): &(f64, usize)| {
+                surfaces.get(*what).map(|what| Caveat::touched_through(body, sphere, &bag.name, what, *time_s))
+            };
+            let through = behind.as_ref().and_then(touched).or(bottoms.map(|time_s| new("through_bag", time_s)));
+            [caught.map(|time_s| new("caught", time_s)), through]
         })
         .flatten()
     }
+}
+
+/// Cosine of the angle within which a bag and what a sphere touches push it the same way: 60°.
+const SAME_WAY: f64 = 0.5;
+
+/// Whether what a sphere touches stands behind the bag that pushes it: both push the same way.
+fn is_behind(push: &V3<f64>, touch: &Contact) -> bool {
+    let normal_n = touch.force_n - touch.friction_n - touch.edge_n;
+    let push_n = push.to_vector();
+    normal_n.norm() > 0.0 && push_n.dot(&normal_n) > SAME_WAY * push_n.norm() * normal_n.norm()
 }
 
 /// Of each part of the body the sphere that sank deepest.

@@ -1,29 +1,30 @@
 //! The recorder that makes a [`Summary`].
 
-use nalgebra::Vector3;
+use indexmap::IndexMap;
 
-use super::elements::ElementPeaks;
+use super::compartment::Compartment;
+use super::elements::Elements;
 use super::events::Events;
+use super::flight::Flight;
 use super::person::Watched;
 use super::signs::Signs;
-use super::throw::Flight;
-use super::{Caveat, ContactBegin, FirstContact, Peak, Person, RunStatus, Solver, SpherePeak, Summary, word};
+use super::{Caveat, ContactBegin, Ejection, FirstContact, Person, RunStatus, Solver, SpherePeak, Summary, word};
 use crate::body::{Body, ContactSphere};
 use crate::forces::bag::Bag;
 use crate::forces::chain::Chain;
+use crate::kernel::instruments::{READINGS, Reading};
 use crate::model::Model;
 use crate::model::setup::{Setup, TimeSpan};
-use crate::results::checkpoint::StepPeaks;
+use crate::results::fine::Fine;
 use crate::results::outcome::{Outcome, Status};
+use crate::results::peaks::{PartPeak, Peaks};
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
-use crash_measures::injury::{self, Options};
+use crash_measures::injury::{self, Measure, Options, Signals};
 
-/// Measures that change by more of their value without every other output are not quoted to a per cent. The change is about the
+/// Measures that change by more of their value without every other reading are not quoted to a per cent. The change is about the
 /// error: see `measures.md`.
 const COARSE: f64 = 0.01;
-/// Peaks that steps pass by less are not looked at, m/s² or N.
-const LEAST: f64 = 1.0;
 
 /// Collects a [`Summary`]. Allocates at the start of a run and at its end, never between.
 #[derive(Clone, Debug, Default)]
@@ -34,13 +35,19 @@ pub struct Summarizer {
     /// By body that has a head, a chest or a pelvis; at least one.
     pub(super) people: Vec<Watched>,
     flights: Vec<Flight>,
-    elements: ElementPeaks,
+    compartments: Vec<Compartment>,
+    elements: Elements,
     events: Events,
-    /// By sphere: which part it belongs to, in the order of [`Body::parts`].
-    part_of: Vec<usize>,
-    parts: Vec<PartTrack>,
-    /// Greatest values at the outputs, and at all accepted steps up to the latest.
-    peaks: [StepPeaks; 2],
+    /// Greatest values at all accepted steps, of a run whose steps nobody has looked at those at its outputs; and those at the latest
+    /// output.
+    seen: Peaks,
+    now: Peaks,
+    /// Whether they are those of steps.
+    are_of_steps: bool,
+    /// The readings since the latest output, its time and what was read there.
+    fine: Fine,
+    latest_s: f64,
+    latest: Vec<Reading<f64>>,
     outcome: Option<Outcome>,
     signs: Signs,
 }
@@ -55,25 +62,14 @@ struct Case {
     meets_itself: bool,
     chains: Vec<Chain>,
     bags: Vec<Bag>,
+    /// Whether there is anything that stands still outside of vehicles.
+    has_ground: bool,
     /// Whether parts of the body may be left out, as on a rig.
     is_on_rig: bool,
     /// [`Joints::is_half_a_neck`](crate::forces::joint::Joints::is_half_a_neck).
     is_half_a_neck: bool,
     integrator: &'static str,
     time: TimeSpan,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct PartTrack {
-    force: Peak,
-    penetration: Peak,
-    /// Greatest Δ over the thickness of a solid.
-    used: f64,
-    surface: usize,
-    /// At the present output: sum of the forces, the greatest normal force, and what exerts it.
-    now_n: Vector3<f64>,
-    hardest: Peak,
-    hit: usize,
 }
 
 impl Summarizer {
@@ -91,9 +87,17 @@ impl Summarizer {
     pub fn summary(&self, wall_time_s: Option<f64>) -> Option<Summary> {
         let (outcome, case) = (self.outcome.as_ref()?, self.case.as_ref()?);
         let time = &case.time;
-        let mut people = self.people.iter().map(|one| (one.name, one.person(&self.options)));
+        let mut peaks = self.seen.clone();
+        peaks.merge(&self.now);
+        let people = self.persons(&peaks);
+        let caveats = self.caveats(case, &people, outcome.time_s);
+        let mut people = people.into_iter().map(|(name, person, _)| (name, person));
         let (occupant, Person { accelerations, head_excursion, measures }) = people.next()?;
         let contacts = contacts(outcome, case);
+        let throws: IndexMap<_, _> =
+            self.flights.iter().filter_map(|flight| Some((flight.name, flight.throw()?))).collect();
+        let on_the_way = throws.iter().filter_map(|(name, throw)| Caveat::not_at_rest(name, throw));
+        let ejections = self.ejections(case);
         let (status, reason) = ending(&outcome.status);
         let summary = Summary {
             title: case.title.clone(),
@@ -104,17 +108,24 @@ impl Summarizer {
             end_s: time.end_s,
             occupant,
             accelerations,
-            elements: self.elements.tables(),
+            elements: self.elements.tables(&peaks.elements),
             events: self.events.list(),
             more_events: self.events.more(),
             first_contacts: first_contacts(&contacts, &case.body),
             contacts,
-            sphere_forces: self.sphere_forces(case),
+            sphere_forces: sphere_forces(case, &peaks),
             head_excursion,
             measures,
             others: people.collect(),
-            throws: self.flights.iter().filter_map(|flight| Some((flight.name, flight.throw()?))).collect(),
-            caveats: Caveat::of_balance(&outcome.energy).into_iter().chain(self.caveats(case)).collect(),
+            caveats: Caveat::of_balance(&outcome.energy)
+                .into_iter()
+                .chain(Caveat::of_rough_balance(&outcome.energy))
+                .chain(caveats)
+                .chain(Self::unmet(case, &ejections))
+                .chain(on_the_way)
+                .collect(),
+            throws,
+            ejections,
             energy: outcome.energy,
             solver: Solver {
                 integrator: case.integrator,
@@ -128,88 +139,90 @@ impl Summarizer {
         Some(summary.ended(status, reason))
     }
 
+    /// All that are watched, with the signals that their measures are made of.
+    fn persons(&self, peaks: &Peaks) -> Vec<(&'static str, Person, Signals)> {
+        let mut fine = self.fine.clone();
+        if self.are_of_steps {
+            // up to the end of the run, which may lie within a step
+            fine.see(self.latest_s, &self.latest);
+        }
+        let one = |(place, one): (usize, &Watched)| {
+            let (person, signals) = one.person(place, &self.options, &fine, peaks, self.are_of_steps);
+            (one.name, person, signals)
+        };
+        self.people.iter().enumerate().map(one).collect()
+    }
+
+    /// By body, what left the compartment that it started in.
+    fn ejections(&self, case: &Case) -> IndexMap<&'static str, Ejection> {
+        let all = self.compartments.iter();
+        all.filter_map(|of| Some((of.name, of.ejection(&case.body.spheres, &case.surfaces)?))).collect()
+    }
+
+    /// Parts that left a compartment where there is nothing outside.
+    fn unmet(case: &Case, ejections: &IndexMap<&'static str, Ejection>) -> Vec<Caveat> {
+        let all = ejections.values().filter(|_| !case.has_ground).flat_map(|ejection| &ejection.parts);
+        let tree = &case.body.tree;
+        let is_measured = |sphere: &ContactSphere| {
+            let marks = &tree.bodies()[tree.body_of(sphere.segment)].landmarks;
+            marks.instruments().contains(&Some(sphere.segment))
+        };
+        let spheres = || case.body.spheres.iter();
+        let sphere = |part: &str| spheres().position(|sphere| sphere.part == part && is_measured(sphere));
+        all.filter_map(|exit| Some(Caveat::left_compartment(&case.body, sphere(&exit.part)?, exit))).collect()
+    }
+
     /// What the outputs show of the bodies, then what is to know of necks and of measures alone.
-    fn caveats(&self, case: &Case) -> Vec<Caveat> {
+    fn caveats(&self, case: &Case, people: &[(&'static str, Person, Signals)], reached_s: f64) -> Vec<Caveat> {
         let mut caveats = self.signs.caveats(&case.body, &case.surfaces, &case.chains, &case.bags);
         caveats.extend(case.is_half_a_neck.then(Caveat::half_a_neck));
-        let passed = self.passed(case);
-        for (i, one) in self.people.iter().enumerate() {
-            let passed = if i == 0 { &passed[..] } else { &[] };
-            let measures = one.person(&self.options).measures;
-            let off = injury::coarseness(&one.signals, &self.options, &measures);
+        for (one, (name, person, signals)) in self.people.iter().zip(people) {
+            let measures = &person.measures;
+            let off = injury::coarseness(signals, &self.options, measures);
             let off: Vec<_> = measures.iter().zip(off).filter(|(_, off)| *off > COARSE).collect();
+            let cut: Vec<_> = measures.iter().filter(|m| is_cut_off(m, reached_s - signals.interval_s)).collect();
             let own = [
-                Caveat::too_coarse(one.signals.interval_s, &off, passed),
-                if case.is_on_rig { None } else { Caveat::other_dummy(self.options.dummy, one.mass_kg, &measures) },
+                Caveat::cut_off(reached_s, &cut),
+                Caveat::too_coarse(signals.interval_s, &off, self.are_of_steps),
+                if case.is_on_rig { None } else { Caveat::other_dummy(self.options.dummy, one.mass_kg, measures) },
             ];
-            caveats.extend(own.into_iter().flatten().map(|caveat| caveat.of_occupant(one.name)));
+            caveats.extend(own.into_iter().flatten().map(|caveat| caveat.of_occupant(name)));
         }
         caveats
     }
 
-    /// Peaks that the steps between the outputs pass by more than a part of their value, by the names of their
-    /// figures, each with that part: infinite where no output has seen anything.
-    fn passed(&self, case: &Case) -> Vec<(String, f64)> {
-        let [outputs, steps] = &self.peaks;
-        let first = self.people.iter().take(1).flat_map(|one| &one.accelerations);
-        let felt = ["head", "chest", "pelvis"].into_iter().zip(first).zip(steps.readings_m_s2);
-        let felt = felt.filter_map(|((part, peak), steps)| Some((format!("{part}.peak"), peak.as_ref()?.value, steps)));
-        let greatest_n = |of: &StepPeaks, part: usize| {
-            let own = self.part_of.iter().zip(&of.contacts_n).filter(|(of, _)| **of == part);
-            own.map(|(_, force_n)| *force_n).fold(0.0, f64::max)
-        };
-        let touched = case.body.parts().enumerate();
-        let touched = touched
-            .map(|(i, part)| (format!("contacts.{}.peak", word(part)), greatest_n(outputs, i), greatest_n(steps, i)));
-        let is_passed = |(_, outputs, steps): &(String, f64, f64)| steps - outputs > LEAST.max(COARSE * outputs);
-        felt.chain(touched).filter(is_passed).map(|(name, outputs, steps)| (name, steps / outputs - 1.0)).collect()
+    fn see_steps(&mut self, sample: &Sample<'_>) {
+        self.are_of_steps = !sample.step_peaks.are_unknown();
+        self.now.take_over(sample.now);
+        if self.are_of_steps {
+            self.seen.take_over(sample.step_peaks);
+            self.fine.take_over(sample.fine);
+        } else {
+            self.seen.merge(sample.now);
+            self.fine.see_output(sample);
+        }
+        for (place, one) in self.people.iter_mut().enumerate() {
+            one.take(place, &self.fine);
+        }
+        self.fine.clear();
+        self.latest_s = sample.time_s;
+        self.latest.clone_from_slice(sample.readings);
     }
+}
 
-    fn sphere_forces(&self, case: &Case) -> Vec<SpherePeak> {
-        let named = case.body.parts().zip(&self.parts);
-        named
-            .filter(|(_, track)| track.force.value > 0.0)
-            .map(|(part, track)| SpherePeak {
-                sphere: part.to_owned(),
-                force_n: track.force.value,
-                time_s: track.force.time_s,
-                surface: case.surfaces[track.surface].clone(),
-                penetration_m: track.penetration.value.max(0.0),
-                penetration_time_s: track.penetration.time_s,
-                thickness_used: track.used,
-            })
-            .collect()
-    }
-
-    fn see_contacts(&mut self, sample: &Sample<'_>) {
-        // touches come sphere by sphere or frame by frame: add up first, then compare
-        for track in &mut self.parts {
-            (track.now_n, track.hardest) = (Vector3::zeros(), Peak::NONE);
-        }
-        for contact in sample.contacts() {
-            let track = &mut self.parts[self.part_of[contact.sphere]];
-            track.now_n += contact.force_n;
-            track.penetration.see(contact.depth_m, sample.time_s);
-            track.used = track.used.max(contact.depth_m / contact.thickness_m);
-            if track.hardest.see(contact.normal_force_n, sample.time_s) {
-                track.hit = contact.surface;
-            }
-        }
-        for track in self.parts.iter_mut().filter(|track| track.hardest.value > Peak::NONE.value) {
-            if track.force.see(track.now_n.norm(), sample.time_s) {
-                track.surface = track.hit;
-            }
-        }
-    }
-
-    fn see_peaks(&mut self, sample: &Sample<'_>) {
-        let [outputs, steps] = &mut self.peaks;
-        for touch in &sample.actions.contacts {
-            outputs.touch(touch.sphere, touch.normal_force);
-        }
-        steps.readings_m_s2 = sample.step_peaks.readings_m_s2;
-        steps.contacts_n.clone_from(&sample.step_peaks.contacts_n);
-    }
+/// The greatest forces on the parts that touched anything.
+fn sphere_forces(case: &Case, peaks: &Peaks) -> Vec<SpherePeak> {
+    let named = case.body.parts().zip(&peaks.parts).filter(|(_, track)| track.force.value > 0.0);
+    let one = |(part, track): (&str, &PartPeak)| SpherePeak {
+        sphere: part.to_owned(),
+        force_n: track.force.value,
+        time_s: track.force.time_s,
+        surface: case.surfaces[track.surface].clone(),
+        penetration_m: track.penetration.value.max(0.0),
+        penetration_time_s: track.penetration.time_s,
+        thickness_used: track.used,
+    };
+    named.map(one).collect()
 }
 
 impl Recorder for Summarizer {
@@ -222,24 +235,26 @@ impl Recorder for Summarizer {
             meets_itself: setup.self_contact.is_some(),
             chains: setup.chains.clone(),
             bags: setup.bags.clone(),
+            has_ground: has_ground(setup),
             is_on_rig: setup.is_on_rig(),
             is_half_a_neck: setup.joints.is_half_a_neck(),
             integrator: setup.integrator.name(),
             time: setup.time,
         };
-        let [force, penetration, hardest] = [Peak::NONE; 3];
-        let part = PartTrack { force, penetration, used: 0.0, surface: 0, now_n: Vector3::zeros(), hardest, hit: 0 };
-        let parts: Vec<&str> = setup.body.parts().collect();
-        let part_of = |sphere: &ContactSphere| parts.iter().position(|part| *part == sphere.part).unwrap_or(0);
+        let (elements, fine) = (Elements::new(model), Fine::new(model));
+        let bodies = model.system().instruments.len();
+        let none = Peaks::none(elements.count(), bodies, setup.body.parts().count());
         *self = Summarizer {
-            people: Watched::all(model)?,
+            people: Watched::all(model, &fine),
             flights: Flight::all(model),
+            compartments: Compartment::all(model),
             options: self.options,
-            elements: ElementPeaks::new(model),
+            elements,
             events: Events::new(model),
-            part_of: setup.body.spheres.iter().map(part_of).collect(),
-            parts: vec![part; parts.len()],
-            peaks: [StepPeaks::none(setup.body.spheres.len()), StepPeaks::none(setup.body.spheres.len())],
+            seen: none.clone(),
+            now: none,
+            fine,
+            latest: vec![[f64::NAN; READINGS]; bodies],
             signs: Signs::new(model),
             case: Some(case),
             ..Summarizer::default()
@@ -249,15 +264,11 @@ impl Recorder for Summarizer {
 
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
         self.outputs += 1;
-        self.see_contacts(sample);
-        self.see_peaks(sample);
-        self.elements.see(sample);
+        self.see_steps(sample);
         self.events.see(sample);
         self.signs.see(sample);
         self.flights.iter_mut().for_each(|flight| flight.see(sample));
-        for one in &mut self.people {
-            one.see(sample)?;
-        }
+        self.compartments.iter_mut().for_each(|compartment| compartment.see(sample));
         Ok(Flow::Continue)
     }
 
@@ -272,6 +283,19 @@ fn touchable(setup: &Setup) -> Vec<String> {
     let fixed = setup.surfaces.len() + setup.solids.len();
     let parts = setup.self_contact.iter().flat_map(|_| setup.body.spheres.iter().map(|sphere| sphere.part.as_str()));
     setup.surface_names().take(fixed).chain(parts).map(str::to_owned).collect()
+}
+
+/// Whether any surface or solid stands still.
+fn has_ground(setup: &Setup) -> bool {
+    let frames = setup.surfaces.iter().map(|own| own.frame).chain(setup.solids.iter().map(|own| own.frame));
+    frames.into_iter().any(|frame| setup.is_ground(setup.belongs_to(frame)))
+}
+
+/// Whether the window of a measure's greatest value ends after `last_s`, and that value is of any size beside its limits.
+fn is_cut_off(measure: &Measure, last_s: f64) -> bool {
+    let is_window = measure.from_s.zip(measure.to_s).is_some_and(|(from_s, to_s)| from_s < to_s && to_s > last_s);
+    let value = measure.value.unwrap_or(0.0);
+    is_window && measure.limits.iter().any(|limit| value > COARSE * limit.most)
 }
 
 /// First touches part by part; two parts of the body touch each other.

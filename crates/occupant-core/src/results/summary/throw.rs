@@ -1,34 +1,76 @@
-//! Where a body goes that is thrown: off a vehicle's bonnet, or out of it.
+//! How a body is thrown: from the blow, through the air, over the ground, to where it rests.
 //!
-//! It is followed from its first touch with a frame that is not its home: for a pedestrian a vehicle, for an ejected occupant
-//! the ground. Places are those of the centre of gravity of the whole body, in space; distances are horizontal.
+//! The terms are those of accident reconstruction. The *throw distance* is the horizontal distance of the centre of gravity of
+//! the whole body from its place at the blow to its place at rest; the *launch* is when it leaves what struck or carried it; from
+//! there to the first touch of the ground it is *airborne*, from there on it *slides*, whether it slides, rolls or bounces.
+//! [`Flight`](super::flight::Flight) finds these moments in a run. Places and velocities are those of space.
 
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use crate::forces::contact::surface::Frame;
-use crate::model::Model;
-use crate::motion::frame::SPACE;
-use crate::results::sample::Sample;
+use super::searle::{Searle, Way};
 
-/// A body that touches nothing for less than this is not airborne, s.
-const AIRBORNE_S: f64 = 0.01;
+/// A body slower than this at the end of a run is at rest, m/s.
+const AT_REST_M_S: f64 = 0.1;
 
 /// How a body was thrown.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Throw {
-    /// First touch with a frame that is not its home.
+    /// What its distances count from.
+    pub from: ThrowStart,
+    /// When that was.
     pub struck_s: f64,
+    /// When and how it left what struck or carried it; absent while it has not.
+    pub launch: Option<Launch>,
+    /// Times from which and until which it touched nothing but itself.
+    pub airborne_s: Vec<[f64; 2]>,
+    /// Horizontal distance from the launch to the landing.
+    pub airborne_m: Option<f64>,
+    /// The first touch of the ground after the launch, of a body that flew between.
+    pub landing: Option<Landing>,
+    /// Horizontal distance from the landing to the end; from the launch of a body that was never in the air.
+    pub slide_m: Option<f64>,
+    /// Throw distance: from the blow to the end.
+    pub distance_m: f64,
+    /// Horizontal distance from the launch to the end.
+    pub from_launch_m: Option<f64>,
+    /// Greatest height of its centre of gravity over that at the blow.
+    pub height_m: f64,
     /// Its speed at the end.
     pub end_speed_m_s: f64,
-    /// Horizontal distance from where it was struck to where it is at the end.
+    /// Whether it is at rest there. If not, distances are those so far.
+    pub at_rest: bool,
+    /// Searle's bounds; absent of a body that does not rest, or touched no ground with friction after the launch.
+    pub searle: Option<Searle>,
+}
+
+/// What the distances of a throw count from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ThrowStart {
+    /// The first touch of a vehicle that is not its own.
+    Struck,
+    /// The blow on the vehicle that carried it.
+    Blow,
+    /// The launch: no blow on the vehicle that carried it was found.
+    Launch,
+    /// The first touch of the ground: neither was found.
+    Ground,
+}
+
+/// How a body leaves what struck or carried it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Launch {
+    /// When: the first output at which it touches nothing of it.
+    pub time_s: f64,
+    /// Speed of the centre of gravity of the whole body.
+    pub speed_m_s: f64,
+    /// Angle of that velocity above the horizontal.
+    pub angle_deg: f64,
+    /// Horizontal distance from its place at the blow.
     pub distance_m: f64,
-    /// Greatest height of its centre of gravity over that where it was struck.
+    /// Height of the centre of gravity over that at the end.
     pub height_m: f64,
-    /// Times from which and until which it touched nothing.
-    pub airborne_s: Vec<[f64; 2]>,
-    /// The first touch with the ground or space after it was airborne.
-    pub landing: Option<Landing>,
 }
 
 /// How a body comes to the ground.
@@ -42,104 +84,110 @@ pub struct Landing {
     pub speed_m_s: f64,
     /// Angle of that velocity below the horizontal.
     pub angle_deg: f64,
-    /// Horizontal distance from where it was struck.
+    /// Horizontal distance of the centre of gravity from its place at the blow.
     pub distance_m: f64,
+    /// That of the sphere which touches.
+    pub touch_distance_m: f64,
 }
 
-/// A body that may be thrown.
-#[derive(Clone, Debug)]
-pub(super) struct Flight {
-    of: usize,
-    pub name: &'static str,
-    /// Frames that belong to its home.
-    homes: Vec<usize>,
-    /// Frames that stand still: space and the ground.
-    still: [usize; 2],
-    struck: Option<(f64, Vector3<f64>)>,
-    highest_m: f64,
-    airborne_s: Vec<[f64; 2]>,
-    /// Since when it touches nothing.
-    free_s: Option<f64>,
-    landing: Option<Landing>,
-    now: (Vector3<f64>, Vector3<f64>),
+/// The centre of gravity of a body at an instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Moment {
+    pub time_s: f64,
+    pub place_m: Vector3<f64>,
+    pub velocity_m_s: Vector3<f64>,
 }
 
-impl Flight {
-    /// Those of all bodies of a model in which they may be struck.
-    pub(super) fn all(model: &Model) -> Vec<Flight> {
-        let setup = model.setup();
-        if !setup.is_open() {
-            return Vec::new();
-        }
-        let ground = setup.frames.iter().position(|frame| frame.name == "ground").map_or(Frame::Space, Frame::Other);
-        let with_home = |home: Frame| {
-            let others = (0..setup.frames.len()).map(Frame::Other).filter(|frame| setup.belongs_to(*frame) == home);
-            [home].into_iter().chain(others).map(|frame| frame.index(&[])).collect()
-        };
-        let body = |((of, row), home): ((usize, crate::body::tree::BodyRow), Frame)| Flight {
-            of,
-            name: row.name,
-            homes: with_home(home),
-            still: [SPACE, ground.index(&[])],
-            struck: None,
-            highest_m: 0.0,
-            airborne_s: Vec::new(),
-            free_s: None,
-            landing: None,
-            now: (Vector3::zeros(), Vector3::zeros()),
-        };
-        model.body().tree.bodies().into_iter().enumerate().zip(setup.homes()).map(body).collect()
+/// The first touch of the ground at the end of a flight.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Touchdown {
+    pub at: Moment,
+    pub sphere: String,
+    pub sphere_m: Vector3<f64>,
+}
+
+/// What a run shows of a throw.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Course {
+    pub from: ThrowStart,
+    pub start: Moment,
+    pub launch: Option<Moment>,
+    pub landing: Option<Touchdown>,
+    pub end: Moment,
+    pub highest_m: f64,
+    pub airborne_s: Vec<[f64; 2]>,
+    /// Coefficient of friction on the ground.
+    pub friction: Option<f64>,
+    pub gravity_m_s2: f64,
+}
+
+impl Moment {
+    /// Horizontal distance from another place.
+    fn from_m(&self, other: &Moment) -> f64 {
+        (self.place_m - other.place_m).xy().norm()
     }
 
-    pub(super) fn see(&mut self, sample: &Sample<'_>) {
-        let (system, time_s) = (sample.model.system(), sample.time_s);
-        let touches = || {
-            let own = |sphere: usize| system.skeleton.layout.rows()[system.spheres[sphere].segment].body == self.of;
-            sample.actions.contacts.iter().filter(move |touch| own(touch.sphere))
-        };
-        self.now = sample.centre_of_body(self.of);
-        let is_struck =
-            touches().any(|touch| !self.homes.contains(&touch.frame) && !system.forces.contacts.is_of_bodies(touch));
-        if self.struck.is_none() && is_struck {
-            self.struck = Some((time_s, self.now.0));
-        }
-        let from = self.struck.map(|(_, from)| from);
-        if let Some(from) = from {
-            self.highest_m = self.highest_m.max(self.now.0.z - from.z);
-        }
-        let is_free = touches().next().is_none();
-        let Some(since_s) = self.free_s.filter(|_| !is_free) else {
-            self.free_s = if is_free { self.free_s.or(Some(time_s)) } else { None };
-            return;
-        };
-        self.free_s = None;
-        if time_s - since_s < AIRBORNE_S {
-            return;
-        }
-        self.airborne_s.push([since_s, time_s]);
-        let ground = touches().find(|touch| self.still.contains(&touch.frame));
-        if let (None, Some(touch), Some(from)) = (&self.landing, ground, from) {
-            let v = self.now.1;
-            self.landing = Some(Landing {
-                time_s,
-                sphere: sample.model.body().spheres[touch.sphere].name.clone(),
-                speed_m_s: v.norm(),
-                angle_deg: (-v.z).atan2(v.xy().norm()).to_degrees(),
-                distance_m: (self.now.0 - from).xy().norm(),
-            });
-        }
+    fn speed_m_s(&self) -> f64 {
+        self.velocity_m_s.norm()
     }
 
-    /// What came of it; none of a body that nothing struck.
-    pub(super) fn throw(&self) -> Option<Throw> {
-        let (struck_s, from) = self.struck?;
-        Some(Throw {
-            struck_s,
-            end_speed_m_s: self.now.1.norm(),
-            distance_m: (self.now.0 - from).xy().norm(),
+    /// Angle of the velocity above the horizontal.
+    fn rise_deg(&self) -> f64 {
+        self.velocity_m_s.z.atan2(self.velocity_m_s.xy().norm()).to_degrees()
+    }
+
+    /// A time earlier, on the same straight.
+    pub(super) fn before(self, time_s: f64) -> Self {
+        let back_s = self.time_s - time_s;
+        Moment { time_s, place_m: self.place_m - self.velocity_m_s * back_s, ..self }
+    }
+}
+
+impl Course {
+    pub(super) fn throw(self) -> Throw {
+        let Course { start, end, launch, .. } = &self;
+        let at_rest = end.speed_m_s() < AT_REST_M_S;
+        let fall_m = |launch: &Moment| launch.place_m.z - end.place_m.z;
+        let landing = self.landing.as_ref();
+        let slides_from = landing.map(|landing| &landing.at).or(launch.as_ref());
+        let searle = launch.as_ref().zip(self.friction).filter(|(_, friction)| at_rest && *friction > 0.0);
+        Throw {
+            from: self.from,
+            struck_s: start.time_s,
+            launch: launch.as_ref().map(|at| Launch {
+                time_s: at.time_s,
+                speed_m_s: at.speed_m_s(),
+                angle_deg: at.rise_deg(),
+                distance_m: at.from_m(start),
+                height_m: fall_m(at),
+            }),
+            airborne_m: launch.as_ref().zip(landing).map(|(launch, landing)| landing.at.from_m(launch)),
+            landing: landing.map(|Touchdown { at, sphere, sphere_m }| Landing {
+                time_s: at.time_s,
+                sphere: sphere.clone(),
+                speed_m_s: at.speed_m_s(),
+                angle_deg: -at.rise_deg(),
+                distance_m: at.from_m(start),
+                touch_distance_m: (sphere_m - start.place_m).xy().norm(),
+            }),
+            slide_m: slides_from.map(|from| end.from_m(from)),
+            distance_m: end.from_m(start),
+            from_launch_m: launch.as_ref().map(|at| end.from_m(at)),
             height_m: self.highest_m,
-            airborne_s: self.airborne_s.clone(),
-            landing: self.landing.clone(),
-        })
+            end_speed_m_s: end.speed_m_s(),
+            at_rest,
+            searle: searle.map(|(at, friction)| {
+                Searle::new(&Way {
+                    friction,
+                    gravity_m_s2: self.gravity_m_s2,
+                    fall_m: fall_m(at),
+                    distance_m: end.from_m(start),
+                    from_launch_m: end.from_m(at),
+                    speed_m_s: at.speed_m_s(),
+                    angle_rad: at.rise_deg().to_radians(),
+                })
+            }),
+            airborne_s: self.airborne_s,
+        }
     }
 }

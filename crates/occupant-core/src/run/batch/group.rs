@@ -188,7 +188,10 @@ impl<L: Machine> Group<L> {
 
     /// Accepts the step of the run of place `i`, if it led to numbers, and records an output that it reached.
     fn settle(&mut self, i: usize, mut place: Box<Place>, finite: bool, jobs: &mut dyn Jobs) -> ControlFlow<()> {
-        place.take_step();
+        if let Some(bench) = &self.bench {
+            let past = &bench.around.history.memory.contacts;
+            place.take_step(|pair| past[pair].phase.lane(i));
+        }
         if finite && !place.is_at_output() {
             place.run.accept_time(place.step);
             place.latest = Some(place.step);

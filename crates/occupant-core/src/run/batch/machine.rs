@@ -5,7 +5,7 @@
 //! [`has_avx512`](crate::motion::lanes::has_avx512) say so.
 
 use super::place::Witness;
-use crate::forces::{History, Memory};
+use crate::forces::{Follow, History, Memory};
 use crate::kernel::{Scratch, Situation, System};
 use crate::motion::frame::Frames;
 use crate::motion::integrate::rk4::{Stage, Stages};
@@ -86,10 +86,11 @@ impl<L: Lanes> Around<L> {
     fn rate(&mut self, stage: Stage, state: &State<L>, witness: &mut Witness<'_>, rate: &mut State<L>) {
         let accepted = stage == Stage::Start;
         let situation = Situation { state, frames: &self.frames[stage as usize], accepted };
-        let observer = &mut accepted.then_some(witness);
+        let mut witness = accepted.then(|| Follow(witness.anew()));
+        let observer = &mut witness.as_mut();
         self.system.rate_with(&mut self.scratch, situation, &mut self.history, observer, rate);
-        if let Some(witness) = observer {
-            witness.feel(self.system.readings(&self.scratch));
+        if let Some(Follow(witness)) = witness {
+            self.system.read(&self.scratch, &self.frames[0], &mut |of, reading| witness.feel(of, reading));
         }
     }
 }

@@ -1,11 +1,12 @@
 //! A run in its place beside others.
 
-use crate::forces::Observer;
 use crate::forces::contact::Touch;
+use crate::forces::shown::Tracker;
+use crate::kernel::instruments::Reading;
 use crate::model::Model;
 use crate::motion::frame::Frames;
 use crate::motion::lanes::Lanes;
-use crate::motion::vector::v3;
+use crate::motion::vector::{V3, v3};
 use crate::results::outcome::{Outcome, RecordingFailed, Status};
 use crate::results::recorder::{Flow, Recorder};
 use crate::run::corner::Touching;
@@ -27,8 +28,6 @@ pub(super) struct Place {
     /// The step before it, if the run can go back to it, and what was to come then.
     pub latest: Option<Step>,
     before: (Stretch, [Step; 2]),
-    /// What accelerometers read at the start of the step under way.
-    readings: [f64; 3],
     /// Room for the frames of one instant.
     pub frames: Frames<f64>,
 }
@@ -52,7 +51,7 @@ impl Place {
         let stretch = Stretch::new(run.time_s, run.time_s, step_s);
         let (whole, step) = (Step::default(), Step::default());
         let (frames, before) = (Frames::still(run.time_s), (stretch, [whole, step]));
-        Place { frames, model, stretch, run, step_s, whole, step, latest: None, before, readings: [0.0; 3] }
+        Place { frames, model, stretch, run, step_s, whole, step, latest: None, before }
     }
 
     /// The first output.
@@ -87,7 +86,6 @@ impl Place {
     /// The step to be taken next, which may have to end earlier; none at an output.
     pub(super) fn next_step(&mut self) -> Option<Step> {
         self.before = (self.stretch, [self.whole, self.step]);
-        self.run.met.clear();
         if let Some(left) = self.left() {
             return Some(left);
         }
@@ -104,10 +102,10 @@ impl Place {
         }
     }
 
-    /// Accepts the step under way, but for its state.
-    pub(super) fn take_step(&mut self) {
+    /// Accepts the step under way, but for its state; `phase` tells what pairs remember.
+    pub(super) fn take_step(&mut self, phase: impl Fn(usize) -> f64) {
         self.run.effort.evaluations += 4;
-        self.run.note(&self.model, self.step.start_s, self.readings);
+        self.run.note(&self.model, self.step.start_s, phase);
     }
 
     /// Whether an output is reached.
@@ -137,18 +135,36 @@ impl Place {
 pub(crate) struct Witness<'a>(pub(super) &'a mut [Option<Box<Place>>]);
 
 impl Witness<'_> {
-    /// Readings of the accelerometers, m/s².
-    pub(super) fn feel<L: Lanes>(&mut self, readings: [L; 3]) {
+    /// Sees one instant alone.
+    pub(super) fn anew(&mut self) -> &mut Self {
+        for place in self.0.iter_mut().flatten() {
+            place.run.met.clear();
+            place.run.felt.numbers.clear();
+        }
+        self
+    }
+
+    /// What the instruments of a body read.
+    pub(super) fn feel<L: Lanes>(&mut self, of: usize, reading: &Reading<L>) {
         for (i, place) in self.0.iter_mut().enumerate() {
             if let Some(place) = place {
-                place.readings = readings.map(|reading| reading.lane(i));
+                place.run.felt.readings[of] = reading.map(|number| number.lane(i));
             }
         }
     }
 }
 
-impl<L: Lanes> Observer<L> for Witness<'_> {
-    fn contacts(&mut self, touch: &Touch<L>) {
+impl<L: Lanes> Tracker<L> for &mut Witness<'_> {
+    fn number(&mut self, number: L) {
+        for (i, place) in self.0.iter_mut().enumerate() {
+            if let Some(place) = place {
+                place.run.felt.numbers.push(number.lane(i));
+            }
+        }
+    }
+
+    fn touch(&mut self, touch: &Touch<L>) {
+        let vector = |v: V3<L>, i: usize| v3(v.x.lane(i), v.y.lane(i), v.z.lane(i));
         for (i, place) in self.0.iter_mut().enumerate() {
             let Some(place) = place else { continue };
             if touch.weight.lane(i) > 0.0 {
@@ -158,9 +174,11 @@ impl<L: Lanes> Observer<L> for Witness<'_> {
                     part: touch.part.lane(i) as usize,
                     closing_m_s: touch.closing.lane(i),
                     normal_force_n: touch.normal_force.lane(i),
-                    velocity_m_s: v3(touch.velocity.x.lane(i), touch.velocity.y.lane(i), touch.velocity.z.lane(i)),
+                    velocity_m_s: vector(touch.velocity, i),
+                    depth_m: touch.depth.lane(i),
+                    force_n: vector(touch.force, i),
                 };
-                place.run.met.push(Touching::new(meeting, touch.depth.lane(i)));
+                place.run.met.push(Touching { meeting });
             }
         }
     }

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::record::{ACCELERATIONS, AccelerationRecord, RATES, SensorRecord, check_turning};
-use super::{SensorDefinition, SensorGravity, delta_v};
+use super::{Baseline, SensorDefinition, SensorGravity, delta_v};
 use crate::vehicle::problem::PathProblem;
 use crash_measures::signal::{CfcFamily, ChannelClass, SignalError, filter_cfc, uniform_interval};
 
@@ -32,7 +32,7 @@ pub(super) fn read(definition: &SensorDefinition) -> Result<Readings, Vec<PathPr
     if !problems.is_empty() {
         return Err(problems);
     }
-    match &definition.record {
+    let mut readings = match &definition.record {
         SensorRecord::DeltaV(record) => delta_v::read(record, start_s),
         SensorRecord::Accelerations(record) => {
             let mut record = record.clone();
@@ -44,7 +44,13 @@ pub(super) fn read(definition: &SensorDefinition) -> Result<Readings, Vec<PathPr
             check_turning(&record.time_s, &norms, &mut problems);
             if problems.is_empty() { Ok(cut(&record, start_s)) } else { Err(problems) }
         }
+    }?;
+    if definition.strength != 1.0 {
+        // accelerations are scaled where gravity has left them; the rate at the start is a part of the initial state
+        let first = readings.rate_rad_s[0];
+        readings.rate_rad_s.iter_mut().for_each(|rate| *rate = first + (*rate - first) * definition.strength);
     }
+    Ok(readings)
 }
 
 /// When the path starts: inside the record, with a sample after it.
@@ -67,12 +73,8 @@ fn take_baseline(definition: &SensorDefinition, record: &mut AccelerationRecord)
     let Some(baseline_s) = definition.baseline_s else {
         return Ok(());
     };
-    let until_s = record.time_s[0] + baseline_s;
-    let count = record.time_s.partition_point(|&t| t <= until_s);
-    if baseline_s.is_nan() || baseline_s <= 0.0 || count < 2 || count == record.time_s.len() {
-        let found = format!("the baseline of {baseline_s} s has {count} samples");
-        return Err(PathProblem::new(found, "at least 2, and fewer than the record has"));
-    }
+    let AccelerationRecord { time_s, acceleration_m_s2, rate_rad_s } = record;
+    let ends = Baseline::of(time_s, baseline_s, definition.baseline_end_s)?;
     let rest = match definition.gravity {
         // at rest: f = −Aᵀ g, z down
         SensorGravity::Included => {
@@ -80,17 +82,12 @@ fn take_baseline(definition: &SensorDefinition, record: &mut AccelerationRecord)
         }
         SensorGravity::Zeroed | SensorGravity::Removed => Vector3::zeros(),
     };
-    let zero = |channel: &mut Option<Vec<f64>>, should_read: f64| {
-        if let Some(samples) = channel {
-            let mean = samples[..count].iter().sum::<f64>() / count as f64;
-            for sample in samples.iter_mut() {
-                *sample -= mean - should_read;
+    for axis in 0..3 {
+        for (channel, should_read) in [(&mut acceleration_m_s2[axis], rest[axis]), (&mut rate_rad_s[axis], 0.0)] {
+            if let Some(samples) = channel {
+                ends.take(time_s, samples, should_read);
             }
         }
-    };
-    for axis in 0..3 {
-        zero(&mut record.acceleration_m_s2[axis], rest[axis]);
-        zero(&mut record.rate_rad_s[axis], 0.0);
     }
     Ok(())
 }

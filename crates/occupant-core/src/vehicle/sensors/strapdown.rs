@@ -133,6 +133,7 @@ pub(super) fn integrate(
 /// What turns a reading into an acceleration in vehicle-space axes.
 struct Field {
     present: [bool; 3],
+    strength: f64,
     /// Gravity that the readings hold at every instant.
     gravity_m_s2: Vector3<f64>,
     /// What was taken from them once and for all, vehicle axes.
@@ -148,10 +149,10 @@ impl Field {
             SensorGravity::Zeroed => (down, at_start),
             SensorGravity::Removed => (Vector3::zeros(), Vector3::zeros()),
         };
-        Field { present: readings.present, gravity_m_s2, zeroed_m_s2 }
+        Field { present: readings.present, strength: start.strength, gravity_m_s2, zeroed_m_s2 }
     }
 
-    /// a = A (f − f₀ + Aᵀ g), of the axes that were recorded; f₀ is what zeroing took away.
+    /// a = s A (f − f₀ + Aᵀ g), of the axes that were recorded; f₀ is what zeroing took away, s the strength.
     fn acceleration(&self, rotation: &Matrix3<f64>, reading_m_s2: Vector3<f64>) -> Vector3<f64> {
         let mut along = reading_m_s2 - self.zeroed_m_s2 + rotation.tr_mul(&self.gravity_m_s2);
         for axis in 0..3 {
@@ -159,7 +160,7 @@ impl Field {
                 along[axis] = 0.0;
             }
         }
-        rotation * along
+        rotation * along * self.strength
     }
 }
 

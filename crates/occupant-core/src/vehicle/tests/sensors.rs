@@ -35,6 +35,8 @@ fn definition(record: AccelerationRecord) -> SensorDefinition {
         gravity_m_s2: G,
         filter: None,
         baseline_s: None,
+        baseline_end_s: None,
+        strength: 1.0,
         starts_at_s: None,
         after: AfterEnd::Error,
     }

@@ -343,3 +343,63 @@ fn wrapped_angles_can_be_unwrapped() {
     }
     assert!(TablePath::new(stations, Interpolation::Spline, AfterEnd::Error).is_ok());
 }
+
+fn shown(path: &TablePath, t_s: f64) -> FrameMotion {
+    VehiclePath::Table(path.clone()).shown_motion(t_s, &mut PathCursor::default())
+}
+
+/// A car that brakes at a, m/s², while it rolls over at a growing rate.
+fn braking(t_s: f64) -> Station {
+    Station::new(t_s, [15.0 * t_s - 4.0 * t_s * t_s, 0.0, 0.0], [2.5 * t_s * t_s, 0.0, 0.0])
+}
+
+#[test]
+fn accelerations_of_straight_lines_are_the_second_differences_of_the_stations() {
+    let uneven = [0.0, 0.01, 0.03, 0.06, 0.07, 0.1, 0.15];
+    let path = table(uneven.map(braking).to_vec(), Interpolation::Linear, AfterEnd::Error);
+    for t_s in [0.0, 0.005, 0.02, 0.0601, 0.1, 0.149] {
+        // of a parabola they are exact, wherever the stations are
+        let a = shown(&path, t_s);
+        assert_below("acceleration", (a.acceleration_m_s2 - Vector3::new(-8.0, 0.0, 0.0)).amax(), 1e-9); // 5.2e-12
+        assert_below("angular acceleration", (a.angular_acceleration_rad_s2.x - 5.0).abs(), 1e-9); // 3.4e-12
+        let felt = fresh(&path, t_s);
+        assert_eq!(felt.acceleration_m_s2, Vector3::zeros(), "no force depends on what is told");
+        assert_eq!((a.velocity_m_s, a.origin_m), (felt.velocity_m_s, felt.origin_m));
+    }
+    let spline = table(uneven.map(braking).to_vec(), Interpolation::Spline, AfterEnd::Error);
+    assert_eq!(shown(&spline, 0.02), fresh(&spline, 0.02));
+}
+
+#[test]
+fn differences_converge_at_the_second_order_and_hold_the_change_of_velocity() {
+    // a = −150 sin(π t / 0.1) over 0.1 s, from 10 m/s
+    let (p, length_s) = (150.0, 0.1);
+    let place = |t: f64| {
+        let w = PI / length_s;
+        10.0 * t - p / w * (t - (w * t).sin() / w)
+    };
+    let error = |steps: usize| {
+        let at = |i: usize| length_s * i as f64 / steps as f64;
+        let stations = (0..=steps).map(|i| Station::new(at(i), [place(at(i)), 0.0, 0.0], [0.0; 3])).collect();
+        let path = table(stations, Interpolation::Linear, AfterEnd::Error);
+        let worst = |i: usize| {
+            let t_s = 0.02 + 0.06 * i as f64 / 100.0;
+            (shown(&path, t_s).acceleration_m_s2.x + p * (PI * t_s / length_s).sin()).abs()
+        };
+        (0..=100).map(worst).fold(0.0, f64::max)
+    };
+    let (coarse, fine) = (error(25), error(50));
+    assert_below("order", (coarse / fine - 4.0).abs(), 0.3); // 9.6e-02
+    assert_below("greatest error with stations every 2 ms, of 150 m/s²", fine, 0.2);
+}
+
+#[test]
+fn what_a_table_does_after_its_end_counts_as_one_more_interval() {
+    let stations = || [0.0, 0.1, 0.2].map(|t_s| Station::new(t_s, [12.0 * t_s, 0.0, 0.0], [0.0; 3])).to_vec();
+    let at = |after, t_s| shown(&table(stations(), Interpolation::Linear, after), t_s).acceleration_m_s2.x;
+    assert_eq!([at(AfterEnd::Error, 0.2), at(AfterEnd::Coast, 0.2), at(AfterEnd::Coast, 0.5)], [0.0; 3]);
+    // 12 m/s are lost between the middles of two intervals of 0.1 s
+    assert_below("stop", (at(AfterEnd::Hold, 0.2) + 120.0).abs(), 1e-9); // 0
+    assert_below("half-way down", (at(AfterEnd::Hold, 0.25) + 60.0).abs(), 1e-9); // 0
+    assert_eq!(at(AfterEnd::Hold, 0.31), 0.0);
+}

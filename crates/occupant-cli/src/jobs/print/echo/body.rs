@@ -22,6 +22,15 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
         table.row_of(&[&label(body, segment), &own, &inertia]);
     }
     table.write(pages);
+    let bodies = body.tree.bodies();
+    if bodies.len() > 1 {
+        for (of, row) in bodies.iter().enumerate() {
+            let own = body.tree.segments().filter(|segment| body.tree.body_of(*segment) == of);
+            let mass_kg = own.map(|segment| body.segment(segment).mass_kg).sum();
+            pages.fact("TOTAL MASS", format!("{}: {}", row.name, m.say(mass_kg)));
+        }
+        return spheres(case, units).write(pages);
+    }
     pages.say(&format!(
         "TOTAL MASS {}; SHOULDER JOINTS {} AND HIP JOINTS {} FROM THE MIDDLE; NECK {} ABOVE THE SHOULDERS",
         m.say(body.mass_kg()),

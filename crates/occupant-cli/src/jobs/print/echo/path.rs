@@ -9,8 +9,20 @@ use super::sensors;
 use crate::jobs::print::unit::{g, ratio};
 use crate::jobs::print::{Case, Pages, Table, Units};
 
+/// Writes the path of every vehicle.
 pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
-    match &case.model.setup().path {
+    let setup = case.model.setup();
+    own(pages, &setup.path, units);
+    for frame in setup.frames.iter().filter(|frame| frame.path != VehiclePath::parked()) {
+        pages.say("");
+        let what = if frame.parent.is_some() { "PANEL, AS IT MOVES IN WHAT CARRIES IT:" } else { "VEHICLE" };
+        pages.say(&format!("{what} {}", frame.name.to_uppercase()));
+        own(pages, &frame.path, units);
+    }
+}
+
+fn own(pages: &mut Pages, path: &VehiclePath, units: Units) {
+    match path {
         VehiclePath::Fixed(path) => {
             pages.say(&format!("THE VEHICLE STANDS {}", pose(&path.pose(), units)));
         }

@@ -44,7 +44,7 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
         InitialPosture::Coordinates(q) | InitialPosture::Continued { coordinates: q, .. } => Some(**q),
         InitialPosture::Together => None,
     };
-    if let Some(q) = &q {
+    if let Some(q) = q.as_ref().filter(|_| case.is_of_report()) {
         coordinates(pages, units, "GENERALIZED COORDINATES AT THE START", q);
     }
     let passed = case.passed(&start.history.memory.contacts);

@@ -202,7 +202,7 @@ impl<S: Scalar> SelfPair<S> {
         let (approach, weight) = (self.approach(at), S::select(live, S::one(), S::zero()));
         let meeting = approach.meeting(-normal, lever(depth, approach.radius), depth, greatest, weight);
         let law = self.law.at(&meeting);
-        let touch = Touch {
+        let mut touch = Touch {
             sphere: self.spheres[0],
             frame: SPACE,
             pair: number,
@@ -217,7 +217,9 @@ impl<S: Scalar> SelfPair<S> {
             friction: law.rubbing(&meeting),
             stored: weight * law.energy,
             slip: meeting.slip,
+            force: V3::zero(),
         };
+        touch.force = touch.normal * touch.normal_force + touch.friction;
         self.push(&touch, approach.centre, live, at, load);
         show(&touch);
     }
@@ -236,13 +238,15 @@ impl<S: Scalar> SelfPair<S> {
     /// Puts opposite forces on both segments at P, and their powers into the sums; `centre` is that of the first sphere.
     #[inline(always)]
     fn push(&self, touch: &Touch<S>, centre: V3<S>, live: S::Mask, at: &Instant<'_, S>, load: &mut Load<S>) {
-        let force = touch.normal * touch.normal_force + touch.friction;
+        let force = touch.force;
         let [one, other] = self.spheres.map(|sphere| &at.spheres[sphere]);
         let point = centre - touch.normal * lever(touch.depth, one.radius);
-        for (segment, force) in [(one.segment, force), (other.segment, -force)] {
+        for (site, force) in [(one, force), (other, -force)] {
+            let segment = site.segment;
             let (arm, on) = (point - at.k.joint[segment], &mut load.wrench[segment]);
             on.force = V3::select(live, on.force + force, on.force);
             on.moment = V3::select(live, on.moment + arm.cross(force), on.moment);
+            load.press_knee(site, force, live);
         }
         let carried =
             at.k.joint_velocity[other.segment] + at.k.omega[other.segment].cross(point - at.k.joint[other.segment]);

@@ -182,7 +182,7 @@ fn side_line(corners: &[[f64; 2]], i: usize, by_m: f64) -> Line {
 type Flat = (Point3<f64>, V, Vec<[f64; 2]>);
 
 /// The middle and the normal of the plane of `corners`, and the corners in that plane, counter-clockwise.
-fn flat(corners: &[Point3<f64>]) -> Result<Flat, Wrong> {
+pub(super) fn flat(corners: &[Point3<f64>]) -> Result<Flat, Wrong> {
     if !CORNERS.contains(&corners.len()) {
         return Err((format!("{} corners", corners.len()), "3 to 12 corners"));
     }

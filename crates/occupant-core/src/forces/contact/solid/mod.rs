@@ -105,14 +105,12 @@ impl Shape {
     pub(crate) fn bounds(&self) -> Bounds {
         match self {
             Shape::Prism { corners_m, half_width_m, .. } => {
-                let middle = corners_m.first().copied().unwrap_or_default();
-                let radius_m = corners_m.iter().map(|p| (p - middle).norm()).fold(0.0, f64::max) + half_width_m;
-                Bounds::ball(&middle, radius_m)
+                // corners that make no prism are refused elsewhere
+                let arm = build::flat(corners_m).map_or(Vector3::repeat(1.0), |(_, normal, _)| normal) * *half_width_m;
+                corners_m.iter().fold(Bounds::NONE, |all, p| all.and(Bounds::of(&[p - arm, p + arm])))
             }
             Shape::Disc { centre_m, radius_m, thickness_m, .. } => Bounds::ball(centre_m, radius_m + thickness_m),
-            Shape::Capsule { ends_m: [from, to], radius_m } => {
-                Bounds::ball(&nalgebra::center(from, to), 0.5 * (to - from).norm() + radius_m)
-            }
+            Shape::Capsule { ends_m, radius_m } => Bounds::of(ends_m).grown(*radius_m),
             Shape::Rim { centre_m, ring_radius_m, tube_radius_m, .. } => {
                 Bounds::ball(centre_m, ring_radius_m + tube_radius_m)
             }

@@ -187,6 +187,7 @@ impl<S: Scalar> Union<S> {
             friction: law.rubbing(&meeting),
             stored: weight * law.energy,
             slip: meeting.slip,
+            force: V3::zero(),
         }
     }
 }

@@ -86,11 +86,12 @@ impl<A: Copy> LockPast<A> {
     }
 }
 
-impl LockPast<f64> {
+impl<S: Scalar<Mask = bool>> LockPast<S> {
     /// Where between two times a lock that closes was due to; one that opens does not remember its moment.
-    pub(super) fn due(&self, now: &Self, times_s: [f64; 2]) -> Option<f64> {
-        let is_calm = self.restless == now.restless;
-        (now.closed > self.closed && is_calm).then(|| passes(self.restless + CALM_S, times_s[0], times_s[1]))
+    pub(super) fn due(&self, now: &Self, times_s: [S; 2]) -> Option<S> {
+        let is_calm = !self.restless.lt(now.restless) && !now.restless.lt(self.restless);
+        let closes = self.closed.lt(now.closed) && is_calm;
+        closes.then(|| passes(self.restless + S::of(CALM_S), times_s[0], times_s[1]))
     }
 }
 

@@ -184,13 +184,13 @@ impl Element for JointLimits {
         past.lock.closed
     }
 
-    fn due(
-        _law: &Vec<LimitLaw<f64>>,
+    fn due<S: Scalar<Mask = bool>>(
+        _law: &Vec<LimitLaw<S>>,
         _number: usize,
-        before: &LimitHistory<f64>,
-        now: &LimitHistory<f64>,
-        times_s: [f64; 2],
-    ) -> Option<f64> {
+        before: &LimitHistory<S>,
+        now: &LimitHistory<S>,
+        times_s: [S; 2],
+    ) -> Option<S> {
         before.lock.due(&now.lock, times_s)
     }
 

@@ -3,7 +3,7 @@
 use crash_measures::unit::Unit::{self, NewtonMetre, Radian};
 
 use super::{JointLimits, LimitAction, LimitHistory, LockPast, Past};
-use crate::forces::shown::{Named, OneOf, Reported, Tracked};
+use crate::forces::shown::{Named, OneOf, Reported, Tracked, Tracker};
 use crate::forces::stored::Archive;
 use crate::forces::table::Column;
 use crate::motion::scalar::Scalar;
@@ -52,9 +52,8 @@ impl Reported for JointLimits {
         ),
     ];
 
-    const PEAKS: &'static [Tracked<LimitAction<f64>>] = &[
+    const PEAKS: &'static [Tracked] = &[
         Tracked {
-            of: |a| a.excess,
             column: Column {
                 scale: 180.0 / std::f64::consts::PI,
                 ..Column::number("greatest_excess_rad", "beyond limit, °", 1)
@@ -64,18 +63,22 @@ impl Reported for JointLimits {
             at_least_zero: true,
         },
         Tracked {
-            of: |a| length(a.stop),
             column: Column::number("stop_peak_n_m", "stop moment, N·m", 1).measure("stop_peak", NewtonMetre),
             time: Some(Column::time("stop_time_s").measure("stop_time", Unit::Second)),
             at_least_zero: true,
         },
         Tracked {
-            of: |a| length(a.lock),
             column: Column::number("lock_peak_n_m", "lock moment, N·m", 1).measure("lock_peak", NewtonMetre),
             time: Some(Column::time("lock_time_s").measure("lock_time", Unit::Second)),
             at_least_zero: true,
         },
     ];
+
+    #[inline(always)]
+    fn track<S: Scalar>(a: &LimitAction<S>, tracker: &mut impl Tracker<S>) {
+        let length = |moment: V3<S>| moment.norm_squared().sqrt();
+        [a.excess, length(a.stop), length(a.lock)].into_iter().for_each(|number| tracker.number(number));
+    }
 
     fn keep(past: &mut Vec<LimitHistory<f64>>, like: Option<&[LimitHistory<f64>]>, file: &mut dyn Archive) {
         let number = if like.is_some() { 43 } else { 42 };

@@ -71,8 +71,6 @@ pub struct MuscleLaw<S> {
 /// What a muscle does at one instant.
 #[derive(Clone, Copy, Debug)]
 pub struct MuscleAction<S> {
-    /// The joint.
-    pub(crate) joint: Joint,
     /// a.
     pub(super) activation: S,
     /// Moment on the outer segment, space axes, N·m.
@@ -150,7 +148,7 @@ impl<S: Scalar> MuscleLaw<S> {
         let wanted = self.held.turned_to(&k.axes[inner], &k.axes[outer]) * self.stiffness + omega * self.damping;
         let own = k.axes[inner].out(self.carried + self.torque * activation);
         let moment = own - wanted * (activation * self.most / self.most.max(length(wanted)));
-        MuscleAction { joint: self.joint, activation, moment, power: moment.dot(omega) }
+        MuscleAction { activation, moment, power: moment.dot(omega) }
     }
 
     /// a at a time.

@@ -3,8 +3,9 @@
 use crash_measures::unit::Unit::{NewtonMetre, One, Second};
 
 use super::{MuscleAction, Muscles};
-use crate::forces::shown::{Named, OneOf, Reported, Tracked};
+use crate::forces::shown::{Named, OneOf, Reported, Tracked, Tracker};
 use crate::forces::table::Column;
+use crate::motion::scalar::Scalar;
 use crate::quantity::Quantity;
 
 type Of = Quantity<OneOf<Muscles>>;
@@ -32,12 +33,16 @@ impl Reported for Muscles {
         ),
     ];
 
-    const PEAKS: &'static [Tracked<MuscleAction<f64>>] = &[Tracked {
-        of: |a| a.moment_n_m(),
+    const PEAKS: &'static [Tracked] = &[Tracked {
         column: Column::number("peak_n_m", "moment, N·m", 1).measure("peak", NewtonMetre),
         time: Some(Column::time("peak_time_s").measure("peak_time", Second)),
         at_least_zero: true,
     }];
+
+    #[inline(always)]
+    fn track<S: Scalar>(a: &MuscleAction<S>, tracker: &mut impl Tracker<S>) {
+        tracker.number(a.moment.norm_squared().sqrt());
+    }
 
     fn named<'a>(data: Self::Data<'a>) -> Vec<Named<'a>> {
         data.muscles.iter().map(|muscle| Named { name: data.tree()[muscle.joint].name, sphere: None }).collect()

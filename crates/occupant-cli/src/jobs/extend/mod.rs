@@ -1,5 +1,7 @@
 //! The procedure of 1970 for longer runs: run a deck to its end, then punch the deck that continues it.
 
+mod cost;
+
 use std::path::Path;
 
 use cardio_legacy::{
@@ -13,7 +15,7 @@ use occupant_core::run::simulate::{replay, simulate};
 use occupant_core::vehicle::VehiclePath;
 use occupant_scenario::{Draft, Format};
 
-use crate::base::{Failure, say};
+use crate::base::{Failure, file_name, say};
 use crate::files::mcap::StoredRun;
 use crate::files::scenario;
 use crate::jobs::run::FirstOutput;
@@ -42,9 +44,14 @@ pub(crate) fn extend(
     refuse_time(final_s, model.setup().time.end_s, &model)?;
     let end = run_end(&model, &layout)?;
     if !quiet {
-        say(&format!("ran to {} s; cards carry no greatest deformations, so the extension is approximate", end.time_s));
+        say(&format!("ran to {} s", end.time_s));
     }
     let next = deck.extended(&end, final_s).map_err(|found| Failure::CouldNotRun(found.to_string()))?;
+    if !quiet {
+        let longer = Draft::read(toml, Format::Toml, "converted scenario").map_err(refused)?;
+        let goes_on = || cost::until(longer, final_s, &resolver).and_then(|model| cost::histories(&model, None));
+        say(&cost::words(goes_on(), cost::of_deck(&next, options, &resolver)));
+    }
     Ok(write_file(&[next]))
 }
 
@@ -78,11 +85,21 @@ pub(crate) fn extend_run(
     let next = cards.deck.extended(&end, final_s);
     cards.deck = next.map_err(|found| Failure::CouldNotRun(format!("{name}: {found}")))?;
     cards.remarks.extend(stored.flaw().map(|flaw| format!("{name} is {flaw}")));
-    cards.remarks.push(format!(
-        "continues from t = {} s; cards carry no greatest deformations, so the extension is approximate, `occupant run --resume` is exact",
-        end.time_s
-    ));
+    cards.remarks.push(format!("continues from t = {} s; `occupant run --resume` is exact", end.time_s));
+    let resolver = |name: &str| table_of(&stored, name);
+    let longer = loaded.explicit().to_toml().map_err(|error| error.to_string());
+    let goes_on = longer
+        .and_then(|text| Draft::read(&text, Format::Toml, "scenario").map_err(|problems| problems.to_string()))
+        .and_then(|draft| cost::until(draft, final_s, &resolver))
+        .and_then(|model| cost::histories(&model, Some(last)));
+    cards.remarks.push(cost::words(goes_on, cost::of_deck(&cards.deck, &ConvertOptions::default(), &resolver)));
     Ok(cards)
+}
+
+/// A table that a results file holds.
+fn table_of(stored: &StoredRun, name: &str) -> Result<Vec<u8>, String> {
+    let found = stored.attachments.get(name).or_else(|| stored.attachments.get(&file_name(Path::new(name))));
+    found.cloned().ok_or_else(|| format!("there is no {name}"))
 }
 
 /// The compartment given, else the built-in reconstruction.

@@ -1,0 +1,80 @@
+//! The measures as figures of a run, for the table of a study whose vehicle moves as it was recorded.
+
+use std::sync::Mutex;
+
+use crash_measures::signal::{CfcFamily, ChannelClass};
+use crash_measures::unit::Unit;
+use occupant_core::model::setup::Setup;
+use occupant_core::results::summary::Figure;
+use occupant_core::vehicle::VehiclePath;
+use occupant_study::risk::{Flight, Preparation, VehicleRisk, prepare};
+
+use super::{Figures, PATH_INTERVAL_S, Subject};
+
+/// The path of the last run, its first and last time, and what was measured: most runs of a study share a path.
+type Last = Option<(VehiclePath, [f64; 2], Vec<Figure>)>;
+static LAST: Mutex<Last> = Mutex::new(None);
+
+/// `vehicle.oiv_x`, `vehicle.asi_2010` and so on, of a path that is a table or a record; none of others.
+pub(crate) fn columns(setup: &Setup) -> Vec<Figure> {
+    if !matches!(setup.path, VehiclePath::Table(_) | VehiclePath::Sensors(_)) {
+        return Vec::new();
+    }
+    let ends = [setup.time.start_s, setup.time.end_s];
+    let Ok(mut last) = LAST.lock() else { return measured(setup) };
+    if let Some((path, of, figures)) = last.as_ref()
+        && *of == ends
+        && *path == setup.path
+    {
+        return figures.clone();
+    }
+    let figures = measured(setup);
+    *last = Some((setup.path.clone(), ends, figures.clone()));
+    figures
+}
+
+/// As `occupant risk` does, with its filter and interval. A measure that is left out has no value.
+fn measured(setup: &Setup) -> Vec<Figure> {
+    let cfc = ChannelClass::from_number(180).map(|class| (class, CfcFamily::Iso6487));
+    let preparation = Preparation { filter: cfc, ..Preparation::default() };
+    let subject = Subject::of_run("", setup, None, PATH_INTERVAL_S).ok().flatten();
+    let signals = subject.and_then(|subject| {
+        let signals = prepare(&subject.record, &preparation).ok()?;
+        Some(occupant_study::risk::VehicleSignals { initial: subject.initial, ..signals })
+    });
+    let figures =
+        signals.map(|signals| Figures::of_risk(&VehicleRisk::of(&signals, &Flight::default()), &signals).figures);
+    let figures = figures.unwrap_or_default();
+    let column = |(key, unit): (&str, Unit)| {
+        let suffix = match unit {
+            Unit::MetrePerSecond => "_m_s",
+            Unit::MetrePerSecondSquared => "_m_s2",
+            Unit::Radian => "_rad",
+            _ => "",
+        };
+        let whole = format!("{key}{suffix}");
+        let value = figures.iter().find(|figure| figure.key == whole).map(|figure| figure.value);
+        let unit = if unit == Unit::One { "1" } else { unit.expression() };
+        Figure { name: format!("vehicle.{key}"), unit, value }
+    };
+    COLUMNS.into_iter().map(column).collect()
+}
+
+/// Keys of the measures without their units, and these.
+const COLUMNS: [(&str, Unit); 15] = [
+    ("oiv_x", Unit::MetrePerSecond),
+    ("oiv_y", Unit::MetrePerSecond),
+    ("ora_x", Unit::MetrePerSecondSquared),
+    ("ora_y", Unit::MetrePerSecondSquared),
+    ("thiv", Unit::MetrePerSecond),
+    ("phd", Unit::MetrePerSecondSquared),
+    ("asi_1998", Unit::One),
+    ("asi_2010", Unit::One),
+    ("max_50ms_x", Unit::MetrePerSecondSquared),
+    ("max_50ms_y", Unit::MetrePerSecondSquared),
+    ("max_50ms_z", Unit::MetrePerSecondSquared),
+    ("max_roll", Unit::Radian),
+    ("max_pitch", Unit::Radian),
+    ("max_yaw", Unit::Radian),
+    ("olc", Unit::MetrePerSecondSquared),
+];

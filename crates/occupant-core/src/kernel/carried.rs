@@ -1,0 +1,90 @@
+//! What the joints carry, from what an evaluation has derived.
+//!
+//! Newton's and Euler's equations of all segments beyond a joint, with the accelerations that the evaluation found. About the
+//! joint, with d the places of the segments' own joints and r those of their centres of gravity, seen from these,
+//!
+//! ```text
+//! f = Σ [M (a + g Z′) − F]
+//! τ = Σ [Iα + ω × Iω + r × M (a + g Z′) − T + d × (M (a + g Z′) − F)]
+//! ```
+//!
+//! F and T are the loads of contacts and all other force elements but joints.
+
+use crate::kernel::{Evaluation, Scratch};
+use crate::motion::dynamics::{Accelerations, Wrench};
+use crate::motion::kinematics::Kinematics;
+use crate::motion::layout::MOST_SEGMENTS;
+use crate::motion::scalar::Scalar;
+use crate::motion::skeleton::Skeleton;
+use crate::motion::vector::{V3, v3};
+
+/// What an evaluation has derived, as the loads of joints follow from it.
+#[derive(Clone, Copy)]
+pub(crate) struct Carried<'a, S> {
+    pub skeleton: &'a Skeleton<S>,
+    pub k: &'a Kinematics<S>,
+    pub accelerations: &'a Accelerations<S>,
+    wrench: &'a [Wrench<S>; MOST_SEGMENTS],
+    /// Moments of all but joints.
+    outer: &'a [V3<S>; MOST_SEGMENTS],
+    /// What acts on the spheres at the knees, by leg.
+    pub knees: &'a [V3<S>],
+}
+
+impl<'a, S> Carried<'a, S> {
+    /// Of the evaluation just made.
+    #[inline(always)]
+    pub(crate) fn of(skeleton: &'a Skeleton<S>, scratch: &'a Scratch<S>) -> Self {
+        let Scratch { kinematics: k, load, sweep, .. } = scratch;
+        let accelerations = &sweep.accelerations;
+        Carried { skeleton, k, accelerations, wrench: &load.wrench, outer: &load.outer, knees: &load.knees }
+    }
+
+    /// Of an evaluation.
+    pub(crate) fn of_evaluation(skeleton: &'a Skeleton<S>, e: &'a Evaluation<S>) -> Self {
+        let (k, accelerations) = (&e.kinematics, &e.accelerations);
+        Carried { skeleton, k, accelerations, wrench: &e.wrench, outer: &e.outer, knees: &e.knees }
+    }
+}
+
+impl<S: Scalar> Carried<'_, S> {
+    /// What segment `n` and those beyond it, which `subtree` lists, need at its proximal joint, space axes.
+    #[inline(always)]
+    pub(crate) fn at(&self, n: usize, subtree: impl Iterator<Item = usize>) -> Wrench<S> {
+        let mut sum = Wrench::zero();
+        for m in subtree {
+            let own = self.own(m);
+            sum.force += own.force;
+            sum.moment += own.moment;
+            if m != n {
+                sum.moment += (self.k.joint[m] - self.k.joint[n]).cross(own.force);
+            }
+        }
+        sum
+    }
+
+    /// What one segment needs about its proximal joint.
+    #[inline(always)]
+    pub(crate) fn own(&self, m: usize) -> Wrench<S> {
+        let (k, link) = (self.k, &self.skeleton.links[m]);
+        let inertial = self.specific_force(m) * link.mass;
+        let arm = k.axes[m].out(link.cg);
+        let moment = self.spin(m) + arm.cross(inertial) - self.outer[m];
+        Wrench { force: inertial - self.wrench[m].force, moment }
+    }
+
+    /// a + g Z′ of the centre of gravity: what an accelerometer reads there, space axes, m/s².
+    #[inline(always)]
+    pub(crate) fn specific_force(&self, m: usize) -> V3<S> {
+        self.accelerations.cg(self.skeleton, self.k, m) + v3(S::zero(), S::zero(), self.skeleton.gravity)
+    }
+
+    /// Iα + ω × Iω about the centre of gravity.
+    #[inline(always)]
+    fn spin(&self, m: usize) -> V3<S> {
+        let (axes, link) = (&self.k.axes[m], &self.skeleton.links[m]);
+        let by_inertia = |v: V3<S>| axes.out(link.central.mul(axes.into_frame(v)));
+        let omega = self.k.omega[m];
+        by_inertia(self.accelerations.alpha[m]) + omega.cross(by_inertia(omega))
+    }
+}

@@ -1,0 +1,222 @@
+//! What the instruments of a dummy read at an evaluation: of every accepted step, in lanes as alone.
+
+use crate::body::tree::{BodyRow, JointRow};
+use crate::body::{Body, Limb, Segment};
+use crate::kernel::carried::Carried;
+use crate::kernel::{Scratch, System};
+use crate::motion::frame::Frames;
+use crate::motion::kinematics::Kinematics;
+use crate::motion::layout::Layout;
+use crate::motion::scalar::Scalar;
+use crate::motion::vector::{V3, v3};
+use nalgebra::Vector3;
+
+/// How many numbers a reading has.
+pub(crate) const READINGS: usize = 26;
+/// Where the force of the neck stands in a reading, before its moment.
+pub(crate) const NECK: usize = 15;
+/// Where the femurs stand, right and left.
+pub(crate) const FEMURS: usize = 21;
+/// Where the place of the head stands in a reading.
+pub(crate) const PLACE: usize = 23;
+
+/// What the instruments of one body read at one instant, SI. In SAE J211 axes of the segments: what accelerometers of head,
+/// chest and pelvis read, angular velocity and acceleration of the head, force and moment of the neck on the head at the
+/// condyles; tension of the right and the left femur; then the centre of the head's sphere in axes of the body's home. No
+/// numbers of what a body lacks.
+pub(crate) type Reading<S> = [S; READINGS];
+
+/// Where the instruments of a body are.
+#[derive(Clone, Debug)]
+pub(crate) struct Instruments<S> {
+    /// Segments that carry the accelerometers of head, chest and pelvis.
+    accelerometers: [Option<usize>; 3],
+    neck: Option<Neck<S>>,
+    /// Right and left.
+    legs: [Option<Leg>; 2],
+    /// The head's sphere.
+    head: Option<usize>,
+    /// Frame of the body's home.
+    home: usize,
+}
+
+#[derive(Clone, Debug)]
+struct Neck<S> {
+    from: Beyond,
+    /// In whose axes it is told.
+    head: usize,
+    condyles: V3<S>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Leg {
+    thigh: usize,
+    /// Its place among the knees of all bodies.
+    knee: usize,
+    shanks: Vec<Beyond>,
+}
+
+/// A joint and what it carries.
+#[derive(Clone, Debug, PartialEq)]
+struct Beyond {
+    segment: usize,
+    /// The segment and all beyond it.
+    subtree: Vec<usize>,
+    /// Whether the distal segment of the joint carries the proximal one.
+    is_reversed: bool,
+}
+
+impl Instruments<f64> {
+    /// Fits `system`, of these bodies, with those of each: `sites` tells by body the frame of its home and where its condyles
+    /// are.
+    pub(crate) fn fit(system: &mut System<f64>, body: &Body, sites: &[(usize, Option<Vector3<f64>>)]) {
+        let (rows, layout) = (body.tree.bodies(), &system.skeleton.layout);
+        let all = rows.iter().enumerate().zip(sites);
+        system.instruments = all.map(|((of, row), site)| Instruments::of(body, layout, of, row, *site)).collect();
+        let legs = system.instruments.iter().flat_map(|own| own.legs.iter().flatten());
+        for Leg { thigh, knee, .. } in legs {
+            let half_m = 0.5 * body.segment(body.tree.segment(*thigh)).length_m;
+            for (site, sphere) in system.spheres.iter_mut().zip(&body.spheres) {
+                if site.segment == *thigh && sphere.centre_from_lower_end_m.z < half_m {
+                    site.knee = Some(*knee);
+                }
+            }
+        }
+    }
+
+    fn of(
+        body: &Body,
+        layout: &Layout,
+        of: usize,
+        row: &BodyRow,
+        (home, condyles_m): (usize, Option<Vector3<f64>>),
+    ) -> Self {
+        let (tree, marks) = (body.tree, &row.landmarks);
+        let beyond = |row: &JointRow| {
+            let segment = row.carrying()[1].index();
+            Beyond { segment, subtree: layout.subtree(segment).collect(), is_reversed: row.is_reversed() }
+        };
+        let neck = marks.neck.map(|joint| Neck {
+            from: beyond(&tree[joint]),
+            head: tree[joint].distal.index(),
+            condyles: condyles_m.map_or(V3::zero(), |place| V3::of(&place)),
+        });
+        let leg = |(side, limb): (usize, Option<Limb>)| {
+            let thigh = limb?.upper;
+            let knees = tree.joints().map(|joint| &tree[joint]).filter(|row| row.proximal == thigh);
+            Some(Leg { thigh: thigh.index(), knee: 2 * of + side, shanks: knees.map(beyond).collect() })
+        };
+        let head = if row.name.is_empty() { "head".to_owned() } else { format!("{}.head", row.name) };
+        let [right, left] = [(0, marks.legs.right), (1, marks.legs.left)].map(leg);
+        Instruments {
+            accelerometers: marks.instruments().map(|segment| segment.map(Segment::index)),
+            neck,
+            legs: [right, left],
+            head: body.sphere(&head),
+            home,
+        }
+    }
+}
+
+impl<S: Copy> Instruments<S> {
+    /// Whether another is at the same places.
+    pub(crate) fn is_like<A>(&self, other: &Instruments<A>) -> bool {
+        let neck = self.neck.as_ref().map(|neck| (&neck.from, neck.head));
+        self.accelerometers == other.accelerometers
+            && neck == other.neck.as_ref().map(|neck| (&neck.from, neck.head))
+            && (&self.legs, self.head, self.home) == (&other.legs, other.head, other.home)
+    }
+
+    /// f applied to every number and the one in the same place of `other`, which [is like](Instruments::is_like) it.
+    pub(crate) fn zip<A: Copy, T>(&self, other: &Instruments<A>, f: &impl Fn(S, A) -> T) -> Instruments<T> {
+        let neck = |(a, b): (&Neck<S>, &Neck<A>)| Neck {
+            from: a.from.clone(),
+            head: a.head,
+            condyles: a.condyles.zip(&b.condyles, f),
+        };
+        Instruments {
+            accelerometers: self.accelerometers,
+            neck: self.neck.as_ref().zip(other.neck.as_ref()).map(neck),
+            legs: self.legs.clone(),
+            head: self.head,
+            home: self.home,
+        }
+    }
+}
+
+impl Beyond {
+    /// What the proximal segment exerts on the distal one, space axes: force and moment.
+    #[inline(always)]
+    fn load<S: Scalar>(&self, from: &Carried<'_, S>) -> (V3<S>, V3<S>) {
+        let load = from.at(self.segment, self.subtree.iter().copied());
+        if self.is_reversed { (-load.force, -load.moment) } else { (load.force, load.moment) }
+    }
+}
+
+impl<S: Scalar> Instruments<S> {
+    /// The centre of the head's sphere in axes of the body's home.
+    #[inline(always)]
+    pub(crate) fn head_in(&self, system: &System<S>, k: &Kinematics<S>, frames: &Frames<S>) -> Option<V3<S>> {
+        let (_, centre, _) = system.spheres[self.head?].place(k);
+        let home = &frames[self.home];
+        Some(home.axes.into_frame(centre - home.origin))
+    }
+
+    #[inline(always)]
+    fn read(&self, system: &System<S>, from: &Carried<'_, S>, frames: &Frames<S>) -> Reading<S> {
+        let nothing = v3(S::of(f64::NAN), S::of(f64::NAN), S::of(f64::NAN));
+        let k = from.k;
+        let mut reading = [S::of(f64::NAN); READINGS];
+        let mut put = |at: usize, v: V3<S>| {
+            [reading[at], reading[at + 1], reading[at + 2]] = [v.x, v.y, v.z];
+        };
+        // segment axes (left, up) to SAE J211 axes (right, down)
+        let told = |n: usize, v: V3<S>| {
+            let v = k.axes[n].into_frame(v);
+            v3(v.x, -v.y, -v.z)
+        };
+        for (i, segment) in self.accelerometers.iter().enumerate() {
+            put(3 * i, segment.map_or(nothing, |n| told(n, from.specific_force(n))));
+        }
+        if let [Some(n), ..] = self.accelerometers {
+            put(9, told(n, k.omega[n]));
+            put(12, told(n, from.accelerations.alpha[n]));
+        }
+        if let Some(Neck { from: joint, head, condyles }) = &self.neck {
+            let (force, moment) = joint.load(from);
+            put(NECK, told(*head, force));
+            put(NECK + 3, told(*head, moment - k.axes[*head].out(*condyles).cross(force)));
+        }
+        if let Some(place) = self.head_in(system, k, frames) {
+            put(PLACE, place);
+        }
+        for (i, leg) in self.legs.iter().enumerate() {
+            let Some(Leg { thigh, knee, shanks }) = leg else { continue };
+            let mut along = from.knees[*knee];
+            shanks.iter().for_each(|shank| along -= shank.load(from).0);
+            // Z of a thigh points from the knee to the hip: a force at the knee against it pulls
+            reading[FEMURS + i] = -along.dot(k.axes[*thigh].z);
+        }
+        reading
+    }
+}
+
+impl<S: Scalar> System<S> {
+    /// Shows what the instruments of every body read at the evaluation that has just been made, in `frames`.
+    #[inline(always)]
+    pub(crate) fn read(&self, scratch: &Scratch<S>, frames: &Frames<S>, show: &mut impl FnMut(usize, &Reading<S>)) {
+        self.read_from(&Carried::of(&self.skeleton, scratch), frames, show);
+    }
+
+    #[inline(always)]
+    pub(crate) fn read_from(
+        &self,
+        from: &Carried<'_, S>,
+        frames: &Frames<S>,
+        show: &mut impl FnMut(usize, &Reading<S>),
+    ) {
+        for (of, instruments) in self.instruments.iter().enumerate() {
+            show(of, &instruments.read(self, from, frames));
+        }
+    }
+}

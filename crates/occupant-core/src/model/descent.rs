@@ -1,0 +1,76 @@
+//! Going down in potential energy to where a body rests: Newton's method, shifted so that it goes downhill.
+//!
+//! (H + λ1) δ = −g,   g = ∂V/∂x, H its differences, made symmetric
+//!
+//! A step is taken where V falls, ½(g + g′)·δ < 0.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::motion::state::State;
+
+/// A step moves or turns no freedom by more, m: the forces are stiff and only piecewise smooth.
+const MOST_STEP_M: f64 = 0.03;
+/// Each freedom is moved by so much for differences, m.
+const DIFFERENCE_M: f64 = 1e-6;
+/// Loads below this part of the weight are none.
+pub(super) const REST: f64 = 1e-8;
+/// Steps at most.
+const MOST_STEPS: usize = 1000;
+
+/// A body that can be moved by its freedoms, metres or turns times a lever.
+pub(super) trait Movable {
+    /// ∂V/∂x at a place.
+    fn gradient(&mut self, state: &State<f64>) -> DVector<f64>;
+
+    /// The place moved by `x` from another.
+    fn moved(&self, state: &State<f64>, x: &DVector<f64>) -> State<f64>;
+
+    /// Whether it has been looked at often enough.
+    fn is_spent(&self) -> bool;
+
+    /// ∂²V/∂x².
+    fn hessian(&mut self, state: &State<f64>, g: &DVector<f64>) -> DMatrix<f64> {
+        let column = |i: usize| {
+            let step = DVector::from_fn(g.len(), |j, _| if i == j { DIFFERENCE_M } else { 0.0 });
+            let next = self.moved(state, &step);
+            (self.gradient(&next) - g) / DIFFERENCE_M
+        };
+        let columns: Vec<DVector<f64>> = (0..g.len()).map(column).collect();
+        let hessian = DMatrix::from_columns(&columns);
+        (&hessian + hessian.transpose()) * 0.5
+    }
+}
+
+/// The place below `from` where `body` rests, or where no way leads down any more, and the gradient there.
+pub(super) fn descend(body: &mut impl Movable, from: &State<f64>, weight_n: f64) -> (State<f64>, DVector<f64>) {
+    let (mut state, mut g) = (*from, body.gradient(from));
+    let mut shift = 1e-3;
+    for _ in 0..MOST_STEPS {
+        if g.amax() < REST * weight_n.max(1.0) || body.is_spent() {
+            break;
+        }
+        let hessian = body.hessian(&state, &g);
+        let scale = hessian.diagonal().amax();
+        let taken = std::iter::repeat_with(|| {
+            let tried = downhill(&hessian, &g, shift * scale).map(|step| {
+                let next = body.moved(&state, &step);
+                let slope = body.gradient(&next);
+                (next, (&g + &slope).dot(&step) < 0.0, slope)
+            });
+            let found = tried.filter(|(_, falls, _)| *falls);
+            shift = if found.is_some() { (shift * 0.2).max(1e-12) } else { shift * 4.0 };
+            found
+        });
+        let Some((next, _, slope)) = taken.take(40).flatten().next() else { break };
+        (state, g) = (next, slope);
+    }
+    (state, g)
+}
+
+/// −(H + λ1)⁻¹g, shortened where it is too long; none where H + λ1 is not positive definite.
+fn downhill(hessian: &DMatrix<f64>, g: &DVector<f64>, shift: f64) -> Option<DVector<f64>> {
+    let shifted = hessian + DMatrix::from_diagonal_element(g.len(), g.len(), shift + 1e-9);
+    let step = -shifted.cholesky()?.solve(g);
+    let most = step.amax();
+    Some(if most > MOST_STEP_M { step * (MOST_STEP_M / most) } else { step })
+}

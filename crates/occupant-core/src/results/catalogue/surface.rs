@@ -1,0 +1,28 @@
+//! Forces of surfaces and solids on the bodies, and how deep the bodies are in them.
+
+use crash_measures::unit::Unit::{Metre, Newton};
+
+use crate::forces::contact::surface::Frame;
+use crate::quantity::{Axes, Owner, Quantity};
+use crate::results::sample::Sample;
+
+/// A surface or, behind all surfaces, a solid, by its number, and what carries it in the end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OfSurface;
+
+impl Owner for OfSurface {
+    type At<'a> = (&'a Sample<'a>, usize, Frame);
+}
+
+type Of = Quantity<OfSurface>;
+
+/// The time histories of one that `carrier` carries; result files have them touch by touch, with the spheres.
+pub(super) fn quantities(carrier: Frame) -> [Of; 2] {
+    let axes = if carrier == Frame::Space { Axes::Space } else { Axes::Vehicle };
+    [
+        Of::vector(Newton, axes, |(s, i, carrier)| s.surface_force_n(*i, *carrier))
+            .channel("force", "sum of the contact and friction forces of the {} on all bodies"),
+        Of::number(Metre, |(s, i, _)| s.surface_depth_m(*i))
+            .channel("depth", "greatest deformation where a body is in the {}; 0 without contact"),
+    ]
+}

@@ -1,0 +1,162 @@
+//! Readings of the instruments at equal times, however seldom a run is recorded: what measures with windows are made of.
+//!
+//! Steps are read at their ends, 10 to 20 thousand times a second where a body touches anything, and lie on straight lines
+//! between. Numbers have the precision of an `f32`, in a run as in its file.
+
+use crate::kernel::instruments::{PLACE, Reading};
+use crate::model::Model;
+use crate::model::setup::Integrator;
+use crate::results::sample::Sample;
+
+/// So often readings are taken unless a setup asks otherwise, s: as SAE J211 asks for CFC 1000.
+pub const READINGS_S: f64 = 1e-4;
+
+/// Numbers of the instruments of one body in a sample: those of a reading without the place of the head.
+pub(crate) const SIGNALS: usize = PLACE;
+
+/// The readings of a run since its last output.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Fine {
+    /// Start of the run, s.
+    pub start_s: f64,
+    /// Interval, s.
+    pub interval_s: f64,
+    /// The bodies (indices) that are read, in the order of their readings in a sample.
+    pub(crate) bodies: Vec<usize>,
+    /// Number of the next sample.
+    pub(crate) next: usize,
+    /// The step before: its time and readings.
+    before_s: f64,
+    before: Vec<f64>,
+    /// The samples since the last output, one behind the other.
+    pub(crate) samples: Vec<f32>,
+    /// Room for a reading.
+    now: Vec<f64>,
+}
+
+impl Fine {
+    /// None yet of a run of `model`.
+    pub(crate) fn new(model: &Model) -> Self {
+        let bodies = model.body().tree.bodies().into_iter().enumerate();
+        let is_read =
+            |of: usize, marks: &crate::body::Landmarks| of == 0 || marks.instruments().iter().any(Option::is_some);
+        let bodies: Vec<usize> = bodies.filter(|(of, row)| is_read(*of, &row.landmarks)).map(|(of, _)| of).collect();
+        let count = SIGNALS * bodies.len();
+        let time = &model.setup().time;
+        let interval_s = interval_s(model);
+        let room = count * ((time.output_s.min(time.end_s - time.start_s) / interval_s) as usize + 64);
+        Fine {
+            start_s: time.start_s,
+            interval_s,
+            bodies,
+            next: 0,
+            before_s: f64::NAN,
+            before: vec![f64::NAN; count],
+            samples: Vec::with_capacity(room.min(1 << 20)),
+            now: vec![f64::NAN; count],
+        }
+    }
+
+    /// How many samples a whole run of `model` has at most.
+    pub(crate) fn most(model: &Model) -> usize {
+        let time = &model.setup().time;
+        ((time.end_s - time.start_s) / interval_s(model)) as usize + 2
+    }
+
+    /// Whether nobody has read steps: in files before 0.2.
+    pub(crate) fn is_unknown(&self) -> bool {
+        self.next == 0
+    }
+
+    /// Looks at the readings of a step, by body.
+    pub(crate) fn see(&mut self, time_s: f64, readings: &[Reading<f64>]) {
+        for (to, &of) in self.now.chunks_exact_mut(SIGNALS).zip(&self.bodies) {
+            to.copy_from_slice(&readings[of][..SIGNALS]);
+        }
+        if self.next == 0 {
+            self.samples.extend(self.now.iter().map(|x| *x as f32));
+            self.next = 1;
+        } else if time_s > self.before_s {
+            self.fill(time_s);
+        } else {
+            return;
+        }
+        self.before_s = time_s;
+        self.before.copy_from_slice(&self.now);
+    }
+
+    /// The samples between the step before and the one now.
+    fn fill(&mut self, time_s: f64) {
+        loop {
+            let due_s = self.start_s + self.next as f64 * self.interval_s;
+            if due_s > time_s {
+                return;
+            }
+            let s = (due_s - self.before_s) / (time_s - self.before_s);
+            let lines = self.before.iter().zip(&self.now).map(|(a, b)| (a + s * (b - a)) as f32);
+            self.samples.extend(lines);
+            self.next += 1;
+        }
+    }
+
+    /// Forgets the samples, which an output has taken.
+    pub(crate) fn clear(&mut self) {
+        self.samples.clear();
+    }
+
+    /// Becomes what `other` is, of the same run; allocates nothing where there is room.
+    pub(crate) fn take_over(&mut self, other: &Fine) {
+        (self.interval_s, self.next, self.before_s) = (other.interval_s, other.next, other.before_s);
+        self.before.clone_from(&other.before);
+        self.samples.clone_from(&other.samples);
+    }
+
+    /// Sees an output as if it were a step, of a run of which nobody has read the steps.
+    pub(crate) fn see_output(&mut self, sample: &Sample<'_>) {
+        if self.is_unknown() {
+            (self.interval_s, self.start_s) = (sample.model.setup().time.output_s, sample.time_s);
+        }
+        self.see(sample.time_s, sample.readings);
+    }
+
+    /// Number and readings of the samples since the last output, of a body among those that are read.
+    pub(crate) fn of(&self, place: usize) -> impl Iterator<Item = &[f32]> {
+        self.samples.chunks_exact(SIGNALS * self.bodies.len()).map(move |all| &all[SIGNALS * place..][..SIGNALS])
+    }
+
+    /// Time of the first of the samples since the last output, s.
+    pub(crate) fn first_s(&self) -> f64 {
+        let count = self.samples.len() / (SIGNALS * self.bodies.len());
+        self.start_s + (self.next - count) as f64 * self.interval_s
+    }
+
+    /// The step before as plain numbers: the number of the next sample, its time, its readings.
+    pub(crate) fn numbers(&self) -> Vec<f64> {
+        if self.is_unknown() {
+            return Vec::new();
+        }
+        [self.next as f64, self.before_s].into_iter().chain(self.before.iter().copied()).collect()
+    }
+
+    /// From plain numbers, of a run of which `self` knows nothing; false where they are of another.
+    pub(crate) fn read(&mut self, numbers: &[f64], samples: &[f32]) -> bool {
+        let [next, before_s, before @ ..] = numbers else { return false };
+        let fits = before.len() == self.before.len() && samples.len() % self.before.len().max(1) == 0;
+        if fits && *next >= 1.0 {
+            (self.next, self.before_s) = (*next as usize, *before_s);
+            self.before.copy_from_slice(before);
+            self.samples.clear();
+            self.samples.extend_from_slice(samples);
+        }
+        fits && *next >= 1.0
+    }
+}
+
+/// The interval of readings of a run of `model`: no shorter than its fixed steps.
+fn interval_s(model: &Model) -> f64 {
+    let asked_s = model.setup().output.readings_s.unwrap_or(READINGS_S);
+    match model.setup().integrator {
+        Integrator::Rk4 { step_s } => asked_s.max(step_s),
+        Integrator::Adaptive { .. } => asked_s,
+    }
+}

@@ -1,0 +1,111 @@
+//! Greatest values of a run with their times, at its accepted steps: they see what happens between its outputs, and how often a
+//! run is recorded makes no difference to them.
+
+use crate::results::summary::Peak;
+
+/// How many peaks are kept of the instruments of one body.
+pub(crate) const FELT: usize = 16;
+/// Where its excursions begin among them: forward, rearward, right, left, down, up.
+pub(crate) const EXCURSIONS: usize = 10;
+
+/// Greatest values at the accepted steps of a run so far.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Peaks {
+    /// What kinds of force elements track, in their order, that of their elements and of their peaks.
+    pub(crate) elements: Vec<Peak>,
+    /// By body. Resultants that accelerometers of head, chest and pelvis read, m/s²; tension, compression, shear of the neck, N, its
+    /// flexion and extension, N·m; compression of the right and the left femur, N; excursions of the head, m.
+    pub(crate) felt: Vec<[Peak; FELT]>,
+    /// By part of the body.
+    pub(crate) parts: Vec<PartPeak>,
+}
+
+/// Greatest values of the contacts of one part of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct PartPeak {
+    /// Magnitude of the sum of the forces, N.
+    pub force: Peak,
+    /// The surface of the greatest normal force then.
+    pub surface: usize,
+    /// Δ, m.
+    pub penetration: Peak,
+    /// Greatest Δ over the thickness of a solid.
+    pub used: f64,
+}
+
+impl PartPeak {
+    const NONE: PartPeak = PartPeak { force: Peak::NONE, surface: 0, penetration: Peak::NONE, used: 0.0 };
+}
+
+impl Peaks {
+    /// Nothing seen yet of so many numbers, bodies and parts.
+    pub(crate) fn none(elements: usize, bodies: usize, parts: usize) -> Self {
+        Peaks {
+            elements: vec![Peak::NONE; elements],
+            felt: vec![[Peak::NONE; FELT]; bodies],
+            parts: vec![PartPeak::NONE; parts],
+        }
+    }
+
+    /// Whether nobody has looked at steps: in files before 0.2.
+    pub(crate) fn are_unknown(&self) -> bool {
+        self.felt.is_empty()
+    }
+
+    /// Forgets all; allocates nothing.
+    pub(crate) fn clear(&mut self) {
+        self.elements.fill(Peak::NONE);
+        self.felt.fill([Peak::NONE; FELT]);
+        self.parts.fill(PartPeak::NONE);
+    }
+
+    /// Becomes what `other` is, which is of the same run; allocates nothing where there is room.
+    pub(crate) fn take_over(&mut self, other: &Peaks) {
+        self.elements.clone_from(&other.elements);
+        self.felt.clone_from(&other.felt);
+        self.parts.clone_from(&other.parts);
+    }
+
+    /// Looks at what `later` has seen behind all that was seen here.
+    pub(crate) fn merge(&mut self, later: &Peaks) {
+        let felt = self.felt.iter_mut().flatten().zip(later.felt.iter().flatten());
+        for (peak, other) in self.elements.iter_mut().zip(&later.elements).chain(felt) {
+            peak.see(other.value, other.time_s);
+        }
+        for (part, other) in self.parts.iter_mut().zip(&later.parts) {
+            if part.force.see(other.force.value, other.force.time_s) {
+                part.surface = other.surface;
+            }
+            part.penetration.see(other.penetration.value, other.penetration.time_s);
+            part.used = part.used.max(other.used);
+        }
+    }
+
+    /// All as plain numbers: values and times.
+    pub(crate) fn numbers(&self) -> Vec<f64> {
+        let peaks = self.elements.iter().chain(self.felt.iter().flatten());
+        let parts = self.parts.iter().flat_map(|part| {
+            let PartPeak { force, surface, penetration, used } = *part;
+            [force.value, force.time_s, surface as f64, penetration.value, penetration.time_s, used]
+        });
+        peaks.flat_map(|peak| [peak.value, peak.time_s]).chain(parts).collect()
+    }
+
+    /// From plain numbers, of a run of which `self` has seen nothing; false where they are of another.
+    pub(crate) fn read(&mut self, numbers: &[f64]) -> bool {
+        let (peaks, parts) = (2 * (self.elements.len() + FELT * self.felt.len()), 6 * self.parts.len());
+        if numbers.len() != peaks + parts {
+            return false;
+        }
+        let (pairs, _) = numbers[..peaks].as_chunks();
+        let all = self.elements.iter_mut().chain(self.felt.iter_mut().flatten());
+        all.zip(pairs).for_each(|(peak, &[value, time_s])| *peak = Peak { value, time_s });
+        let (rows, _) = numbers[peaks..].as_chunks();
+        for (part, &[force, force_s, surface, depth, depth_s, used]) in self.parts.iter_mut().zip(rows) {
+            let peak = |value, time_s| Peak { value, time_s };
+            let (force, penetration) = (peak(force, force_s), peak(depth, depth_s));
+            *part = PartPeak { force, surface: surface as usize, penetration, used };
+        }
+        true
+    }
+}

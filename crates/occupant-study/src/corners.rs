@@ -1,0 +1,65 @@
+//! The corners of a study: each parameter at its least and its greatest value, alone and with all others.
+
+use super::Study;
+use super::law::{Law, Value};
+use super::parameter::{Parameter, put};
+use occupant_scenario::{Diagnostics, Draft};
+
+/// The part of a distribution without an end that lies beyond a corner.
+const TAIL: f64 = 1e-3;
+/// Of so many parameters at most each combination is a corner.
+const MOST_COMBINED: usize = 6;
+
+/// A corner.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Corner {
+    /// The parameters (indices) that are not as the base scenario has them, with their values.
+    pub values: Vec<(usize, Value)>,
+}
+
+impl Study {
+    /// The corners: each parameter alone at its ends, then all of them together, of a few in every combination.
+    pub fn corners(&self) -> Vec<Corner> {
+        let ends: Vec<(usize, [Value; 2])> =
+            self.parameters.iter().enumerate().filter_map(|(i, of)| Some((i, ends(of)?))).collect();
+        let alone = ends.iter().flat_map(|(i, ends)| ends.iter().map(|end| Corner { values: vec![(*i, end.clone())] }));
+        let combinations: Vec<u32> = match ends.len() {
+            0 | 1 => Vec::new(),
+            few if few <= MOST_COMBINED => (0..1 << few).collect(),
+            _ => vec![0, u32::MAX],
+        };
+        let combined = combinations.into_iter().map(|bits| {
+            let end =
+                |(at, (i, ends)): (usize, &(usize, [Value; 2]))| (*i, ends[(bits >> at.min(31) & 1) as usize].clone());
+            Corner { values: ends.iter().enumerate().map(end).collect() }
+        });
+        alone.chain(combined).collect()
+    }
+
+    /// The scenario of a corner.
+    ///
+    /// # Errors
+    /// None for a study that has been bound to its base.
+    pub fn draft_at(&self, corner: &Corner) -> Result<Draft, Diagnostics> {
+        let (mut list, mut draft) = (Vec::new(), self.base.clone());
+        for (i, value) in &corner.values {
+            self.parameters[*i].assign(value, &mut list);
+        }
+        put(&list, &mut draft)?;
+        Ok(draft)
+    }
+}
+
+/// Least and greatest value of a parameter; none of one that a table gives, which has no ends of its own.
+fn ends(of: &Parameter) -> Option<[Value; 2]> {
+    match &of.law {
+        Law::Table => None,
+        Law::List(values) => {
+            let number = |value: &Value| if let Value::Number(x) = value { *x } else { 0.0 };
+            let mut sorted = values.clone();
+            sorted.sort_by(|a, b| number(a).total_cmp(&number(b)));
+            Some([sorted.first()?.clone(), sorted.last()?.clone()])
+        }
+        law => Some([0.0, 1.0].map(|p| law.bounded_quantile(p, TAIL))),
+    }
+}

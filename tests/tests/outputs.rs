@@ -1,0 +1,104 @@
+//! What a run tells: every vehicle and every surface has channels, and straight-line paths have accelerations.
+
+use nalgebra::Vector3;
+use occupant_core::model::Model;
+use occupant_core::results::channel::{Series, channels};
+use occupant_core::run::simulate::simulate;
+use occupant_scenario::{Format, Scenario};
+use occupant_tests::measure::assert_below;
+
+const TWO: &str = include_str!("../../scenarios/two-vehicles.toml");
+const LAP: &str = include_str!("../../scenarios/cart-lap.toml");
+const SOLIDS: &str = include_str!("../../scenarios/rear-seat-solids.toml");
+
+fn model(text: &str) -> Model {
+    let loaded = Scenario::from_text(text, Format::Toml, "test", &|name| Err(format!("no {name}")));
+    loaded.and_then(|loaded| loaded.model()).unwrap_or_else(|problems| panic!("{problems}")).0
+}
+
+/// Every channel of a run.
+fn told(model: &Model) -> Series {
+    let mut series = Series::new(channels(model));
+    simulate(model, &mut series).expect("a run");
+    series
+}
+
+fn vector(series: &Series, name: &str, at: usize) -> Vector3<f64> {
+    let component = |axis| series.of(&format!("{name}.{axis}")).unwrap_or_else(|| panic!("no channel {name}"))[at];
+    Vector3::new(component("x"), component("y"), component("z"))
+}
+
+#[test]
+fn every_vehicle_has_channels() {
+    let series = told(&model(TWO));
+    for at in [0, 30, 50, 179] {
+        let t_s = series.time_s[at];
+        // a haversine that takes 37 km/h in 0.1 s, along the axes of the car that comes towards the other
+        let strength = 37.0 / 3.6 / 0.1;
+        let a = if t_s < 0.1 { strength * (1.0 - (std::f64::consts::TAU * t_s / 0.1).cos()) } else { 0.0 };
+        assert_below(
+            "light",
+            (vector(&series, "vehicle.light.acceleration", at) - Vector3::new(-a, 0.0, 0.0)).amax(),
+            1e-6,
+        );
+    }
+    let yaw = series.of("vehicle.light.yaw").expect("a yaw");
+    assert_below("yaw", yaw[100] - std::f64::consts::PI, 1e-12);
+    let first = vector(&series, "vehicle.light.position", 0);
+    assert_below("place", (first - Vector3::new(2.2, 0.0, 0.0)).amax(), 1e-12);
+    let last = [vector(&series, "vehicle.velocity", 180), vector(&series, "vehicle.light.velocity", 180)];
+    assert_below("both go on together, each as its own axes have it", (last[0] + last[1]).amax(), 1e-9);
+    assert!(series.of("vehicle.ground.yaw").is_none(), "the ground is no vehicle");
+}
+
+/// What surfaces and solids do to bodies is what spheres feel.
+#[test]
+fn forces_of_surfaces_add_up_to_those_on_the_spheres() {
+    for text in [LAP, SOLIDS, TWO] {
+        let series = told(&model(text));
+        let sum = |of: &[&str], at: usize| -> Vector3<f64> {
+            let is_of = |name: &&str| of.iter().any(|of| name.starts_with(of)) && name.ends_with(".force.x");
+            let names = series.channels.iter().map(|channel| channel.name.as_str()).filter(is_of);
+            names.map(|name| vector(&series, name.trim_end_matches(".x"), at)).sum()
+        };
+        let mut greatest = 0.0_f64;
+        for at in (0..series.time_s.len()).step_by(7) {
+            let (given, felt) = (sum(&["surface.", "solid."], at), sum(&["sphere."], at));
+            greatest = greatest.max(felt.norm());
+            assert_below("difference, N", (given - felt).amax(), 1e-8); // 4e-12
+        }
+        assert!(greatest > 1000.0, "something touched: {greatest} N");
+        for channel in series.channels.iter().filter(|c| c.name.ends_with(".depth")) {
+            let depths = series.of(&channel.name).expect("asked for");
+            let force = format!("{}.force.resultant", channel.name.trim_end_matches(".depth"));
+            let forces = series.of(&force).expect("a force");
+            assert!(depths.iter().zip(forces).all(|(d, f)| *d >= 0.0 && (*d > 0.0 || *f == 0.0)), "{}", channel.name);
+        }
+    }
+}
+
+/// The stop of the cart as a table: its acceleration is that of the pulse, where it was 0 throughout.
+#[test]
+fn a_path_of_straight_lines_tells_its_acceleration() {
+    let (before, path) = LAP.split_once("[path]").expect("a path");
+    let (_, after) = path.split_once("\n\n").expect("more");
+    let (v, length) = (20.0 * 0.44704, 0.08);
+    let peak = v * std::f64::consts::PI / (2.0 * length);
+    let place = |t: f64| {
+        let (s, w) = (t.min(length), std::f64::consts::PI / length);
+        v * s - peak / w * (s - (w * s).sin() / w)
+    };
+    let rows: Vec<String> = (0..=100).map(|i| f64::from(i) * 0.002).map(|t| format!("[{t}, {}]", place(t))).collect();
+    let path = format!(
+        "[path]\nkind = \"table\"\ninterpolation = \"linear\"\ncolumns = [\"t[s]\", \"x[m]\"]\nrows = [{}]\n\n",
+        rows.join(", ")
+    );
+    let series = told(&model(&format!("{before}{path}{after}")));
+    let meaning = &series.channels.iter().find(|c| c.name == "vehicle.acceleration.x").expect("a channel").meaning;
+    assert!(meaning.contains("second differences"), "{meaning}");
+    let told = series.of("vehicle.acceleration.x").expect("asked for");
+    for (t_s, a) in series.time_s.iter().zip(told).filter(|(t_s, _)| (0.004..0.076).contains(*t_s)) {
+        let expected = -peak * (std::f64::consts::PI * t_s / length).sin();
+        assert_below("acceleration, of the peak", (a - expected) / peak, 0.005);
+    }
+}

@@ -1,0 +1,195 @@
+//! Small and fast spheres against thin things: none passes, under any integrator, and each rebounds as closed forms say.
+
+use nalgebra::{Matrix3, Point3, Vector3};
+use occupant_core::body::{Body, ContactSphere};
+use occupant_core::forces::contact::material::Material;
+use occupant_core::forces::contact::solid::{Shape, Solid};
+use occupant_core::forces::contact::surface::Frame;
+use occupant_core::forces::joint::Joints;
+use occupant_core::forces::spring::BilinearSpring;
+use occupant_core::model::Model;
+use occupant_core::model::seating::{InitialPosture, InitialVelocity, Mounting, Placing};
+use occupant_core::model::setup::{Integrator, LOOSE, Setup, TimeSpan};
+use occupant_core::results::outcome::Status;
+use occupant_core::results::recorder::Watch;
+use occupant_core::results::sample::Sample;
+use occupant_core::run::simulate::simulate;
+use occupant_core::vehicle::VehiclePose;
+use occupant_tests::cases::{afloat, smooth};
+use occupant_tests::measure::assert_below;
+use occupant_tests::random::Random;
+use occupant_tests::room::ends_alike_side_by_side;
+
+/// A ball that is thrown at a plate across the x axis, whose front is at x = 0.
+#[derive(Clone, Copy, Debug)]
+struct Throw {
+    radius_m: f64,
+    mass_kg: f64,
+    stiffness_n_per_m: f64,
+    thickness_m: f64,
+    speed_m_s: f64,
+    /// How far before the plate it begins, m.
+    before_m: f64,
+    /// Sideways, as a part of its speed.
+    aside: f64,
+}
+
+impl Throw {
+    fn random(random: &mut Random) -> Self {
+        let radius_m = random.between(3e-3, 20e-3);
+        // of plastic to steel
+        let mass_kg = random.between(1000.0, 7800.0) * 4.0 / 3.0 * std::f64::consts::PI * radius_m.powi(3);
+        Throw {
+            radius_m,
+            mass_kg,
+            stiffness_n_per_m: 10f64.powf(random.between(4.5, 6.5)),
+            thickness_m: random.between(1e-3, 5e-3),
+            speed_m_s: random.between(5.0, 90.0),
+            before_m: radius_m + random.between(0.01, 0.2),
+            aside: random.between(-0.5, 0.5),
+        }
+    }
+
+    /// How long the plate holds it, s.
+    fn contact_s(&self) -> f64 {
+        std::f64::consts::PI * (self.mass_kg / self.stiffness_n_per_m).sqrt()
+    }
+
+    fn setup(&self, shape: Shape, integrator: Integrator) -> Setup {
+        let along = self.speed_m_s;
+        let start = Vector3::new(-self.before_m, 0.0, 0.0);
+        let mut setup = ball(self, start, Vector3::new(along, self.aside * along, 0.0));
+        setup.materials = vec![smooth(BilinearSpring::linear(self.stiffness_n_per_m, 1.0))];
+        setup.solids = vec![solid(shape)];
+        setup.integrator = integrator;
+        // until it is as far away again
+        let end_s = self.contact_s() + 2.0 * self.before_m / along;
+        setup.time = TimeSpan { start_s: 0.0, end_s, output_s: end_s, stops_at_rest: false };
+        setup
+    }
+
+    fn plate(&self) -> Shape {
+        let lengths_m = Vector3::new(self.thickness_m, 2.0, 2.0);
+        Shape::block(Point3::new(0.5 * self.thickness_m, 0.0, 0.0), lengths_m, &Matrix3::identity(), 0.0)
+    }
+}
+
+/// A body of one segment with one sphere, in space.
+fn ball(throw: &Throw, at_m: Vector3<f64>, velocity_m_s: Vector3<f64>) -> Setup {
+    let inertia = 0.4 * throw.mass_kg * throw.radius_m.powi(2);
+    let mut body = Body::rigid(LOOSE, throw.mass_kg, [inertia; 3], Vector3::zeros());
+    let segment = body.tree.segment(0);
+    body.spheres.push(ContactSphere::new("ball", segment, Point3::origin(), throw.radius_m));
+    body.segments[0].length_m = 0.1;
+    let attitude = VehiclePose::default().attitude;
+    let (point_m, place_m) = (Vector3::zeros(), at_m);
+    let at = Mounting { frame: Frame::Vehicle, point_m, place_m, attitude, angles_rad: Vec::new() };
+    Setup {
+        joints: Joints::free(body.tree),
+        posture: InitialPosture::Placed(Box::new(Placing { at, stands: false, spin_rad_s: Vector3::zeros() })),
+        velocity: InitialVelocity::Given(velocity_m_s),
+        body,
+        ..afloat(occupant_tests::cases::bead(0.04), 1.0, 1e-3)
+    }
+}
+
+fn solid(shape: Shape) -> Solid {
+    Solid { name: "plate".into(), frame: Frame::Vehicle, shape, material: 0, group: None, spheres: None }
+}
+
+/// Velocity at the end along x, m/s, with the greatest error of the energy balance.
+fn rebound(setup: Setup) -> (f64, f64) {
+    let model = Model::new(setup).unwrap_or_else(|problems| panic!("{problems}"));
+    let mut last = 0.0;
+    let outcome = simulate(&model, Watch(|s: &Sample<'_>| last = s.state.velocity().x)).unwrap();
+    assert_eq!(outcome.status, Status::Completed);
+    (last, outcome.energy.balance_error.abs())
+}
+
+const STEPS_S: [f64; 3] = [1e-4, 5e-5, 3e-4];
+
+#[test]
+fn none_of_a_thousand_balls_passes_a_plate() {
+    let mut random = Random::new(1);
+    let (mut worst, mut steady) = (0.0_f64, 0);
+    for i in 0..1000 {
+        let throw = Throw::random(&mut random);
+        let (speed, _) = rebound(throw.setup(throw.plate(), Integrator::default()));
+        let error = (speed / throw.speed_m_s + 1.0).abs();
+        worst = worst.max(error);
+        assert!(error < 1e-4, "{throw:?}: {speed} m/s");
+        let step_s = STEPS_S[i % STEPS_S.len()];
+        let (speed, _) = rebound(throw.setup(throw.plate(), Integrator::Rk4 { step_s }));
+        assert!(speed < 0.0, "{throw:?}, {step_s} s: {speed} m/s");
+        // where the step bears the spring
+        if step_s < 0.5 * (throw.mass_kg / throw.stiffness_n_per_m).sqrt() {
+            steady += 1;
+            let error = (speed / throw.speed_m_s + 1.0).abs();
+            assert!(error < 0.05, "{throw:?}, {step_s} s: {speed} m/s");
+        }
+    }
+    assert!(steady > 100, "{steady}");
+    assert_below("rebound under error control", worst, 1e-4);
+}
+
+#[test]
+fn fast_balls_pass_neither_bars_nor_edges() {
+    let mut random = Random::new(2);
+    for i in 0..200 {
+        let mut throw = Throw { aside: 0.0, ..Throw::random(&mut random) };
+        // an axis is passed with an energy of the spring that is as deep as both radii
+        let bar_m = random.between(1e-3, 5e-3);
+        let depth_m = 0.8 * (throw.radius_m + bar_m);
+        throw.stiffness_n_per_m = throw.mass_kg * (throw.speed_m_s / depth_m).powi(2);
+        let ends_m = [-1.0, 1.0].map(|z| Point3::new(bar_m, 0.0, z));
+        let bar = Shape::Capsule { ends_m, radius_m: bar_m };
+        for integrator in [Integrator::default(), Integrator::Rk4 { step_s: STEPS_S[i % STEPS_S.len()] }] {
+            let (speed, balance) = rebound(throw.setup(bar.clone(), integrator));
+            assert!(speed < 0.0, "{throw:?}, {integrator:?}: {speed} m/s, balance {balance}");
+        }
+    }
+}
+
+#[test]
+fn a_ball_leaves_an_elastic_plate_as_fast_as_it_came_after_half_a_period() {
+    for (speed_m_s, mass_kg) in [(18.0, 0.02), (30.0, 0.02), (90.0, 0.001)] {
+        let throw = Throw {
+            radius_m: 5e-3,
+            mass_kg,
+            stiffness_n_per_m: 1e6,
+            thickness_m: 2e-3,
+            speed_m_s,
+            before_m: 0.1,
+            aside: 0.0,
+        };
+        let touch_s = (throw.before_m - throw.radius_m) / speed_m_s;
+        let mut setup = throw.setup(throw.plate(), Integrator::default());
+        setup.time.output_s = 1e-6;
+        setup.time.end_s = touch_s + 1.5 * throw.contact_s();
+        let (mut first, mut last, mut impulse, mut deepest) = (None, 0.0, 0.0, 0.0_f64);
+        let look = Watch(|s: &Sample<'_>| {
+            for contact in s.contacts() {
+                first = first.or(Some(s.time_s));
+                (last, deepest) = (s.time_s, deepest.max(contact.depth_m));
+                impulse += 1e-6 * contact.normal_force_n;
+            }
+        });
+        simulate(&Model::new(setup).unwrap(), look).unwrap();
+        // measured to the outputs of 1 µs
+        assert_below("begin, s", (first.unwrap_or(0.0) - touch_s).abs(), 1.1e-6);
+        assert_below("length, s", (last - touch_s - throw.contact_s()).abs(), 1.1e-6);
+        assert_below("impulse", (impulse / (2.0 * mass_kg * speed_m_s) - 1.0).abs(), 1e-3);
+        let deep_m = speed_m_s * (mass_kg / throw.stiffness_n_per_m).sqrt();
+        assert_below("depth", (deepest / deep_m - 1.0).abs(), 1e-3);
+    }
+}
+
+#[test]
+fn lanes_give_throws_the_bits_of_single_runs() {
+    ends_alike_side_by_side(|i| {
+        let throw = Throw::random(&mut Random::new(u64::from(i) + 7));
+        let mut setup = throw.setup(throw.plate(), Integrator::Rk4 { step_s: 1e-4 });
+        setup.time.output_s = 1.3e-3;
+        Model::new(setup).unwrap()
+    });
+}
