@@ -107,7 +107,7 @@ mod tests {
 
     #[test]
     fn a_point_that_bounces_goes_as_far_as_the_formula_says_and_never_beyond_the_bounds() {
-        for friction in [0.3, 0.7] {
+        for friction in [0.3_f64, 0.7] {
             for fall_m in [0.0, 0.8] {
                 for bounces in [0, 1, 4] {
                     for degrees in [0.0_f64, 10.0, 25.0, friction.atan().to_degrees()] {
