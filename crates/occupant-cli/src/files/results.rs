@@ -118,6 +118,7 @@ impl Results {
         } else if let Some(reason) = &self.reason {
             notes.push(format!("{name} holds a run that did not complete: {reason}"));
         }
+        notes.extend(self.span());
         let theirs = self.run.get("program").map_or("?", String::as_str);
         if theirs != program() {
             notes.push(format!(
@@ -126,6 +127,31 @@ impl Results {
             ));
         }
         notes
+    }
+
+    /// What time a file covers that is not all of its scenario's, in words.
+    fn span(&self) -> Option<String> {
+        let (first, last) = (&self.checkpoints[0], &self.checkpoints[self.checkpoints.len() - 1]);
+        let name = self.path.display();
+        let [from_ms, to_ms] = [first.time_s, last.time_s].map(|t_s| (1e7 * t_s).round() / 1e4);
+        if first.index > 0 {
+            let whole = if first.peaks.is_empty() {
+                "nothing that is told of it counts what was before"
+            } else {
+                "peaks and measures count from the start of the run; events, throws and caveats from there"
+            };
+            return Some(format!("{name} resumes a run and covers {from_ms} to {to_ms} ms: {whole}"));
+        }
+        let overrides = self.run.get("overrides").map_or("", String::as_str);
+        let end = overrides.lines().rev().find(|line| line.starts_with("time.end="))?;
+        Some(format!("{name} covers {from_ms} to {to_ms} ms: it was run with {end}"))
+    }
+
+    /// Why nothing is to be judged by a file, if it holds a part of a run alone and not what its measures need.
+    fn part(&self) -> Option<String> {
+        let first = &self.checkpoints[0];
+        let is_part = first.index > 0 && first.peaks.is_empty();
+        is_part.then(|| format!("the file begins at {:.1} ms: nothing counts what was before", 1e3 * first.time_s))
     }
 
     /// Shows every output to `recorder`, which learns of the begin of the run but not of its end.
@@ -204,7 +230,11 @@ impl Results {
     /// The summary that was made, of this run however it ended.
     fn told(&self, summarizer: &Summarizer) -> Result<Summary, Failure> {
         let summary = summarizer.summary(None).ok_or_else(|| self.refused("the run left no summary"))?;
-        Ok(summary.ended(self.status, self.reason.clone()))
+        let summary = summary.ended(self.status, self.reason.clone());
+        Ok(match self.part() {
+            Some(part) => summary.of_part(part),
+            None => summary,
+        })
     }
 
     /// The outcome up to the last output.

@@ -71,6 +71,11 @@ impl Caveat {
         (!throw.at_rest).then(|| Caveat::new("not_at_rest", text, figures.to_vec()).of_occupant(body))
     }
 
+    /// A part of a run alone.
+    pub(super) fn of_part(text: String) -> Self {
+        Caveat::new("part_of_a_run", text, owned(&["*"]))
+    }
+
     /// A run that did not keep its energy; none for one that did.
     pub(super) fn of_balance(energy: &EnergyCheck) -> Option<Self> {
         let (name, means) = match energy.balance {

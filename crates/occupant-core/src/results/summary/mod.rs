@@ -1,7 +1,7 @@
 //! What one run came to: peaks with their times, 3 ms levels, first contacts, energy balance, work of the integrator.
 //!
-//! A [`Summarizer`] is a [`crate::results::recorder::Recorder`]; it looks at every output and keeps little. Peaks and levels are those of the
-//! output times, straight lines between them: an output interval of 1 ms or less does them justice. Nothing is filtered.
+//! A [`Summarizer`] is a [`crate::results::recorder::Recorder`]; it keeps little. Peaks are those of the accepted steps; levels and measures
+//! with windows are those of readings at 10 kHz, straight lines between them. Nothing is filtered.
 
 mod caveat;
 mod compartment;
@@ -95,6 +95,14 @@ impl Summary {
     pub fn ended(mut self, status: RunStatus, reason: Option<String>) -> Self {
         self.caveats.splice(..0, Caveat::of_ending(status, self.reached_s));
         Summary { status, reason, ..self }
+    }
+}
+
+impl Summary {
+    /// The same of a file that holds only a part of a run, which `text` tells: no figure is one of the run.
+    pub fn of_part(mut self, text: String) -> Self {
+        self.caveats.insert(0, Caveat::of_part(text));
+        self
     }
 }
 
