@@ -39,8 +39,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "STANDARD", default_value = "iso6487", value_parser = one_of(&FAMILIES))]
     coefficients: CfcFamily,
 
-    /// Run the case again and take the readings this often, such as '0.1 ms': what happens between the outputs of the file counts
-    /// then. With a filter it is 0.1 ms where the outputs are further apart
+    /// Run the case again and take the readings this often, such as '0.1 ms': a file has them every 0.1 ms, or
+    /// every step of a fixed length above that. With a filter it is 0.1 ms where they are further apart
     #[arg(long, value_name = "TIME", value_parser = interval)]
     interval: Option<f64>,
 
@@ -119,7 +119,7 @@ struct Judged {
 impl Judged {
     fn of(file: &Path, again_s: Option<f64>, options: Options) -> Result<Self, Failure> {
         let results = Results::open(file)?;
-        let own_s = results.model.setup().time.output_s;
+        let own_s = results.readings_s();
         let needed_s = (options.filtering != Filtering::None && own_s > 1.01 * FILTERED_S).then_some(FILTERED_S);
         let again_s = again_s.or(needed_s);
         let [own_ms, interval_ms] = [own_s, again_s.unwrap_or(own_s)].map(|s| (1e9 * s).round() / 1e6);
@@ -128,7 +128,7 @@ impl Judged {
             None => results.summary_judged(options)?,
             Some(interval_s) => {
                 notes.push(format!(
-                    "the case is run again with readings every {interval_ms} ms; the file has outputs every {own_ms} ms"
+                    "the case is run again with readings every {interval_ms} ms; the file has them every {own_ms} ms"
                 ));
                 results.summary_again(options, interval_s)?
             }

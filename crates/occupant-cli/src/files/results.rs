@@ -10,6 +10,7 @@ use crash_measures::injury::Options;
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, Series};
 use occupant_core::results::checkpoint::Checkpoint;
+use occupant_core::results::fine::interval_s;
 use occupant_core::results::outcome::{Outcome, Status};
 use occupant_core::results::recorder::{Recorder, Watch};
 use occupant_core::results::sample::Sample;
@@ -127,6 +128,12 @@ impl Results {
             ));
         }
         notes
+    }
+
+    /// How often instruments were read, s: at the outputs alone in files of 0.1.0.
+    pub(crate) fn readings_s(&self) -> f64 {
+        let are_there = !self.checkpoints[0].peaks.is_empty();
+        if are_there { interval_s(&self.model) } else { self.model.setup().time.output_s }
     }
 
     /// What time a file covers that is not all of its scenario's, in words.

@@ -35,9 +35,9 @@ fn every_template_runs_as_it_is_without_a_caveat() {
         // a bare head on a bare window is a spike that no interval of outputs is short enough for
         let caveats = json(&run)["caveats"].as_array().unwrap().clone();
         let is_spike = |name: &str| match template {
-            "side" => name == "outputs_too_coarse",
+            "side" => name == "readings_too_coarse",
             // who rolls on a road bends beyond what people bear, and says so
-            "pedestrian" => name == "outputs_too_coarse" || name.ends_with("_beyond_stop"),
+            "pedestrian" => name == "readings_too_coarse" || name.ends_with("_beyond_stop"),
             _ => false,
         };
         let caveats: Vec<_> = caveats.iter().filter(|c| !is_spike(c["name"].as_str().unwrap())).collect();

@@ -102,7 +102,7 @@ fn figures_that_cannot_be_trusted_say_so_wherever_they_stand() {
     assert!(printed.contains("*** neck beyond its stop: 119°"), "{}", &printed[printed.len() - 4000..]);
     // a filter has readings at 10 kHz, from the same motion
     let filtered = said(&["measures", "a.mcap", "--filter", "sae-j211"]);
-    assert!(err(&filtered).contains("run again with readings every 0.1 ms; the file has outputs every 1 ms"));
+    assert!(!err(&filtered).contains("run again"), "{}", err(&filtered));
     let filtered = out(&filtered);
     assert!(filtered.contains("readings every 0.1 ms") && !filtered.contains("too coarse"), "{filtered}");
     let value = |table: &str| row(table, "HIC15")[1].trim_end_matches('!').parse::<f64>().unwrap();

@@ -87,21 +87,23 @@ fn a_finished_study_has_all_its_sections() {
 
 #[test]
 fn figures_with_caveats_are_marked_where_they_stand() {
-    // outputs every 10 ms know no peak
-    let study =
-        STUDY.replace("\"30 ms\"", "\"120 ms\"").replace("0.5 ms", "10 ms").replace("samples = 24", "samples = 6");
+    // steps of 1 ms are too long
+    let study = STUDY
+        .replace("\"30 ms\"", "\"120 ms\"")
+        .replace("\"0.5 ms\"", "\"10 ms\", \"integrator.step\" = \"1 ms\"")
+        .replace("samples = 24", "samples = 6");
     let folder = swept(&study);
     let shown = page(folder.path());
     sane(&shown);
     assert!(shown.contains(" of 6 runs have caveats on this figure: "), "{shown}");
     let mut ends = shown.lines().filter(|line| line.contains(", greatest: "));
-    assert!(ends.any(|line| line.contains(" †: ") && line.contains("outputs_too_coarse")), "{shown}");
+    assert!(ends.any(|line| line.contains(" †: ") && line.contains("readings_too_coarse")), "{shown}");
     let rows = rows(&folder.path().join("out/report.parquet"));
-    let median = rows.iter().find(|r| text(r, "response") == "head.peak" && text(r, "quantity") == "median").unwrap();
-    assert!(text(median, "mark").contains("outputs_too_coarse"), "{}", text(median, "mark"));
+    let median = rows.iter().find(|r| text(r, "response") == "damage" && text(r, "quantity") == "median").unwrap();
+    assert!(text(median, "mark").contains("readings_too_coarse"), "{}", text(median, "mark"));
     // the table says which figures
     let table = fs::read_to_string(folder.path().join("out/results.csv")).unwrap();
-    assert!(table.contains("outputs_too_coarse(") && table.contains("hic15"), "{table}");
+    assert!(table.contains("readings_too_coarse(") && table.contains("damage"), "{table}");
 }
 
 #[test]

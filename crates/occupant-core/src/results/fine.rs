@@ -152,8 +152,8 @@ impl Fine {
     }
 }
 
-/// The interval of readings of a run of `model`: no shorter than its fixed steps.
-fn interval_s(model: &Model) -> f64 {
+/// The interval of readings of a run of `model`, s: no shorter than its fixed steps.
+pub fn interval_s(model: &Model) -> f64 {
     let asked_s = model.setup().output.readings_s.unwrap_or(READINGS_S);
     match model.setup().integrator {
         Integrator::Rk4 { step_s } => asked_s.max(step_s),

@@ -54,38 +54,37 @@ fn a_head_that_flies_through_a_seat_takes_its_figures_with_it() {
     assert!(!names.iter().any(|name| name == "head_passed"), "{names:?}");
 }
 
+/// A figure belongs to the steps: how often a run is recorded makes no difference to it.
 #[test]
-fn outputs_too_coarse_say_so_and_closer_ones_do_not() {
-    let found = |interval: &str| {
-        let (summary, _) = caveats_of(BELTED, &[("output.interval", interval)]);
-        summary.caveats.into_iter().find(|caveat| caveat.name == "outputs_too_coarse")
-    };
-    let coarse = found("5 ms").unwrap();
-    assert!(coarse.touches("nij") && coarse.touches("hic15") && coarse.touches("head.peak"), "{coarse:?}");
-    assert!(coarse.text.contains("outputs every 5 ms"), "{}", coarse.text);
-    assert!(["belts.lap.peak", "contacts.head.peak", "head_excursion.forward"].iter().all(|f| coarse.touches(f)));
-    let near = found("1 ms").unwrap();
-    assert!(!near.touches("belts.lap.peak") && !near.text.contains("peaks of forces"), "{near:?}");
-    // two outputs, of which none can be left out
-    assert!(found("1 s").unwrap().touches("head.peak"));
-    assert_eq!(found("0.1 ms"), None);
+fn figures_do_not_know_how_often_a_run_is_recorded() {
+    let unbelted = include_str!("../../../../tests/data/carts/cart-unbelted.toml");
+    for scenario in [BELTED, unbelted] {
+        let of = |interval: &str| {
+            let (summary, names) = caveats_of(scenario, &[("output.interval", interval)]);
+            assert!(names.iter().all(|name| !name.ends_with("too_coarse")), "{names:?}");
+            summary
+        };
+        let fine = of("0.1 ms");
+        for coarse in ["1 ms", "2 ms", "5 ms"].map(of) {
+            for (a, b) in fine.measures.iter().zip(&coarse.measures) {
+                let (Some(x), Some(y)) = (a.value, b.value) else { continue };
+                // steps of a fixed length end at outputs, to the rounding; measured: 9e-14
+                assert!((x - y).abs() <= 1e-10 * x.abs().max(1e-6), "{}: {x} {y}", a.name);
+            }
+            for (a, b) in fine.sphere_forces.iter().zip(&coarse.sphere_forces) {
+                // measured: 2e-13
+                assert!((a.force_n / b.force_n - 1.0).abs() < 1e-10, "{a:?} {b:?}");
+            }
+        }
+    }
 }
 
-/// A chest that meets the wheel between two outputs.
 #[test]
-fn a_peak_between_two_outputs_is_told_by_the_steps() {
-    let unbelted = include_str!("../../../../tests/data/carts/cart-unbelted.toml");
-    let of = |interval: &str| {
-        let (summary, _) = caveats_of(unbelted, &[("output.interval", interval)]);
-        let chest = summary.accelerations.chest.peak_m_s2;
-        (chest, summary.caveats.into_iter().find(|caveat| caveat.name == "outputs_too_coarse"))
-    };
-    let [(coarse, told), (fine, no_more)] = ["1 ms", "0.1 ms"].map(of);
-    let told = told.unwrap();
-    let percent = (100.0 * (fine / coarse - 1.0)).round();
-    assert!(percent > 10.0 && told.touches("chest.peak"), "{percent} {told:?}");
-    assert!(told.text.contains(&format!("between two outputs chest.peak is passed by {percent} %")), "{}", told.text);
-    assert!(!no_more.is_some_and(|caveat| caveat.touches("chest.peak")));
+fn readings_too_coarse_say_so() {
+    let steps = [("integrator.step", "2 ms"), ("output.interval", "2 ms")];
+    let (summary, _) = caveats_of(include_str!("../../../../tests/data/carts/cart-unbelted.toml"), &steps);
+    let coarse = summary.caveats.into_iter().find(|caveat| caveat.name == "readings_too_coarse").unwrap();
+    assert!(coarse.touches("hic15") && coarse.text.contains("readings every 2 ms"), "{coarse:?}");
 }
 
 #[test]
