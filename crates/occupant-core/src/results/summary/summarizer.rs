@@ -8,7 +8,7 @@ use super::events::Events;
 use super::flight::Flight;
 use super::person::Watched;
 use super::signs::Signs;
-use super::{Caveat, ContactBegin, Ejection, FirstContact, Person, RunStatus, Solver, SpherePeak, Summary, word};
+use super::{Caveat, ContactBegin, Ejection, FirstContact, Person, RunStatus, Solver, SpherePeak, Summary};
 use crate::body::{Body, ContactSphere};
 use crate::forces::bag::Bag;
 use crate::forces::chain::Chain;
