@@ -40,7 +40,7 @@ pub(crate) fn channels(args: &Args) -> Result<(), Failure> {
     let is_word = |text: &str| text.split(|c: char| !c.is_alphanumeric()).any(|own| own.to_lowercase() == word);
     let has_word = |text: &str| text.to_lowercase().contains(&word);
     let that = |is: &dyn Fn(&str) -> bool| rows(all.iter().filter(|c| is(&c.name) || is(&c.meaning)));
-    let mut found = that(&is_word);
+    let mut found = if word.is_empty() { Vec::new() } else { that(&is_word) };
     if found.is_empty() && measure(&word).is_none() {
         found = that(&has_word);
     }

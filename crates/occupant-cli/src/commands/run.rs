@@ -215,7 +215,9 @@ fn one(args: &Args) -> Result<(Done, Summary, Units), Failure> {
         say(&format!("warning: {message}"));
     }
     let mut run = simulate(&opened, from.as_ref(), recording, channels, &interrupt, args.quiet)?;
-    if let Some((diagnosis, step_s)) = diagnosis.as_ref().and_then(|d| Some((d, d.run.step_s?))) {
+    if let Some((diagnosis, step_s)) =
+        diagnosis.as_ref().filter(|_| run.completed).and_then(|d| Some((d, d.run.step_s?)))
+    {
         let caveat = Caveat::step_too_long(step_s, RK4_STABILITY_LIMIT, &diagnosis.too_fast(), &run.summary);
         run.summary.caveats.extend(caveat);
     }
