@@ -2,7 +2,6 @@
 
 use nalgebra::{Matrix3, Point3, Vector3};
 use occupant_core::body::{Body, ContactSphere};
-use occupant_core::forces::contact::material::Material;
 use occupant_core::forces::contact::solid::{Shape, Solid};
 use occupant_core::forces::contact::surface::Frame;
 use occupant_core::forces::joint::Joints;
