@@ -69,6 +69,9 @@ impl Run {
             front.note(model, &mut self.seen, &mut self.switches);
             failed = self.step_on(model, &mut front, control);
         }
+        if front.step.end_s <= target_s {
+            front.note(model, &mut self.seen, &mut self.switches);
+        }
         self.time_s = match failed {
             Ok(()) => {
                 front.show(target_s, &mut self.state, &mut self.history);

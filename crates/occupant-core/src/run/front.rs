@@ -50,6 +50,8 @@ pub(super) struct Front {
     /// What is felt at `to`, and at the end of a trial.
     felt: Felt,
     felt_in_trial: Felt,
+    /// Whether the end of the step was noted.
+    is_noted: bool,
     /// For what switches, if anything can.
     search: Option<Search>,
     scratch: Scratch<f64>,
@@ -73,6 +75,7 @@ impl Front {
             met_in_trial: Vec::with_capacity(history.memory.contacts.len()),
             felt: Felt::new(model),
             felt_in_trial: Felt::new(model),
+            is_noted: false,
             search: model.system().forces.can_switch().then(|| Search::new(&history.memory)),
             scratch: Scratch::blank(model.system()),
             frames: Frames::still(time_s),
@@ -154,7 +157,7 @@ impl Front {
 
     /// Accepts `trial` of `step`; `at_break`: the velocity of the vehicle may jump at its end.
     pub(super) fn take_over(&mut self, trial: Trial, step: Step, at_break: bool) {
-        self.step = step;
+        (self.step, self.is_noted) = (step, false);
         self.from = self.to;
         self.to = trial.state;
         self.rates = [self.rates[1], trial.rate];
@@ -203,10 +206,12 @@ impl Front {
         self.trial.memory.failure(&model.setup().forces(&[]), &model.system().forces)
     }
 
-    /// Notes what is felt and what touches at the end of the step, as all outputs before it are recorded.
-    pub(super) fn note(&self, model: &Model, seen: &mut Seen, switches: &mut Switches) {
+    /// Notes once what is felt and what touches at the end of the step, as all outputs before it are recorded: an output there
+    /// belongs to the step.
+    pub(super) fn note(&mut self, model: &Model, seen: &mut Seen, switches: &mut Switches) {
         // before the first step nothing was evaluated
-        if self.step.length_s() > 0.0 {
+        if self.step.length_s() > 0.0 && !self.is_noted {
+            self.is_noted = true;
             if self.search.is_some() {
                 let [before, now] = [&self.before.memory, &self.after.memory];
                 switches.note(&model.system().forces, self.step.end_s, before, now);
