@@ -196,7 +196,7 @@ range = { from = -1, to = 2 }
 3 | [[parameters]]
   | ^^^^^^^^^^^^^^
   = in: parameters[0]
-  = expected: a stiffness above 0"#,
+  = expected: a stiffness of at least 0"#,
     );
 }
 
