@@ -11,7 +11,10 @@ use std::path::{Path, PathBuf};
 const ROOMS: [(&str, &[&str]); 6] = [
     ("crash-measures", &["trig", "nearest", "unit", "signal", "correlation", "measure", "injury"]),
     ("vehicle-motion", &["tyre", "ground", "car", "driver", "chassis", "integrate", "run"]),
-    ("placed-text", &["shown", "problem", "source", "diagnostic", "node", "path", "reader", "csv", "json", "toml"]),
+    (
+        "placed-text",
+        &["encoding", "shown", "problem", "source", "diagnostic", "node", "path", "reader", "csv", "json", "toml"],
+    ),
     (
         "occupant-core",
         &["quantity", "body", "vehicle", "motion", "forces", "kernel", "model", "results", "run", "diagnosis"],

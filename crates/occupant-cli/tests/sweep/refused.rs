@@ -95,8 +95,9 @@ fn a_study_of_which_every_sample_is_refused_has_failed_and_says_why() {
     for more in [&[][..], &["--quiet"]] {
         let output = answer(folder.path(), &[&["sweep", "study.toml", "-o", "out", "--restart"][..], more].concat());
         let said = err(&output);
-        assert_eq!(output.status.code(), Some(1), "{said}");
-        assert!(said.contains("every sample is refused") && said.contains("no longer than the run"), "{said}");
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains("every sample that was looked at is refused"), "{said}");
+        assert!(said.contains("no longer than the run"), "{said}");
     }
     let output = answer(folder.path(), &["sweep", "study.toml", "-o", "dry", "--dry-run"]);
     let said = err(&output);

@@ -44,7 +44,8 @@ impl Fine {
         let count = SIGNALS * bodies.len();
         let time = &model.setup().time;
         let interval_s = interval_s(model);
-        let room = count * ((time.output_s.min(time.end_s - time.start_s) / interval_s) as usize + 64);
+        let between = (time.output_s.min(time.end_s - time.start_s) / interval_s) as usize;
+        let room = count * (between.min(1 << 20) + 64);
         Fine {
             start_s: time.start_s,
             interval_s,
@@ -60,7 +61,7 @@ impl Fine {
     /// How many samples a whole run of `model` has at most.
     pub(crate) fn most(model: &Model) -> usize {
         let time = &model.setup().time;
-        ((time.end_s - time.start_s) / interval_s(model)) as usize + 2
+        (((time.end_s - time.start_s) / interval_s(model)) as usize).saturating_add(2)
     }
 
     /// Whether nobody has read steps: in files before 0.2.

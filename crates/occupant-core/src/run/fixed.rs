@@ -203,7 +203,6 @@ impl Run {
         let Some(rear) = self.rear.as_mut().filter(|rear| rear.step.is_some()) else { return Ok(()) };
         rear.keep(&self.history);
         stepper.commit(self.time_s, &self.state, &mut self.history, &mut self.cursor);
-        self.effort.evaluations += 1;
         match self.take_back() {
             Some(latest) => self.take_again(stepper, latest),
             None => {

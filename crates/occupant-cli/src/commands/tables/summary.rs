@@ -78,7 +78,7 @@ pub(crate) fn summary_table(summary: &Summary, written: &Written, marks: &Marks,
         let own = measures::table(person.measures.iter().filter(|m| m.brief), &marks.of_occupant(&prefix), units);
         parts.push(if prefix.is_empty() { own } else { format!("{}\n{own}", shown(prefix.trim_end_matches('.'))) });
     }
-    parts.extend(ejections(summary));
+    parts.extend(ejections(summary, marks));
     parts.extend(throws(summary, marks, units));
     parts.extend(marks.explained());
     parts.push(trust(summary, written, marks, units));

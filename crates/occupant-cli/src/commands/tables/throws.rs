@@ -15,7 +15,7 @@ pub(super) fn throws(summary: &Summary, marks: &Marks, units: Units) -> Option<S
 }
 
 /// What left the compartment of a vehicle; none where nothing did.
-pub(super) fn ejections(summary: &Summary) -> Option<String> {
+pub(super) fn ejections(summary: &Summary, marks: &Marks) -> Option<String> {
     let all = summary.ejections.iter().map(|(name, ejection)| {
         let of = if name.is_empty() { "occupant".to_owned() } else { shown(name).to_string() };
         let degree = match (ejection.degree, ejection.complete_s) {
@@ -23,9 +23,11 @@ pub(super) fn ejections(summary: &Summary) -> Option<String> {
             _ if ejection.inside.is_empty() => format!("partial: never was all of the {of} outside at one time"),
             _ => format!("partial: {} never outside", ejection.inside.join(", ")),
         };
+        let prefix = if name.is_empty() { String::new() } else { format!("{name}.") };
+        let marks = marks.of_occupant(&prefix);
         let rows = ejection.parts.iter().map(|exit| {
             let past = exit.past.as_deref().map_or(NONE.to_owned(), |past| shown(past).to_string());
-            [shown(&exit.part).to_string(), ms(exit.time_s), exit.side.words().to_owned(), past]
+            [shown(&exit.part).to_string(), marks.put("ejection", ms(exit.time_s)), exit.side.words().to_owned(), past]
         });
         let heads = [(Left, &["ejected"][..]), (Right, &["at, ms"]), (Left, &["to", "past"])];
         format!("ejection {degree}\n{}", table(&heads, rows))

@@ -84,8 +84,8 @@ mod tests {
     const G: f64 = 9.80665;
 
     /// Distance of a point that is launched, falls by `fall_m`, and then bounces `bounces` times, each with half the vertical speed,
-    /// losing μ times the vertical impulse of its horizontal speed at each touch, and slides to rest.
-    fn gone_m(friction: f64, fall_m: f64, speed_m_s: f64, angle: f64, bounces: usize) -> f64 {
+    /// losing μ times the vertical impulse of its horizontal speed at each touch, and slides to rest; none if it stops in a bounce.
+    fn gone_m(friction: f64, fall_m: f64, speed_m_s: f64, angle: f64, bounces: usize) -> Option<f64> {
         let [mut along, mut up] = [speed_m_s * angle.cos(), speed_m_s * angle.sin()];
         let (mut height_m, mut x) = (fall_m, 0.0);
         for i in 0..=bounces {
@@ -93,10 +93,12 @@ mod tests {
             x += along * (up + down) / G;
             let new_up = if i == bounces { 0.0 } else { 0.5 * down };
             along -= friction * (down + new_up);
-            assert!(along > 0.0, "it must not stop in a bounce: {along}");
+            if along <= 0.0 {
+                return None;
+            }
             (up, height_m) = (new_up, 0.0);
         }
-        x + along * along / (2.0 * friction * G)
+        Some(x + along * along / (2.0 * friction * G))
     }
 
     /// At 12 m/s.
@@ -112,7 +114,7 @@ mod tests {
                 for bounces in [0, 1, 4] {
                     for degrees in [0.0_f64, 10.0, 25.0, friction.atan().to_degrees()] {
                         let angle = degrees.to_radians();
-                        let s = gone_m(friction, fall_m, 12.0, angle, bounces);
+                        let Some(s) = gone_m(friction, fall_m, 12.0, angle, bounces) else { continue };
                         let bracket = angle.cos() + friction * angle.sin();
                         let formula = (12.0 * bracket).powi(2) / (2.0 * friction * G) + friction * fall_m;
                         // measured: 4e-15
@@ -131,10 +133,10 @@ mod tests {
                         assert!(near < s + 1e-9 && far > s - 1e-9, "{near} {s} {far}");
                     }
                     // the bounds are reached
-                    let best = gone_m(friction, fall_m, 12.0, friction.atan(), bounces);
-                    assert!((Searle::new(&thrown(friction, fall_m, best)).speeds_m_s[0] - 12.0).abs() < 1e-9);
-                    let flat = gone_m(friction, fall_m, 12.0, 0.0, bounces);
-                    assert!((Searle::new(&thrown(friction, fall_m, flat)).speeds_m_s[1] - 12.0).abs() < 1e-9);
+                    for (bound, angle) in [friction.atan(), 0.0].into_iter().enumerate() {
+                        let Some(s) = gone_m(friction, fall_m, 12.0, angle, bounces) else { continue };
+                        assert!((Searle::new(&thrown(friction, fall_m, s)).speeds_m_s[bound] - 12.0).abs() < 1e-9);
+                    }
                 }
             }
         }

@@ -77,7 +77,9 @@ fn peaks_are_those_of_the_whole_record() {
 
     let greatest = all.head.iter().copied().fold((0.0, 0.0), |best, next| if next.1 > best.1 { next } else { best });
     let head = s.accelerations.head;
-    assert_eq!((head.peak_time_s, head.peak_m_s2), greatest);
+    // between two outputs the steps see more: measured 37.491 m/s² for 37.478, 0.5 ms later
+    assert!(head.peak_m_s2 >= greatest.1 && head.peak_m_s2 < 1.001 * greatest.1, "{head:?} {greatest:?}");
+    assert!((head.peak_time_s - greatest.0).abs() < model.setup().time.output_s);
     assert_eq!(head.peak_g, head.peak_m_s2 / 9.80665);
     // held longer than an instant means lower than the peak, and in total at least as high as in one piece
     let (held, total) = (head.three_ms_contiguous.unwrap(), head.three_ms_cumulative.unwrap());
@@ -89,7 +91,7 @@ fn peaks_are_those_of_the_whole_record() {
         let index = model.body().sphere(&peak.sphere).unwrap();
         let own = all.forces.iter().filter(|f| f.0 == index);
         let most = own.map(|f| f.2).fold(0.0, f64::max);
-        assert!((peak.force_n - most).abs() <= 1e-12 * most, "{peak:?} against {most}");
+        assert!(peak.force_n >= most * (1.0 - 1e-12) && peak.force_n < 1.05 * most, "{peak:?} against {most}");
         assert_eq!(peak.surface, "floor");
     }
     assert_eq!(s.contacts.len(), outcome.first_touches.len());
@@ -174,7 +176,10 @@ fn a_last_output_between_two_regular_times_does_not_bend_the_levels() {
     assert_eq!(s.solver.outputs, model.output_count());
     assert_eq!(s.reached_s, 0.2035);
     let whole = summary_of(&falling(floor(), 0.203));
-    assert_eq!(s.accelerations.head.three_ms_contiguous, whole.accelerations.head.three_ms_contiguous);
+    // readings go on beyond the last regular output, so that a later window counts: measured 28.73 m/s² for 28.45
+    let [longer, shorter] = [&s, &whole].map(|one| one.accelerations.head.three_ms_contiguous.unwrap());
+    assert!(longer.level_m_s2 >= shorter.level_m_s2 && longer.to_s <= 0.2035 + 1e-9, "{longer:?} {shorter:?}");
+    assert!(longer.level_m_s2 < 1.02 * shorter.level_m_s2, "{longer:?} {shorter:?}");
 }
 
 #[test]
