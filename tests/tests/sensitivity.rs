@@ -11,9 +11,9 @@ use occupant_core::results::recorder::Watch;
 use occupant_core::run::simulate::simulate;
 use occupant_scenario::{Draft, Format};
 use occupant_study::sensitivity::finite::neighbours;
-use occupant_study::sensitivity::measures::{Request, derivatives};
+use occupant_study::sensitivity::measures::{Request, derivatives, plain_values};
 use occupant_study::sensitivity::verdict::{HOLDS, Verdict, compare};
-use occupant_study::sensitivity::{Built, Parameter, Slope, Trajectory, Trouble, follow, parameter};
+use occupant_study::sensitivity::{Built, Parameter, Slope, Trajectory, Trouble, fine_interval_s, follow, parameter};
 use occupant_tests::cart::lap;
 use occupant_tests::measure::assert_below;
 
@@ -489,6 +489,7 @@ fn on_the_cart_before_the_first_event() {
 
 #[test]
 fn after_contacts_the_derivative_is_what_small_finite_changes_do() {
+    let mut held = 0;
     for (text, end) in [(CART, "0.12"), (UNBELTED, "0.09")] {
         let draft = draft(text, &[&format!("time.end={end}")]);
         let model = model_of(&draft);
@@ -504,11 +505,98 @@ fn after_contacts_the_derivative_is_what_small_finite_changes_do() {
             for (i, figure) in figures.iter().enumerate() {
                 let c = compare(&found.figures[i], parameter.size, &beside, k, i);
                 let what = format!("{figure} by {}, ±0.1 %", parameter.name);
-                println!("{what}: {c:?}");
-                let declared = matches!(c.verdict, Verdict::Holds { off, .. } if off <= HOLDS);
-                assert!(declared, "{what}: {c:?}");
+                // fixed steps that meet corners of contacts have slopes of their own: then the verdict says so
+                match c.verdict {
+                    Verdict::Holds { off, .. } => {
+                        assert!(off <= HOLDS, "{what}: {c:?}");
+                        held += 1;
+                    }
+                    Verdict::DoesNotHold { off, .. } => assert!(off > HOLDS, "{what}: {c:?}"),
+                    Verdict::NoInfluence => {}
+                    Verdict::Unchecked => panic!("{what}: {c:?}"),
+                }
             }
         }
+    }
+    // measured: 5 of 24
+    assert!(held >= 5, "{held}");
+}
+
+/// Figures of the run beside a parameter's value, on steps and at outputs like those of the run itself, made of these outputs alone.
+fn figures_beside(parameter: &Parameter<'_>, value: f64, wish: &Request) -> Vec<f64> {
+    let model = (parameter.model_at)(value).unwrap();
+    let mut here = parameter.with_outputs_every(model.setup().time.output_s);
+    here.nominal = value;
+    let trajectory = follow(&model, &mut [Built::new(&model, &here).unwrap()]).unwrap();
+    plain_values(&model, &trajectory, wish).unwrap().figures
+}
+
+/// Runs by the same method at the same outputs have no other errors than the run itself, as the tight runs of a verdict have.
+#[test]
+fn after_contacts_the_derivative_is_that_of_runs_on_the_same_steps() {
+    for (text, end) in [(CART, "0.12"), (UNBELTED, "0.09")] {
+        let draft = draft(text, &[&format!("time.end={end}")]);
+        let interval_s = fine_interval_s(&model_of(&draft));
+        let model = model_of(&draft).with_outputs_every(interval_s);
+        let paths = ["joints.neck.damping", "materials.seat.k1", "path.duration"];
+        let own = paths.map(|p| parameter(&draft, p, &no_files).unwrap());
+        let parameters = own.each_ref().map(|p| p.with_outputs_every(interval_s));
+        let mut built = parameters.each_ref().map(|p| Built::new(&model, p).unwrap());
+        let trajectory = follow(&model, &mut built).unwrap();
+        let figures = ["hic15", "head.peak", "chest.three_ms_contiguous", "contacts.pelvis.peak"];
+        let wish = Request { figures: figures.map(str::to_owned).to_vec(), channels: Vec::new() };
+        let plain = plain_values(&model, &trajectory, &wish).unwrap().figures;
+        for (k, parameter) in parameters.iter().enumerate() {
+            let found = derivatives(&model, parameter, &trajectory, k, &wish).unwrap();
+            let h = 1e-5 * parameter.size;
+            let [up, down] = [h, -h].map(|h| figures_beside(parameter, parameter.nominal + h, &wish));
+            for (i, figure) in figures.iter().enumerate() {
+                let slope = found.figures[i].value;
+                for secant in [(up[i] - plain[i]) / h, (plain[i] - down[i]) / h] {
+                    let what = format!("{figure} by {}, 0.001 %", parameter.name);
+                    // Measured, of the peaks: 2.7e-7 to 1.1e-3.
+                    assert_below(&what, secant / slope - 1.0, 0.03);
+                }
+            }
+        }
+    }
+}
+
+/// Tight runs say that the derivatives of a smooth measure hold, and that those of a peak at a corner, which comes between two
+/// outputs and shifts, do not: the slope by the neck's damping has the other sign.
+#[test]
+fn a_verdict_tells_a_smooth_measure_from_a_peak_at_a_corner() {
+    let draft = draft(CART, &["time.end=0.12"]);
+    let own_model = model_of(&draft);
+    let interval_s = fine_interval_s(&own_model);
+    let model = own_model.clone().with_outputs_every(interval_s);
+    let paths = ["joints.neck.damping", "materials.seat.k1", "path.duration"];
+    let own = paths.map(|p| parameter(&draft, p, &no_files).unwrap());
+    let parameters = own.each_ref().map(|p| p.with_outputs_every(interval_s));
+    let mut built = parameters.each_ref().map(|p| Built::new(&model, p).unwrap());
+    let trajectory = follow(&model, &mut built).unwrap();
+    let wish = Request { figures: vec!["hic15".to_owned(), "head.peak".to_owned()], channels: Vec::new() };
+    let beside = neighbours(&own_model, &own, 1e-4, &wish.figures);
+    for (k, parameter) in parameters.iter().enumerate() {
+        let found = derivatives(&model, parameter, &trajectory, k, &wish).unwrap();
+        let [smooth, peak] = [0, 1].map(|i| compare(&found.figures[i], parameter.size, &beside, k, i));
+        // Measured: 1.4e-3, 2.2e-3, 6.1e-3 for a bound of 0.02.
+        assert!(matches!(smooth.verdict, Verdict::Holds { off, .. } if off <= HOLDS), "{}: {smooth:?}", parameter.name);
+        // Measured: 8.9, 3.8, 1.9.
+        assert!(matches!(peak.verdict, Verdict::DoesNotHold { off, .. } if off > 1.0), "{}: {peak:?}", parameter.name);
+    }
+}
+
+/// A half sine that takes away just the speed: with less the vehicle stops earlier, by the root of the change, with more never.
+#[test]
+fn by_the_speed_that_a_pulse_just_takes_away_there_is_a_derivative_with_a_note() {
+    for (end, notes) in [("0.05", 0), ("0.12", 1)] {
+        let draft = draft(CART, &[&format!("time.end={end}")]);
+        let model = model_of(&draft);
+        let speed = parameter(&draft, "path.speed", &no_files).unwrap();
+        let built = Built::new(&model, &speed).unwrap();
+        let found = built.notes.iter().filter(|note| note.contains("80.000 ms shifts with it, but not in proportion"));
+        assert_eq!(found.count(), notes, "{:?}", built.notes);
     }
 }
 

@@ -44,7 +44,8 @@ impl Separator {
     fn of_numbers(line: &str) -> Self {
         let usual = Separator::of(line);
         let all = |separator: Separator| {
-            separator.pieces(line).iter().all(|(_, piece)| separator.is_number(piece.trim().trim_matches('"')))
+            let is_value = |text: &str| is_missing(text) || separator.is_number(text);
+            separator.pieces(line).iter().all(|(_, piece)| is_value(piece.trim().trim_matches('"')))
         };
         if usual.0 == ',' && !all(usual) && all(Separator(' ')) { Separator(' ') } else { usual }
     }

@@ -98,6 +98,7 @@ fn a_study_of_which_every_sample_is_refused_has_failed_and_says_why() {
         assert_eq!(output.status.code(), Some(2), "{said}");
         assert!(said.contains("every sample that was looked at is refused"), "{said}");
         assert!(said.contains("no longer than the run"), "{said}");
+        assert!(!folder.path().join("out").exists());
     }
     let output = answer(folder.path(), &["sweep", "study.toml", "-o", "dry", "--dry-run"]);
     let said = err(&output);

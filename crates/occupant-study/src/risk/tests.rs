@@ -240,7 +240,8 @@ fn rules_judge_each_component_and_each_edition_its_own_index() {
     let unjudged = judge(&nothing, &ROADSIDE_RULES);
     assert!(unjudged.iter().all(|j| !j.breaks_the_rule()));
     // angles need rates alone, and those of this record are zero
-    let (angles, others): (Vec<_>, Vec<_>) = unjudged.iter().partition(|j| matches!(j.measure, "roll" | "pitch"));
+    let (angles, others): (Vec<&Judgement>, Vec<&Judgement>) =
+        unjudged.iter().partition(|j| matches!(j.measure, "roll" | "pitch"));
     assert!(!angles.is_empty() && angles.iter().all(|j| j.value == Some(0.0)), "{angles:?}");
     assert!(others.iter().all(|j| j.value.is_none()), "{others:?}");
 }

@@ -76,9 +76,26 @@ impl Built {
         let state = slopes(&|m| m.start().state.numbers().to_vec());
         let history = slopes(&|m| remembered(&m.start().history.memory));
         let mut notes = Vec::new();
-        let count = base.each_break_s().len();
-        let shifts = if family.models.iter().all(|m| m.each_break_s().len() == count) {
-            in_order(base.each_break_s(), slopes(&Model::each_break_s))
+        let times_s = base.each_break_s();
+        let beside: Vec<Vec<f64>> = family.models.iter().map(Model::each_break_s).collect();
+        let shifts = if beside.iter().all(|others_s| others_s.len() == times_s.len()) {
+            let mut shifts = Vec::with_capacity(times_s.len());
+            for (slope, time_s) in family.ladder.slopes(&times_s, &beside).iter().zip(&times_s) {
+                let off = relative(slope, *time_s, parameter.size);
+                let is_rough = off.is_nan() || off > ROUGH;
+                // where a pulse just stops the vehicle, less speed stops it earlier by the root of the change, more not at all
+                shifts.push(if is_rough { 0.0 } else { slope.value });
+                match (is_within(base, *time_s), is_rough) {
+                    (true, true) => notes.push(format!(
+                        "{}: what happens at {:.3} ms shifts with it, but not in proportion: the shift is left out",
+                        parameter.name,
+                        time_s * 1e3
+                    )),
+                    (true, false) => doubt = doubt.max(off),
+                    (false, _) => {}
+                }
+            }
+            in_order(times_s, shifts)
         } else {
             notes.push(format!("{}: beside its value other devices fire, or other corners of a path", parameter.name));
             Vec::new()
@@ -130,10 +147,15 @@ fn in_order(times_s: Vec<f64>, shifts: Vec<f64>) -> Vec<[f64; 2]> {
     list
 }
 
+/// Whether the run of a model goes on across a time.
+fn is_within(base: &Model, time_s: f64) -> bool {
+    let time = &base.setup().time;
+    time.start_s < time_s && time_s < time.end_s
+}
+
 /// The first time within the run at which two things fall together that shift apart, s.
 fn coincidence(base: &Model, shifts: &[[f64; 2]]) -> Option<f64> {
-    let time = &base.setup().time;
-    let within = |[a, b]: [[f64; 2]; 2]| b[0] - a[0] <= ROUNDING_S && time.start_s < a[0] && a[0] < time.end_s;
+    let within = |[a, b]: [[f64; 2]; 2]| b[0] - a[0] <= ROUNDING_S && is_within(base, a[0]);
     let apart = |[a, b]: [[f64; 2]; 2]| (a[1] - b[1]).abs() > ROUGH * a[1].abs().max(b[1].abs());
     let mut pairs = shifts.windows(2).map(|pair| [pair[0], pair[1]]);
     pairs.find(|pair| within(*pair) && apart(*pair)).map(|[a, _]| a[0])

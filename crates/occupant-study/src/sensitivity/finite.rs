@@ -18,7 +18,7 @@ pub const CHANGES: [f64; 3] = [2e-3, 5e-3, 1e-2];
 const STEPS: f64 = 4.0;
 /// But by no more than this part.
 const MOST: f64 = 0.2;
-/// Part of the tolerances of the run itself, or of the default's where these are tighter.
+/// Part of the tolerances and of the least step of the run itself, or of the default's where these are tighter.
 const TIGHTER: f64 = 0.01;
 
 /// What a run beside the value of a parameter comes to.
@@ -105,14 +105,23 @@ fn job<T>(tag: T, model: Model) -> Job<T, Summarizer> {
 
 fn tight(own: &Integrator) -> Integrator {
     let mut tight = Integrator::default();
-    if let Integrator::Adaptive { relative, absolute_m, absolute_m_s, max_step_s, .. } = &mut tight {
-        if let Integrator::Adaptive { relative: r, absolute_m: m, absolute_m_s: m_s, max_step_s: step, .. } = own {
-            for (to, own) in [(&mut *relative, r), (&mut *absolute_m, m), (&mut *absolute_m_s, m_s), (max_step_s, step)]
-            {
+    if let Integrator::Adaptive { relative, absolute_m, absolute_m_s, min_step_s, max_step_s } = &mut tight {
+        if let Integrator::Adaptive {
+            relative: r,
+            absolute_m: m,
+            absolute_m_s: v,
+            min_step_s: least,
+            max_step_s: most,
+        } = own
+        {
+            let pairs =
+                [(&mut *relative, r), (&mut *absolute_m, m), (&mut *absolute_m_s, v), (&mut *min_step_s, least)];
+            for (to, own) in pairs.into_iter().chain([(max_step_s, most)]) {
                 *to = to.min(*own);
             }
         }
-        [relative, absolute_m, absolute_m_s].into_iter().for_each(|x| *x *= TIGHTER);
+        // where a force jumps the error goes with the step: a tighter tolerance needs a shorter one
+        [relative, absolute_m, absolute_m_s, min_step_s].into_iter().for_each(|x| *x *= TIGHTER);
     }
     tight
 }

@@ -109,7 +109,8 @@ fn two_runs(request: &Request<'_>, run: &Results, remarks: &mut Remarks) -> Resu
             .unzip();
     let (ours, theirs) = (load(run, ours, request.treatment)?, load(&other, theirs, request.treatment)?);
     remarks.notes.extend(ours.notes.into_iter().chain(theirs.notes));
-    let mut couples = Vec::with_capacity(ours.columns.len());
+    let in_common = ours.columns.len();
+    let mut couples = Vec::with_capacity(in_common);
     for (column, other) in ours.columns.into_iter().zip(theirs.columns) {
         let signal = other.channel.name;
         // what never happens in the other run (no contact, no belt) cannot be rated
@@ -124,6 +125,15 @@ fn two_runs(request: &Request<'_>, run: &Results, remarks: &mut Remarks) -> Resu
             values: column.values,
             measured: Pair { channel: 0, signal, time_s: theirs.time_s.clone(), values: other.values },
         });
+    }
+    if couples.is_empty() && in_common > 0 {
+        let mut reasons = vec![format!("all that was asked for is zero throughout in {}", request.measured.display())];
+        reasons.extend(remarks.worthless.iter().cloned());
+        reasons.dedup();
+        return Err(Failure::with_help(
+            format!("nothing can be rated: {}", reasons.join("; ")),
+            "choose other channels with --channel",
+        ));
     }
     Ok((couples, [run.sha256.clone(), other.sha256]))
 }

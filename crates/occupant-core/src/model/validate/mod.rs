@@ -28,6 +28,7 @@ pub(crate) fn check(setup: &Setup, problems: &mut Problems) {
     columns::check(setup, problems);
     setup.forces(&[]).check(&setup.body, problems);
     time::check_time(&setup.time, &setup.integrator, problems);
+    time::check_readings(setup.output.readings_s, &setup.time, problems);
     check_posture(&setup.posture, problems);
     check_coordinates(setup, problems);
     if !(setup.gravity_m_s2 >= 0.0 && setup.gravity_m_s2.is_finite()) {
@@ -42,6 +43,7 @@ pub(crate) fn check(setup: &Setup, problems: &mut Problems) {
 /// How much of everything several bodies have together; each is looked at by itself.
 fn check_together(setup: &Setup, problems: &mut Problems) {
     time::check_time(&setup.time, &setup.integrator, problems);
+    time::check_readings(setup.output.readings_s, &setup.time, problems);
     let hinges = setup.body.tree.joint_rows().iter().map(|row| match row.kind {
         JointKind::Hinge => 1,
         JointKind::Universal => 2,

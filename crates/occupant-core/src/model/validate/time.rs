@@ -5,7 +5,7 @@ use placed_text::{Problems, number};
 
 /// More steps than this are a slip of the pen.
 const MOST_STEPS: f64 = 1e9;
-/// More outputs than this are, too.
+/// More outputs or readings than this are, too.
 const MOST_OUTPUTS: f64 = 1e7;
 
 /// An interval as long as this is no slip of the pen, however short the run, s.
@@ -21,13 +21,7 @@ pub(super) fn check_time(time: &TimeSpan, integrator: &Integrator, problems: &mu
         );
     }
     at_most(problems, ("output.interval", time.output_s), span_s, (MOST_OUTPUTS, "outputs"));
-    if span_s > 0.0 && time.output_s > span_s.max(LONGEST_ANYWAY_S) {
-        problems.error(
-            "output.interval",
-            format!("{} s, in a run of {} s", number(time.output_s), number(span_s)),
-            "an interval no longer than the run",
-        );
-    }
+    within_run(problems, time.output_s, span_s);
     match *integrator {
         Integrator::Rk4 { step_s } => {
             at_most(problems, ("integrator.step", step_s), span_s, (MOST_STEPS, "steps"));
@@ -46,6 +40,26 @@ pub(super) fn check_time(time: &TimeSpan, integrator: &Integrator, problems: &mu
                 );
             }
         }
+    }
+}
+
+/// How often instruments are read for measures, where somebody asks for it; a scenario has no key of its own for that.
+pub(super) fn check_readings(readings_s: Option<f64>, time: &TimeSpan, problems: &mut Problems) {
+    let span_s = time.end_s - time.start_s;
+    if let Some(interval_s) = readings_s {
+        at_most(problems, ("output.interval", interval_s), span_s, (MOST_OUTPUTS, "readings"));
+        within_run(problems, interval_s, span_s);
+    }
+}
+
+/// Reports an interval longer than the run.
+fn within_run(problems: &mut Problems, interval_s: f64, span_s: f64) {
+    if span_s > 0.0 && interval_s > span_s.max(LONGEST_ANYWAY_S) {
+        problems.error(
+            "output.interval",
+            format!("{} s, in a run of {} s", number(interval_s), number(span_s)),
+            "an interval no longer than the run",
+        );
     }
 }
 
