@@ -305,7 +305,6 @@ fn a_mass_on_a_spool_that_locks_goes_as_far_as_a_closed_integration_says() {
             worst = worst.max((z - expected.z).abs() / (expected.z - case.place_m).abs());
         }
     }
-    println!("way of the mass, worst: {worst:.2e}");
     assert_below("way of the mass", worst, 1e-4);
 }
 
@@ -337,7 +336,6 @@ fn a_pretensioner_stalls_at_its_force_or_at_the_level_of_the_limiter() {
             over = over.max(most_n / level_n.min(expected.most_n.max(1.0)) - 1.0);
         }
     }
-    println!("way of the mass, worst: {worst:.2e}; tension above the level: {over:.2e}");
     // some of these masses go a few mm only: the worst of three methods, 1.54e-4 of its way
     assert_below("way of the mass", worst, 2e-4);
     assert_below("tension above what it can be", over, 1e-4);
@@ -461,7 +459,6 @@ fn no_belt_with_a_limiter_and_a_pretensioner_holds_more_than_the_level_and_the_f
         assert_eq!(simulate(&model, watch).unwrap().status, Status::Completed);
         yields += u32::from(has_yielded);
     }
-    println!("above level and friction, worst: {worst:.2e}; {yields} of 500 yield");
     assert!(yields > 250, "{yields}");
     assert_below("above level and friction", worst, 1e-3);
 }
@@ -482,7 +479,6 @@ fn forces_do_not_jump_with_stall_force_level_and_delay() {
     for sweep in [stalls.collect::<Vec<_>>(), delays.collect()] {
         let peaks: Vec<f64> = sweep.iter().map(|set| peak(set)).collect();
         let jump = peaks.windows(2).map(|pair| (pair[1] / pair[0] - 1.0).abs()).fold(0.0, f64::max);
-        println!("greatest change from one to the next: {jump:.2e}, {peaks:.0?}");
         assert_below("change from one to the next", jump, 0.05);
     }
 }
@@ -530,11 +526,10 @@ fn shipped_restraints_are_within_a_tenth_of_a_millimetre_of_short_steps() {
     ];
     for (name, text) in cases {
         let outputs = "output.interval=\"1 ms\"";
-        let (path, peak, evaluations) = head(text, &[outputs]);
+        let (path, peak, _) = head(text, &[outputs]);
         let short = "integrator={ kind = \"rk4\", step = \"5 us\" }";
         let (expected, expected_peak, _) = head(text, &[outputs, short]);
         let off_m = path.iter().zip(&expected).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
-        println!("{name}: {:.4} mm, peak {:.2e}, {evaluations} evaluations", 1e3 * off_m, peak / expected_peak - 1.0);
         assert_below(name, off_m, 1e-4);
         assert_below(name, peak / expected_peak - 1.0, 1e-3);
     }

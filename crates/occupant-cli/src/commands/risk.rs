@@ -166,7 +166,7 @@ pub(crate) fn risk(args: &Args) -> Result<Done, Failure> {
     warn_of_coarse_samples(&signals, &preparation);
     let mut report = Report::new(subject, preparation, signals, flight, &args.rule).with_errors(errors);
     report.notes = [notes, report.notes].concat();
-    report.notes.iter().for_each(|text| note(text));
+    report.notes.iter().for_each(note);
     if args.json {
         print(&talk::json(&json(&report))?)?
     } else {

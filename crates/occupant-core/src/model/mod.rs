@@ -166,7 +166,7 @@ impl Model {
         dues_s
     }
 
-    /// [`Model::breaks_s`] one by one, in an order that models of one structure share.
+    /// The times of breaks one by one, in an order that models of one structure share.
     pub fn each_break_s(&self) -> Vec<f64> {
         [self.corners_s(), self.dues_s()].concat()
     }

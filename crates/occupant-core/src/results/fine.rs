@@ -142,7 +142,7 @@ impl Fine {
     /// From plain numbers, of a run of which `self` knows nothing; false where they are of another.
     pub(crate) fn read(&mut self, numbers: &[f64], samples: &[f32]) -> bool {
         let [next, before_s, before @ ..] = numbers else { return false };
-        let fits = before.len() == self.before.len() && samples.len() % self.before.len().max(1) == 0;
+        let fits = before.len() == self.before.len() && samples.len().is_multiple_of(self.before.len().max(1));
         if fits && *next >= 1.0 {
             (self.next, self.before_s) = (*next as usize, *before_s);
             self.before.copy_from_slice(before);

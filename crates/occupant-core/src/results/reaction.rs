@@ -1,6 +1,6 @@
 //! What the joints carry: forces and moments between the two segments of a joint.
 //!
-//! By [`carried`](crate::kernel::carried). The moment of a ball joint is that of its damper, stop, spring and muscle, for it
+//! By `kernel::carried`. The moment of a ball joint is that of its damper, stop, spring and muscle, for it
 //! constrains none; a hinge adds the two constraint moments across its axis.
 
 use nalgebra::Vector3;

@@ -241,9 +241,12 @@ fn turned(motion: &Motion) -> Option<String> {
 mod tests {
     use super::*;
 
-    fn motion(kind: MotionKind, dt_s: f64, columns: &[(&'static str, &str, f64, &dyn Fn(f64) -> f64)]) -> Motion {
+    /// Name, unit, factor and course of a column.
+    type Given<'a> = (&'static str, &'a str, f64, &'a dyn Fn(f64) -> f64);
+
+    fn motion(kind: MotionKind, dt_s: f64, columns: &[Given<'_>]) -> Motion {
         let time_s: Vec<f64> = (-500..5000).map(|i| f64::from(i) * dt_s).collect();
-        let column = |(name, unit, factor, of): &(&'static str, &str, f64, &dyn Fn(f64) -> f64)| Column {
+        let column = |(name, unit, factor, of): &Given<'_>| Column {
             name,
             unit: (*unit).to_owned(),
             factor: *factor,
@@ -257,7 +260,7 @@ mod tests {
         if (0.0..0.1).contains(&t) { -10.0 * (std::f64::consts::PI * t / 0.1).sin() } else { 0.0 }
     }
 
-    fn said(columns: &[(&'static str, &str, f64, &dyn Fn(f64) -> f64)]) -> String {
+    fn said(columns: &[Given<'_>]) -> String {
         doubts(&motion(MotionKind::Accelerations, 1e-4, columns), Known::default()).join("\n")
     }
 
@@ -305,7 +308,7 @@ mod tests {
         assert!(doubts(&places, Known { smoothed_hz: Some(10.0), ..Known::default() }).is_empty());
         let fine = motion(MotionKind::Places, 0.01, &[("x", "m", 1.0, &|t| 22.0 * t - 3.000_123_4 * t * t)]);
         assert!(doubts(&fine, Known::default()).is_empty());
-        let turn: [(&'static str, &str, f64, &dyn Fn(f64) -> f64); 3] = [
+        let turn: [Given<'_>; 3] = [
             ("x", "m", 1.0, &|t| 20.000_001_3 * (t / 10.0).sin()),
             ("y", "m", 1.0, &|t| 20.000_001_3 * (1.0 - (t / 10.0).cos())),
             ("yaw", "rad", 1.0, &|t| -t / 10.000_001_3),

@@ -66,7 +66,7 @@ pub(crate) fn attempt(
     let error = norm(&error, state, &end, tolerance);
     let mut error_within = error;
     // not a number is no less than that
-    if !(error <= 1.0) {
+    if error.is_nan() || error > 1.0 {
         let mut within = State::zero(state.shape());
         for (weight, rate) in [(h * (2.0 / 9.0), k1), (h * (-2.0 / 3.0), &k2), (h * (4.0 / 9.0), &k3)] {
             within.add(weight, rate);

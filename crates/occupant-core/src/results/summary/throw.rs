@@ -125,7 +125,7 @@ pub(super) struct Course {
 
 impl Moment {
     /// Horizontal distance from another place.
-    fn from_m(&self, other: &Moment) -> f64 {
+    fn away_m(&self, other: &Moment) -> f64 {
         (self.place_m - other.place_m).xy().norm()
     }
 
@@ -160,21 +160,21 @@ impl Course {
                 time_s: at.time_s,
                 speed_m_s: at.speed_m_s(),
                 angle_deg: at.rise_deg(),
-                distance_m: at.from_m(start),
+                distance_m: at.away_m(start),
                 height_m: fall_m(at),
             }),
-            airborne_m: launch.as_ref().zip(landing).map(|(launch, landing)| landing.at.from_m(launch)),
+            airborne_m: launch.as_ref().zip(landing).map(|(launch, landing)| landing.at.away_m(launch)),
             landing: landing.map(|Touchdown { at, sphere, sphere_m }| Landing {
                 time_s: at.time_s,
                 sphere: spheres.get(*sphere).map(|sphere| sphere.name.clone()).unwrap_or_default(),
                 speed_m_s: at.speed_m_s(),
                 angle_deg: -at.rise_deg(),
-                distance_m: at.from_m(start),
+                distance_m: at.away_m(start),
                 touch_distance_m: (sphere_m - start.place_m).xy().norm(),
             }),
-            slide_m: slides_from.map(|from| end.from_m(from)),
-            distance_m: end.from_m(start),
-            from_launch_m: launch.as_ref().map(|at| end.from_m(at)),
+            slide_m: slides_from.map(|from| end.away_m(from)),
+            distance_m: end.away_m(start),
+            from_launch_m: launch.as_ref().map(|at| end.away_m(at)),
             height_m: self.highest_m,
             end_speed_m_s: end.speed_m_s(),
             at_rest,
@@ -183,8 +183,8 @@ impl Course {
                     friction,
                     gravity_m_s2: self.gravity_m_s2,
                     fall_m: fall_m(at),
-                    distance_m: end.from_m(start),
-                    from_launch_m: end.from_m(at),
+                    distance_m: end.away_m(start),
+                    from_launch_m: end.away_m(at),
                     speed_m_s: at.speed_m_s(),
                     angle_rad: at.rise_deg().to_radians(),
                 })
