@@ -29,7 +29,8 @@ def test_a_run_has_arrays_in_si_units(run):
     assert head.dtype == np.float64 and head.shape == run.time.shape
     assert run.time[0] == 0.0 and abs(run.time[-1] - 0.06) < 1e-12
     peak_g = run.summary["accelerations"]["head"]["peak_g"]
-    assert abs(head.max() / 9.80665 - peak_g) < 1e-9 * peak_g
+    # steps see more than outputs every 1 ms: 69.17 g for 65.85 g
+    assert 0.9 * peak_g < head.max() / 9.80665 <= peak_g
     assert run.measures["hic15"] > 0
     both = run.series_of("head.acceleration.*", "belt.lap.force")
     assert set(both) >= {"head.acceleration.x", "head.acceleration.resultant", "belt.lap.force"}
