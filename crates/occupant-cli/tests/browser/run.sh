@@ -11,7 +11,7 @@ out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 
 for case in cart-lap-torso cart-unbelted; do
-  "$occupant" run "$root/scenarios/$case.toml" --quiet --output "$out/$case.mcap"
+  "$occupant" run "$root/tests/data/carts/$case.toml" --quiet --output "$out/$case.mcap"
 done
 "$occupant" report "$out/cart-lap-torso.mcap" --output "$out/report.html"
 "$occupant" report "$out/cart-lap-torso.mcap" --against "$out/cart-unbelted.mcap" --output "$out/comparison.html"
