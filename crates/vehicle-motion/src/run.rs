@@ -112,7 +112,7 @@ struct Memory {
     steer: [(f64, f64); 2],
     /// Angles that the follower wanted, newest last.
     wanted: Vec<(f64, f64)>,
-    /// Brake that may have held wheels: its value when they were caught, N·m.
+    /// When the follower looks next, s.
     look_s: f64,
 }
 
@@ -219,8 +219,12 @@ impl Drive {
         while time_s < end_s {
             let stop_s = corners_s[next_corner].min(if self.follows() { memory.look_s } else { f64::INFINITY });
             let h = self.step(time_s, stop_s, wanted_s);
+            let mut report = Report::default();
             let trial = attempt(&state, &rate, h, &self.tolerance, |share, at| {
-                self.evaluate(time_s + share * h, at, &memory).0
+                let (rate, found) = self.evaluate(time_s + share * h, at, &memory);
+                // the last is that of the end
+                report = found;
+                rate
             });
             ride.evaluations += 3;
             if trial.error > 1.0 {
@@ -244,13 +248,11 @@ impl Drive {
             if looks {
                 self.look(&state, time_s, &mut memory);
             }
-            let (_, report) = self.evaluate(time_s, &state, &memory);
             let turned = self.commit(time_s, &mut state, &report, &mut memory) || looks || time_s >= stop_s;
-            let mut report = report;
             if turned {
                 (rate, report) = self.evaluate(time_s, &state, &memory);
+                ride.evaluations += 1;
             }
-            ride.evaluations += 1;
             ride.greatest_kinetic_j = ride.greatest_kinetic_j.max(self.chassis.kinetic_j(&state));
             ride.energy_end_j = self.energy_j(&state, &report);
             ride.stations.push(self.station(time_s, &state, &rate, &report, &memory));
