@@ -3,6 +3,7 @@
 use nalgebra::{Point3, Vector3};
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
+use occupant_core::results::energy::Balance;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{Summarizer, Summary};
@@ -429,6 +430,25 @@ body = { preset = "male50", segment_count = 15 }
 joints = { preset = "gebod" }
 mount = { segment = "upper_torso", place = [0.70, 0, -0.15], pitch = 90, yaw = 180, let_go = ["16 m/s", 0, 0] }
 "#;
+
+/// With a wheel that is far too stiff for the step the occupant loses his balance, whatever flies a kilometre away.
+#[test]
+fn a_heavy_body_far_away_does_not_hide_what_the_occupant_has_lost() {
+    let cart = include_str!("../data/carts/cart-lap.toml");
+    let truck = "\n[loose.truck]\nmass = \"20000 kg\"\ninertia = [1e6, 1e6, 1e6]\nat = [1000, 5000, -5000]\n\
+                 velocity = [\"40 m/s\", 0, 0]\n";
+    let set = [
+        "integrator.step=2 ms",
+        "output.interval=2 ms",
+        "materials.steering_wheel.k1=20000",
+        "materials.steering_wheel.k2=20000",
+    ];
+    let of = |text: &str| run(setup(text, &set), ()).1.energy;
+    let (alone, beside) = (of(cart), of(&format!("{cart}{truck}")));
+    assert_eq!((alone.balance, beside.balance), (Balance::Lost, Balance::Lost), "{alone:?} {beside:?}");
+    assert!(alone.balance_error > 0.1 && beside.balance_error > 0.1, "{alone:?} {beside:?}");
+    assert_eq!(beside.reference, "greatest energy of one of the bodies");
+}
 
 #[test]
 fn a_rider_without_a_vehicle_meets_a_post_in_his_way() {

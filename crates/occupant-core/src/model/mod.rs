@@ -23,7 +23,7 @@ use crate::model::seat::Seated;
 use crate::model::settle::Settled;
 use crate::model::setup::{Integrator, Member, Setup};
 use crate::motion::frame::{Frames, Moving, VEHICLE};
-use crate::motion::layout::MOST_BODIES;
+use crate::motion::layout::{MOST_BODIES, Trunk};
 use crate::motion::state::State;
 use crate::vehicle::{FrameMotion, PathCursor, VehiclePath};
 use placed_text::Problems;
@@ -88,6 +88,13 @@ impl Model {
     /// The occupant's body.
     pub fn body(&self) -> &Body {
         &self.setup.body
+    }
+
+    /// Mass of each body, kg.
+    pub(crate) fn masses_kg(&self) -> Vec<f64> {
+        let skeleton = &self.system.skeleton;
+        let mass_kg = |trunk: &Trunk| trunk.segments().map(|n| skeleton.links[n].mass).sum();
+        skeleton.layout.trunks().iter().map(mass_kg).collect()
     }
 
     /// Planes and outlines of the surfaces, in the setup's order.

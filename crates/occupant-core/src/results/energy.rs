@@ -12,6 +12,7 @@ use crate::forces::contact::FASTEST_M_S;
 use crate::forces::{HeldBy, STORED, STORES, StoredEnergy};
 use crate::motion::frame::Moving;
 use crate::motion::kinematics::Kinematics;
+use crate::motion::layout::MOST_BODIES;
 use crate::motion::skeleton::Skeleton;
 use crate::motion::state::{WORK_SUMS, Work};
 
@@ -105,9 +106,18 @@ impl EnergyLedger {
     }
 }
 
-/// The greatest energies among the outputs of a run so far, J.
+/// The greatest energies among the outputs of a run so far, J: of all bodies together, and of each where there are several.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Greatest {
+    /// Of all together.
+    pub all: Extremes,
+    /// By body; of one body alone nothing.
+    pub each: [Extremes; MOST_BODIES],
+}
+
+/// The greatest energies of some bodies so far, J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Extremes {
     /// Kinetic energy relative to the vehicle.
     pub kinetic_j: f64,
     /// Work of gravity and of force elements since the start, each by its size. The vehicle's is not in it: that depends on
@@ -118,6 +128,33 @@ pub struct Greatest {
 }
 
 impl Greatest {
+    /// How well a run of bodies of `masses_kg` kept its energy: all together, or the one that kept it worst by its own energy,
+    /// which a heavy one beside it would hide.
+    pub(crate) fn check(&self, masses_kg: &[f64]) -> EnergyCheck {
+        let all = self.all.check(masses_kg.iter().sum());
+        if masses_kg.len() < 2 {
+            return all;
+        }
+        let own = self.each.iter().zip(masses_kg).map(|(extremes, mass_kg)| extremes.check_of_one(*mass_kg));
+        own.fold(all, |worst, own| if own.balance_error > worst.balance_error { own } else { worst })
+    }
+
+    /// Those of each body as plain numbers: kinetic energy, work, imbalance; none of one body alone.
+    pub(crate) fn numbers(&self) -> Vec<f64> {
+        let count = self.each.iter().rposition(|own| *own != Extremes::default()).map_or(0, |last| last + 1);
+        self.each[..count].iter().flat_map(|own| [own.kinetic_j, own.work_j, own.imbalance_j]).collect()
+    }
+
+    /// Takes over what [`Greatest::numbers`] gave.
+    pub(crate) fn read(&mut self, numbers: &[f64]) {
+        let (rows, _) = numbers.as_chunks();
+        for (own, &[kinetic_j, work_j, imbalance_j]) in self.each.iter_mut().zip(rows) {
+            *own = Extremes { kinetic_j, work_j, imbalance_j };
+        }
+    }
+}
+
+impl Extremes {
     /// Looks at an output, where gravity and force elements have done `work_j`.
     pub(crate) fn see(&mut self, energy: &EnergyLedger, work_j: f64) {
         self.kinetic_j = self.kinetic_j.max(energy.kinetic_relative_j);
@@ -127,8 +164,22 @@ impl Greatest {
         self.imbalance_j = self.imbalance_j.max(imbalance_j);
     }
 
+    /// The same of one body among others, by the greater of its kinetic energy and its work: what it gets from others is as
+    /// exact as they are.
+    fn check_of_one(&self, mass_kg: f64) -> EnergyCheck {
+        let reference_j = self.kinetic_j.max(self.work_j).max(0.5 * mass_kg * REST_M_S * REST_M_S);
+        let balance_error = self.imbalance_j / reference_j;
+        EnergyCheck {
+            balance_error,
+            reference: "greatest energy of one of the bodies",
+            reference_j,
+            greatest_kinetic_j: self.kinetic_j,
+            balance: Balance::of(balance_error),
+        }
+    }
+
     /// How well a run of a body of `mass_kg` kept its energy.
-    pub(crate) fn check(&self, mass_kg: f64) -> EnergyCheck {
+    fn check(&self, mass_kg: f64) -> EnergyCheck {
         let [rest_j, fastest_j] = [REST_M_S, FASTEST_M_S].map(|speed_m_s| 0.5 * mass_kg * speed_m_s * speed_m_s);
         let is_of_vehicle = self.kinetic_j > fastest_j;
         let (reference, reference_j) = if is_of_vehicle {
@@ -267,6 +318,15 @@ pub fn gravity(bodies: &Skeleton<f64>, k: &Kinematics<f64>) -> f64 {
     gravity_of(bodies, 0..bodies.links.len(), k)
 }
 
+/// The same by body.
+pub(crate) fn gravity_by_body(bodies: &Skeleton<f64>, k: &Kinematics<f64>) -> [f64; MOST_BODIES] {
+    let mut own_j = [0.0; MOST_BODIES];
+    for (own_j, trunk) in own_j.iter_mut().zip(bodies.layout.trunks()) {
+        *own_j = gravity_of(bodies, trunk.segments(), k);
+    }
+    own_j
+}
+
 /// That of some segments.
 fn gravity_of(bodies: &Skeleton<f64>, segments: Range<usize>, k: &Kinematics<f64>) -> f64 {
     let height = |n: usize| bodies.links[n].mass * k.cg(bodies, n).z;
@@ -279,10 +339,30 @@ mod tests {
 
     #[test]
     fn a_body_that_sits_still_is_judged_by_what_matters_and_not_by_what_rounding_leaves() {
-        let still = |imbalance_j| Greatest { kinetic_j: 1e-14, work_j: 1e-9, imbalance_j }.check(79.0);
+        let still = |imbalance_j| Extremes { kinetic_j: 1e-14, work_j: 1e-9, imbalance_j }.check(79.0);
         assert_eq!((still(1e-8).balance, still(1e-8).reference), (Balance::Kept, "kinetic energy at 1 cm/s"));
         assert_eq!(still(1e-3).balance, Balance::Lost);
         // nothing moved or pulled: nothing is known
-        assert!(Greatest::default().check(79.0).balance_error.is_nan());
+        assert!(Greatest::default().check(&[79.0]).balance_error.is_nan());
+    }
+
+    #[test]
+    fn a_heavy_body_does_not_hide_what_a_light_one_has_lost() {
+        let [light, heavy] = [[9e2, 9e2, 3e2], [1e7, 1e7, 1.0]].map(|[kinetic_j, work_j, imbalance_j]| Extremes {
+            kinetic_j,
+            work_j,
+            imbalance_j,
+        });
+        let all = Extremes { kinetic_j: 1e7, work_j: 1e7, imbalance_j: 3e2 };
+        let mut greatest = Greatest { all, ..Greatest::default() };
+        (greatest.each[0], greatest.each[1]) = (light, heavy);
+        let found = greatest.check(&[79.0, 2e4]);
+        assert_eq!((found.balance, found.reference), (Balance::Lost, "greatest energy of one of the bodies"));
+        assert!((found.balance_error - 1.0 / 3.0).abs() < 1e-12);
+        let mut read = Greatest { all, ..Greatest::default() };
+        read.read(&greatest.numbers());
+        assert_eq!(read, greatest);
+        // alone, a body is judged as all are
+        assert_eq!(greatest.check(&[2e4]).balance, Balance::Kept);
     }
 }

@@ -65,9 +65,12 @@ pub struct Run {
     /// By body, from the first output on.
     energy_starts: Vec<EnergyStart>,
     start_gravity_j: f64,
+    /// The same by body.
+    own_gravity_j: [f64; MOST_BODIES],
     greatest: Greatest,
     rest: Rest,
-    mass_kg: f64,
+    /// By body.
+    masses_kg: Vec<f64>,
     actions: Actions<f64>,
     /// Times at which the motion of the vehicle or an activation jumps, s.
     pub breaks_s: Vec<f64>,
@@ -105,9 +108,10 @@ impl Run {
             control: Wanted::new(first_step(integrator)),
             energy_starts: Vec::with_capacity(MOST_BODIES),
             start_gravity_j: energy::gravity(skeleton, &Kinematics::new(skeleton, &start.state)),
+            own_gravity_j: energy::gravity_by_body(skeleton, &Kinematics::new(skeleton, &start.state)),
             greatest: Greatest::default(),
             rest: Rest::default(),
-            mass_kg: model.body().mass_kg(),
+            masses_kg: model.masses_kg(),
             actions: Actions::with_room(&model.system().forces),
             seen: Seen::new(model),
             met: Vec::with_capacity(start.history.memory.contacts.len()),
@@ -191,8 +195,14 @@ impl Run {
             ledgers[body] = ledger(&self.energy_starts[body]);
         }
         let energy = EnergyLedger::sum(&ledgers[bodies.clone()]);
-        let by_elements = bodies.clone().flat_map(|body| self.state.work(body).sums).map(f64::abs).sum::<f64>();
-        self.greatest.see(&energy, (energy.gravity_j - self.start_gravity_j).abs() + by_elements);
+        let by_elements = |body: usize| self.state.work(body).sums.map(f64::abs).iter().sum::<f64>();
+        let of_all = bodies.clone().map(by_elements).sum::<f64>();
+        self.greatest.all.see(&energy, (energy.gravity_j - self.start_gravity_j).abs() + of_all);
+        for body in bodies.clone().filter(|_| bodies.len() > 1) {
+            let own = &ledgers[body];
+            let work_j = (own.gravity_j - self.own_gravity_j[body]).abs() + by_elements(body);
+            self.greatest.each[body].see(own, work_j);
+        }
         if model.setup().time.stops_at_rest {
             let kinetic_j: Vec<f64> = ledgers[bodies.clone()].iter().map(|ledger| ledger.kinetic_j).collect();
             self.rest.see(t, &kinetic_j);
@@ -325,7 +335,7 @@ impl Run {
             time_s: self.time_s,
             effort: self.effort,
             first_touches: self.seen.touches,
-            energy: self.greatest.check(self.mass_kg),
+            energy: self.greatest.check(&self.masses_kg),
         }
     }
 

@@ -155,7 +155,7 @@ fn values(
     }
     let mut outcome = trajectory.outcome.clone();
     if let Some(progress) = progress {
-        outcome.energy.greatest_kinetic_j = progress.greatest.kinetic_j;
+        outcome.energy.greatest_kinetic_j = progress.greatest.all.kinetic_j;
     }
     recorder.end(&outcome)?;
     let (summarizer, series) = recorder;
