@@ -93,8 +93,8 @@ fn title(summary: &Summary) -> String {
         RunStatus::Failed => format!("FAILED: {reached} of {} ms", ms(summary.end_s)),
     };
     let every = (summary.reached_s - summary.start_s) / summary.solver.outputs.saturating_sub(1).max(1) as f64;
-    let peaks = format!("peaks are those of outputs every {} ms", without_zeros(&number(every * 1e3, 3)));
-    format!("{}\n{ending}; {peaks}\n", shown(&summary.title))
+    let outputs = format!("outputs every {} ms", without_zeros(&number(every * 1e3, 3)));
+    format!("{}\n{ending}, {outputs}\n", shown(&summary.title))
 }
 
 fn accelerations(summary: &Summary, marks: &Marks) -> String {
