@@ -8,12 +8,26 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Crates with their rooms from the lowest to the highest.
-const ROOMS: [(&str, &[&str]); 6] = [
-    ("crash-measures", &["trig", "nearest", "unit", "signal", "correlation", "measure", "injury"]),
+const ROOMS: [(&str, &[&str]); 7] = [
+    ("occupant-units", &["trig", "unit"]),
+    ("crash-measures", &["signal", "correlation", "measure", "injury"]),
     ("vehicle-motion", &["tyre", "ground", "car", "driver", "chassis", "integrate", "run"]),
     (
         "placed-text",
-        &["encoding", "shown", "problem", "source", "diagnostic", "node", "path", "reader", "csv", "json", "toml"],
+        &[
+            "encoding",
+            "nearest",
+            "shown",
+            "problem",
+            "source",
+            "diagnostic",
+            "node",
+            "path",
+            "reader",
+            "csv",
+            "json",
+            "toml",
+        ],
     ),
     (
         "occupant-core",
@@ -41,17 +55,26 @@ const ROOMS: [(&str, &[&str]); 6] = [
 ];
 
 /// Crates that a crate of the workspace may depend on, outside its tests.
-const CRATES: [(&str, &[&str]); 8] = [
-    ("crash-measures", &[]),
+const CRATES: [(&str, &[&str]); 9] = [
+    ("placed-text", &[]),
+    ("occupant-units", &["placed-text"]),
+    ("crash-measures", &["occupant-units"]),
     ("vehicle-motion", &[]),
-    ("placed-text", &["crash-measures"]),
-    ("occupant-core", &["crash-measures", "placed-text"]),
-    ("occupant-scenario", &["crash-measures", "placed-text", "occupant-core"]),
-    ("occupant-study", &["crash-measures", "placed-text", "occupant-core", "occupant-scenario"]),
-    ("cardio-legacy", &["crash-measures", "occupant-core", "occupant-scenario"]),
+    ("occupant-core", &["placed-text", "occupant-units", "crash-measures"]),
+    ("occupant-scenario", &["placed-text", "occupant-units", "crash-measures", "occupant-core"]),
+    ("occupant-study", &["placed-text", "occupant-units", "crash-measures", "occupant-core", "occupant-scenario"]),
+    ("cardio-legacy", &["occupant-units", "occupant-core", "occupant-scenario"]),
     (
         "occupant-cli",
-        &["crash-measures", "placed-text", "occupant-core", "occupant-scenario", "occupant-study", "cardio-legacy"],
+        &[
+            "placed-text",
+            "occupant-units",
+            "crash-measures",
+            "occupant-core",
+            "occupant-scenario",
+            "occupant-study",
+            "cardio-legacy",
+        ],
     ),
 ];
 
@@ -152,7 +175,9 @@ fn crates_depend_only_on_crates_below_them() {
 
 #[test]
 fn the_core_reads_no_files_prints_nothing_and_starts_no_threads() {
-    for krate in ["crash-measures", "placed-text", "occupant-core", "occupant-scenario", "cardio-legacy"] {
+    for krate in
+        ["placed-text", "occupant-units", "crash-measures", "occupant-core", "occupant-scenario", "cardio-legacy"]
+    {
         let mut files = Vec::new();
         sources(&crates().join(krate).join("src"), &mut files);
         for file in files {

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crash_measures::unit::{Dimension, Scale, parse_heading};
+use occupant_units::unit::{Dimension, Scale, parse_heading};
 
 use super::mme::Code;
 

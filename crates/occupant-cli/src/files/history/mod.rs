@@ -8,9 +8,9 @@ mod load;
 
 use clap::ValueEnum;
 use crash_measures::signal::ChannelClass;
-use crash_measures::unit::{Shown, Unit};
 use occupant_core::quantity::Axes;
 use occupant_core::results::channel::Channel;
+use occupant_units::unit::{Shown, Unit};
 
 pub(crate) use filter::{FAMILIES, Filter, family_name, filtered};
 pub(crate) use load::{Treatment, Untreated, asked, choose, load, treated};
@@ -115,7 +115,7 @@ pub(crate) fn plotted(unit: Unit, choice: UnitChoice) -> Shown {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crash_measures::unit::parse;
+    use occupant_units::unit::parse;
 
     /// The names in headings are read back by the reader of unit expressions, as the same size and dimension.
     #[test]

@@ -7,8 +7,8 @@ use std::fmt;
 use std::str::FromStr;
 
 use crash_measures::signal::{CfcFamily, ChannelClass, uniform_interval};
-use crash_measures::unit::Dimension;
 use occupant_core::results::channel::Channel;
+use occupant_units::unit::Dimension;
 use placed_text::name_and_unit;
 
 use crate::base::Failure;

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use crash_measures::signal::uniform_interval;
-use crash_measures::unit::Unit;
 use occupant_core::model::Model;
+use occupant_units::unit::Unit;
 
 use super::code::{Code, Place, place_of};
 use super::header::write;

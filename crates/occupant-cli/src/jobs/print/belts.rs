@@ -1,8 +1,8 @@
 //! Belts: as read, as laid, and item 7, their forces.
 
-use crash_measures::unit::Unit::{Metre, Newton, NewtonPerMetre, One};
 use occupant_core::forces::belt::RestLength;
 use occupant_core::results::sample::Sample;
+use occupant_units::unit::Unit::{Metre, Newton, NewtonPerMetre, One};
 
 use super::unit::degree;
 use super::{Case, Element, Pages, Table, Units};

@@ -1,9 +1,9 @@
 //! Items 5 to 7: forces on the contact spheres and the surfaces hit, points of application, what the elements add; joint
 //! angles and the energy balance.
 
-use crash_measures::unit::Unit::{Joule, Metre, MetrePerSecond, Newton};
 use occupant_core::results::channel::matching;
 use occupant_core::results::sample::Sample;
+use occupant_units::unit::Unit::{Joule, Metre, MetrePerSecond, Newton};
 
 use super::unit::degree;
 use super::{Case, ELEMENTS, Pages, Table, Units, headings};

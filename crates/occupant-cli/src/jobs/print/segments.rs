@@ -1,8 +1,8 @@
 //! Items 1 to 4: end points, accelerations, angular accelerations and velocities of the twelve segments.
 
-use crash_measures::unit::Unit::{Metre, MetrePerSecondSquared, RadianPerSecond, RadianPerSecondSquared};
 use occupant_core::body::{Body, Segment};
 use occupant_core::results::sample::Sample;
+use occupant_units::unit::Unit::{Metre, MetrePerSecondSquared, RadianPerSecond, RadianPerSecondSquared};
 
 use super::unit::g;
 use super::{Pages, Table, Units};

@@ -1,8 +1,8 @@
 //! Units and digits of the printout: inches and pounds as in 1970, or SI.
 
-use crash_measures::unit::Shown;
-use crash_measures::unit::Unit as Measured;
 use occupant_scenario::kind::UnitSystem;
+use occupant_units::unit::Shown;
+use occupant_units::unit::Unit as Measured;
 
 /// A unit of the printout with the decimals that are worth printing.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,9 +1,9 @@
 //! Place, attitude and motion of the vehicles at one output.
 
-use crash_measures::unit::Unit::{Metre, MetrePerSecond, RadianPerSecond, RadianPerSecondSquared};
 use occupant_core::results::channel::{Channel, matching};
 use occupant_core::results::sample::Sample;
 use occupant_core::vehicle::VehiclePath;
+use occupant_units::unit::Unit::{Metre, MetrePerSecond, RadianPerSecond, RadianPerSecondSquared};
 
 use super::unit::{Unit, degree, g};
 use super::{Pages, Table, Units};

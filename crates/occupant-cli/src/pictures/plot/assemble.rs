@@ -2,8 +2,8 @@
 
 use std::str::FromStr;
 
-use crash_measures::unit::{Shown, Unit};
 use occupant_core::results::channel::Channel;
+use occupant_units::unit::{Shown, Unit};
 
 use super::figure::{Axis, Curve, Figure, Limit, Style};
 use super::standard::{Entry, Plot};

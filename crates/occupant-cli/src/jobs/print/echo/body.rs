@@ -1,6 +1,6 @@
 //! Segments and contact spheres.
 
-use crash_measures::unit::Unit::{Kilogram, KilogramMetreSquared, Metre};
+use occupant_units::unit::Unit::{Kilogram, KilogramMetreSquared, Metre};
 
 use crate::jobs::print::segments::label;
 use crate::jobs::print::{Case, Pages, Table, Units};

@@ -1,11 +1,11 @@
 //! Materials, surfaces and solids.
 
-use crash_measures::unit::Unit::{Metre, MetrePerSecond, NewtonPerMetre, One};
 use nalgebra::{Point3, Vector3};
 use occupant_core::forces::contact::flat_face::FlatFace;
 use occupant_core::forces::contact::material::Memory;
 use occupant_core::forces::contact::solid::Shape;
 use occupant_core::forces::contact::surface::{Frame, Outline};
+use occupant_units::unit::Unit::{Metre, MetrePerSecond, NewtonPerMetre, One};
 
 use crate::jobs::print::unit::ratio;
 use crate::jobs::print::{Case, Pages, Table, Units};

@@ -1,8 +1,8 @@
 //! Dampers, stops and springs of the joints.
 
-use crash_measures::unit::Unit::{NewtonMetrePerRadian, NewtonMetreSecondPerRadian, Radian};
 use occupant_core::body::Joint;
 use occupant_core::forces::joint::{Joints, Stop};
+use occupant_units::unit::Unit::{NewtonMetrePerRadian, NewtonMetreSecondPerRadian, Radian};
 
 use crate::jobs::print::{Case, Pages, Table, Units};
 

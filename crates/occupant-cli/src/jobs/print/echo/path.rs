@@ -1,9 +1,9 @@
 //! The path of the vehicle.
 
-use crash_measures::unit::Unit::{Metre, MetrePerSecond, Radian, Second};
 use occupant_core::vehicle::{
     AfterEnd, Interpolation, PulsePath, PulseShape, Strength, TablePath, TravelDirection, VehiclePath, VehiclePose,
 };
+use occupant_units::unit::Unit::{Metre, MetrePerSecond, Radian, Second};
 
 use super::sensors;
 use crate::jobs::print::unit::{g, ratio};

@@ -1,8 +1,8 @@
 //! What the run is: its origin, times, integrator, and what was said about it.
 
-use crash_measures::unit::Unit::MetrePerSecondSquared;
 use occupant_core::forces::contact::EdgeForce;
 use occupant_core::model::setup::Integrator;
+use occupant_units::unit::Unit::MetrePerSecondSquared;
 
 use crate::jobs::print::{Case, Pages, Units};
 

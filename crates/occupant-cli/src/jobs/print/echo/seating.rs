@@ -1,10 +1,10 @@
 //! How the occupant starts: the seating as read and as computed, the coordinates, the elements laid, the pairs passed.
 
-use crash_measures::unit::Unit::{Metre, MetrePerSecond, Newton, NewtonMetre, One, Radian};
 use occupant_core::model::seat::Seated;
 use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating};
 use occupant_core::model::settle::Settled;
 use occupant_core::motion::report_coordinates::{DOF, ReportCoordinates};
+use occupant_units::unit::Unit::{Metre, MetrePerSecond, Newton, NewtonMetre, One, Radian};
 
 use crate::jobs::print::end_sheet::pairs;
 use crate::jobs::print::unit::degree;

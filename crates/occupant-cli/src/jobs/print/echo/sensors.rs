@@ -1,7 +1,7 @@
 //! A path from recorded motion.
 
-use crash_measures::unit::Unit::{Metre, MetrePerSecond};
 use occupant_core::vehicle::{SensorGravity, SensorPath, SensorRecord};
+use occupant_units::unit::Unit::{Metre, MetrePerSecond};
 
 use super::path::{after, direction, pose};
 use crate::jobs::print::unit::{degree, g};

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use super::Dimension;
 use super::expression::UnitError;
-use crate::nearest::nearest;
+use placed_text::nearest;
 
 /// A named unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
