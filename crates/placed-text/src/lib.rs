@@ -22,7 +22,7 @@ pub use nearest::nearest;
 pub use node::{Entry, Format, Node, Table, Value, Written};
 pub use path::{Step, child, children, follow, locate, parse as parse_path, targets, to_text, with_key, with_step};
 pub use problem::{Problem, Problems, Severity};
-pub use shown::{number, plain, shortened, shown};
+pub use shown::{number, plain, shortened, shown, trimmed, without_zeros};
 pub use source::{Position, SourceId, Sources, Span};
 pub use toml::parse_value;
 
