@@ -49,6 +49,7 @@ const ROOMS: [(&str, &[&str]); 9] = [
             "write",
             "convert",
             "back",
+            "print",
         ],
     ),
     (

@@ -12,8 +12,9 @@ use crate::base::{Existing, Interrupt, Units};
 use crate::files::history::{Filter, Treatment, choose, load};
 use crate::files::results::Results;
 use crate::files::scenario::{self, ScenarioArgs};
-use crate::jobs::print::{Case, printout};
+use crate::jobs::print::read;
 use crate::jobs::report::page;
+use cardio_legacy::print::printout;
 use occupant_files::mcap::StoredRun;
 use occupant_files::mcap::records::{Frame, Record};
 use occupant_files::mcap::{checkpoint, wire};
@@ -111,7 +112,7 @@ fn starts(bytes: &[u8]) -> Vec<usize> {
 
 /// Lets every reader of result files see one.
 fn read_by_all(file: &Path) -> Option<()> {
-    if let Ok(case) = Case::read(file) {
+    if let Ok((case, _)) = read(file) {
         let _ = printout(&case, case.loaded.scenario.units.unwrap_or_default().into(), None);
     }
     let results = Results::open(file).ok()?;

@@ -6,9 +6,9 @@ use occupant_core::model::settle::Settled;
 use occupant_core::motion::report_coordinates::{DOF, ReportCoordinates};
 use occupant_units::unit::Unit::{Metre, MetrePerSecond, Newton, NewtonMetre, One, Radian};
 
-use crate::jobs::print::end_sheet::pairs;
-use crate::jobs::print::unit::degree;
-use crate::jobs::print::{Case, ELEMENTS, Pages, Table, Units};
+use crate::print::end_sheet::pairs;
+use crate::print::unit::degree;
+use crate::print::{Case, ELEMENTS, Pages, Table, Units};
 
 /// Writes the start.
 pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {

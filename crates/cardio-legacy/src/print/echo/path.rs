@@ -6,8 +6,8 @@ use occupant_core::vehicle::{
 use occupant_units::unit::Unit::{Metre, MetrePerSecond, Radian, Second};
 
 use super::sensors;
-use crate::jobs::print::unit::{g, ratio};
-use crate::jobs::print::{Case, Pages, Table, Units};
+use crate::print::unit::{g, ratio};
+use crate::print::{Case, Pages, Table, Units};
 
 /// Writes the path of every vehicle.
 pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {

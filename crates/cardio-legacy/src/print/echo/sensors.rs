@@ -4,8 +4,8 @@ use occupant_core::vehicle::{SensorGravity, SensorPath, SensorRecord};
 use occupant_units::unit::Unit::{Metre, MetrePerSecond};
 
 use super::path::{after, direction, pose};
-use crate::jobs::print::unit::{degree, g};
-use crate::jobs::print::{Pages, Table, Units};
+use crate::print::unit::{degree, g};
+use crate::print::{Pages, Table, Units};
 
 /// Writes how the record is read, then the record.
 pub(crate) fn write(pages: &mut Pages, path: &SensorPath, units: Units) {

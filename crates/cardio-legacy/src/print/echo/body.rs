@@ -2,8 +2,8 @@
 
 use occupant_units::unit::Unit::{Kilogram, KilogramMetreSquared, Metre};
 
-use crate::jobs::print::segments::label;
-use crate::jobs::print::{Case, Pages, Table, Units};
+use crate::print::segments::label;
+use crate::print::{Case, Pages, Table, Units};
 
 /// Writes the body.
 pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {

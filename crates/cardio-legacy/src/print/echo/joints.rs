@@ -4,7 +4,7 @@ use occupant_core::body::Joint;
 use occupant_core::forces::joint::{Joints, Stop};
 use occupant_units::unit::Unit::{NewtonMetrePerRadian, NewtonMetreSecondPerRadian, Radian};
 
-use crate::jobs::print::{Case, Pages, Table, Units};
+use crate::print::{Case, Pages, Table, Units};
 
 /// Writes the joints.
 pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {

@@ -15,7 +15,8 @@ mod table;
 mod unit;
 mod vehicle;
 
-pub(crate) use case::Case;
+pub use case::{Case, Recorded};
+pub use unit::Units;
 
 use occupant_core::results::recorder::{Recorder, Watch};
 use occupant_core::results::sample::Sample;
@@ -23,7 +24,6 @@ use occupant_core::results::summary::{Caveat, Summarizer};
 use occupant_core::run::simulate::replay;
 use page::{COLUMNS, Pages};
 use table::Table;
-use unit::Units;
 
 /// What a kind of force elements adds to the printout, beside contact surfaces and joints.
 pub(crate) struct Element {
@@ -53,7 +53,7 @@ fn headings() -> String {
 ///
 /// # Errors
 /// An output that cannot be evaluated; a print interval shorter than the recorded one.
-pub(crate) fn printout(case: &Case, units: Units, every_s: Option<f64>) -> Result<String, String> {
+pub fn printout(case: &Case, units: Units, every_s: Option<f64>) -> Result<String, String> {
     let mut pages = Pages::new(case.titles());
     echo::write(&mut pages, case, units);
     let times_s: Vec<f64> = case.file.checkpoints.iter().map(|c| c.time_s).collect();
@@ -71,7 +71,7 @@ pub(crate) fn printout(case: &Case, units: Units, every_s: Option<f64>) -> Resul
 }
 
 /// That a print interval is no multiple of the recorded one, so that the printed times are not evenly spaced.
-pub(crate) fn uneven(case: &Case, every_s: f64) -> Option<String> {
+pub fn uneven(case: &Case, every_s: f64) -> Option<String> {
     let output_s = case.model.setup().time.output_s;
     let outputs = every_s / output_s;
     ((outputs - outputs.round()).abs() > 1e-6).then(|| {
@@ -93,7 +93,7 @@ fn caveats(case: &Case) -> Result<Vec<Caveat>, String> {
         replay(&case.model, checkpoint, &mut summarizer).map_err(|e| e.to_string())?;
     }
     summarizer.end(&last.outcome(&case.model)).map_err(|e| e.to_string())?;
-    let (status, reason) = case.file.ending();
+    let (status, reason) = case.file.ending.clone();
     Ok(summarizer.summary(None).map_or_else(Vec::new, |summary| summary.ended(status, reason).caveats))
 }
 

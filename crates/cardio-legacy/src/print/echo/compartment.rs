@@ -7,8 +7,8 @@ use occupant_core::forces::contact::solid::Shape;
 use occupant_core::forces::contact::surface::{Frame, Outline};
 use occupant_units::unit::Unit::{Metre, MetrePerSecond, NewtonPerMetre, One};
 
-use crate::jobs::print::unit::ratio;
-use crate::jobs::print::{Case, Pages, Table, Units};
+use crate::print::unit::ratio;
+use crate::print::{Case, Pages, Table, Units};
 
 /// Writes materials, surfaces and, where there are any, solids.
 pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {

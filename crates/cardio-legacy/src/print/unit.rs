@@ -14,7 +14,7 @@ pub(crate) struct Unit {
 
 /// The units of a printout: metre, kilogram, newton; or inch, pound-force, second with masses as weights in pounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Units {
+pub struct Units {
     system: UnitSystem,
     as_read: bool,
 }

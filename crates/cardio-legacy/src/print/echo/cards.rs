@@ -1,8 +1,8 @@
 //! The cards of a scenario that fits on them: each number with the digits of its card, for a check of the punching.
 
-use cardio_legacy::Deck;
+use crate::Deck;
 
-use crate::jobs::print::{Case, Pages};
+use crate::print::{Case, Pages};
 
 /// Writes the cards, if there are any.
 pub(crate) fn write(pages: &mut Pages, case: &Case) {

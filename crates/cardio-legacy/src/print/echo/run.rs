@@ -4,7 +4,7 @@ use occupant_core::forces::contact::EdgeForce;
 use occupant_core::model::setup::Integrator;
 use occupant_units::unit::Unit::MetrePerSecondSquared;
 
-use crate::jobs::print::{Case, Pages, Units};
+use crate::print::{Case, Pages, Units};
 
 /// Writes the first page.
 pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {

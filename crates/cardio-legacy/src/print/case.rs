@@ -1,27 +1,39 @@
 //! What is printed: the recorded run, and the model rebuilt from the scenario that travels with it.
 
-use std::path::Path;
+use std::collections::BTreeMap;
 
 use occupant_core::body::tti12::TTI12;
 use occupant_core::forces::contact::PairHistory;
 use occupant_core::model::Model;
+use occupant_core::results::checkpoint::Checkpoint;
 use occupant_core::results::summary::RunStatus;
-use occupant_scenario::Loaded;
+use occupant_scenario::{Diagnostics, Loaded};
 
-use cardio_legacy::{CompartmentLayout, passed_pairs};
+use crate::{CompartmentLayout, passed_pairs};
 
-use crate::base::{Failure, input_file};
-use crate::files::mcap::StoredRun;
-use crate::files::mcap::about::RUN;
-use crate::files::scenario::stored;
+/// A run as its file holds it.
+#[derive(Clone, Debug)]
+pub struct Recorded {
+    /// What the run was: its program, scenario, changes.
+    pub run: BTreeMap<String, String>,
+    /// What it came to; none if it was cut off.
+    pub result: Option<BTreeMap<String, String>>,
+    /// How it ended, and why it did not end well.
+    pub ending: (RunStatus, Option<String>),
+    /// Texts that travel with it: name and content.
+    pub attachments: BTreeMap<String, Vec<u8>>,
+    /// Its outputs.
+    pub checkpoints: Vec<Checkpoint>,
+}
 
 /// A run to print.
-pub(crate) struct Case {
+pub struct Case {
     /// The recorded run.
-    pub(crate) file: StoredRun,
+    pub(crate) file: Recorded,
     /// The scenario, overrides included.
-    pub(crate) loaded: Loaded,
-    pub(crate) model: Model,
+    pub loaded: Loaded,
+    /// Its model.
+    pub model: Model,
     /// Warnings about it, in words.
     pub(crate) warnings: Vec<String>,
     /// Numbers of the surfaces, in the setup's order.
@@ -31,38 +43,18 @@ pub(crate) struct Case {
 }
 
 impl Case {
-    /// Reads a result file and rebuilds its model.
-    ///
-    /// # Errors
-    /// A file that `occupant run` has not written, that lacks its scenario or a table that it names, or whose scenario or
-    /// checkpoints this program refuses.
-    pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
-        let name = path.display();
-        let bytes = input_file::read(path)?;
-        let refused = |reason: String| {
-            Failure::with_help(
-                format!("{name} cannot be printed: {reason}"),
-                "give a file that `occupant run` of this version has written",
-            )
-        };
-        let file = StoredRun::read(&bytes).map_err(refused)?;
-        if file.run.is_empty() {
-            let why = file.because();
-            let found = format!("it is an MCAP file without the record `{RUN}`: no result of `occupant run`{why}");
-            return Err(refused(found));
-        }
-        let (loaded, model, warnings) = stored(path, &file)?;
-        file.checkpoints.iter().try_for_each(|c| c.check(&model)).map_err(|e| refused(e.to_string()))?;
+    /// A recorded run, and the model of its scenario with the warnings about it.
+    pub fn new(file: Recorded, (loaded, model, warnings): (Loaded, Model, Diagnostics)) -> Self {
         let report = report_numbers(&model);
         let in_order = || (1..=model.setup().surface_names().count()).collect();
-        Ok(Case {
+        Case {
             warnings: warnings.iter().map(|w| w.problem.to_string()).collect(),
             numbers_of_report: report.is_some(),
             numbers: report.unwrap_or_else(in_order),
             file,
             loaded,
             model,
-        })
+        }
     }
 
     /// A fact about the run from its record; `-` where it has none.
@@ -89,8 +81,8 @@ impl Case {
     }
 
     /// Whether the run reached its end.
-    pub(crate) fn is_complete(&self) -> bool {
-        self.file.ending().0 == RunStatus::Completed
+    pub fn is_complete(&self) -> bool {
+        self.file.ending.0 == RunStatus::Completed
     }
 
     /// A surface by its number and name.
