@@ -85,6 +85,7 @@
 
 mod check;
 mod draft;
+pub mod ending;
 mod expand;
 pub mod kind;
 mod loaded;

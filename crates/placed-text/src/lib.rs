@@ -6,6 +6,7 @@ mod csv;
 mod diagnostic;
 mod encoding;
 mod json;
+mod nearest;
 mod node;
 mod path;
 mod problem;
@@ -17,14 +18,14 @@ mod toml;
 pub use csv::{CELL, Cell, MOST_CELLS, Separator, TextTable, is_missing, lines, name_and_unit};
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use encoding::decoded;
+pub use nearest::nearest;
 pub use node::{Entry, Format, Node, Table, Value, Written};
 pub use path::{Step, child, children, follow, locate, parse as parse_path, targets, to_text, with_key, with_step};
 pub use problem::{Problem, Problems, Severity};
-pub use shown::{number, plain, shortened, shown};
+pub use shown::{number, plain, shortened, shown, trimmed, without_zeros};
 pub use source::{Position, SourceId, Sources, Span};
 pub use toml::parse_value;
 
-use crash_measures::nearest::nearest;
 use serde::de::DeserializeOwned;
 
 /// A text that has been read: its tree, and the texts that the places of the tree point into.

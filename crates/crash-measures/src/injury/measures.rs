@@ -13,7 +13,7 @@ use crate::measure::{
 };
 use crate::signal::ChannelClass::{self, Cfc60, Cfc180, Cfc600, Cfc1000};
 use crate::signal::{SignalError, resultant};
-use crate::unit::Unit::{self, Metre, MetrePerSecondSquared, Newton, NewtonMetre, One};
+use occupant_units::unit::Unit::{self, Metre, MetrePerSecondSquared, Newton, NewtonMetre, One};
 
 /// All measures, in the order of a dummy from head to femur.
 pub(super) const MEASURES: &[Definition] = &[

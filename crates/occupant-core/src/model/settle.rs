@@ -25,7 +25,7 @@ use crate::motion::skeleton::Skeleton;
 use crate::motion::state::State;
 use crate::motion::vector::{V3, v3};
 use crate::vehicle::FrameMotion;
-use crash_measures::trig;
+use occupant_units::trig;
 use placed_text::Problems;
 
 /// Lever that turns moments into comparable forces, m.

@@ -1,6 +1,6 @@
 //! Headings of recorders, in words: "Delta-V, longitudinal" is what `dvx` is.
 
-use crash_measures::unit::{Dimension, Unit};
+use occupant_units::unit::{Dimension, Unit};
 
 /// Things that headings speak of, and the words that they have for them.
 type Sense = (&'static str, &'static [&'static str]);

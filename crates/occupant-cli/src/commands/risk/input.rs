@@ -12,7 +12,7 @@ use super::Args;
 use crate::base::{Failure, ending, input_file, note};
 use crate::files::mcap::StoredRun;
 use crate::files::measured::{self, Axes, Known, Motion, MotionKind, Placed, Reading, doubts};
-use crate::files::scenario::{self, ScenarioArgs};
+use crate::files::scenario::{self, ScenarioArgs, warn_of};
 use crate::jobs::import::PathFilter;
 use crate::jobs::risk::{PATH_INTERVAL_S, Subject};
 
@@ -104,7 +104,7 @@ fn path_of(args: &Args, name: &str, extension: &str, wanted: &Preparation) -> Re
         _ => {
             let opened =
                 scenario::open(&ScenarioArgs { scenario: args.file.clone(), overrides: args.overrides.clone() })?;
-            opened.warn();
+            warn_of(&opened);
             opened.model
         }
     };

@@ -1,8 +1,8 @@
 //! Injury measures as tables.
 
 use crash_measures::injury::{Judgement, Measure};
-use crash_measures::unit::Unit;
 use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
+use occupant_units::unit::Unit;
 
 use super::summary::Marks;
 use crate::base::Units;

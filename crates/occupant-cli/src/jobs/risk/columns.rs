@@ -3,11 +3,11 @@
 use std::sync::Mutex;
 
 use crash_measures::signal::{CfcFamily, ChannelClass};
-use crash_measures::unit::Unit;
 use occupant_core::model::setup::Setup;
 use occupant_core::results::summary::Figure;
 use occupant_core::vehicle::VehiclePath;
 use occupant_study::risk::{Flight, Preparation, VehicleRisk, prepare};
+use occupant_units::unit::Unit;
 
 use super::{Figures, PATH_INTERVAL_S, Subject};
 

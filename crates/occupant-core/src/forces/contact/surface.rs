@@ -3,8 +3,8 @@
 //! Report: "The Idealized Passenger Compartment". The report's planes have no edges in print; bounded faces
 //! are our decision (see the theory manual).
 
-use crash_measures::trig;
 use nalgebra::{Point3, Vector3};
+use occupant_units::trig;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
