@@ -47,11 +47,13 @@
 //! | [`integrate`] | a Bogacki–Shampine pair with error control |
 //! | [`run`] | a drive from its start to its end, its stations and its energy balance |
 
+pub mod body;
 pub mod car;
 pub mod chassis;
 pub mod driver;
 pub mod ground;
 pub mod integrate;
+pub mod presets;
 pub mod run;
 pub mod tyre;
 
