@@ -1,10 +1,12 @@
 //! All that is driven together: vehicles, ground, barriers, impacts. One integrator takes all of it.
 
 mod contact;
+mod damage;
 mod run;
 pub(crate) mod setup;
 
-pub use contact::{Contact, Partner};
+pub use contact::{Contact, Partner, Struck};
+pub use damage::{Damage, Profile};
 
 use crate::V3;
 use crate::barrier::Barrier;
@@ -109,6 +111,8 @@ pub struct Outcome {
     pub rides: Vec<Ride>,
     /// Contacts in the order of their first touches.
     pub contacts: Vec<Contact>,
+    /// Damage of each vehicle.
+    pub damage: Vec<Damage>,
     /// Evaluations of the rates.
     pub evaluations: u64,
     /// Steps that were tried and rejected.
