@@ -67,6 +67,8 @@ pub(crate) struct Pass {
     /// By law of the node, then law of the face; `columns` laws of faces.
     pub series: Vec<Series>,
     pub columns: usize,
+    /// Shares of both bodies in what friction takes.
+    pub rubbing: [f64; 2],
     /// Whether the outline's body is the one that crushes: a pole's nodes in a car.
     pub outline_crushes: bool,
 }
@@ -174,8 +176,8 @@ impl Pass {
             let axes = poses[b].axes;
             let (force, about_a, about_b) = (axes * force, axes * about_a, axes * about_b);
             let first_w = if self.outline_crushes { crushing - first_w } else { first_w };
-            add(&mut pushes[a], force, about_a, first_w, 0.5 * rubbing);
-            add(&mut pushes[b], -force, -about_b, crushing - first_w, 0.5 * rubbing);
+            add(&mut pushes[a], force, about_a, first_w, self.rubbing[0] * rubbing);
+            add(&mut pushes[b], -force, -about_b, crushing - first_w, self.rubbing[1] * rubbing);
         }
         size
     }

@@ -113,12 +113,25 @@ pub struct Outcome {
     pub contacts: Vec<Contact>,
     /// Damage of each vehicle.
     pub damage: Vec<Damage>,
+    /// How far each barrier slid; 0 for those that stand.
+    pub slides: Vec<Slid>,
     /// Evaluations of the rates.
     pub evaluations: u64,
     /// Steps that were tried and rejected.
     pub rejected: u64,
     /// Error of the energy balance over the greatest kinetic energy.
     pub balance: f64,
+}
+
+/// How far a barrier slid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slid {
+    /// Greatest way, m.
+    pub most_m: f64,
+    /// Direction, clockwise from X, rad.
+    pub direction_rad: f64,
+    /// Speed at the end, m/s.
+    pub speed_m_s: f64,
 }
 
 /// Why a world could not be driven.

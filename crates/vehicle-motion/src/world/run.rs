@@ -6,11 +6,12 @@ use crate::crush::touch::{Marks, Pose, Push};
 use crate::impulse::Pulse;
 use crate::integrate::{Pair as Method, Stack, next_step};
 use crate::run::{Ride, Station};
+use crate::slider::SlideMemory;
 use crate::vehicle::Memory;
 use crate::world::contact::{Contact, ENDS_AFTER_S, Struck};
 use crate::world::damage::Damage;
 use crate::world::setup::{Memories, Pair, Setup};
-use crate::world::{Outcome, Partner, World, WorldError, Wrench};
+use crate::world::{Outcome, Partner, Slid, World, WorldError, Wrench};
 
 /// Shortest step, s: what needs shorter ones has no solution here.
 const SHORTEST_S: f64 = 1e-9;
@@ -403,7 +404,13 @@ impl<'a> Runner<'a> {
         contacts.sort_by(|a, b| a.from_s.total_cmp(&b.from_s));
         let ride = |stations| Ride { stations, evaluations, rejected, balance };
         let rides = rides.into_iter().map(ride).collect();
-        Outcome { rides, contacts, damage, evaluations, rejected, balance }
+        let slid = |(i, memory): (usize, &SlideMemory)| Slid {
+            most_m: memory.most_m,
+            direction_rad: memory.direction_rad.unwrap_or(0.0),
+            speed_m_s: stack.more[2 * i + 1],
+        };
+        let slides = memories.slides.iter().enumerate().map(slid).collect();
+        Outcome { rides, contacts, damage, slides, evaluations, rejected, balance }
     }
 }
 
