@@ -327,6 +327,18 @@ impl Chassis {
         speed_m_s / (self.tyre.radius_m - depth_m / 3.0)
     }
 
+    /// Place of a wheel's centre and direction of its axle to the right, body axes.
+    pub(crate) fn wheel_at(&self, state: &State, i: usize, steer_rad: f64) -> (V3, V3) {
+        let jounce_m = state.jounce_m()[i];
+        let Wheel { centre_m, slide, .. } = self.wheels[i];
+        (centre_m + slide * jounce_m, self.axle_direction(i, jounce_m, steer_rad))
+    }
+
+    /// Free radius of the tyres, m.
+    pub(crate) fn radius_m(&self) -> f64 {
+        self.tyre.radius_m
+    }
+
     /// Direction of a wheel's axle to the right, body axes.
     pub(crate) fn axle_direction(&self, i: usize, jounce_m: f64, steer_rad: f64) -> V3 {
         let Wheel { axle, side, .. } = &self.wheels[i];
