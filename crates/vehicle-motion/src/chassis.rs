@@ -426,7 +426,7 @@ impl Chassis {
             let held_by_body = across * (gravity_b - swings) * m;
             let pushed = met.force.dot(&u) - resists_n;
             force += held_by_body + met.force - u * pushed;
-            moment += place.cross(&held_by_body) + met.arm_m.cross(&met.force) - place.cross(&u) * pushed;
+            moment += place.cross(&held_by_body) + met.arm_m.cross(&met.force) - place.cross(&u) * pushed + met.couple;
             // spinning wheels: τ = I_w ϖ̇ â − Ω×H, H = −I_w ϖ â; a held wheel is part of the body
             if held[i] {
                 inertia += axis * axis.transpose() * axle.spin_kg_m2;
@@ -509,6 +509,7 @@ impl Chassis {
             work.driving_j += driven;
             return Met {
                 force: V3::zeros(),
+                couple: V3::zeros(),
                 arm_m: place,
                 spin_rate: (of.drive_n_m - brake) / spin_inertia,
                 slip_rates: of.slips.map(|slip| -slip / FADING_S),
@@ -560,6 +561,7 @@ impl Chassis {
         let spun_n_m = shear[0] * lever;
         Met {
             force: ahead * shear[0] + right * shear[1] + normal * load,
+            couple: to_body * at.couple_m * (elastic / at.share.max(1e-9)),
             arm_m,
             spin_rate: (of.drive_n_m - brake - spun_n_m - rolling) / spin_inertia,
             slip_rates: tyre.slip_rates(of.slips, slide, rolls),
@@ -662,6 +664,7 @@ struct Carrier {
 /// What the ground, the brake and the drive do to a wheel, body axes.
 struct Met {
     force: V3,
+    couple: V3,
     arm_m: V3,
     spin_rate: f64,
     slip_rates: [f64; 2],
