@@ -5,7 +5,6 @@ use crate::body::Body;
 use crate::chassis::{Chassis, State};
 use crate::crush::touch::Pose;
 use crate::ground::Ground;
-use nalgebra::Matrix3;
 
 /// Speed over which friction turns, m/s.
 const TURNS_M_S: f64 = 0.127;
@@ -19,6 +18,9 @@ const EDGE_N_PER_M: f64 = 2e6;
 const EDGE_BOTTOMS_M: f64 = 0.05;
 /// Faces whose normal is nearer to the axle than this (cosine) are met by the edges, not by the tread.
 const BESIDE: f64 = core::f64::consts::FRAC_1_SQRT_2;
+
+/// A vehicle that leans more (sine) may stand on the edges of its wheels.
+const LEANS: f64 = 0.6;
 
 #[derive(Clone, Copy, Debug)]
 struct Sphere {
@@ -36,6 +38,8 @@ pub(crate) struct Hull {
     returned: f64,
     /// Free radius of the wheels, m.
     wheel_m: f64,
+    /// Radius that holds all spheres, m.
+    reach_m: f64,
 }
 
 /// What is remembered of it.
@@ -45,6 +49,8 @@ pub(crate) struct HullMemory {
     most_m: Vec<f64>,
     /// Whether it may touch within the next step.
     pub is_near: bool,
+    /// Least height over the ground when it was last looked at, m.
+    pub clear_m: f64,
 }
 
 /// What the ground does to the hull: force and moment about the centre of gravity, vehicle-space, and the power taken.
@@ -83,24 +89,25 @@ impl Hull {
             stiffness: ball.stiffness_n_per_m,
             is_roof: ball.is_roof,
         });
-        let spheres = spheres.collect();
-        Hull { spheres, friction: body.hull_friction, returned: body.hull_returned, wheel_m }
+        let spheres: Vec<Sphere> = spheres.collect();
+        let reach_m = spheres.iter().map(|sphere| sphere.place_m.norm() + sphere.radius_m).fold(0.0, f64::max);
+        Hull { reach_m, spheres, friction: body.hull_friction, returned: body.hull_returned, wheel_m }
     }
 
     pub fn memory(&self) -> HullMemory {
-        HullMemory { most_m: vec![0.0; self.spheres.len() + 8], is_near: false }
+        HullMemory { most_m: vec![0.0; self.spheres.len() + 8], is_near: false, clear_m: 0.0 }
     }
 
     /// Least height of a sphere over the ground, m.
     pub fn clear_m(&self, state: &State, ground: &Ground) -> f64 {
         let (at, axes) = (state.position_m(), *state.attitude().to_rotation_matrix().matrix());
+        if let Some((normal, point)) = ground.lone(at.y, self.reach_m) {
+            let (height, down) = (normal.dot(&(at - point)), axes.tr_mul(&normal));
+            let over = |sphere: &Sphere| height + down.dot(&sphere.place_m) - sphere.radius_m;
+            return self.spheres.iter().map(over).fold(f64::INFINITY, f64::min);
+        }
         let over = |sphere: &Sphere| ground.distance(&(at + axes * sphere.place_m)).0 - sphere.radius_m;
         self.spheres.iter().map(over).fold(f64::INFINITY, f64::min)
-    }
-
-    /// Whether the ground has a face that only an edge of a wheel can meet, or the wheels lie flat enough.
-    fn edges_count(&self, axes: &Matrix3<f64>, ground: &Ground) -> bool {
-        ground.has_steep() || axes[(2, 1)].abs() > 0.6
     }
 
     fn dips(
@@ -119,7 +126,8 @@ impl Hull {
             let depth_m = radius_m - distance;
             meet(Dip { number, centre_m, radius_m, depth_m, normal, stiffness, is_edge: false });
         }
-        if !self.edges_count(&pose.axes, ground) {
+        // a face that only an edge meets, or wheels that lie nearly flat
+        if !(ground.has_steep() || pose.axes[(2, 1)].abs() > LEANS) {
             return;
         }
         let [radius_m, inward_m, aside_m] = EDGE_M;
@@ -169,17 +177,24 @@ impl Hull {
     }
 
     /// Remembers depths; a sphere that is apart forgets, but the roof.
-    pub fn commit(&self, state: &State, chassis: &Chassis, steer: [f64; 4], memory: &mut HullMemory, ground: &Ground) {
+    pub fn commit(
+        &self,
+        state: &State,
+        chassis: &Chassis,
+        steer: impl FnOnce() -> [f64; 4],
+        memory: &mut HullMemory,
+        ground: &Ground,
+    ) {
         if memory.is_near {
             let most_m = &mut memory.most_m;
-            self.dips(&state.pose(), chassis, state, steer, ground, &mut |dip| {
+            self.dips(&state.pose(), chassis, state, steer(), ground, &mut |dip| {
                 let is_roof = self.spheres.get(dip.number).is_some_and(|sphere| sphere.is_roof);
                 let most = &mut most_m[dip.number];
                 *most = if dip.depth_m > 0.0 || is_roof { most.max(dip.depth_m) } else { 0.0 };
             });
         }
-        let axes = *state.attitude().to_rotation_matrix().matrix();
-        memory.is_near = self.edges_count(&axes, ground) || self.clear_m(state, ground) < NEAR_M;
+        let leans = state.attitude() * V3::y();
+        memory.is_near = memory.clear_m < NEAR_M || ground.has_steep() || leans.z.abs() > LEANS;
     }
 
     /// Deepest crush of the roof, m.

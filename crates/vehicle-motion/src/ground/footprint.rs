@@ -59,13 +59,8 @@ impl Ground {
     /// Contact of a wheel of the given free and crown radius with its centre at `centre_m` and the unit vector `axle` to its
     /// right, both in vehicle-space; none off the ground.
     pub fn footprint(&self, centre_m: V3, axle: V3, radius_m: f64, crown_m: f64) -> Option<Footprint> {
-        let plane = self.plane_at(centre_m.y);
-        let height_m = self.normals[plane].dot(&(centre_m - self.point_m(plane)));
-        // far above every plane near it: nothing to cut
-        let is_alone = self.corners_m[plane][0] < centre_m.y - 2.0 * radius_m
-            && self.corners_m[plane + 1][0] > centre_m.y + 2.0 * radius_m;
-        if is_alone && height_m > radius_m {
-            return None;
+        if let Some(plane) = self.lone_plane(centre_m.y, 2.0 * radius_m) {
+            return self.on_plane(plane, centre_m, axle, radius_m, crown_m);
         }
         let wheel = Tread { ground: self, radius_m, crown_m };
         let met = wheel.met(centre_m, axle)?;
@@ -75,6 +70,21 @@ impl Ground {
             return Some(Footprint { depth_m, share: 1.0, normal, point_m, couple_m: V3::zeros(), lean });
         }
         wheel.over_a_corner(centre_m, axle, &met)
+    }
+
+    /// Contact with one plane: ρ less the height of the lowest point of the circle of radius r₀ − ρ.
+    fn on_plane(&self, plane: usize, centre_m: V3, axle: V3, radius_m: f64, crown_m: f64) -> Option<Footprint> {
+        let normal = self.normals[plane];
+        let height_m = normal.dot(&(centre_m - self.point_m(plane)));
+        let lean = normal.dot(&axle);
+        let upright = (1.0 - lean * lean).max(0.0).sqrt();
+        let depth_m = crown_m - (height_m - (radius_m - crown_m) * upright);
+        if depth_m <= 0.0 || lean.abs() > LYING {
+            return None;
+        }
+        let back = (normal - axle * lean) / upright;
+        let point_m = centre_m - back * (radius_m - crown_m) - normal * (crown_m - depth_m);
+        Some(Footprint { depth_m, share: 1.0, normal, point_m, couple_m: V3::zeros(), lean })
     }
 }
 

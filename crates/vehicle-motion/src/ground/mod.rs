@@ -177,6 +177,15 @@ impl Ground {
         inner.partition_point(|corner| corner[0] <= right_m)
     }
 
+    /// The plane at a distance right of the X axis, if it goes on for a way to both sides.
+    pub(crate) fn lone_plane(&self, right_m: f64, way_m: f64) -> Option<usize> {
+        let plane = self.plane_at(right_m);
+        let last = self.normals.len() - 1;
+        let is_alone = (plane == 0 || self.corners_m[plane][0] < right_m - way_m)
+            && (plane == last || self.corners_m[plane + 1][0] > right_m + way_m);
+        is_alone.then_some(plane)
+    }
+
     /// A point of a plane, vehicle-space, m.
     fn point_m(&self, plane: usize) -> V3 {
         let [right_m, height_m] = self.corners_m[plane];
@@ -197,6 +206,11 @@ impl Ground {
     /// Upward normal at a distance right of the X axis, vehicle-space.
     pub fn normal(&self, right_m: f64) -> V3 {
         self.normals[self.plane_at(right_m)]
+    }
+
+    /// Normal and a point of the plane at a distance right of the X axis, if it goes on for a way to both sides.
+    pub(crate) fn lone(&self, right_m: f64, way_m: f64) -> Option<(V3, V3)> {
+        self.lone_plane(right_m, way_m).map(|plane| (self.normals[plane], self.point_m(plane)))
     }
 
     /// Whether some face is steeper than 45°.

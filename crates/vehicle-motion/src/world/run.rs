@@ -189,7 +189,8 @@ impl<'a> Runner<'a> {
             vehicle.look(&self.stack.cars[i], 0.0, &mut self.memories.vehicles[i]);
             vehicle.hold_locked(&mut self.stack.cars[i], 0.0, &mut self.memories.vehicles[i]);
             let (hull, memory) = (&self.setup.hulls[i], &mut self.memories.hulls[i]);
-            hull.commit(&self.stack.cars[i], &vehicle.chassis, [0.0; 4], memory, &self.setup.world.ground);
+            memory.clear_m = hull.clear_m(&self.stack.cars[i], &self.setup.world.ground);
+            hull.commit(&self.stack.cars[i], &vehicle.chassis, || [0.0; 4], memory, &self.setup.world.ground);
         }
         self.fire();
         self.evaluate();
@@ -244,7 +245,8 @@ impl<'a> Runner<'a> {
         let mut sinks = false;
         for (i, hull) in self.setup.hulls.iter().enumerate() {
             let memory = &mut self.memories.hulls[i];
-            if !memory.is_near && hull.clear_m(&cars[i], &self.setup.world.ground) < 0.0 {
+            memory.clear_m = hull.clear_m(&cars[i], &self.setup.world.ground);
+            if !memory.is_near && memory.clear_m < 0.0 {
                 (memory.is_near, sinks) = (true, true);
             }
         }
@@ -271,8 +273,8 @@ impl<'a> Runner<'a> {
                 vehicle.look(state, self.time_s, memory);
             }
             jumps |= vehicle.commit(self.time_s, state, &self.found.reports[i], memory) || looks;
-            let steer = vehicle.controls(self.time_s, memory).steer_rad;
             let (hull, of_hull) = (&self.setup.hulls[i], &mut self.memories.hulls[i]);
+            let steer = || vehicle.controls(self.time_s, memory).steer_rad;
             hull.commit(state, &vehicle.chassis, steer, of_hull, &self.setup.world.ground);
         }
         jumps
