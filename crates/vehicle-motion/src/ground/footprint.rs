@@ -106,7 +106,7 @@ struct Met {
 }
 
 /// Ways of the differences that give the gradient of the depth, m and rad.
-const WAY: f64 = 1e-5;
+const WAY: f64 = 1e-7;
 
 impl Tread<'_> {
     fn met(&self, centre_m: V3, axle: V3) -> Option<Met> {
@@ -139,14 +139,11 @@ impl Tread<'_> {
     /// it gives and takes is what it stores.
     fn over_a_corner(&self, centre_m: V3, axle: V3, met: &Met) -> Option<Footprint> {
         let depth = |centre_m: V3, axle: V3| self.met(centre_m, axle).map_or(0.0, |met| met.depth_m);
-        let along = |way: V3| (depth(centre_m - way * WAY, axle) - depth(centre_m + way * WAY, axle)) / (2.0 * WAY);
+        let along = |way: V3| (met.depth_m - depth(centre_m + way * WAY, axle)) / WAY;
         let push = V3::new(along(V3::x()), along(V3::y()), along(V3::z()));
         // about the axle itself a tyre is round
         let ahead = met.back.cross(&axle);
-        let about = |turn: V3| {
-            let way = turn.cross(&axle) * WAY;
-            (depth(centre_m, (axle - way).normalize()) - depth(centre_m, (axle + way).normalize())) / (2.0 * WAY)
-        };
+        let about = |turn: V3| (met.depth_m - depth(centre_m, (axle + turn.cross(&axle) * WAY).normalize())) / WAY;
         let moment_m = ahead * about(ahead) + met.back * about(met.back);
         let (share, normal) = (push.norm(), push.try_normalize(1e-12)?);
         let arm_m = -met.back * (self.radius_m - self.crown_m) - normal * (self.crown_m - met.depth_m);
