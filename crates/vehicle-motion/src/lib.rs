@@ -47,13 +47,22 @@
 //! | [`integrate`] | a Bogacki–Shampine pair with error control |
 //! | [`run`] | a drive from its start to its end, its stations and its energy balance |
 
+pub mod barrier;
+pub mod body;
 pub mod car;
 pub mod chassis;
+pub mod crush;
 pub mod driver;
 pub mod ground;
+mod hull;
+pub mod impulse;
 pub mod integrate;
+pub mod presets;
 pub mod run;
+mod slider;
 pub mod tyre;
+mod vehicle;
+pub mod world;
 
 /// A vector in m, m/s, N …, in the axes that its name says.
 pub type V3 = nalgebra::Vector3<f64>;
