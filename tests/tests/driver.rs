@@ -177,6 +177,24 @@ fn what_a_joint_lacks_to_hold_the_posture_is_said() {
     assert_below("lack of a body with tone, N m", lack(&braced).moment_n_m, 1e-3);
 }
 
+/// The ground lies below and out of reach, so that muscles carry at the start what they carry without it.
+#[test]
+fn the_ground_out_of_reach_changes_nothing_of_what_muscles_carry() {
+    let parked = ["path={ kind = \"fixed\" }", "muscles.*.tone=1", "time.end=0.2"];
+    let ground = "ground={ material = \"pan\", below = 0.56 }";
+    let end = |set: &[&str]| {
+        let model = Model::new(setup(BRACED, set)).unwrap();
+        let lack = model.start().settled.unwrap().lack;
+        assert_below("lack, N m", lack.map_or(0.0, |lack| lack.moment_n_m), 1e-3);
+        let mut series = Series::new(vec![find(&model, "head.acceleration.resultant").unwrap()]);
+        simulate(&model, &mut series).unwrap();
+        series.values[0].clone()
+    };
+    let off = |with: &[f64], without: &[f64]| with.iter().zip(without).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let (without, with) = (end(&parked), end(&[&parked[..], &[ground]].concat()));
+    assert_below("difference, m/s²", off(&with, &without), 1e-9);
+}
+
 #[test]
 fn bodies_of_more_segments_that_touch_themselves_end_alike_side_by_side() {
     for segments in [15, 17] {

@@ -11,7 +11,7 @@ use crate::model::limp::{Rest, sink};
 use crate::model::pose::hang;
 use crate::model::seat::{Seat, SeatPlane, Seated, seat};
 use crate::model::seating::{InitialPosture, InitialVelocity, Placing, Seating, Settling};
-use crate::model::settle::{Settled, carry, kept, lack, settle, stand};
+use crate::model::settle::{Settled, carry, kept, lack, settle, stand, standing};
 use crate::model::setup::Setup;
 use crate::model::{Model, Start, frames, together};
 use crate::motion::frame::VEHICLE;
@@ -82,7 +82,7 @@ pub(super) fn begin(
         warn_apart(setup, forces, &history, passed, problems);
     }
     if let Some(settled) = &mut settled {
-        let (still, standing) = (state.still(), frames(start_s, &vehicle.held()));
+        let (still, standing) = (state.still(), standing(setup, &vehicle));
         carry(&mut system, &still, &standing, &history);
         settled.lack = lack(&system, &setup.body, &still, &standing, &history);
     }

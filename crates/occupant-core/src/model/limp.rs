@@ -9,13 +9,12 @@
 use nalgebra::{DVector, Matrix3, Vector3};
 
 use super::descent::{Movable, descend};
-use super::settle::{LEVER_M, MOST_LOOKS, Settled, at_rest, loads_beyond, turned_by};
+use super::settle::{LEVER_M, MOST_LOOKS, Settled, at_rest, loads_beyond, standing, turned_by};
 use crate::forces::belt::Belts;
 use crate::forces::joint::JointSystem;
 use crate::forces::joint::limit::{JointLimits, LimitHistory};
 use crate::forces::{Data, Element, Forces, History, Instant, Memory};
 use crate::kernel::System;
-use crate::model::frames;
 use crate::model::setup::Setup;
 use crate::motion::frame::Frames;
 use crate::motion::kinematics::{Kinematics, axes};
@@ -45,8 +44,7 @@ pub(super) fn sink(
     vehicle: &FrameMotion,
     seated: State<f64>,
 ) -> (State<f64>, Settled, Rest) {
-    let mut still = frames(setup.time.start_s, &vehicle.held());
-    setup.place_frames(&mut still, setup.time.start_s);
+    let still = standing(setup, vehicle);
     let rest = Rest::of(setup, data, system, &still, &seated);
     let history = History::new(&system.forces, Memory::none());
     let mut limp = Limp { system: system.clone(), still, rest, history, looks: 0 };

@@ -279,13 +279,7 @@ struct Resting<'s, 'd> {
 
 impl<'s, 'd> Resting<'s, 'd> {
     fn new(setup: &'s Setup, data: Data<'d>, system: &System<f64>, vehicle: &FrameMotion) -> Self {
-        // at rest: no friction, no damping
-        let start_s = setup.time.start_s;
-        let mut still = frames(start_s, vehicle);
-        setup.place_frames(&mut still, start_s);
-        for frame in &mut still.moving {
-            (frame.velocity, frame.omega) = (V3::zero(), V3::zero());
-        }
+        let still = standing(setup, vehicle);
         let history = History::new(&system.forces, Memory::none());
         Resting { setup, data, system: system.clone(), still, history, looks: 0 }
     }
@@ -308,6 +302,18 @@ impl<'s, 'd> Resting<'s, 'd> {
         let lever = 1.0 / LEVER_M;
         Vector6::new(force.x, force.y, force.z, moment.x * lever, moment.y * lever, moment.z * lever)
     }
+}
+
+/// All frames where they are at the start, at rest: no friction, no damping.
+pub(super) fn standing(setup: &Setup, vehicle: &FrameMotion) -> Frames<f64> {
+    let start_s = setup.time.start_s;
+    let mut still = frames(start_s, &vehicle.held());
+    setup.place_frames(&mut still, start_s);
+    for frame in &mut still.moving {
+        (frame.velocity, frame.omega) = (V3::zero(), V3::zero());
+        (frame.acceleration, frame.alpha) = (V3::zero(), V3::zero());
+    }
+    still
 }
 
 /// One evaluation, in one place: the kernel is inlined whole wherever it is called.
