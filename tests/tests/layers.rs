@@ -27,6 +27,7 @@ const ROOMS: [(&str, &[&str]); 9] = [
             "csv",
             "json",
             "toml",
+            "document",
         ],
     ),
     (
