@@ -27,6 +27,7 @@ const ROOMS: [(&str, &[&str]); 9] = [
             "csv",
             "json",
             "toml",
+            "document",
         ],
     ),
     (
@@ -238,6 +239,21 @@ fn files_and_pictures_talk_to_nobody() {
                 assert!(!code.contains(forbidden), "{} uses {forbidden}", file.display());
             }
         }
+    }
+}
+
+/// What computes needs no format: only `schema` and `documents`, which texts ask for, bring JSON, TOML and schemas.
+#[test]
+fn what_computes_depends_on_no_format() {
+    for krate in ["vehicle-motion", "occupant-units", "crash-measures", "occupant-core", "placed-text"] {
+        let manifest = fs::read_to_string(crates().join(krate).join("Cargo.toml")).unwrap();
+        let after = manifest.split("[dependencies]").nth(1).unwrap_or_default();
+        let own = after.split("[dev-dependencies]").next().unwrap_or_default();
+        for format in ["toml", "serde_json", "jsonc-parser", "schemars"] {
+            let needs = |line: &str| line.split(['.', ' ']).next() == Some(format) && !line.contains("optional = true");
+            assert!(!own.lines().any(needs), "{krate} needs {format}");
+        }
+        assert!(!own.contains("documents") && !own.contains("\"schema\""), "{krate} asks for formats");
     }
 }
 
