@@ -58,6 +58,7 @@ mod hull;
 pub mod impulse;
 pub mod integrate;
 pub mod presets;
+mod rail;
 pub mod run;
 mod slider;
 pub mod tyre;

@@ -6,13 +6,14 @@ use crate::crush::touch::{Marks, Pose, Push};
 use crate::hull::Rub;
 use crate::impulse::Pulse;
 use crate::integrate::{Pair as Method, Stack, next_step};
+use crate::rail::BeamMemory;
 use crate::run::{Ride, Station};
 use crate::slider::SlideMemory;
 use crate::vehicle::Memory;
 use crate::world::contact::{Contact, ENDS_AFTER_S, Struck};
 use crate::world::damage::Damage;
-use crate::world::setup::{Memories, Pair, Setup};
-use crate::world::{Outcome, Partner, Slid, World, WorldError, Wrench};
+use crate::world::setup::{Memories, Pair, Rails, Setup};
+use crate::world::{Bent, Outcome, Partner, Slid, World, WorldError, Wrench};
 
 /// Shortest step, s: what needs shorter ones has no solution here.
 const SHORTEST_S: f64 = 1e-9;
@@ -28,6 +29,8 @@ pub(crate) struct Findings {
     pub reports: Vec<Report>,
     pub pushes: Vec<Push>,
     pub poses: Vec<Pose>,
+    /// Forces on the masses of rails, N; by the place of each in the numbers that move.
+    pub loads: Vec<f64>,
     /// What the ground does to each hull.
     pub rubs: Vec<Rub>,
     /// Force on the car of each pair, vehicle-space, and the sum of the forces' sizes, N.
@@ -86,8 +89,12 @@ impl<'a> Runner<'a> {
         corners_s.push(end_s);
         corners_s.sort_by(f64::total_cmp);
         corners_s.dedup();
-        let stack = Stack { cars, more: vec![0.0; 2 * setup.solids.len()] };
-        let rate = Stack { cars: vec![State([0.0; NUMBERS]); stack.cars.len()], more: vec![0.0; stack.more.len()] };
+        let stack = Stack { cars, more: vec![0.0; setup.more()], light_from: 2 * setup.solids.len() };
+        let rate = Stack {
+            cars: vec![State([0.0; NUMBERS]); stack.cars.len()],
+            more: vec![0.0; stack.more.len()],
+            light_from: stack.light_from,
+        };
         let touch = Touch { gap_m: f64::INFINITY, has_touched: false, open: None };
         Runner {
             setup,
@@ -96,6 +103,7 @@ impl<'a> Runner<'a> {
             found: Findings {
                 reports: vec![Report::default(); stack.cars.len()],
                 rubs: vec![Rub::default(); stack.cars.len()],
+                loads: vec![0.0; stack.more.len()],
                 forces: vec![Default::default(); setup.pairs.len()],
                 ..Findings::default()
             },
@@ -176,7 +184,7 @@ impl<'a> Runner<'a> {
         self.setup.pose(&self.stack, &self.memories, &mut poses);
         self.memories.poses = poses;
         for (i, pair) in self.setup.pairs.iter().enumerate() {
-            let gap_m = self.setup.gap_m(pair, &self.memories.poses);
+            let gap_m = self.setup.gap_m(pair, &self.stack, &self.memories.poses);
             self.touches[i].gap_m = gap_m;
             if gap_m < -1e-3 {
                 return Err(match pair.partner {
@@ -231,7 +239,7 @@ impl<'a> Runner<'a> {
             if touch.gap_m <= 0.0 || !self.setup.is_near(pair, poses) {
                 continue;
             }
-            let gap_m = self.setup.gap_m(pair, poses);
+            let gap_m = self.setup.gap_m(pair, &self.stack, poses);
             if gap_m < -TOUCH_M && touch.gap_m.is_finite() {
                 let at_s = h * (touch.gap_m + 0.5 * TOUCH_M) / (touch.gap_m - gap_m);
                 earliest = Some(earliest.map_or(at_s, |other: f64| other.min(at_s)));
@@ -261,7 +269,8 @@ impl<'a> Runner<'a> {
             for (i, pair) in self.setup.pairs.iter().enumerate() {
                 let poses = &self.memories.poses;
                 let is_near = self.setup.is_near(pair, poses);
-                self.touches[i].gap_m = if is_near { self.setup.gap_m(pair, poses) } else { f64::INFINITY };
+                self.touches[i].gap_m =
+                    if is_near { self.setup.gap_m(pair, &self.stack, poses) } else { f64::INFINITY };
             }
             jumps |= self.touch();
             jumps |= self.fire();
@@ -432,13 +441,20 @@ impl<'a> Runner<'a> {
         contacts.sort_by(|a, b| a.from_s.total_cmp(&b.from_s));
         let ride = |stations| Ride { stations, evaluations, rejected, balance };
         let rides = rides.into_iter().map(ride).collect();
+        let bent = |(rail, memory): (&Rails, &BeamMemory)| Bent {
+            barrier: rail.barrier,
+            deflection_m: memory.most_m,
+            tension_n: memory.most_n,
+            released: memory.released(),
+        };
+        let rails = setup.rails.iter().zip(&memories.rails).map(bent).collect();
         let slid = |(i, memory): (usize, &SlideMemory)| Slid {
             most_m: memory.most_m,
             direction_rad: memory.direction_rad.unwrap_or(0.0),
             speed_m_s: stack.more[2 * i + 1],
         };
         let slides = memories.slides.iter().enumerate().map(slid).collect();
-        Outcome { rides, contacts, damage, slides, evaluations, rejected, balance }
+        Outcome { rides, contacts, damage, slides, rails, evaluations, rejected, balance }
     }
 }
 
@@ -455,6 +471,9 @@ impl Contact {
 impl Setup<'_> {
     /// Whether a pair's bodies are within reach of each other.
     pub(crate) fn is_near(&self, pair: &Pair, poses: &[Pose]) -> bool {
+        if pair.rail.is_some() {
+            return true;
+        }
         let pass = &self.passes[pair.passes.start];
         let ahead_m = 2.0 * NEAR_M + self.world.tolerance.longest_s * self.closing_m_s(pair, poses);
         !pass.is_apart(&self.shapes, poses, ahead_m)
@@ -469,8 +488,17 @@ impl Setup<'_> {
         (poses[pair.car].velocity_m_s - poses[pair.body].velocity_m_s).norm() + turns(pair.car) + turns(pair.body)
     }
 
+    /// Numbers that move besides the vehicles: way and speed of each barrier, then of the masses of rails.
+    fn more(&self) -> usize {
+        self.rails.last().map_or(2 * self.solids.len(), |rail| rail.at.end)
+    }
+
     /// Least gap of a pair, m.
-    pub(crate) fn gap_m(&self, pair: &Pair, poses: &[Pose]) -> f64 {
+    pub(crate) fn gap_m(&self, pair: &Pair, stack: &Stack, poses: &[Pose]) -> f64 {
+        if let Some(number) = pair.rail {
+            let Rails { beam, at, .. } = &self.rails[number];
+            return beam.gap_m(&stack.more[at.clone()], &self.shapes[pair.car], &poses[pair.car]);
+        }
         let passes = &self.passes[pair.passes.clone()];
         passes.iter().map(|pass| pass.gap_m(&self.shapes, poses)).fold(f64::INFINITY, f64::min)
     }
@@ -501,13 +529,14 @@ impl Setup<'_> {
         found: &mut Findings,
         rates: &mut Stack,
     ) {
-        let Findings { reports, pushes, poses, forces, rubs } = found;
+        let Findings { reports, pushes, poses, forces, rubs, loads } = found;
         pushes.clear();
         pushes.resize(self.vehicles.len() + self.solids.len(), Push::default());
         if !self.pairs.is_empty() {
             self.pose(stack, memories, poses);
+            loads.fill(0.0);
             for (i, pair) in self.pairs.iter().enumerate() {
-                forces[i] = self.meet(pair, memories, poses, pushes);
+                forces[i] = self.meet(pair, stack, memories, poses, pushes, loads);
             }
             pulses.iter().for_each(|pulse| pulse.push(time_s, poses, pushes));
         }
@@ -529,6 +558,10 @@ impl Setup<'_> {
             let rate = &mut rates.cars[i];
             reports[i] = vehicle.chassis.rates(state, &controls, memory.held, &self.world.ground, &outside, rate);
         }
+        for (rail, memory) in self.rails.iter().zip(&memories.rails) {
+            let at = rail.at.clone();
+            rail.beam.rates(&stack.more[at.clone()], &loads[at.clone()], memory, &mut rates.more[at]);
+        }
         for (i, solid) in self.solids.iter().enumerate() {
             let along = |direction: f64| {
                 let (sine, cosine) = libm::sincos(direction);
@@ -544,9 +577,24 @@ impl Setup<'_> {
     }
 
     /// Forces of a pair: that on the car, and the sum of sizes.
-    fn meet(&self, pair: &Pair, memories: &Memories, poses: &[Pose], pushes: &mut [Push]) -> (V3, f64) {
+    fn meet(
+        &self,
+        pair: &Pair,
+        stack: &Stack,
+        memories: &Memories,
+        poses: &[Pose],
+        pushes: &mut [Push],
+        loads: &mut [f64],
+    ) -> (V3, f64) {
         if !pair.is_felt {
             return Default::default();
+        }
+        if let Some(number) = pair.rail {
+            let Rails { beam, at, series, .. } = &self.rails[number];
+            let marks = Marks { faces: &[], most: &memories.most[pair.car] };
+            let car = (&marks, &self.shapes[pair.car], &poses[pair.car]);
+            let (y, loads) = (&stack.more[at.clone()], &mut loads[at.clone()]);
+            return beam.push(y, &series[pair.car], car, &mut pushes[pair.car], loads);
         }
         let (before_n, mut size_n) = (pushes[pair.car].force_n, 0.0);
         for number in pair.passes.clone() {
@@ -570,6 +618,15 @@ impl Setup<'_> {
                 }
             }
         }
+        for pair in self.pairs.iter().filter(|pair| pair.is_felt) {
+            let Some(number) = pair.rail else { continue };
+            let (Rails { beam, at, series, .. }, car) = (&self.rails[number], pair.car);
+            let y = &stack.more[at.clone()];
+            beam.press(y, &series[car], &mut memories.most[car], &self.shapes[car], &poses[car]);
+        }
+        for (rail, memory) in self.rails.iter().zip(&mut memories.rails) {
+            rail.beam.commit(&stack.more[rail.at.clone()], memory);
+        }
         memories.poses.clear();
         memories.poses.extend_from_slice(poses);
         for (i, solid) in self.solids.iter().enumerate() {
@@ -588,6 +645,10 @@ impl Setup<'_> {
             let (speed, most_m) = (stack.more[2 * i + 1], memories.slides[i].most_m);
             sums[0] += 0.5 * slide.mass_kg * speed * speed;
             sums[1] += slide.taken_j(stack.more[2 * i], most_m);
+        }
+        for (rail, memory) in self.rails.iter().zip(&memories.rails) {
+            let [kinetic, held] = rail.beam.energy_j(&stack.more[rail.at.clone()], memory);
+            sums = [sums[0] + kinetic, sums[1] + held];
         }
         sums
     }
