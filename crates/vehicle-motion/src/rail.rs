@@ -43,6 +43,11 @@ impl BeamMemory {
     }
 }
 
+/// A piece of rail beside a point: number of the mass behind it, share towards the next, way of the rail there, slope.
+type Beside = (usize, f64, f64, f64);
+/// Number of a node, the piece beside it, depth, normal on the vehicle, how squarely it meets it.
+type Press<'a> = dyn FnMut(usize, Beside, f64, V3, f64) + 'a;
+
 /// The rail's inner forces.
 struct Inner {
     pull_n: f64,
@@ -189,8 +194,8 @@ impl Beam {
         [kinetic, held + 0.5 * pull_n * pull_n / self.pull_n_per_m]
     }
 
-    /// The piece of rail beside a point: number of the mass behind it, share towards the next, way of the rail there, slope.
-    fn beside(&self, y: &[f64], place_m: &V3) -> Option<(usize, f64, f64, f64)> {
+    /// The piece of rail beside a point.
+    fn beside(&self, y: &[f64], place_m: &V3) -> Option<Beside> {
         let s = (place_m - self.start_m()).dot(&self.along) / self.step_m - 1.0;
         let j = s.floor();
         if !(0.0..self.count as f64 - 1.0).contains(&j) {
@@ -270,14 +275,8 @@ impl Beam {
         });
     }
 
-    /// Calls for each node behind the rail: number, place along it, depth, normal on the vehicle, how squarely it meets it.
-    fn each(
-        &self,
-        y: &[f64],
-        shape: &Shape,
-        pose: &Pose,
-        with: &mut dyn FnMut(usize, (usize, f64, f64, f64), f64, V3, f64),
-    ) {
+    /// Calls for each node behind the rail.
+    fn each(&self, y: &[f64], shape: &Shape, pose: &Pose, with: &mut Press) {
         if !self.is_level(shape, pose) {
             return;
         }

@@ -2,6 +2,8 @@
 
 mod contact;
 mod damage;
+mod evaluate;
+mod outcome;
 mod run;
 pub(crate) mod setup;
 
@@ -69,6 +71,7 @@ impl Entry {
 
 /// How a vehicle starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "one for each vehicle")]
 pub enum Begin {
     /// As it stands on the ground at a place.
     At(Start),

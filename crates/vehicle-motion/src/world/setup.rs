@@ -175,7 +175,9 @@ impl<'a> Setup<'a> {
                 return Ok(());
             }
             Barrier::Rail(rail) => return self.add_rail(number, Beam::new(rail).map_err(wrong)?),
-            Barrier::Pole(pole) if !(pole.radius_m > 0.0) => return Err(wrong("a pole needs a radius above 0")),
+            Barrier::Pole(pole) if pole.radius_m.is_nan() || pole.radius_m <= 0.0 => {
+                return Err(wrong("a pole needs a radius above 0"));
+            }
             Barrier::Pole(pole) => (pole.corners_m(), pole.friction),
             Barrier::Block(block) => (block.corners_m.clone(), block.friction),
             Barrier::Slider(slider) => (slider.corners_m.clone(), slider.friction),
