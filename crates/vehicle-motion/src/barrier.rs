@@ -9,6 +9,8 @@ pub enum Barrier {
     Pole(Pole),
     /// A rigid upright prism.
     Block(Block),
+    /// A rail on posts.
+    Rail(Rail),
     /// A mass that a force holds back over its way: a cushion, or a sign on a breakaway base.
     Slider(Slider),
 }
@@ -61,6 +63,68 @@ pub struct Slider {
     pub end: End,
     /// Friction.
     pub friction: f64,
+}
+
+/// A rail on posts, in plan. Its ends are pinned.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rail {
+    /// From and to.
+    pub line_m: [[f64; 2]; 2],
+    /// Whether the traffic runs on its left, seen from its start.
+    pub traffic_on_left: bool,
+    /// Height at which its force acts, m.
+    pub height_m: f64,
+    /// Its lower and upper edge, m.
+    pub band_m: [f64; 2],
+    /// Distance of the posts, m.
+    pub spacing_m: f64,
+    /// Mass along it, kg/m.
+    pub kg_per_m: f64,
+    /// Mass that moves with each post, kg.
+    pub post_kg: f64,
+    /// Stiffness of its section in tension, EA, N.
+    pub stretch_n: f64,
+    /// Tension at which it yields, N.
+    pub yield_n: f64,
+    /// Stiffness of its section in bending, EI, N·m².
+    pub bend_n_m2: f64,
+    /// Moment at which it yields, N·m.
+    pub yield_n_m: f64,
+    /// Stiffness of each anchor, N/m.
+    pub anchor_n_per_m: f64,
+    /// Stiffness of a post, N/m.
+    pub post_n_per_m: f64,
+    /// Force at which a post yields, N.
+    pub post_n: f64,
+    /// Way at which a post lets the rail go, m.
+    pub release_m: f64,
+    /// Friction along it.
+    pub friction: f64,
+}
+
+impl Rail {
+    /// A W-beam on steel posts every 1.905 m. Section values are those of the profile; the posts' force, the release and the
+    /// anchors are guesses that meet one remembered deflection.
+    pub fn w_beam(line_m: [[f64; 2]; 2]) -> Self {
+        Rail {
+            line_m,
+            traffic_on_left: true,
+            height_m: 0.55,
+            band_m: [0.4, 0.71],
+            spacing_m: 1.905,
+            kg_per_m: 10.4,
+            post_kg: 12.0,
+            stretch_n: 257e6,
+            yield_n: 440e3,
+            bend_n_m2: 191e3,
+            yield_n_m: 10e3,
+            anchor_n_per_m: 2e6,
+            post_n_per_m: 1.5e6,
+            post_n: 40e3,
+            release_m: 0.5,
+            friction: 0.3,
+        }
+    }
 }
 
 /// Behind the end of the way.

@@ -267,9 +267,9 @@ mod tests {
             |a: f64, b: f64| Stiffness { a_n_per_m: a * pound / inch, b_n_per_m2: b * pound / (inch * inch) };
         let side = [6.2, 8.3, 9.2, 5.9, 4.4, 0.8];
         let quarter = core::f64::consts::FRAC_PI_4;
-        let cases: [(Stiffness, f64, &[f64], f64, f64, f64); 2] = [
-            (stiffness(356.0, 34.0), 73.0, &[2.7, 3.6], 0.0, 19_192.9, 19_255.1),
-            (stiffness(143.0, 50.0), 84.5, &side, quarter, 31_120.9, 31_099.9),
+        let cases = [
+            (stiffness(356.0, 34.0), 73.0, &[2.7, 3.6][..], 0.0, 19_192.9, 19_255.1),
+            (stiffness(143.0, 50.0), 84.5, &side[..], quarter, 31_120.9, 31_099.9),
         ];
         for (stiffness, width, depths, lean, expected, published) in cases {
             let depths: Vec<f64> = depths.iter().map(|c| c * inch).collect();

@@ -131,8 +131,8 @@ impl Hull {
             return;
         }
         let [radius_m, inward_m, aside_m] = EDGE_M;
-        for wheel in 0..4 {
-            let (place, axle) = chassis.wheel_at(state, wheel, steer[wheel]);
+        for (wheel, steer_rad) in steer.into_iter().enumerate() {
+            let (place, axle) = chassis.wheel_at(state, wheel, steer_rad);
             let (centre, axle) = (pose.at_m + pose.axes * place, pose.axes * axle);
             // the lowest part of the wheel, in its plane
             let down = V3::z() - axle * axle.z;

@@ -29,11 +29,11 @@ pub(crate) struct SlideMemory {
 impl Slide {
     pub fn new(slider: &Slider) -> Result<Self, &'static str> {
         let table = &slider.force_n;
-        if !(slider.mass_kg > 0.0) {
+        if slider.mass_kg.is_nan() || slider.mass_kg <= 0.0 {
             return Err("its mass must be above 0");
         }
         let rises = table.windows(2).all(|pair| pair[1][0] > pair[0][0]);
-        if table.len() < 2 || table[0][0] != 0.0 || !rises || table.iter().any(|[_, force]| !(*force >= 0.0)) {
+        if table.len() < 2 || table[0][0] != 0.0 || !rises || !table.iter().all(|[_, force]| *force >= 0.0) {
             return Err("its force needs at least two points, ways rising from 0, forces of at least 0");
         }
         Ok(Slide {

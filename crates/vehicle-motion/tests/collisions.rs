@@ -112,7 +112,8 @@ fn two_equal_cars_head_on_are_a_wall() {
     let world = World { cars: vec![at(&car, ahead), at(&car, back)], tolerance: FINE, ..World::default() };
     let both = world.run(0.1 + 0.4 / speed_m_s).unwrap();
     for (a, b) in end(&alone, 0.25).iter().zip(end(&both, 0.25)) {
-        assert!((a - b).abs() < 1e-8 * a.abs(), "{a} {b}");
+        // measured 3e-14
+        assert!((a - b).abs() < 1e-12 * a.abs(), "{a} {b}");
     }
     let mirrored = both.rides[0].last().velocity_m_s + both.rides[1].last().velocity_m_s;
     assert!(mirrored.norm() < 1e-9, "{mirrored:?}");
@@ -146,8 +147,8 @@ fn momenta_stay_in_an_oblique_collision() {
     let centre = before[0] * (0.5 * 0.3) / 3000.0 + (states[0].position_m() + states[1].position_m()) * 0.5;
     let moment = centre.cross(&pull) * 0.3;
     let off = [(after[0] - before[0] - pull * 0.3).norm(), (after[1] - before[1] - moment).norm()];
-    // measured 2e-8 of 4e4 N·s, 4e-7 of 4e5 N·m·s
-    assert!(off[0] < 1e-6 && off[1] < 1e-4, "{off:?}");
+    // measured 1e-9 of 8e3 N·s, 3e-6 of 4e5 N·m·s
+    assert!(off[0] < 1e-8 && off[1] < 1e-5, "{off:?}");
     assert!(outcome.contacts[0].peak_n > 3e5);
     assert!(outcome.balance.abs() < 1e-8, "{}", outcome.balance);
 }
@@ -168,7 +169,7 @@ fn the_error_of_fixed_steps_is_of_second_order() {
 /// Nodes at half the distance change Δv by less than 1 %; where flanks just graze, by up to 1.8 %.
 #[test]
 fn nodes_need_not_be_closer() {
-    for (right_m, yaw_rad) in [(0.0, 2.8), (0.3, 2.2), (0.5, 2.8), (0.9, 2.8), (0.9, 2.2), (1.1, 3.14)] {
+    for (right_m, yaw_rad) in [(0.0, 2.8), (0.3, 2.2), (0.5, 2.8), (0.9, 2.8), (0.9, 2.2), (1.1, 3.1)] {
         let delta_v = |spacing_m: f64| {
             let mut car = Car::of_class(Class::Sedan);
             car.body.crush.spacing_m = spacing_m;

@@ -83,3 +83,9 @@ impl Struck {
         })
     }
 }
+
+impl Contact {
+    pub(crate) fn begin(car: usize, partner: Partner, from_s: f64) -> Self {
+        Contact { car, partner, from_s, until_s: from_s, impulse_n_s: V3::zeros(), peak_n: 0.0, struck: [None; 2] }
+    }
+}

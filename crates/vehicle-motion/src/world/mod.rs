@@ -2,6 +2,8 @@
 
 mod contact;
 mod damage;
+mod evaluate;
+mod outcome;
 mod run;
 pub(crate) mod setup;
 
@@ -69,6 +71,7 @@ impl Entry {
 
 /// How a vehicle starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "one for each vehicle")]
 pub enum Begin {
     /// As it stands on the ground at a place.
     At(Start),
@@ -115,6 +118,8 @@ pub struct Outcome {
     pub damage: Vec<Damage>,
     /// How far each barrier slid; 0 for those that stand.
     pub slides: Vec<Slid>,
+    /// What happened to rails.
+    pub rails: Vec<Bent>,
     /// Evaluations of the rates.
     pub evaluations: u64,
     /// Steps that were tried and rejected.
@@ -132,6 +137,19 @@ pub struct Slid {
     pub direction_rad: f64,
     /// Speed at the end, m/s.
     pub speed_m_s: f64,
+}
+
+/// What happened to a rail.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bent {
+    /// Number of the barrier.
+    pub barrier: usize,
+    /// Greatest deflection while it lasted, m.
+    pub deflection_m: f64,
+    /// Greatest tension, N.
+    pub tension_n: f64,
+    /// Posts that let go.
+    pub released: usize,
 }
 
 /// Why a world could not be driven.

@@ -1,38 +1,23 @@
 //! The run of a world: steps, first touches, what is remembered.
 
-use crate::V3;
-use crate::chassis::{NUMBERS, Outside, Report, State, Work};
-use crate::crush::touch::{Marks, Pose, Push};
+use crate::chassis::{NUMBERS, Report, State};
+use crate::crush::touch::Pose;
 use crate::hull::Rub;
 use crate::impulse::Pulse;
 use crate::integrate::{Pair as Method, Stack, next_step};
-use crate::run::{Ride, Station};
-use crate::slider::SlideMemory;
+use crate::run::Station;
 use crate::vehicle::Memory;
-use crate::world::contact::{Contact, ENDS_AFTER_S, Struck};
-use crate::world::damage::Damage;
+use crate::world::contact::{Contact, ENDS_AFTER_S};
+use crate::world::evaluate::{Findings, NEAR_M};
 use crate::world::setup::{Memories, Pair, Setup};
-use crate::world::{Outcome, Partner, Slid, World, WorldError, Wrench};
+use crate::world::{Outcome, Partner, World, WorldError, Wrench};
 
 /// Shortest step, s: what needs shorter ones has no solution here.
 const SHORTEST_S: f64 = 1e-9;
 /// Steps end at most this deep behind a first touch, m.
 const TOUCH_M: f64 = 1e-4;
-/// Within this gap steps are at most `NEAR_S` long.
-const NEAR_M: f64 = 0.5;
+/// Longest step within the gap `NEAR_M`, s.
 const NEAR_S: f64 = 0.002;
-
-/// What one evaluation found.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Findings {
-    pub reports: Vec<Report>,
-    pub pushes: Vec<Push>,
-    pub poses: Vec<Pose>,
-    /// What the ground does to each hull.
-    pub rubs: Vec<Rub>,
-    /// Force on the car of each pair, vehicle-space, and the sum of the forces' sizes, N.
-    pub forces: Vec<(V3, f64)>,
-}
 
 /// How far a pair is.
 #[derive(Clone, Copy, Debug)]
@@ -44,21 +29,21 @@ struct Touch {
 }
 
 /// A run under way.
-struct Runner<'a> {
-    setup: &'a Setup<'a>,
-    stack: Stack,
-    rate: Stack,
-    memories: Memories,
-    found: Findings,
+pub(crate) struct Runner<'a> {
+    pub setup: &'a Setup<'a>,
+    pub stack: Stack,
+    pub rate: Stack,
+    pub memories: Memories,
+    pub found: Findings,
     touches: Vec<Touch>,
-    contacts: Vec<Contact>,
+    pub contacts: Vec<Contact>,
     pulses: Vec<Pulse>,
     fired: Vec<bool>,
-    rides: Vec<Vec<Station>>,
-    time_s: f64,
+    pub rides: Vec<Vec<Station>>,
+    pub time_s: f64,
     corners_s: Vec<f64>,
-    evaluations: u64,
-    rejected: u64,
+    pub evaluations: u64,
+    pub rejected: u64,
     greatest_j: f64,
 }
 
@@ -86,8 +71,12 @@ impl<'a> Runner<'a> {
         corners_s.push(end_s);
         corners_s.sort_by(f64::total_cmp);
         corners_s.dedup();
-        let stack = Stack { cars, more: vec![0.0; 2 * setup.solids.len()] };
-        let rate = Stack { cars: vec![State([0.0; NUMBERS]); stack.cars.len()], more: vec![0.0; stack.more.len()] };
+        let stack = Stack { cars, more: vec![0.0; setup.more()], light_from: 2 * setup.solids.len() };
+        let rate = Stack {
+            cars: vec![State([0.0; NUMBERS]); stack.cars.len()],
+            more: vec![0.0; stack.more.len()],
+            light_from: stack.light_from,
+        };
         let touch = Touch { gap_m: f64::INFINITY, has_touched: false, open: None };
         Runner {
             setup,
@@ -96,6 +85,7 @@ impl<'a> Runner<'a> {
             found: Findings {
                 reports: vec![Report::default(); stack.cars.len()],
                 rubs: vec![Rub::default(); stack.cars.len()],
+                loads: vec![0.0; stack.more.len()],
                 forces: vec![Default::default(); setup.pairs.len()],
                 ..Findings::default()
             },
@@ -176,7 +166,7 @@ impl<'a> Runner<'a> {
         self.setup.pose(&self.stack, &self.memories, &mut poses);
         self.memories.poses = poses;
         for (i, pair) in self.setup.pairs.iter().enumerate() {
-            let gap_m = self.setup.gap_m(pair, &self.memories.poses);
+            let gap_m = self.setup.gap_m(pair, &self.stack, &self.memories.poses);
             self.touches[i].gap_m = gap_m;
             if gap_m < -1e-3 {
                 return Err(match pair.partner {
@@ -231,7 +221,7 @@ impl<'a> Runner<'a> {
             if touch.gap_m <= 0.0 || !self.setup.is_near(pair, poses) {
                 continue;
             }
-            let gap_m = self.setup.gap_m(pair, poses);
+            let gap_m = self.setup.gap_m(pair, &self.stack, poses);
             if gap_m < -TOUCH_M && touch.gap_m.is_finite() {
                 let at_s = h * (touch.gap_m + 0.5 * TOUCH_M) / (touch.gap_m - gap_m);
                 earliest = Some(earliest.map_or(at_s, |other: f64| other.min(at_s)));
@@ -261,7 +251,8 @@ impl<'a> Runner<'a> {
             for (i, pair) in self.setup.pairs.iter().enumerate() {
                 let poses = &self.memories.poses;
                 let is_near = self.setup.is_near(pair, poses);
-                self.touches[i].gap_m = if is_near { self.setup.gap_m(pair, poses) } else { f64::INFINITY };
+                self.touches[i].gap_m =
+                    if is_near { self.setup.gap_m(pair, &self.stack, poses) } else { f64::INFINITY };
             }
             jumps |= self.touch();
             jumps |= self.fire();
@@ -383,249 +374,8 @@ impl<'a> Runner<'a> {
         }
         sum
     }
-
-    fn note(&mut self) {
-        for (i, vehicle) in self.setup.vehicles.iter().enumerate() {
-            let (state, report) = (&self.stack.cars[i], &self.found.reports[i]);
-            let steer = vehicle.controls(self.time_s, &self.memories.vehicles[i]).steer_rad;
-            let struck = |(pair, (force, _)): (&Pair, &(V3, f64))| match pair.partner {
-                _ if pair.car == i => *force,
-                Partner::Car(other) if other == i => -force,
-                _ => V3::zeros(),
-            };
-            let rate = &self.rate.cars[i].0;
-            self.rides[i].push(Station {
-                time_s: self.time_s,
-                position_m: state.position_m(),
-                velocity_m_s: state.velocity_m_s(),
-                acceleration_m_s2: V3::new(rate[7], rate[8], rate[9]),
-                attitude: state.attitude(),
-                rotation_rad_s: state.rotation_rad_s(),
-                turning_rad_s2: report.turning_rad_s2,
-                felt_m_s2: report.felt_m_s2,
-                steer_rad: 0.5 * (steer[0] + steer[1]),
-                struck_n: self.setup.pairs.iter().zip(&self.found.forces).map(struck).sum(),
-                hull_n: self.found.rubs[i].force_n,
-                wheels: report.wheels,
-                state: *state,
-            });
-        }
-    }
-
-    fn outcome(self, balance: f64) -> Outcome {
-        let Runner { setup, mut contacts, rides, evaluations, rejected, memories, stack, .. } = self;
-        let damage = |i: usize| {
-            let (shape, taken_j) = (&setup.shapes[i], stack.cars[i].work().crush_j);
-            let mass_kg = setup.vehicles[i].mass_kg;
-            let crush = Damage::of(&shape.nodes, &memories.most[i], &setup.laws[i], &shape.outline, taken_j, mass_kg);
-            Damage { roof_m: setup.hulls[i].roof_m(&memories.hulls[i]), ..crush }
-        };
-        let damage = (0..rides.len()).map(damage).collect();
-        for contact in &mut contacts {
-            let span_s = [contact.from_s, contact.until_s];
-            let of = |car: usize, impulse| Struck::of(&rides[car], span_s, impulse, setup.vehicles[car].mass_kg);
-            contact.struck[0] = of(contact.car, contact.impulse_n_s);
-            if let Partner::Car(other) = contact.partner {
-                contact.struck[1] = of(other, -contact.impulse_n_s);
-            }
-        }
-        contacts.sort_by(|a, b| a.from_s.total_cmp(&b.from_s));
-        let ride = |stations| Ride { stations, evaluations, rejected, balance };
-        let rides = rides.into_iter().map(ride).collect();
-        let slid = |(i, memory): (usize, &SlideMemory)| Slid {
-            most_m: memory.most_m,
-            direction_rad: memory.direction_rad.unwrap_or(0.0),
-            speed_m_s: stack.more[2 * i + 1],
-        };
-        let slides = memories.slides.iter().enumerate().map(slid).collect();
-        Outcome { rides, contacts, damage, slides, evaluations, rejected, balance }
-    }
 }
 
 fn hit(memory: &mut Memory, time_s: f64) {
     memory.hit_s.get_or_insert(time_s);
-}
-
-impl Contact {
-    pub(crate) fn begin(car: usize, partner: Partner, from_s: f64) -> Self {
-        Contact { car, partner, from_s, until_s: from_s, impulse_n_s: V3::zeros(), peak_n: 0.0, struck: [None; 2] }
-    }
-}
-
-impl Setup<'_> {
-    /// Whether a pair's bodies are within reach of each other.
-    pub(crate) fn is_near(&self, pair: &Pair, poses: &[Pose]) -> bool {
-        let pass = &self.passes[pair.passes.start];
-        let ahead_m = 2.0 * NEAR_M + self.world.tolerance.longest_s * self.closing_m_s(pair, poses);
-        !pass.is_apart(&self.shapes, poses, ahead_m)
-    }
-
-    /// Bound of the speed at which a pair closes, m/s.
-    fn closing_m_s(&self, pair: &Pair, poses: &[Pose]) -> f64 {
-        let turns = |body: usize| {
-            let reach_m = self.shapes[body].outline.reach_m;
-            if reach_m.is_finite() { poses[body].turning_rad_s.norm() * reach_m } else { 0.0 }
-        };
-        (poses[pair.car].velocity_m_s - poses[pair.body].velocity_m_s).norm() + turns(pair.car) + turns(pair.body)
-    }
-
-    /// Least gap of a pair, m.
-    pub(crate) fn gap_m(&self, pair: &Pair, poses: &[Pose]) -> f64 {
-        let passes = &self.passes[pair.passes.clone()];
-        passes.iter().map(|pass| pass.gap_m(&self.shapes, poses)).fold(f64::INFINITY, f64::min)
-    }
-
-    /// Where all bodies are.
-    pub(crate) fn pose(&self, stack: &Stack, memories: &Memories, poses: &mut Vec<Pose>) {
-        poses.clear();
-        poses.extend(stack.cars.iter().map(State::pose));
-        for (i, solid) in self.solids.iter().enumerate() {
-            let mut pose = Pose::standing(solid.at_m);
-            if let Some(direction) = memories.slides[i].direction_rad {
-                let (sine, cosine) = libm::sincos(direction);
-                let along = V3::new(cosine, sine, 0.0);
-                pose.at_m += along * stack.more[2 * i];
-                pose.velocity_m_s = along * stack.more[2 * i + 1];
-            }
-            poses.push(pose);
-        }
-    }
-
-    /// Rates of all that moves.
-    pub(crate) fn evaluate(
-        &self,
-        time_s: f64,
-        stack: &Stack,
-        memories: &Memories,
-        pulses: &[Pulse],
-        found: &mut Findings,
-        rates: &mut Stack,
-    ) {
-        let Findings { reports, pushes, poses, forces, rubs } = found;
-        pushes.clear();
-        pushes.resize(self.vehicles.len() + self.solids.len(), Push::default());
-        if !self.pairs.is_empty() {
-            self.pose(stack, memories, poses);
-            for (i, pair) in self.pairs.iter().enumerate() {
-                forces[i] = self.meet(pair, memories, poses, pushes);
-            }
-            pulses.iter().for_each(|pulse| pulse.push(time_s, poses, pushes));
-        }
-        for (i, vehicle) in self.vehicles.iter().enumerate() {
-            let state = &stack.cars[i];
-            let memory = &memories.vehicles[i];
-            let controls = vehicle.controls(time_s, memory);
-            let mut outside = outside(&pushes[i], state);
-            if memories.hulls[i].is_near {
-                let ground = &self.world.ground;
-                rubs[i] = self.hulls[i].rub(state, &vehicle.chassis, controls.steer_rad, &memories.hulls[i], ground);
-                outside.rub(&rubs[i], state);
-            } else {
-                rubs[i] = Rub::default();
-            }
-            if let Some(wrench) = &self.world.cars[i].push {
-                wrench.add(time_s, state, &mut outside);
-            }
-            let rate = &mut rates.cars[i];
-            reports[i] = vehicle.chassis.rates(state, &controls, memory.held, &self.world.ground, &outside, rate);
-        }
-        for (i, solid) in self.solids.iter().enumerate() {
-            let along = |direction: f64| {
-                let (sine, cosine) = libm::sincos(direction);
-                let push = pushes[self.vehicles.len() + i].force_n;
-                push.x * cosine + push.y * sine
-            };
-            let (Some(slide), Some(direction)) = (&solid.slide, memories.slides[i].direction_rad) else { continue };
-            let [way_m, speed] = [stack.more[2 * i], stack.more[2 * i + 1]];
-            let held_n = slide.force_n(way_m, memories.slides[i].most_m);
-            rates.more[2 * i] = speed;
-            rates.more[2 * i + 1] = (along(direction) - held_n) / slide.mass_kg;
-        }
-    }
-
-    /// Forces of a pair: that on the car, and the sum of sizes.
-    fn meet(&self, pair: &Pair, memories: &Memories, poses: &[Pose], pushes: &mut [Push]) -> (V3, f64) {
-        if !pair.is_felt {
-            return Default::default();
-        }
-        let (before_n, mut size_n) = (pushes[pair.car].force_n, 0.0);
-        for number in pair.passes.clone() {
-            let pass = &self.passes[number];
-            let marks = Marks { faces: &memories.faces[number], most: &memories.most[pass.memory] };
-            size_n += pass.push(&marks, &self.shapes, poses, &memories.poses, pushes);
-        }
-        (pushes[pair.car].force_n - before_n, size_n)
-    }
-
-    fn commit(&self, stack: &Stack, poses: &[Pose], memories: &mut Memories) {
-        for pair in self.pairs.iter().filter(|pair| pair.is_felt) {
-            for number in pair.passes.clone() {
-                let pass = &self.passes[number];
-                let (faces, most) = (&mut memories.faces[number], &mut memories.most[pass.memory]);
-                pass.commit(faces, most, &self.shapes, poses, &memories.poses);
-                if pass.outline_crushes {
-                    let (own, others) = memories.most.split_at_mut(pass.memory);
-                    let marks = Marks { faces: &memories.faces[number], most: &others[0] };
-                    pass.mark(&marks, &mut own[pass.outline_of], &self.shapes, poses);
-                }
-            }
-        }
-        memories.poses.clear();
-        memories.poses.extend_from_slice(poses);
-        for (i, solid) in self.solids.iter().enumerate() {
-            let Some(slide) = &solid.slide else { continue };
-            let memory = &mut memories.slides[i];
-            memory.most_m = memory.most_m.max(stack.more[2 * i]);
-            memory.direction_rad = memory.direction_rad.or(slide.direction_rad);
-        }
-    }
-
-    /// Kinetic energy of what slides, and what it took up, J.
-    fn slides_j(&self, stack: &Stack, memories: &Memories) -> [f64; 2] {
-        let mut sums = [0.0; 2];
-        for (i, solid) in self.solids.iter().enumerate() {
-            let Some(slide) = &solid.slide else { continue };
-            let (speed, most_m) = (stack.more[2 * i + 1], memories.slides[i].most_m);
-            sums[0] += 0.5 * slide.mass_kg * speed * speed;
-            sums[1] += slide.taken_j(stack.more[2 * i], most_m);
-        }
-        sums
-    }
-}
-
-impl Outside {
-    fn rub(&mut self, rub: &Rub, state: &State) {
-        let to_body = state.attitude().inverse();
-        self.force_n += to_body * rub.force_n;
-        self.moment_n_m += to_body * rub.moment_n_m;
-        self.powers.hull_j += rub.power_w;
-    }
-}
-
-/// A push in the body axes of a vehicle.
-fn outside(push: &Push, state: &State) -> Outside {
-    if *push == Push::default() {
-        return Outside::default();
-    }
-    let to_body = state.attitude().inverse();
-    Outside {
-        force_n: to_body * push.force_n,
-        moment_n_m: to_body * push.moment_n_m,
-        powers: Work { crush_j: push.crushing_w, rubbing_j: push.rubbing_w, ..Work::default() },
-    }
-}
-
-impl Wrench {
-    fn corners_s(&self) -> impl Iterator<Item = f64> + '_ {
-        self.components.iter().flat_map(|table| table.corners_s().iter().copied())
-    }
-
-    fn add(&self, time_s: f64, state: &State, outside: &mut Outside) {
-        let [x, y, z, a, b, c] = [0, 1, 2, 3, 4, 5].map(|i: usize| self.components[i].at(time_s));
-        let (force, couple) = (V3::new(x, y, z), V3::new(a, b, c));
-        let (velocity, turning) = (state.attitude().inverse() * state.velocity_m_s(), state.rotation_rad_s());
-        outside.force_n += force;
-        outside.moment_n_m += couple + self.about_m.cross(&force);
-        outside.powers.pushed_j += force.dot(&(velocity + turning.cross(&self.about_m))) + couple.dot(&turning);
-    }
 }

@@ -7,6 +7,7 @@ use crate::crush::law::{Law, Series};
 use crate::crush::outline::{Node, Outline, of_body};
 use crate::crush::touch::{NO_FACE, Pass, Pose, Shape};
 use crate::hull::{Hull, HullMemory};
+use crate::rail::{Beam, BeamMemory};
 use crate::slider::Slide;
 use crate::vehicle::{Memory, Vehicle};
 use crate::world::{Begin, Partner, World, WorldError};
@@ -27,6 +28,8 @@ pub(crate) struct Pair {
     pub body: usize,
     /// Its passes.
     pub passes: core::ops::Range<usize>,
+    /// The rail that it is, and where its state begins.
+    pub rail: Option<usize>,
     /// Whether the touch is felt; impacts by impulse only look when it begins.
     pub is_felt: bool,
 }
@@ -42,6 +45,7 @@ pub(crate) struct Setup<'a> {
     /// Of each barrier: its body, where it stands, how it slides.
     pub solids: Vec<Solid>,
     pub hulls: Vec<Hull>,
+    pub rails: Vec<Rails>,
     /// Lengths of the lists of greatest forces.
     lists: Vec<usize>,
 }
@@ -50,6 +54,15 @@ pub(crate) struct Setup<'a> {
 pub(crate) struct Solid {
     pub at_m: V3,
     pub slide: Option<Slide>,
+}
+
+/// A rail, and where it stands among the numbers that move besides the vehicles.
+pub(crate) struct Rails {
+    pub barrier: usize,
+    pub beam: Beam,
+    pub at: core::ops::Range<usize>,
+    /// By car and law of its nodes.
+    pub series: Vec<Vec<Series>>,
 }
 
 /// What is remembered between steps.
@@ -62,6 +75,8 @@ pub(crate) struct Memories {
     pub most: Vec<Vec<f64>>,
     /// By barrier: greatest way and its direction.
     pub slides: Vec<crate::slider::SlideMemory>,
+    /// Rails.
+    pub rails: Vec<BeamMemory>,
     /// Hulls on the ground.
     pub hulls: Vec<HullMemory>,
     /// Poses at the last accepted step.
@@ -84,6 +99,7 @@ impl<'a> Setup<'a> {
         let hull = |v: &Vehicle| Hull::of(&v.body, v.chassis.height_m(), v.chassis.radius_m());
         let hulls = vehicles.iter().map(hull).collect();
         let mut setup = Setup {
+            rails: Vec::new(),
             hulls,
             world,
             vehicles,
@@ -128,7 +144,14 @@ impl<'a> Setup<'a> {
                 }
                 let partner = Partner::Car(other);
                 let is_felt = !self.is_by_impulse(car, partner);
-                self.pairs.push(Pair { car, partner, body: other, passes: from..self.passes.len(), is_felt });
+                self.pairs.push(Pair {
+                    car,
+                    partner,
+                    body: other,
+                    passes: from..self.passes.len(),
+                    rail: None,
+                    is_felt,
+                });
             }
         }
     }
@@ -151,7 +174,10 @@ impl<'a> Setup<'a> {
                 self.add_solid(number, outline, at_m, wall.friction, true, None);
                 return Ok(());
             }
-            Barrier::Pole(pole) if !(pole.radius_m > 0.0) => return Err(wrong("a pole needs a radius above 0")),
+            Barrier::Rail(rail) => return self.add_rail(number, Beam::new(rail).map_err(wrong)?),
+            Barrier::Pole(pole) if pole.radius_m.is_nan() || pole.radius_m <= 0.0 => {
+                return Err(wrong("a pole needs a radius above 0"));
+            }
             Barrier::Pole(pole) => (pole.corners_m(), pole.friction),
             Barrier::Block(block) => (block.corners_m.clone(), block.friction),
             Barrier::Slider(slider) => (slider.corners_m.clone(), slider.friction),
@@ -169,6 +195,24 @@ impl<'a> Setup<'a> {
         let outline = Outline::of_corners(&around, UPRIGHT_M);
         let is_broad = outline.breadth_m(&around) >= BROAD_M;
         self.add_solid(number, outline, V3::new(x, y, 0.0), friction, is_broad, slide);
+        Ok(())
+    }
+
+    fn add_rail(&mut self, number: usize, beam: Beam) -> Result<(), WorldError> {
+        let body = self.shapes.len();
+        let at = self.rails.last().map_or(2 * self.world.barriers.len(), |rail| rail.at.end);
+        let at = at..at + 2 * beam.count;
+        let outline = Outline::half_space([0.0; 2], [1.0, 0.0], UPRIGHT_M);
+        self.shapes.push(Shape { outline, nodes: Vec::new() });
+        self.solids.push(Solid { at_m: V3::zeros(), slide: None });
+        for car in 0..self.vehicles.len() {
+            let passes = self.passes.len()..self.passes.len();
+            let partner = Partner::Barrier(number);
+            let is_felt = !self.is_by_impulse(car, partner);
+            self.pairs.push(Pair { car, partner, body, passes, rail: Some(self.rails.len()), is_felt });
+        }
+        let series = (0..self.vehicles.len()).map(|car| self.series(car, None)).collect();
+        self.rails.push(Rails { barrier: number, beam, at, series });
         Ok(())
     }
 
@@ -215,7 +259,7 @@ impl<'a> Setup<'a> {
             }
             let partner = Partner::Barrier(number);
             let is_felt = !self.is_by_impulse(car, partner);
-            self.pairs.push(Pair { car, partner, body, passes: from..self.passes.len(), is_felt });
+            self.pairs.push(Pair { car, partner, body, passes: from..self.passes.len(), rail: None, is_felt });
         }
         self.shapes.push(Shape { outline, nodes });
         self.solids.push(Solid { at_m, slide });
@@ -243,6 +287,7 @@ impl<'a> Setup<'a> {
             faces: self.passes.iter().map(|pass| vec![NO_FACE; self.shapes[pass.nodes_of].nodes.len()]).collect(),
             most: self.lists.iter().map(|n| vec![0.0; *n]).collect(),
             slides: self.solids.iter().map(|_| Default::default()).collect(),
+            rails: self.rails.iter().map(|rail| rail.beam.memory()).collect(),
             hulls: self.hulls.iter().map(Hull::memory).collect(),
             poses: Vec::new(),
         }
