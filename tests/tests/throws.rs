@@ -123,6 +123,19 @@ fn a_driver_who_goes_out_of_a_window_has_a_verdict_with_places_and_times() {
     assert!(pelvis.place_m[1] < -34.5 * 0.0254, "{pelvis:?}");
 }
 
+/// What he goes past stands on that side: the steering wheel's hub does not, though the ball about it comes near.
+#[test]
+fn who_goes_out_of_a_window_goes_past_what_is_on_that_side() {
+    let shipped = include_str!("../../scenarios/rollover-ejection.toml");
+    let (summary, _) = seen(shipped, &["time.end=1.8", "output.interval=\"10 ms\""]);
+    let ejection = summary.ejections.values().next().expect("an ejection");
+    assert!(ejection.parts.iter().any(|exit| exit.part == "head"), "{ejection:?}");
+    for exit in &ejection.parts {
+        let past = exit.past.as_deref().unwrap_or_default();
+        assert!(exit.side == Side::Left && past.starts_with("left_"), "{exit:?}");
+    }
+}
+
 #[test]
 fn a_head_that_flies_out_of_what_is_modelled_is_marked_and_one_in_a_belt_is_not() {
     let named = |summary: &Summary, name: &str| summary.caveats.iter().find(|caveat| caveat.name == name).cloned();

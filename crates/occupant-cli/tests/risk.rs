@@ -6,6 +6,8 @@ use std::path::Path;
 use assert_cmd::Command;
 use serde_json::Value;
 
+use crate::common::{CASE, done};
+
 fn occupant(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
     let output =
         Command::cargo_bin("occupant").expect("built").current_dir(folder).args(arguments).output().expect("runs");
@@ -263,4 +265,27 @@ fn a_pulse_has_the_velocity_change_that_the_scenario_says() {
     assert_near(value(&report, "final_velocity_change_x_m_s"), -8.9408, 1e-4);
     assert_near(value(&report, "max_velocity_change_y_m_s"), 0.0, 1e-9);
     assert_near(value(&report, "max_roll_rad"), 0.0, 1e-12);
+}
+
+/// All of the page but its head and its origin stands folded on the page of the run, once for runs that share a motion; a vehicle that
+/// stands still has nothing to say.
+#[test]
+fn the_page_of_a_run_has_what_risk_says_of_its_vehicle() {
+    let folder = folder();
+    fs::write(folder.path().join("case.toml"), CASE).expect("written");
+    done(folder.path(), &["run", "case.toml", "-o", "a.mcap"]);
+    done(folder.path(), &["run", "case.toml", "--set", "joints.*.damping=2", "-o", "b.mcap"]);
+    done(folder.path(), &["run", "case.toml", "--set", "path={ kind = \"fixed\" }", "-o", "still.mcap"]);
+    let page = |words: &[&str]| {
+        done(folder.path(), &[words, &["-f", "--units", "si", "-o", "page.html"]].concat());
+        fs::read_to_string(folder.path().join("page.html")).expect("a page")
+    };
+    let risk = page(&["risk", "a.mcap"]);
+    let from = risk.find("<h2>Measures").expect("measures");
+    let to = risk.find("<h2>Where it comes from").expect("an origin");
+    assert!(risk[from..to].contains("MASH 2016") && risk[from..to].contains("PHD"));
+    let both = page(&["report", "a.mcap", "b.mcap"]);
+    assert!(both.contains(&risk[from..to]));
+    assert_eq!(both.matches("<summary>Motion of").count(), 1);
+    assert!(!page(&["report", "still.mcap"]).contains("Motion of"));
 }

@@ -105,6 +105,11 @@ struct SurfaceData {
 }
 
 impl Run {
+    /// What the page calls a run.
+    pub(super) fn label_of(results: &Results) -> String {
+        file_name(&results.path)
+    }
+
     /// Gathers a run.
     ///
     /// # Errors
@@ -120,7 +125,7 @@ impl Run {
         let mut notes = results.notes();
         notes.extend(model.warnings().iter().map(|w| w.to_string()));
         Ok(Run {
-            label: file_name(&results.path),
+            label: Run::label_of(results),
             title: model.setup().title.clone(),
             facts: provenance::facts(results, &summary, units),
             notes,

@@ -11,6 +11,7 @@ mod motion;
 mod page;
 mod provenance;
 mod ride_down;
+mod vehicles;
 
 use crate::base::{Failure, Units, program};
 use crate::files::results::Results;
@@ -25,6 +26,7 @@ pub(crate) const MOST_RUNS: usize = 4;
 /// # Errors
 /// None for files that were opened.
 pub(crate) fn page(runs: &[Results], units: Units) -> Result<String, Failure> {
+    let vehicles = vehicles::vehicles(runs, units);
     let runs = runs.iter().map(|run| data::Run::of(run, units)).collect::<Result<_, _>>()?;
-    page::fill(&Report { program: program(), runs })
+    page::fill(&Report { program: program(), runs }, vehicles)
 }

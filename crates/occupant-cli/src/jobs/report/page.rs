@@ -11,17 +11,18 @@ const SCRIPT: &str = include_str!("../../../assets/viewer/dist/viewer.js");
 const LICENSES: &str = include_str!("../../../assets/viewer/LICENSES.md");
 const STYLE: &str = include_str!("../../../assets/viewer/dist/viewer.css");
 
-/// The whole file.
+/// The whole file; `vehicles` is HTML that stands below what the script draws.
 ///
 /// # Errors
 /// Data that are no JSON, which those of a report always are.
-pub(crate) fn fill(report: &Report) -> Result<String, Failure> {
+pub(crate) fn fill(report: &Report, vehicles: String) -> Result<String, Failure> {
     let data =
         serde_json::to_string(report).map_err(|e| Failure::plain(format!("the report's data are not JSON: {e}")))?;
     let parts = [
         ("about", about(&report.subject())),
         ("title", escape(&report.title())),
         ("style", STYLE.trim_end().to_owned()),
+        ("vehicles", vehicles),
         ("data", harmless(&data)),
         ("licenses", LICENSES.trim_end().to_owned()),
         ("script", SCRIPT.trim_end().to_owned()),

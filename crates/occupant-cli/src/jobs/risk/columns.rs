@@ -2,14 +2,12 @@
 
 use std::sync::Mutex;
 
-use crash_measures::signal::{CfcFamily, ChannelClass};
 use occupant_core::model::setup::Setup;
 use occupant_core::results::summary::Figure;
 use occupant_core::vehicle::VehiclePath;
-use occupant_study::risk::{Flight, Preparation, VehicleRisk, prepare};
 use occupant_units::unit::Unit;
 
-use super::{Figures, PATH_INTERVAL_S, Subject};
+use super::{Figures, Report};
 
 /// The path of the last run, its first and last time, and what was measured: most runs of a study share a path.
 type Last = Option<(VehiclePath, [f64; 2], Vec<Figure>)>;
@@ -35,16 +33,8 @@ pub(crate) fn columns(setup: &Setup) -> Vec<Figure> {
 
 /// As `occupant risk` does, with its filter and interval. A measure that is left out has no value.
 fn measured(setup: &Setup) -> Vec<Figure> {
-    let cfc = ChannelClass::from_number(180).map(|class| (class, CfcFamily::Iso6487));
-    let preparation = Preparation { filter: cfc, ..Preparation::default() };
-    let subject = Subject::of_run("", setup, None, PATH_INTERVAL_S).ok().flatten();
-    let signals = subject.and_then(|subject| {
-        let signals = prepare(&subject.record, &preparation).ok()?;
-        Some(occupant_study::risk::VehicleSignals { initial: subject.initial, ..signals })
-    });
-    let figures =
-        signals.map(|signals| Figures::of_risk(&VehicleRisk::of(&signals, &Flight::default()), &signals).figures);
-    let figures = figures.unwrap_or_default();
+    let report = Report::of_run("", setup, None);
+    let figures = report.map(|report| Figures::of(&report).figures).unwrap_or_default();
     let column = |(key, unit): (&str, Unit)| {
         let suffix = match unit {
             Unit::MetrePerSecond => "_m_s",

@@ -10,16 +10,18 @@ mod subject;
 mod table;
 
 use crash_measures::measure::limits::Rule;
+use crash_measures::signal::{CfcFamily, ChannelClass};
+use occupant_core::model::setup::Setup;
 use occupant_study::risk::{
-    Flight, Judgement, Preparation, ROADSIDE_RULES, SensorErrors, VehicleRisk, VehicleSignals, judge,
+    Flight, Judgement, Preparation, ROADSIDE_RULES, SensorErrors, VehicleRisk, VehicleSignals, judge, prepare,
 };
 
 pub(crate) use columns::columns;
 pub(crate) use figures::Figures;
 pub(crate) use intervals::Intervals;
 pub(crate) use json::json;
-pub(crate) use page::page;
-pub(crate) use subject::{PATH_INTERVAL_S, Subject};
+pub(crate) use page::{OWN_STYLE, page, sections};
+pub(crate) use subject::{PATH_INTERVAL_S, Subject, vehicles};
 pub(crate) use table::text;
 
 /// Everything that is reported.
@@ -66,6 +68,24 @@ impl Report {
         });
         let notes = left.into_iter().collect();
         Report { subject, preparation, flight, signals, risk, judgements, intervals: None, notes }
+    }
+
+    /// Of a vehicle of a run by name, as `occupant risk` makes it of a run unless it is told otherwise; none of one that cannot be sampled.
+    pub(crate) fn of_run(name: &str, setup: &Setup, vehicle: Option<&str>) -> Option<Self> {
+        let subject = Subject::of_run(name, setup, vehicle, PATH_INTERVAL_S).ok()??;
+        let filter = ChannelClass::from_number(180).map(|class| (class, CfcFamily::Iso6487));
+        let preparation = Preparation { filter, ..Preparation::default() };
+        let signals = prepare(&subject.record, &preparation).ok()?;
+        let signals = VehicleSignals { initial: subject.initial, ..signals };
+        Some(Report::new(subject, preparation, signals, Flight::default(), &[]))
+    }
+
+    /// Names of the rules that are broken, each once.
+    pub(crate) fn broken(&self) -> Vec<&'static str> {
+        let mut rules: Vec<_> =
+            self.judgements.iter().filter(|j| j.breaks_the_rule()).map(|j| j.limit.rule.name()).collect();
+        rules.dedup();
+        rules
     }
 
     /// With what errors of the sensors make of the measures.

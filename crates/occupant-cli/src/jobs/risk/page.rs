@@ -10,7 +10,8 @@ use crate::pictures::html::{Cell, Html, about as about_page};
 use crate::pictures::plot::inline;
 
 const STYLE: &str = include_str!("../../../assets/viewer/dist/viewer.css");
-const OWN_STYLE: &str = include_str!("../../../assets/study/study.css");
+/// What stands in [`sections`] beside the style of the page of a run.
+pub(crate) const OWN_STYLE: &str = include_str!("../../../assets/study/study.css");
 /// On paper everything is shown, black on white, and no picture is cut.
 const PRINT: &str = "@media print {\n  body { background: #ffffff; color: #000000; }\n  figure, tr { break-inside: avoid; }\n  .scroll { overflow: visible; }\n}\n";
 /// Width and height of a plot.
@@ -32,6 +33,17 @@ pub(crate) fn page(report: &Report, units: Option<UnitSystem>, origin: &[(&str, 
     html.text("h1", &title);
     html.text("p", "What the vehicle’s motion alone says of the risk to its occupants");
     html.raw("</header>\n");
+    html.raw(&sections(report, units));
+    html.text("h2", "Where it comes from");
+    let made = [("report made by", program())];
+    html.facts(&[origin, &made].concat());
+    html.raw("</div>\n</body>\n</html>\n");
+    html.finish()
+}
+
+/// What was measured, against what limits, with the histories: all of the page but its head and its origin.
+pub(crate) fn sections(report: &Report, units: Option<UnitSystem>) -> String {
+    let mut html = Html::default();
     report.notes.iter().for_each(|note| html.text("p class=\"note\"", note));
     html.text("h2", "Record");
     html.facts(&head(report));
@@ -50,10 +62,6 @@ pub(crate) fn page(report: &Report, units: Option<UnitSystem>, origin: &[(&str, 
     html.raw("<div class=\"grid\">\n");
     plots::plots(report).iter().for_each(|figure| html.raw(&format!("<figure>{}</figure>\n", inline(figure, PLOT))));
     html.raw("</div>\n");
-    html.text("h2", "Where it comes from");
-    let made = [("report made by", program())];
-    html.facts(&[origin, &made].concat());
-    html.raw("</div>\n</body>\n</html>\n");
     html.finish()
 }
 

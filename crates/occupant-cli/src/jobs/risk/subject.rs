@@ -1,6 +1,6 @@
 //! What is measured: a file of recorded data, or the path of a scenario's vehicle.
 
-use occupant_core::model::setup::Setup;
+use occupant_core::model::setup::{OtherFrame, Setup};
 use occupant_core::vehicle::{AccelerationRecord, Attitude, Interpolation, PathCursor, VehiclePath};
 use occupant_study::risk::sampled;
 
@@ -45,7 +45,7 @@ impl Subject {
         vehicle: Option<&str>,
         interval_s: f64,
     ) -> Result<Option<Self>, Vec<String>> {
-        let others = setup.frames.iter().filter(|frame| frame.parent.is_none() && frame.name != GROUND);
+        let others = others(setup);
         let path = match vehicle {
             None | Some(FIRST) => &setup.path,
             Some(asked) => match others.clone().find(|frame| frame.name == asked) {
@@ -68,6 +68,15 @@ impl Subject {
             initial: pose.attitude,
         })
     }
+}
+
+/// The vehicles of a setup, the first of them first.
+pub(crate) fn vehicles(setup: &Setup) -> Vec<&str> {
+    [FIRST].into_iter().chain(others(setup).map(|frame| frame.name.as_str())).collect()
+}
+
+fn others(setup: &Setup) -> impl Iterator<Item = &OtherFrame> + Clone {
+    setup.frames.iter().filter(|frame| frame.parent.is_none() && frame.name != GROUND)
 }
 
 /// The frame of the ground, and the name of the first vehicle.

@@ -109,7 +109,9 @@ impl Shape {
                 let arm = build::flat(corners_m).map_or(Vector3::repeat(1.0), |(_, normal, _)| normal) * *half_width_m;
                 corners_m.iter().fold(Bounds::NONE, |all, p| all.and(Bounds::of(&[p - arm, p + arm])))
             }
-            Shape::Disc { centre_m, radius_m, thickness_m, .. } => Bounds::ball(centre_m, radius_m + thickness_m),
+            Shape::Disc { centre_m, radius_m, thickness_m, .. } => {
+                Bounds::ball(centre_m, radius_m.hypot(0.5 * thickness_m))
+            }
             Shape::Capsule { ends_m, radius_m } => Bounds::of(ends_m).grown(*radius_m),
             Shape::Rim { centre_m, ring_radius_m, tube_radius_m, .. } => {
                 Bounds::ball(centre_m, ring_radius_m + tube_radius_m)
