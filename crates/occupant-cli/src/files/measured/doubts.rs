@@ -23,6 +23,16 @@ pub(crate) struct Known {
 const MOST_CHANGE_M_S: f64 = 45.0;
 /// More turns than a rolling car makes.
 const MOST_TURNS: f64 = 6.0;
+/// No vehicle turns faster, as the mean of 10 ms, rad/s.
+const FASTEST_RAD_S: f64 = 20.0;
+/// What tyres alone give, and what a crash goes beyond, m/s²: between them accelerations are doubted that are not in g.
+const WEAK_M_S2: [f64; 2] = [G, 2.5 * G];
+/// Turns slower than these, rad/s, are doubted beside a velocity change to the side of this, m/s.
+const SLOW: (f64, f64) = (0.1, 3.0);
+/// Rounding of accelerations that is said, m/s².
+const ROUGH_M_S2: f64 = 0.5 * G;
+/// A gain of speed that is said, m/s.
+const GAIN_M_S: f64 = 3.0;
 /// Shortest rest whose mean says something, and the longest that is looked at, s.
 const REST_S: [f64; 2] = [0.01, 0.1];
 /// Zero errors that are said: accelerations, m/s²; rates, rad/s.
@@ -39,7 +49,11 @@ pub(crate) fn doubts(motion: &Motion, known: Known) -> Vec<String> {
         MotionKind::Accelerations => {
             said.extend(motion.columns.iter().filter_map(|column| clipped(column, &motion.time_s)));
             said.extend(motion.columns.iter().filter_map(|column| wrong_unit(column, &motion.time_s)));
+            said.extend(weak(motion));
+            said.extend(slow(motion));
+            said.extend(rough(motion));
             zero_errors(motion, known, &mut said);
+            said.extend(motion.si("ax").and_then(|ax| struck_from_behind(&ax, &motion.time_s)));
             said.extend(motion.si("ax").and_then(|ax| backwards(integral(&ax, &motion.time_s), known)));
         }
         MotionKind::Changes => {
@@ -48,6 +62,12 @@ pub(crate) fn doubts(motion: &Motion, known: Known) -> Vec<String> {
             said.extend(changes.last().and_then(|change| backwards(*change, known)));
         }
         MotionKind::Places => {
+            if !["x", "y"].into_iter().any(|name| motion.has(name)) {
+                said.push(format!(
+                    "no column is x or y, the vehicle is taken to turn on the spot: --columns names them, such as 't[s],x[m],y[m]'; read were {}",
+                    motion.signals.join(", ")
+                ));
+            }
             said.extend(rounded(motion, known));
             said.extend(turned(motion));
         }
@@ -83,10 +103,16 @@ fn wrong_unit(column: &Column, time_s: &[f64]) -> Option<String> {
     let (name, unit) = (column.name, &column.unit);
     if is_rate(column) {
         let turns = whole / std::f64::consts::TAU;
-        let other = if unit.contains("rad") { "deg/s" } else { "another unit" };
-        return (turns.abs() > MOST_TURNS).then(|| {
-            format!("{name} in {unit} turns the vehicle {} times: is it in {other}? --columns says so, such as '{name}[deg/s]'", number(turns.round()))
-        });
+        let other = if unit.to_lowercase().contains("rad") { "deg/s" } else { "another unit" };
+        let fastest = column.factor * strongest(column, time_s);
+        let why = match () {
+            () if turns.abs() > MOST_TURNS => format!("turns the vehicle {} times", number(turns.round())),
+            () if fastest > FASTEST_RAD_S => {
+                format!("turns the vehicle {} times a second", number((fastest / std::f64::consts::TAU).round()))
+            }
+            () => return None,
+        };
+        return Some(format!("{name} in {unit} {why}: is it in {other}? --columns says so, such as '{name}[deg/s]'"));
     }
     let start = rest(time_s, None).map(|[from, to]| mean(&column.values[from..to]))?;
     let stands_at = |value: f64| (start.abs() / value - 1.0).abs() < 0.03;
@@ -99,6 +125,76 @@ fn wrong_unit(column: &Column, time_s: &[f64]) -> Option<String> {
             false => format!("changes the velocity by {} km/h", number((whole * 3.6).round())),
         };
         format!("{name} in {unit} {why}: is it in {other}? --columns says so, such as '{name}[{other}]'")
+    })
+}
+
+/// The greatest magnitude of a mean over 10 ms, in the column's unit.
+fn strongest(column: &Column, time_s: &[f64]) -> f64 {
+    let whole: Vec<f64> = std::iter::once(0.0)
+        .chain(time_s.windows(2).zip(column.values.windows(2)).scan(0.0, |sum, (t, v)| {
+            *sum += 0.5 * (t[1] - t[0]) * (v[0] + v[1]);
+            Some(*sum)
+        }))
+        .collect();
+    let mean = |i: usize| {
+        let j = time_s.partition_point(|t| *t < time_s[i] + REST_S[0] - 1e-9);
+        (j < time_s.len()).then(|| ((whole[j] - whole[i]) / (time_s[j] - time_s[i])).abs())
+    };
+    (0..time_s.len()).filter_map(mean).fold(0.0, f64::max)
+}
+
+/// Accelerations in m/s² that are those of tyres and hardly more: they may be in g.
+fn weak(motion: &Motion) -> Option<String> {
+    let all: Vec<&Column> = motion.columns.iter().filter(|c| !is_rate(c) && (c.factor - 1.0).abs() < 1e-9).collect();
+    let most = all.iter().map(|column| strongest(column, &motion.time_s)).fold(0.0, f64::max);
+    (WEAK_M_S2[0]..WEAK_M_S2[1]).contains(&most).then(|| {
+        format!(
+            "no acceleration goes beyond {:.1} g (mean of 10 ms): are they in g? --columns says so, such as '{}[g]'",
+            most / G,
+            all[0].name
+        )
+    })
+}
+
+/// Rates in deg/s that hardly turn a vehicle that is thrown aside: they may be in rad/s.
+fn slow(motion: &Motion) -> Option<String> {
+    let all: Vec<&Column> = motion.columns.iter().filter(|c| is_rate(c) && (c.factor - 1.0).abs() > 1e-9).collect();
+    let most = all.iter().map(|column| column.factor * strongest(column, &motion.time_s)).fold(0.0, f64::max);
+    let aside = integral(&motion.si("ay")?, &motion.time_s).abs();
+    (0.05 * SLOW.0 < most && most < SLOW.0 && aside > SLOW.1).then(|| {
+        format!(
+            "the velocity changes by {} km/h to the side, and no rate goes beyond {:.1} deg/s (mean of 10 ms): are they in rad/s? --columns says so, such as '{}[rad/s]'",
+            number((aside * 3.6).round()),
+            most.to_degrees(),
+            all[0].name
+        )
+    })
+}
+
+/// Accelerations that are rounded to whole g or so.
+fn rough(motion: &Motion) -> Option<String> {
+    let step = |c: &Column| resolution(&c.values).filter(|step| !is_rate(c) && step * c.factor >= ROUGH_M_S2);
+    let all: Vec<(&Column, f64)> = motion.columns.iter().filter_map(|c| Some((c, step(c)?))).collect();
+    let (column, step) = all.first()?;
+    let names: Vec<&str> = all.iter().map(|(column, _)| column.name).collect();
+    let half = number(0.5 * step);
+    Some(format!(
+        "{} are rounded to {} {unit}: what stays below {half} {unit} is lost; `risk --sensor-error offset='{half} {unit}'` gives the measures with intervals",
+        names.join(", "),
+        number(*step),
+        unit = column.unit
+    ))
+}
+
+/// A vehicle that becomes faster.
+fn struck_from_behind(ax: &[f64], time_s: &[f64]) -> Option<String> {
+    let gain = integral(ax, time_s);
+    (gain > GAIN_M_S).then(|| {
+        format!(
+            "the vehicle becomes faster by {} km/h, as one that is struck from behind: if x points to the back, turn its sign by --columns, such as \
+             't[s],-ax[g]'",
+            number((gain * 36.0).round() / 10.0)
+        )
     })
 }
 

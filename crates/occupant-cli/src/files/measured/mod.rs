@@ -22,7 +22,7 @@ use crate::base::{Failure, ending, input_file, sha256};
 
 pub(crate) use axes::{AXES, Axes};
 pub(crate) use doubts::{Known, doubts};
-pub(crate) use motion::{Motion, MotionKind, Placed, velocity_changes};
+pub(crate) use motion::{Motion, MotionKind, Placed};
 pub(crate) use nhtsa::TestRecord;
 pub(crate) use pair::{MapArgument, Pair, Wanted, pairs};
 

@@ -161,10 +161,13 @@ impl Reader<'_> {
         notes
     }
 
-    /// Times in steps of 5 and more without a unit are milliseconds as likely as seconds.
+    /// Times in steps of 5 and more, or over a minute and more, without a unit are milliseconds as likely as seconds.
     fn ask_for_the_unit(&mut self, time: usize, time_s: &[f64], first: Span) {
         let is_told = self.headings.get(time).is_none_or(|h| h.unit.is_some() || h.name.ends_with("_s"));
-        if is_told || time_s.len() < 3 || usual_interval(time_s) < 5.0 || !self.problems.is_empty() {
+        if is_told || time_s.len() < 3 || !self.problems.is_empty() {
+            return;
+        }
+        if usual_interval(time_s) < 5.0 && time_s[time_s.len() - 1] - time_s[0] < 60.0 {
             return;
         }
         let found = format!("times from {} to {} without a unit", time_s[0], time_s[time_s.len() - 1]);

@@ -9,9 +9,11 @@ mod plots;
 mod subject;
 mod table;
 
-use crash_measures::measure::limits::Rule;
+use crash_measures::measure::limits::{Grade, Quantity, Rule};
+use occupant_scenario::kind::UnitSystem;
 use occupant_study::risk::{
-    Flight, Judgement, Preparation, ROADSIDE_RULES, SensorErrors, VehicleRisk, VehicleSignals, judge,
+    Attained, Flight, Judgement, Preparation, ROADSIDE_RULES, SensorErrors, VehicleRisk, VehicleSignals, attained,
+    judge,
 };
 
 pub(crate) use columns::columns;
@@ -21,6 +23,7 @@ pub(crate) use json::json;
 pub(crate) use page::page;
 pub(crate) use subject::{PATH_INTERVAL_S, Subject};
 pub(crate) use table::text;
+use table::{shown, unit_of};
 
 /// Everything that is reported.
 #[derive(Debug)]
@@ -66,6 +69,32 @@ impl Report {
         });
         let notes = left.into_iter().collect();
         Report { subject, preparation, flight, signals, risk, judgements, intervals: None, notes }
+    }
+
+    /// The class or level of each rule that has any: the rule, the class, and why.
+    pub(crate) fn classes(&self, units: Option<UnitSystem>) -> Vec<(&'static str, Option<&'static str>, String)> {
+        let mut rules: Vec<Rule> = self.judgements.iter().map(|judgement| judgement.limit.rule).collect();
+        rules.dedup();
+        let of = |rule: Rule| {
+            let bounds = |keep: &dyn Fn(&Judgement) -> bool| {
+                let own = self.judgements.iter().filter(|j| j.limit.rule == rule && keep(j));
+                let words = own.filter_map(|j| {
+                    let unit = unit_of(j.limit.quantity, units);
+                    let symbol =
+                        if j.limit.quantity == Quantity::Asi { String::new() } else { format!(" {}", unit.0.symbol()) };
+                    Some(format!("{} {} of {}{symbol}", j.measure, shown(j.value?, unit), shown(j.limit.most, unit)))
+                });
+                words.collect::<Vec<_>>().join(", ")
+            };
+            Some(match attained(rule, &self.judgements)? {
+                Attained::Grade(grade) => {
+                    (rule.name(), Some(grade.name()), bounds(&|j| [grade, Grade::Maximum].contains(&j.limit.grade)))
+                }
+                Attained::Beyond(limit) => (rule.name(), None, format!("beyond {}", bounds(&|j| j.limit == limit))),
+                Attained::NotMeasured(measure) => (rule.name(), None, format!("not known: {measure} was not measured")),
+            })
+        };
+        rules.into_iter().filter_map(of).collect()
     }
 
     /// With what errors of the sensors make of the measures.
