@@ -126,7 +126,7 @@ impl fmt::Display for Diagnostic {
 }
 
 /// So many problems of one rule are shown.
-const SHOWN: usize = 8;
+const SHOWN: usize = 5;
 
 /// All problems of a file, in the order in which they were found.
 #[derive(Debug, Clone, Default, PartialEq)]

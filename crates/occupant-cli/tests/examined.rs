@@ -102,6 +102,24 @@ fn each_flaw_of_a_record_is_said_with_its_remedy() {
     fs::write(here.join("a.csv"), table(&HEADINGS.replace("t[s]", "Time"), |t, m| (1e3 * t, m))).unwrap();
     let refused = answer(here, &["risk", "a.csv", "--filter", "none"]);
     assert!(refused.status.code() == Some(2) && err(&refused).contains("such as `t[ms]`"), "{}", err(&refused));
+    // one slip of a digit, of accelerations and of places
+    let slipped = |t: f64, mut m: [f64; 6]| {
+        m[0] += if (t - 0.5).abs() < 1e-6 { 90.0 } else { 0.0 };
+        (t, m)
+    };
+    fs::write(here.join("a.csv"), table(HEADINGS, slipped)).unwrap();
+    let said = spoken(here, &["risk", "a.csv", "--start", "0"]);
+    assert!(said.contains("ax jumps in one row, at 0.5 s to 90.") && said.matches("jumps").count() == 1, "{said}");
+    let places: String = (0..100)
+        .map(|i| format!("{:.2},{:.4}\n", 0.01 * f64::from(i), 0.2 * f64::from(i) + if i == 40 { 0.1 } else { 0.0 }))
+        .collect();
+    fs::write(here.join("a.csv"), format!("t[s],x[m]\n{places}")).unwrap();
+    let said = spoken(here, &["risk", "a.csv", "--filter", "none"]);
+    assert!(said.contains("x jumps in one row, at 0.4 s to 8.1 m: a slip?"), "{said}");
+    // many wrong cells are a few messages
+    fs::write(here.join("a.csv"), table(HEADINGS, |t, m| (t, m)).replace("0,", "0x,")).unwrap();
+    let said = err(&answer(here, &["risk", "a.csv"]));
+    assert!(said.lines().count() < 45 && said.contains("more errors, not shown"), "{} {said}", said.lines().count());
     // angles without places
     fs::write(here.join("a.csv"), "t[s],Q1 [m],Yaw [deg]\n0,0,0\n0.1,2,1\n0.2,4,2\n0.3,6,3\n").unwrap();
     let said = spoken(here, &["risk", "a.csv", "--filter", "none"]);

@@ -247,6 +247,10 @@ fn tables_of_places_are_read_with_their_angles_and_filtered() {
     let (raw, mended, fine) = (ora(&["p.csv"]), ora(&["p.csv", "--filter", "10 Hz"]), ora(&["fine.csv"]));
     assert!((raw - fine).abs() > 0.1 && (mended - fine).abs() < 0.08, "{raw} {mended} {fine}");
     spoken(here, &["import", "p.csv", "-f", "--filter", "10 Hz"]);
+    // a scenario's own table that is not filtered says so too
+    let said = spoken(here, &["risk", "p.toml", "--set", "path.filter=null"]);
+    assert!(said.contains("is rounded to 0.001 m every 10 ms") && said.contains("--set path.filter='"), "{said}");
+    assert!(!spoken(here, &["risk", "p.toml"]).contains("rounded"));
     let path = ora(&["p.toml"]);
     assert!((path - mended).abs() < 0.02, "{path} {mended}");
 }

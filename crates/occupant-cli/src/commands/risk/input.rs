@@ -11,7 +11,7 @@ use occupant_study::risk::{Preparation, Unprepared, VehicleSignals, prepare};
 use super::Args;
 use crate::base::{Failure, ending, input_file, note};
 use crate::files::mcap::StoredRun;
-use crate::files::measured::{self, Axes, Known, Motion, MotionKind, Placed, Reading, doubts};
+use crate::files::measured::{self, Axes, Known, Motion, MotionKind, Placed, Reading, doubts, rounded_table};
 use crate::files::scenario::{self, ScenarioArgs};
 use crate::jobs::import::PathFilter;
 use crate::jobs::risk::{PATH_INTERVAL_S, Subject};
@@ -28,7 +28,7 @@ pub(crate) fn measured(
     let name = args.file.display().to_string();
     let extension = ending(&args.file);
     if matches!(extension.as_str(), "toml" | "json" | "mcap") {
-        let subject = path_of(args, &name, &extension, wanted)?;
+        let subject = path_of(args, &name, &extension, wanted, notes)?;
         return sampled(&name, subject, wanted);
     }
     if !args.overrides.is_empty() {
@@ -74,7 +74,13 @@ fn hertz(args: &Args) -> Option<f64> {
 }
 
 /// The path of the scenario or run in the file.
-fn path_of(args: &Args, name: &str, extension: &str, wanted: &Preparation) -> Result<Subject, Failure> {
+fn path_of(
+    args: &Args,
+    name: &str,
+    extension: &str,
+    wanted: &Preparation,
+    notes: &mut Vec<String>,
+) -> Result<Subject, Failure> {
     let foreign = [
         ("--columns", args.columns.is_some()),
         ("--offset", args.offset.is_some()),
@@ -110,6 +116,9 @@ fn path_of(args: &Args, name: &str, extension: &str, wanted: &Preparation) -> Re
             opened.model
         }
     };
+    if args.vehicle.is_none() {
+        notes.extend(rounded_table(&model.setup().path));
+    }
     let interval_s = wanted.interval_s.unwrap_or(PATH_INTERVAL_S);
     let subject = Subject::of_run(name, model.setup(), args.vehicle.as_deref(), interval_s).map_err(|known| {
         let known: Vec<&str> = known.iter().map(String::as_str).collect();

@@ -2,6 +2,7 @@
 //! with the option that mends it; nothing is mended unasked.
 
 use crash_measures::signal::{STANDARD_GRAVITY_MPS2 as G, plateau, resolution, rounding_noise, usual_interval};
+use occupant_core::vehicle::{Interpolation, Station, VehiclePath};
 use placed_text::number;
 
 use super::motion::{Column, Motion, MotionKind};
@@ -31,6 +32,8 @@ const WEAK_M_S2: [f64; 2] = [G, 2.5 * G];
 const SLOW: (f64, f64) = (0.1, 3.0);
 /// Rounding of accelerations that is said, m/s².
 const ROUGH_M_S2: f64 = 0.5 * G;
+/// A slip that is said, m/s² and, of places, 1/s² of their unit.
+const SLIP_M_S2: f64 = 5.0 * G;
 /// A gain of speed that is said, m/s.
 const GAIN_M_S: f64 = 3.0;
 /// Shortest rest whose mean says something, and the longest that is looked at, s.
@@ -44,7 +47,7 @@ const CUTOFFS_HZ: [f64; 12] = [100.0, 60.0, 50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 
 
 /// All that speaks against a record.
 pub(crate) fn doubts(motion: &Motion, known: Known) -> Vec<String> {
-    let mut said = Vec::new();
+    let mut said: Vec<String> = motion.columns.iter().filter_map(|column| slip(motion, column)).collect();
     match motion.kind {
         MotionKind::Accelerations => {
             said.extend(motion.columns.iter().filter_map(|column| clipped(column, &motion.time_s)));
@@ -141,6 +144,38 @@ fn strongest(column: &Column, time_s: &[f64]) -> f64 {
         (j < time_s.len()).then(|| ((whole[j] - whole[i]) / (time_s[j] - time_s[i])).abs())
     };
     (0..time_s.len()).filter_map(mean).fold(0.0, f64::max)
+}
+
+/// A single value far from both of its neighbours, where no other is: a digit, a bit or a contact that slipped.
+fn slip(motion: &Motion, column: &Column) -> Option<String> {
+    let is_place = motion.kind == MotionKind::Places;
+    let apart = |v: &[f64]| match is_place {
+        true => (v[1] - 0.5 * (v[0] + v[2])).abs(),
+        // a step is no slip: it leaves one neighbour near
+        false if (v[1] - v[0]) * (v[1] - v[2]) > 0.0 => (v[1] - v[0]).abs().min((v[1] - v[2]).abs()),
+        false => 0.0,
+    };
+    let all: Vec<f64> = column.values.windows(3).map(apart).collect();
+    let at = (0..all.len()).max_by(|&a, &b| all[a].total_cmp(&all[b]))?;
+    let mut sorted = all.clone();
+    sorted.sort_unstable_by(|a, b| b.total_cmp(a));
+    // of places both neighbours bend the other way by half of it
+    let usual = sorted.get(if is_place { 3 } else { 1 })?;
+    let least = match motion.kind {
+        MotionKind::Places => SLIP_M_S2 * usual_interval(&motion.time_s).powi(2),
+        MotionKind::Changes => 1.0,
+        MotionKind::Accelerations if is_rate(column) => 1.0,
+        MotionKind::Accelerations => SLIP_M_S2,
+    };
+    (all[at] > 10.0 * usual && all[at] * column.factor > least).then(|| {
+        format!(
+            "{} jumps in one row, at {} s to {} {}: a slip? If so, take that value out, and --bridge bridges it",
+            column.name,
+            number(motion.time_s[at + 1]),
+            number(column.values[at + 1]),
+            column.unit
+        )
+    })
 }
 
 /// Accelerations in m/s² that are those of tyres and hardly more: they may be in g.
@@ -311,6 +346,37 @@ fn rounded(motion: &Motion, known: Known) -> Option<String> {
         number((dt_s * 1e6).round() / 1e3),
         noise / G
     ))
+}
+
+/// The same of the table of a scenario, in the first unit in which its places are round.
+pub(crate) fn rounded_table(path: &VehiclePath) -> Option<String> {
+    let VehiclePath::Table(table) = path else { return None };
+    let stations = table.stations();
+    if table.interpolation() != Interpolation::Spline || stations.len() < 3 {
+        return None;
+    }
+    let column = |axis: usize, (name, unit, factor): (&'static str, &str, f64)| {
+        let value = |station: &Station| {
+            let attitude = station.pose.attitude;
+            [attitude.roll_rad, attitude.pitch_rad, attitude.yaw_rad]
+                .get(axis.wrapping_sub(3))
+                .copied()
+                .unwrap_or_else(|| station.pose.position_m[axis])
+                / factor
+        };
+        Column { name, unit: unit.to_owned(), factor, values: stations.iter().map(value).collect() }
+    };
+    let motion = |unit: &str, metres: f64| {
+        let deg = std::f64::consts::PI / 180.0;
+        let lengths = ["x", "y", "z"].map(|name| (name, unit, metres));
+        let angles = ["roll", "pitch", "yaw"].map(|name| (name, "deg", deg));
+        let columns = [lengths, angles].concat().into_iter().enumerate().map(|(axis, of)| column(axis, of)).collect();
+        let time_s = stations.iter().map(|station| station.time_s).collect();
+        Motion { kind: MotionKind::Places, words: String::new(), time_s, columns, signals: Vec::new() }
+    };
+    let units = [("m", 1.0), ("ft", 0.3048), ("in", 0.0254)];
+    let found = units.iter().find_map(|(unit, metres)| rounded(&motion(unit, *metres), Known::default()));
+    found.map(|words| words.replace("--filter '", "--set path.filter='"))
 }
 
 /// A yaw that turns against the course.

@@ -21,7 +21,7 @@ use super::trouble::Trouble;
 use crate::base::{Failure, ending, input_file, sha256};
 
 pub(crate) use axes::{AXES, Axes};
-pub(crate) use doubts::{Known, doubts};
+pub(crate) use doubts::{Known, doubts, rounded_table};
 pub(crate) use motion::{Motion, MotionKind, Placed};
 pub(crate) use nhtsa::TestRecord;
 pub(crate) use pair::{MapArgument, Pair, Wanted, pairs};

@@ -15,6 +15,9 @@ use crate::base::Failure;
 use crate::files::signals::{Recording, Signal, scale_of, seconds_in};
 use crash_measures::signal::usual_interval;
 
+/// So many problems of a table are shown.
+const SHOWN: usize = 8;
+
 #[derive(Clone, Debug)]
 struct Heading {
     name: String,
@@ -186,7 +189,7 @@ impl Reader<'_> {
     }
 
     fn failure(self) -> Failure {
-        Failure::CouldNotRun(self.problems.to_string())
+        Failure::CouldNotRun(self.problems.abridged(SHOWN).to_string())
     }
 
     /// Numbers column by column, as far as lines are right.
