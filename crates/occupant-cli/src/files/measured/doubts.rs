@@ -208,7 +208,14 @@ fn slow(motion: &Motion) -> Option<String> {
 
 /// Accelerations that are rounded to whole g or so.
 fn rough(motion: &Motion) -> Option<String> {
-    let step = |c: &Column| resolution(&c.values).filter(|step| !is_rate(c) && step * c.factor >= ROUGH_M_S2);
+    let step = |c: &Column| {
+        let is_round = |step: &f64| c.values.iter().all(|v| (v / step - (v / step).round()).abs() < 1e-6);
+        let steps = [10.0, 5.0, 2.0, 1.0, 0.5].into_iter().filter(|step| step * c.factor >= ROUGH_M_S2);
+        let (least, most) =
+            c.values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)));
+        // a few levels say nothing
+        steps.filter(|step| !is_rate(c) && most - least > 3.0 * step).find(is_round)
+    };
     let all: Vec<(&Column, f64)> = motion.columns.iter().filter_map(|c| Some((c, step(c)?))).collect();
     let (column, step) = all.first()?;
     let names: Vec<&str> = all.iter().map(|(column, _)| column.name).collect();
