@@ -2,6 +2,7 @@
 //! with the option that mends it; nothing is mended unasked.
 
 use crash_measures::signal::{STANDARD_GRAVITY_MPS2 as G, plateau, resolution, rounding_noise, usual_interval};
+use occupant_core::vehicle::{Interpolation, Station, VehiclePath};
 use placed_text::number;
 
 use super::motion::{Column, Motion, MotionKind};
@@ -23,6 +24,18 @@ pub struct Known {
 const MOST_CHANGE_M_S: f64 = 45.0;
 /// More turns than a rolling car makes.
 const MOST_TURNS: f64 = 6.0;
+/// No vehicle turns faster, as the mean of 10 ms, rad/s.
+const FASTEST_RAD_S: f64 = 20.0;
+/// What tyres alone give, and what a crash goes beyond, m/s²: between them accelerations are doubted that are not in g.
+const WEAK_M_S2: [f64; 2] = [G, 2.5 * G];
+/// Turns slower than these, rad/s, are doubted beside a velocity change to the side of this, m/s.
+const SLOW: (f64, f64) = (0.1, 3.0);
+/// Rounding of accelerations that is said, m/s².
+const ROUGH_M_S2: f64 = 0.5 * G;
+/// A slip that is said, m/s² and, of places, 1/s² of their unit.
+const SLIP_M_S2: f64 = 5.0 * G;
+/// A gain of speed that is said, m/s.
+const GAIN_M_S: f64 = 3.0;
 /// Shortest rest whose mean says something, and the longest that is looked at, s.
 const REST_S: [f64; 2] = [0.01, 0.1];
 /// Zero errors that are said: accelerations, m/s²; rates, rad/s.
@@ -34,12 +47,16 @@ const CUTOFFS_HZ: [f64; 12] = [100.0, 60.0, 50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 
 
 /// All that speaks against a record.
 pub fn doubts(motion: &Motion, known: Known) -> Vec<String> {
-    let mut said = Vec::new();
+    let mut said: Vec<String> = motion.columns.iter().filter_map(|column| slip(motion, column)).collect();
     match motion.kind {
         MotionKind::Accelerations => {
             said.extend(motion.columns.iter().filter_map(|column| clipped(column, &motion.time_s)));
             said.extend(motion.columns.iter().filter_map(|column| wrong_unit(column, &motion.time_s)));
+            said.extend(weak(motion));
+            said.extend(slow(motion));
+            said.extend(rough(motion));
             zero_errors(motion, known, &mut said);
+            said.extend(motion.si("ax").and_then(|ax| struck_from_behind(&ax, &motion.time_s)));
             said.extend(motion.si("ax").and_then(|ax| backwards(integral(&ax, &motion.time_s), known)));
         }
         MotionKind::Changes => {
@@ -48,6 +65,12 @@ pub fn doubts(motion: &Motion, known: Known) -> Vec<String> {
             said.extend(changes.last().and_then(|change| backwards(*change, known)));
         }
         MotionKind::Places => {
+            if !["x", "y"].into_iter().any(|name| motion.has(name)) {
+                said.push(format!(
+                    "no column is x or y, the vehicle is taken to turn on the spot: --columns names them, such as 't[s],x[m],y[m]'; read were {}",
+                    motion.signals.join(", ")
+                ));
+            }
             said.extend(rounded(motion, known));
             said.extend(turned(motion));
         }
@@ -83,10 +106,16 @@ fn wrong_unit(column: &Column, time_s: &[f64]) -> Option<String> {
     let (name, unit) = (column.name, &column.unit);
     if is_rate(column) {
         let turns = whole / std::f64::consts::TAU;
-        let other = if unit.contains("rad") { "deg/s" } else { "another unit" };
-        return (turns.abs() > MOST_TURNS).then(|| {
-            format!("{name} in {unit} turns the vehicle {} times: is it in {other}? --columns says so, such as '{name}[deg/s]'", number(turns.round()))
-        });
+        let other = if unit.to_lowercase().contains("rad") { "deg/s" } else { "another unit" };
+        let fastest = column.factor * strongest(column, time_s);
+        let why = match () {
+            () if turns.abs() > MOST_TURNS => format!("turns the vehicle {} times", number(turns.round())),
+            () if fastest > FASTEST_RAD_S => {
+                format!("turns the vehicle {} times a second", number((fastest / std::f64::consts::TAU).round()))
+            }
+            () => return None,
+        };
+        return Some(format!("{name} in {unit} {why}: is it in {other}? --columns says so, such as '{name}[deg/s]'"));
     }
     let start = rest(time_s, None).map(|[from, to]| mean(&column.values[from..to]))?;
     let stands_at = |value: f64| (start.abs() / value - 1.0).abs() < 0.03;
@@ -99,6 +128,115 @@ fn wrong_unit(column: &Column, time_s: &[f64]) -> Option<String> {
             false => format!("changes the velocity by {} km/h", number((whole * 3.6).round())),
         };
         format!("{name} in {unit} {why}: is it in {other}? --columns says so, such as '{name}[{other}]'")
+    })
+}
+
+/// The greatest magnitude of a mean over 10 ms, in the column's unit.
+fn strongest(column: &Column, time_s: &[f64]) -> f64 {
+    let whole: Vec<f64> = std::iter::once(0.0)
+        .chain(time_s.windows(2).zip(column.values.windows(2)).scan(0.0, |sum, (t, v)| {
+            *sum += 0.5 * (t[1] - t[0]) * (v[0] + v[1]);
+            Some(*sum)
+        }))
+        .collect();
+    let mean = |i: usize| {
+        let j = time_s.partition_point(|t| *t < time_s[i] + REST_S[0] - 1e-9);
+        (j < time_s.len()).then(|| ((whole[j] - whole[i]) / (time_s[j] - time_s[i])).abs())
+    };
+    (0..time_s.len()).filter_map(mean).fold(0.0, f64::max)
+}
+
+/// A single value far from both of its neighbours, where no other is: a digit, a bit or a contact that slipped.
+fn slip(motion: &Motion, column: &Column) -> Option<String> {
+    let is_place = motion.kind == MotionKind::Places;
+    let apart = |v: &[f64]| match is_place {
+        true => (v[1] - 0.5 * (v[0] + v[2])).abs(),
+        // a step is no slip: it leaves one neighbour near
+        false if (v[1] - v[0]) * (v[1] - v[2]) > 0.0 => (v[1] - v[0]).abs().min((v[1] - v[2]).abs()),
+        false => 0.0,
+    };
+    let all: Vec<f64> = column.values.windows(3).map(apart).collect();
+    let at = (0..all.len()).max_by(|&a, &b| all[a].total_cmp(&all[b]))?;
+    let mut sorted = all.clone();
+    sorted.sort_unstable_by(|a, b| b.total_cmp(a));
+    // of places both neighbours bend the other way by half of it
+    let usual = sorted.get(if is_place { 3 } else { 1 })?;
+    let least = match motion.kind {
+        MotionKind::Places => SLIP_M_S2 * usual_interval(&motion.time_s).powi(2),
+        MotionKind::Changes => 1.0,
+        MotionKind::Accelerations if is_rate(column) => 1.0,
+        MotionKind::Accelerations => SLIP_M_S2,
+    };
+    (all[at] > 10.0 * usual && all[at] * column.factor > least).then(|| {
+        format!(
+            "{} jumps in one row, at {} s to {} {}: a slip? If so, take that value out, and --bridge bridges it",
+            column.name,
+            number(motion.time_s[at + 1]),
+            number(column.values[at + 1]),
+            column.unit
+        )
+    })
+}
+
+/// Accelerations in m/s² that are those of tyres and hardly more: they may be in g.
+fn weak(motion: &Motion) -> Option<String> {
+    let all: Vec<&Column> = motion.columns.iter().filter(|c| !is_rate(c) && (c.factor - 1.0).abs() < 1e-9).collect();
+    let most = all.iter().map(|column| strongest(column, &motion.time_s)).fold(0.0, f64::max);
+    (WEAK_M_S2[0]..WEAK_M_S2[1]).contains(&most).then(|| {
+        format!(
+            "no acceleration goes beyond {:.1} g (mean of 10 ms): are they in g? --columns says so, such as '{}[g]'",
+            most / G,
+            all[0].name
+        )
+    })
+}
+
+/// Rates in deg/s that hardly turn a vehicle that is thrown aside: they may be in rad/s.
+fn slow(motion: &Motion) -> Option<String> {
+    let all: Vec<&Column> = motion.columns.iter().filter(|c| is_rate(c) && (c.factor - 1.0).abs() > 1e-9).collect();
+    let most = all.iter().map(|column| column.factor * strongest(column, &motion.time_s)).fold(0.0, f64::max);
+    let aside = integral(&motion.si("ay")?, &motion.time_s).abs();
+    (0.05 * SLOW.0 < most && most < SLOW.0 && aside > SLOW.1).then(|| {
+        format!(
+            "the velocity changes by {} km/h to the side, and no rate goes beyond {:.1} deg/s (mean of 10 ms): are they in rad/s? --columns says so, such as '{}[rad/s]'",
+            number((aside * 3.6).round()),
+            most.to_degrees(),
+            all[0].name
+        )
+    })
+}
+
+/// Accelerations that are rounded to whole g or so.
+fn rough(motion: &Motion) -> Option<String> {
+    let step = |c: &Column| {
+        let is_round = |step: &f64| c.values.iter().all(|v| (v / step - (v / step).round()).abs() < 1e-6);
+        let steps = [10.0, 5.0, 2.0, 1.0, 0.5].into_iter().filter(|step| step * c.factor >= ROUGH_M_S2);
+        let (least, most) =
+            c.values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)));
+        // a few levels say nothing
+        steps.filter(|step| !is_rate(c) && most - least > 3.0 * step).find(is_round)
+    };
+    let all: Vec<(&Column, f64)> = motion.columns.iter().filter_map(|c| Some((c, step(c)?))).collect();
+    let (column, step) = all.first()?;
+    let names: Vec<&str> = all.iter().map(|(column, _)| column.name).collect();
+    let half = number(0.5 * step);
+    Some(format!(
+        "{} are rounded to {} {unit}: what stays below {half} {unit} is lost; `risk --sensor-error offset='{half} {unit}'` gives the measures with intervals",
+        names.join(", "),
+        number(*step),
+        unit = column.unit
+    ))
+}
+
+/// A vehicle that becomes faster.
+fn struck_from_behind(ax: &[f64], time_s: &[f64]) -> Option<String> {
+    let gain = integral(ax, time_s);
+    (gain > GAIN_M_S).then(|| {
+        format!(
+            "the vehicle becomes faster by {} km/h, as one that is struck from behind: if x points to the back, turn its sign by --columns, such as \
+             't[s],-ax[g]'",
+            number((gain * 36.0).round() / 10.0)
+        )
     })
 }
 
@@ -215,6 +353,37 @@ fn rounded(motion: &Motion, known: Known) -> Option<String> {
         number((dt_s * 1e6).round() / 1e3),
         noise / G
     ))
+}
+
+/// The same of the table of a scenario, in the first unit in which its places are round.
+pub fn rounded_table(path: &VehiclePath) -> Option<String> {
+    let VehiclePath::Table(table) = path else { return None };
+    let stations = table.stations();
+    if table.interpolation() != Interpolation::Spline || stations.len() < 3 {
+        return None;
+    }
+    let column = |axis: usize, (name, unit, factor): (&'static str, &str, f64)| {
+        let value = |station: &Station| {
+            let attitude = station.pose.attitude;
+            [attitude.roll_rad, attitude.pitch_rad, attitude.yaw_rad]
+                .get(axis.wrapping_sub(3))
+                .copied()
+                .unwrap_or_else(|| station.pose.position_m[axis])
+                / factor
+        };
+        Column { name, unit: unit.to_owned(), factor, values: stations.iter().map(value).collect() }
+    };
+    let motion = |unit: &str, metres: f64| {
+        let deg = std::f64::consts::PI / 180.0;
+        let lengths = ["x", "y", "z"].map(|name| (name, unit, metres));
+        let angles = ["roll", "pitch", "yaw"].map(|name| (name, "deg", deg));
+        let columns = [lengths, angles].concat().into_iter().enumerate().map(|(axis, of)| column(axis, of)).collect();
+        let time_s = stations.iter().map(|station| station.time_s).collect();
+        Motion { kind: MotionKind::Places, words: String::new(), time_s, columns, signals: Vec::new() }
+    };
+    let units = [("m", 1.0), ("ft", 0.3048), ("in", 0.0254)];
+    let found = units.iter().find_map(|(unit, metres)| rounded(&motion(unit, *metres), Known::default()));
+    found.map(|words| words.replace("--filter '", "--set path.filter='"))
 }
 
 /// A yaw that turns against the course.

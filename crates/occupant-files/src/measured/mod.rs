@@ -21,8 +21,8 @@ use super::trouble::Trouble;
 use crate::base::{Failure, ending, input_file, sha256};
 
 pub use axes::{AXES, Axes};
-pub use doubts::{Known, doubts};
-pub use motion::{Motion, MotionKind, Placed, velocity_changes};
+pub use doubts::{Known, doubts, rounded_table};
+pub use motion::{Motion, MotionKind, Placed};
 pub use nhtsa::TestRecord;
 pub use pair::{MapArgument, Pair, Wanted, pairs};
 

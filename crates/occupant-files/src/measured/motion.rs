@@ -87,6 +87,9 @@ impl Motion {
             },
         };
         let Some((_, first)) = found.first() else { return Ok(None) };
+        if placed.at.is_none() && kind == MotionKind::Accelerations {
+            say_if_places_differ(recording, notes);
+        }
         let column = |(name, signal): &(&'static str, &Signal)| {
             let (scale, unit) = signal.scale.zip(signal.unit.clone()).ok_or_else(|| without_unit(signal))?;
             if column_in(name, scale.dimension) != Some(*name) {
@@ -288,7 +291,37 @@ fn plain(recording: &Recording) -> (MotionKind, Found<'_>, String) {
     (MotionKind::Places, places, "places and angles".to_owned())
 }
 
-/// The accelerometers at a place of the vehicle, by a word of their names; the first place that looks ahead, if none is asked for.
+/// Of several places the one that is most likely to move as the vehicle does: its velocity change is that of most places, within a tenth, and of
+/// those it rings least, by the sum of all its rises and falls. None where most do not agree.
+fn typical(recording: &Recording) -> Option<(String, String)> {
+    let changes = velocity_changes(recording);
+    let mut sorted: Vec<f64> = changes.iter().map(|(_, change)| *change).collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let (low, high) = (sorted.get(sorted.len().checked_sub(1)? / 2)?, sorted.get(sorted.len() / 2)?);
+    let middle = 0.5 * (low + high);
+    let near = |change: f64| (change - middle).abs() <= (0.1 * middle.abs()).max(0.5);
+    let agree: Vec<&str> = changes.iter().filter(|(_, v)| near(*v)).map(|(place, _)| place.as_str()).collect();
+    let ringing = |place: &&&str| -> f64 {
+        let own = recording
+            .signals
+            .iter()
+            .find(|signal| acceleration(signal).is_some_and(|a| a == ((**place).to_owned(), 0)));
+        own.map_or(f64::INFINITY, |signal| {
+            let steps = signal.values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|step| step.is_finite());
+            steps.sum::<f64>() * signal.scale.map_or(1.0, |scale| scale.factor.abs())
+        })
+    };
+    let best = agree.iter().min_by(|a, b| ringing(a).total_cmp(&ringing(b)))?;
+    let words = format!(
+        ", which rings least of the {} of {} places whose velocity change ahead is {} km/h within a tenth",
+        agree.len(),
+        changes.len(),
+        placed_text::number((middle * 3.6).round())
+    );
+    (changes.len() > 2 && 2 * agree.len() > changes.len()).then(|| ((*best).to_owned(), words))
+}
+
+/// The accelerometers at a place of the vehicle, by a word of their names; the typical place that looks ahead, else the first, if none is asked for.
 fn accelerometers<'a>(
     recording: &'a Recording,
     place: Option<&str>,
@@ -305,9 +338,11 @@ fn accelerometers<'a>(
             places.push(of);
         }
     }
-    let Some(own) = (match place {
-        Some(word) => places.iter().find(|of| of.eq_ignore_ascii_case(word)),
-        None => places.first(),
+    let typical = if place.is_none() { typical(recording) } else { None };
+    let Some(own) = (match (place, &typical) {
+        (Some(word), _) => places.iter().find(|of| of.eq_ignore_ascii_case(word)),
+        (None, Some((typical, _))) => places.iter().find(|of| *of == typical),
+        (None, None) => places.first(),
     }) else {
         return match place {
             None => Ok((MotionKind::Accelerations, Vec::new(), String::new())),
@@ -318,7 +353,8 @@ fn accelerometers<'a>(
         };
     };
     if place.is_none() && places.len() > 1 {
-        notes.push(format!("the path is that of {own}; --at takes another: {}", places.join(", ")));
+        let why = typical.map(|(_, why)| why).unwrap_or_default();
+        notes.push(format!("the path is that of {own}{why}; --at takes another: {}", places.join(", ")));
     }
     let axis = |axis: usize| all.iter().find(|(of, along, _)| of == own && *along == axis).map(|(.., signal)| *signal);
     let columns = [0, 1, 2].iter().filter_map(|&i| Some((OF_RUNS[i].0, axis(i)?))).collect();
@@ -337,8 +373,22 @@ fn acceleration(signal: &Signal) -> Option<(String, usize)> {
     }
 }
 
+/// Says if places of the vehicle tell of other velocity changes, by more than a tenth.
+fn say_if_places_differ(recording: &Recording, notes: &mut Vec<String>) {
+    let changes = velocity_changes(recording);
+    let of = |pick: fn(f64, f64) -> f64| changes.iter().map(|(_, v)| *v).reduce(pick);
+    let (Some(least), Some(most)) = (of(f64::min), of(f64::max)) else { return };
+    if most - least > 0.1 * most.abs().max(least.abs()) && most - least > 0.5 {
+        let told = changes.iter().map(|(place, v)| format!("{place} {:.1}", v * 3.6));
+        let told = told.collect::<Vec<_>>().join(", ");
+        notes.push(format!(
+            "places of the vehicle do not agree on its velocity change ahead, km/h: {told}; --at takes another than the path's"
+        ));
+    }
+}
+
 /// The velocity change ahead of each place with an accelerometer that looks ahead, m/s.
-pub fn velocity_changes(recording: &Recording) -> Vec<(String, f64)> {
+fn velocity_changes(recording: &Recording) -> Vec<(String, f64)> {
     let mut found: Vec<(String, f64)> = Vec::new();
     for signal in &recording.signals {
         let (Some((place, 0)), Some(scale)) = (acceleration(signal), signal.scale) else { continue };

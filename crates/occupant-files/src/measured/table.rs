@@ -15,6 +15,9 @@ use crate::base::Failure;
 use crate::signals::{Recording, Signal, scale_of, seconds_in};
 use crash_measures::signal::usual_interval;
 
+/// So many problems of a table are shown.
+const SHOWN: usize = 8;
+
 #[derive(Clone, Debug)]
 struct Heading {
     name: String,
@@ -161,10 +164,13 @@ impl Reader<'_> {
         notes
     }
 
-    /// Times in steps of 5 and more without a unit are milliseconds as likely as seconds.
+    /// Times in steps of 5 and more, or over a minute and more, without a unit are milliseconds as likely as seconds.
     fn ask_for_the_unit(&mut self, time: usize, time_s: &[f64], first: Span) {
         let is_told = self.headings.get(time).is_none_or(|h| h.unit.is_some() || h.name.ends_with("_s"));
-        if is_told || time_s.len() < 3 || usual_interval(time_s) < 5.0 || !self.problems.is_empty() {
+        if is_told || time_s.len() < 3 || !self.problems.is_empty() {
+            return;
+        }
+        if usual_interval(time_s) < 5.0 && time_s[time_s.len() - 1] - time_s[0] < 60.0 {
             return;
         }
         let found = format!("times from {} to {} without a unit", time_s[0], time_s[time_s.len() - 1]);
@@ -183,7 +189,7 @@ impl Reader<'_> {
     }
 
     fn failure(self) -> Failure {
-        Failure::CouldNotRun(self.problems.to_string())
+        Failure::CouldNotRun(self.problems.abridged(SHOWN).to_string())
     }
 
     /// Numbers column by column, as far as lines are right.
