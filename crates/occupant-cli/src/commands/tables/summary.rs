@@ -75,11 +75,7 @@ pub(crate) fn summary_table(summary: &Summary, written: &Written, marks: &Marks,
         parts.push(first_contacts(summary, marks, units));
     }
     for (prefix, person) in summary.people() {
-        let own = measures::table(
-            person.measures.iter().filter(|m| m.brief && m.value.is_some()),
-            &marks.of_occupant(&prefix),
-            units,
-        );
+        let own = measures::table(person.measures.iter().filter(|m| m.brief), &marks.of_occupant(&prefix), units);
         parts.push(if prefix.is_empty() { own } else { format!("{}\n{own}", shown(prefix.trim_end_matches('.'))) });
     }
     parts.extend(ejections(summary, marks));
