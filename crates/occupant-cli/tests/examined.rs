@@ -110,12 +110,23 @@ fn each_flaw_of_a_record_is_said_with_its_remedy() {
     fs::write(here.join("a.csv"), table(HEADINGS, slipped)).unwrap();
     let said = spoken(here, &["risk", "a.csv", "--start", "0"]);
     assert!(said.contains("ax jumps in one row, at 0.5 s to 90.") && said.matches("jumps").count() == 1, "{said}");
-    let places: String = (0..100)
-        .map(|i| format!("{:.2},{:.4}\n", 0.01 * f64::from(i), 0.2 * f64::from(i) + if i == 40 { 0.1 } else { 0.0 }))
-        .collect();
-    fs::write(here.join("a.csv"), format!("t[s],x[m]\n{places}")).unwrap();
-    let said = spoken(here, &["risk", "a.csv", "--filter", "none"]);
-    assert!(said.contains("x jumps in one row, at 0.4 s to 8.1 m: a slip?"), "{said}");
+    let places = |time_slip: f64, slip: f64| {
+        let line = |i: i32| {
+            let t = 0.01 * f64::from(i);
+            let [late, far] = [time_slip, slip].map(|size| if i == 40 { size } else { 0.0 });
+            format!("{:.4},{:.5}\n", t + late, 20.0 * t - 30.0 * t * t * t + far)
+        };
+        format!("t[s],x[m]\n{}", (0..100).map(line).collect::<String>())
+    };
+    for (text, words) in [
+        (places(0.0, 0.01), "x jumps in one row, at 0.4 s to 6.09 m: a slip?"),
+        (places(0.003, 0.0), "the time 0.403 s is out of step with all others"),
+        (places(0.0, 0.0), ""),
+    ] {
+        fs::write(here.join("a.csv"), text).unwrap();
+        let said = spoken(here, &["risk", "a.csv", "--filter", "none"]);
+        assert!(said.contains(words) && said.contains("a slip?") != words.is_empty(), "{said}");
+    }
     // many wrong cells are a few messages
     fs::write(here.join("a.csv"), table(HEADINGS, |t, m| (t, m)).replace("0,", "0x,")).unwrap();
     let said = err(&answer(here, &["risk", "a.csv"]));

@@ -32,7 +32,7 @@ const WEAK_M_S2: [f64; 2] = [G, 2.5 * G];
 const SLOW: (f64, f64) = (0.1, 3.0);
 /// Rounding of accelerations that is said, m/s².
 const ROUGH_M_S2: f64 = 0.5 * G;
-/// A slip that is said, m/s² and, of places, 1/s² of their unit.
+/// A slip of accelerations that is said, m/s².
 const SLIP_M_S2: f64 = 5.0 * G;
 /// A gain of speed that is said, m/s.
 const GAIN_M_S: f64 = 3.0;
@@ -71,6 +71,7 @@ pub fn doubts(motion: &Motion, known: Known) -> Vec<String> {
                     motion.signals.join(", ")
                 ));
             }
+            said.extend(late(motion));
             said.extend(rounded(motion, known));
             said.extend(turned(motion));
         }
@@ -146,23 +147,24 @@ fn strongest(column: &Column, time_s: &[f64]) -> f64 {
     (0..time_s.len()).filter_map(mean).fold(0.0, f64::max)
 }
 
-/// A single value far from both of its neighbours, where no other is: a digit, a bit or a contact that slipped.
+/// A single value far from its neighbours, where no other is: a digit, a bit or a contact that slipped.
 fn slip(motion: &Motion, column: &Column) -> Option<String> {
     let is_place = motion.kind == MotionKind::Places;
     let apart = |v: &[f64]| match is_place {
-        true => (v[1] - 0.5 * (v[0] + v[2])).abs(),
+        // how far it lies from a cubic through its neighbours
+        true => ((v[0] + v[4] - 4.0 * (v[1] + v[3])) / 6.0 + v[2]).abs(),
         // a step is no slip: it leaves one neighbour near
-        false if (v[1] - v[0]) * (v[1] - v[2]) > 0.0 => (v[1] - v[0]).abs().min((v[1] - v[2]).abs()),
+        false if (v[2] - v[1]) * (v[2] - v[3]) > 0.0 => (v[2] - v[1]).abs().min((v[2] - v[3]).abs()),
         false => 0.0,
     };
-    let all: Vec<f64> = column.values.windows(3).map(apart).collect();
+    let all: Vec<f64> = column.values.windows(5).map(apart).collect();
     let at = (0..all.len()).max_by(|&a, &b| all[a].total_cmp(&all[b]))?;
     let mut sorted = all.clone();
     sorted.sort_unstable_by(|a, b| b.total_cmp(a));
-    // of places both neighbours bend the other way by half of it
-    let usual = sorted.get(if is_place { 3 } else { 1 })?;
+    // of places two neighbours to each side are bent with it
+    let usual = sorted.get(if is_place { 5 } else { 1 })?;
     let least = match motion.kind {
-        MotionKind::Places => SLIP_M_S2 * usual_interval(&motion.time_s).powi(2),
+        MotionKind::Places => G * usual_interval(&motion.time_s).powi(2),
         MotionKind::Changes => 1.0,
         MotionKind::Accelerations if is_rate(column) => 1.0,
         MotionKind::Accelerations => SLIP_M_S2,
@@ -171,9 +173,23 @@ fn slip(motion: &Motion, column: &Column) -> Option<String> {
         format!(
             "{} jumps in one row, at {} s to {} {}: a slip? If so, take that value out, and --bridge bridges it",
             column.name,
-            number(motion.time_s[at + 1]),
-            number(column.values[at + 1]),
+            number(motion.time_s[at + 2]),
+            number(column.values[at + 2]),
             column.unit
+        )
+    })
+}
+
+/// One time that is out of step, where all others are in step.
+fn late(motion: &Motion) -> Option<String> {
+    let usual_s = usual_interval(&motion.time_s);
+    let odd = |pair: &[f64]| (pair[1] - pair[0] - usual_s).abs() > 0.02 * usual_s;
+    let all: Vec<usize> = motion.time_s.windows(2).enumerate().filter(|(_, pair)| odd(pair)).map(|(i, _)| i).collect();
+    let [before, after] = all[..] else { return None };
+    (after == before + 1 && motion.time_s.len() > 10).then(|| {
+        format!(
+            "the time {} s is out of step with all others: a slip? If so, mend it, or take its row out",
+            number(motion.time_s[after])
         )
     })
 }
