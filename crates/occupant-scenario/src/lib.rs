@@ -102,7 +102,7 @@ pub use placed_text::{Diagnostic, Diagnostics, Format};
 pub use places::{Place, Wanted};
 pub use presets::preset_body;
 pub use sections::{
-    Angle, FRACTION, Length, NOT_NEGATIVE, POSITIVE, Quantity, Ratio, RecordFile, Scenario, Time, column_in,
+    Angle, DrivenVehicle, Drives, FRACTION, Length, NOT_NEGATIVE, POSITIVE, Quantity, Ratio, RecordFile, Scenario, Solved, Time, column_in,
     column_named, read_record, schema,
 };
 

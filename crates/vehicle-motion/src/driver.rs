@@ -92,6 +92,8 @@ pub struct Driver {
     pub brake_n_m: Table,
     /// Drive torque, N·m; negative brakes by the engine.
     pub drive_n_m: Table,
+    /// Speed that drive and brakes follow in their place, m/s.
+    pub speed_m_s: Option<Table>,
     /// Wheels that are locked from a time on, s.
     pub locked_from_s: [Option<f64>; crate::WHEELS],
     /// Wheels that are locked from the first collision on.
@@ -130,6 +132,7 @@ impl Driver {
             steering: Steering::Table(Table::constant(0.0)),
             brake_n_m: Table::constant(0.0),
             drive_n_m: Table::constant(0.0),
+            speed_m_s: None,
             locked_from_s: [None; crate::WHEELS],
             locked_on_impact: [false; crate::WHEELS],
             on_impact: OnImpact::Release,
