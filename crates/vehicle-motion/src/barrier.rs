@@ -73,8 +73,8 @@ pub enum End {
 }
 
 impl Pole {
-    /// Its outline: a polygon around it.
-    pub(crate) fn corners_m(&self) -> Vec<[f64; 2]> {
+    /// Corners of its outline, a polygon of the same area, clockwise from above.
+    pub fn corners_m(&self) -> Vec<[f64; 2]> {
         let n = 48;
         let corner = |i: i32| {
             let (sine, cosine) = libm::sincos(core::f64::consts::TAU * (f64::from(i) + 0.5) / f64::from(n));

@@ -39,6 +39,17 @@ impl Stiffness {
         Stiffness { a_n_per_m: of_a * self.a_n_per_m, b_n_per_m2: of_b * self.b_n_per_m2 }
     }
 
+    /// Energy of residual depths at equal distances over a width, J, where the force leans by an angle from the face's normal:
+    /// (1 + tan²α) ∫ (A C + ½B C² + A²/2B), straight between the depths (CRASH3).
+    pub fn damage_j(self, width_m: f64, depths_m: &[f64], lean_rad: f64) -> f64 {
+        let Stiffness { a_n_per_m: a, b_n_per_m2: b } = self;
+        let pieces = depths_m.len().saturating_sub(1).max(1) as f64;
+        let piece = |p: &[f64]| 0.5 * a * (p[0] + p[1]) + b * (p[0] * p[0] + p[0] * p[1] + p[1] * p[1]) / 6.0;
+        let sum: f64 = depths_m.windows(2).map(piece).sum::<f64>() / pieces;
+        let tangent = libm::tan(lean_rad);
+        (1.0 + tangent * tangent) * width_m * (sum + 0.5 * a * a / b)
+    }
+
     /// Crush that leaves no damage, A/B, m.
     pub fn elastic_m(self) -> f64 {
         self.a_n_per_m / self.b_n_per_m2
@@ -241,5 +252,42 @@ impl Body {
             let along = if matches!(hard.side, Side::Left | Side::Right) { ahead_m } else { right_m };
             hard.span_m = hard.span_m.map(|x| x - along);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// CRASH3's sample run with G = A²/2B: published with G of 1874 and 203 lb, 19 255.1 and 31 099.9 ft·lb.
+    #[test]
+    fn damage_energies_are_those_of_the_sample_run() {
+        let (inch, pound) = (0.0254, 0.453_592_37 * 9.80665);
+        let stiffness =
+            |a: f64, b: f64| Stiffness { a_n_per_m: a * pound / inch, b_n_per_m2: b * pound / (inch * inch) };
+        let side = [6.2, 8.3, 9.2, 5.9, 4.4, 0.8];
+        let quarter = core::f64::consts::FRAC_PI_4;
+        let cases: [(Stiffness, f64, &[f64], f64, f64, f64); 2] = [
+            (stiffness(356.0, 34.0), 73.0, &[2.7, 3.6], 0.0, 19_192.9, 19_255.1),
+            (stiffness(143.0, 50.0), 84.5, &side, quarter, 31_120.9, 31_099.9),
+        ];
+        for (stiffness, width, depths, lean, expected, published) in cases {
+            let depths: Vec<f64> = depths.iter().map(|c| c * inch).collect();
+            let found = stiffness.damage_j(width * inch, &depths, lean) / (pound * 12.0 * inch);
+            assert!((found - expected).abs() < 0.06, "{found} {expected}");
+            assert!((found / published - 1.0).abs() < 4e-3);
+        }
+    }
+
+    /// 1500 kg on 1.5 m, 0.5 m at 56 km/h: a worked example of the literature.
+    #[test]
+    fn stiffness_of_one_test_is_exact_for_its_profile() {
+        let found = Stiffness::by_test(1500.0, 1.5, 56.0 / 3.6, [0.5; 6]);
+        assert!((found.a_n_per_m - 59_259.0).abs() < 60.0 && (found.b_n_per_m2 - 711_111.0).abs() < 800.0, "{found:?}");
+        let depths = [0.38, 0.466, 0.511, 0.518, 0.489, 0.37];
+        let found = Stiffness::by_test(1719.0, 1.837, 57.09 / 3.6, depths);
+        let energy = found.damage_j(1.837, &depths, 0.0);
+        let expected = 0.5 * 1719.0 * (57.09f64 / 3.6).powi(2);
+        assert!((energy / expected - 1.0).abs() < 1e-12, "{energy} {expected}");
     }
 }

@@ -57,7 +57,8 @@ impl Planar {
 }
 
 /// An impact of two bodies at a place, with the direction of the contact's normal in either sense, restitution on both
-/// components, and the greatest ratio of the impulse along the contact to that across it; none if they part there.
+/// components, and the greatest ratio of the impulse along the contact to that across it. The sense is that in which they
+/// close; none if they do not move across the contact.
 pub fn blow(bodies: [&Planar; 2], place_m: [f64; 2], normal_rad: f64, restitution: f64, friction: f64) -> Option<Blow> {
     let [first, second] = bodies;
     let (a, b) = (first.velocity_at(place_m), second.velocity_at(place_m));
@@ -186,8 +187,8 @@ impl Pulse {
         Contact { impulse_n_s: self.impulse, peak_n, ..Contact::begin(self.bodies[0], self.partner, self.start_s) }
     }
 
-    /// Changes the velocities at once, and returns the energy that each side lost, J; both get half of the loss.
-    pub fn strike(&self, setup: &Setup, stack: &mut Stack) -> [f64; 2] {
+    /// Changes the velocities at once; the vehicles share the loss.
+    pub fn strike(&self, setup: &Setup, stack: &mut Stack) {
         let mut lost_j = 0.0;
         for (i, car) in self.cars().enumerate() {
             let (vehicle, state) = (&setup.vehicles[car], &mut stack.cars[car]);
@@ -204,7 +205,6 @@ impl Pulse {
         for car in self.cars() {
             stack.cars[car].add_crush_j(share);
         }
-        [share, lost_j - share]
     }
 
     /// Adds its force at a time.

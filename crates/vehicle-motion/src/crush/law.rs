@@ -40,6 +40,13 @@ impl Law {
         from[0] + (to[0] - from[0]) * (force_n_per_m - from[1]) / (to[1] - from[1])
     }
 
+    /// Energy per width that a residual crush tells of, J/m: AC + ½BC² + A²/2B, whatever the reading.
+    pub fn damage_j_per_m(&self, residual_m: f64) -> f64 {
+        let depth_m = residual_m + self.elastic_m;
+        let slope = self.knots[1][1] * self.stretch / self.elastic_m;
+        0.5 * slope * depth_m * depth_m
+    }
+
     /// Residual crush after a greatest force per width, m.
     pub fn residual_m(&self, force_n_per_m: f64) -> f64 {
         (self.crush_m(force_n_per_m) / self.stretch - self.elastic_m).max(0.0)

@@ -8,6 +8,8 @@ use crate::crush::law::Series;
 use crate::crush::outline::{Node, Outline};
 use nalgebra::Matrix3;
 
+/// A node of a narrow body marks the nodes of the other within this way, m.
+const NEXT_M: f64 = 0.05;
 /// Speed over which friction turns, m/s.
 const TURNS_M_S: f64 = 0.127;
 
@@ -43,14 +45,6 @@ pub(crate) struct Push {
     pub rubbing_w: f64,
 }
 
-impl Push {
-    /// Adds a force at a place.
-    pub fn add(&mut self, force_n: V3, arm_m: V3) {
-        self.force_n += force_n;
-        self.moment_n_m += arm_m.cross(&force_n);
-    }
-}
-
 /// A body as partner in contact: its outline and its nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Shape {
@@ -73,6 +67,8 @@ pub(crate) struct Pass {
     /// By law of the node, then law of the face; `columns` laws of faces.
     pub series: Vec<Series>,
     pub columns: usize,
+    /// Shares of both bodies in what friction takes.
+    pub rubbing: [f64; 2],
     /// Whether the outline's body is the one that crushes: a pole's nodes in a car.
     pub outline_crushes: bool,
 }
@@ -180,8 +176,8 @@ impl Pass {
             let axes = poses[b].axes;
             let (force, about_a, about_b) = (axes * force, axes * about_a, axes * about_b);
             let first_w = if self.outline_crushes { crushing - first_w } else { first_w };
-            add(&mut pushes[a], force, about_a, first_w, 0.5 * rubbing);
-            add(&mut pushes[b], -force, -about_b, crushing - first_w, 0.5 * rubbing);
+            add(&mut pushes[a], force, about_a, first_w, self.rubbing[0] * rubbing);
+            add(&mut pushes[b], -force, -about_b, crushing - first_w, self.rubbing[1] * rubbing);
         }
         size
     }
@@ -216,13 +212,21 @@ impl Pass {
         self.nearest(shapes, poses).map_or(f64::INFINITY, |(gap_m, _)| gap_m)
     }
 
-    /// Place, in the outline's axes, and greatest force of each node that was ever inside.
-    pub fn dents(&self, marks: &Marks, shapes: &[Shape], poses: &[Pose]) -> Vec<(V3, usize, f64)> {
+    /// Marks what the nodes of a narrow body pressed in on the nodes of the outline's body next to them.
+    pub fn mark(&self, marks: &Marks, on: &mut [f64], shapes: &[Shape], poses: &[Pose]) {
         let [a, b] = [self.nodes_of, self.outline_of];
-        let now = View::of(&poses[a], &poses[b]);
-        let nodes = shapes[a].nodes.iter().zip(marks.faces).zip(marks.most);
-        let inside = nodes.filter(|((_, face), most)| **face != NO_FACE && **most > 0.0);
-        inside.map(|((node, face), most)| (now.place(node), usize::from(*face), *most)).collect()
+        let (outline, now) = (&shapes[b].outline, View::of(&poses[a], &poses[b]));
+        for (i, node) in shapes[a].nodes.iter().enumerate() {
+            let Some(met) = self.met(node, marks.faces[i], outline, &now, &now) else { continue };
+            let is_end = outline.faces[met.face].normal[0] != 0.0;
+            for (own, most) in shapes[b].nodes.iter().zip(on.iter_mut()).filter(|(own, _)| own.face == met.face) {
+                let way = own.place_m - met.at_m;
+                let aside_m = if is_end { way.y } else { way.x };
+                if aside_m.abs() <= NEXT_M && way.z.abs() <= NEXT_M && own.normal.dot(&met.normal) > 0.99 {
+                    *most = most.max(marks.most[i]);
+                }
+            }
+        }
     }
 }
 

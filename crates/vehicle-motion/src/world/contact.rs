@@ -30,8 +30,6 @@ pub struct Contact {
     pub impulse_n_s: V3,
     /// Greatest force, N.
     pub peak_n: f64,
-    /// Energy that the structures took up and that sliding lost, of the vehicle and of its partner, J.
-    pub absorbed_j: [f64; 2],
     /// What it did to the vehicle, and to its partner if that is a vehicle.
     pub struck: [Option<Struck>; 2],
 }

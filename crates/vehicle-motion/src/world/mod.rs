@@ -1,10 +1,12 @@
 //! All that is driven together: vehicles, ground, barriers, impacts. One integrator takes all of it.
 
 mod contact;
+mod damage;
 mod run;
 pub(crate) mod setup;
 
-pub use contact::{Contact, Partner};
+pub use contact::{Contact, Partner, Struck};
+pub use damage::{Damage, Profile};
 
 use crate::V3;
 use crate::barrier::Barrier;
@@ -109,12 +111,27 @@ pub struct Outcome {
     pub rides: Vec<Ride>,
     /// Contacts in the order of their first touches.
     pub contacts: Vec<Contact>,
+    /// Damage of each vehicle.
+    pub damage: Vec<Damage>,
+    /// How far each barrier slid; 0 for those that stand.
+    pub slides: Vec<Slid>,
     /// Evaluations of the rates.
     pub evaluations: u64,
     /// Steps that were tried and rejected.
     pub rejected: u64,
     /// Error of the energy balance over the greatest kinetic energy.
     pub balance: f64,
+}
+
+/// How far a barrier slid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slid {
+    /// Greatest way, m.
+    pub most_m: f64,
+    /// Direction, clockwise from X, rad.
+    pub direction_rad: f64,
+    /// Speed at the end, m/s.
+    pub speed_m_s: f64,
 }
 
 /// Why a world could not be driven.

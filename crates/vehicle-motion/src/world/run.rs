@@ -6,10 +6,12 @@ use crate::crush::touch::{Marks, Pose, Push};
 use crate::impulse::Pulse;
 use crate::integrate::{Pair as Method, Stack, next_step};
 use crate::run::{Ride, Station};
+use crate::slider::SlideMemory;
 use crate::vehicle::Memory;
 use crate::world::contact::{Contact, ENDS_AFTER_S, Struck};
+use crate::world::damage::Damage;
 use crate::world::setup::{Memories, Pair, Setup};
-use crate::world::{Outcome, Partner, World, WorldError, Wrench};
+use crate::world::{Outcome, Partner, Slid, World, WorldError, Wrench};
 
 /// Shortest step, s: what needs shorter ones has no solution here.
 const SHORTEST_S: f64 = 1e-9;
@@ -300,7 +302,7 @@ impl<'a> Runner<'a> {
                 contact.until_s = end_s;
                 self.pulses.push(pulse);
             } else {
-                contact.absorbed_j = pulse.strike(self.setup, &mut self.stack);
+                pulse.strike(self.setup, &mut self.stack);
             }
             self.contacts.push(contact);
         }
@@ -384,7 +386,13 @@ impl<'a> Runner<'a> {
     }
 
     fn outcome(self, balance: f64) -> Outcome {
-        let Runner { setup, mut contacts, rides, evaluations, rejected, .. } = self;
+        let Runner { setup, mut contacts, rides, evaluations, rejected, memories, stack, .. } = self;
+        let damage = |i: usize| {
+            let (shape, taken_j) = (&setup.shapes[i], stack.cars[i].work().crush_j);
+            let mass_kg = setup.vehicles[i].mass_kg;
+            Damage::of(&shape.nodes, &memories.most[i], &setup.laws[i], &shape.outline, taken_j, mass_kg)
+        };
+        let damage = (0..rides.len()).map(damage).collect();
         for contact in &mut contacts {
             let span_s = [contact.from_s, contact.until_s];
             let of = |car: usize, impulse| Struck::of(&rides[car], span_s, impulse, setup.vehicles[car].mass_kg);
@@ -395,7 +403,14 @@ impl<'a> Runner<'a> {
         }
         contacts.sort_by(|a, b| a.from_s.total_cmp(&b.from_s));
         let ride = |stations| Ride { stations, evaluations, rejected, balance };
-        Outcome { rides: rides.into_iter().map(ride).collect(), contacts, evaluations, rejected, balance }
+        let rides = rides.into_iter().map(ride).collect();
+        let slid = |(i, memory): (usize, &SlideMemory)| Slid {
+            most_m: memory.most_m,
+            direction_rad: memory.direction_rad.unwrap_or(0.0),
+            speed_m_s: stack.more[2 * i + 1],
+        };
+        let slides = memories.slides.iter().enumerate().map(slid).collect();
+        Outcome { rides, contacts, damage, slides, evaluations, rejected, balance }
     }
 }
 
@@ -405,16 +420,7 @@ fn hit(memory: &mut Memory, time_s: f64) {
 
 impl Contact {
     pub(crate) fn begin(car: usize, partner: Partner, from_s: f64) -> Self {
-        Contact {
-            car,
-            partner,
-            from_s,
-            until_s: from_s,
-            impulse_n_s: V3::zeros(),
-            peak_n: 0.0,
-            absorbed_j: [0.0; 2],
-            struck: [None; 2],
-        }
+        Contact { car, partner, from_s, until_s: from_s, impulse_n_s: V3::zeros(), peak_n: 0.0, struck: [None; 2] }
     }
 }
 
@@ -522,6 +528,11 @@ impl Setup<'_> {
                 let pass = &self.passes[number];
                 let (faces, most) = (&mut memories.faces[number], &mut memories.most[pass.memory]);
                 pass.commit(faces, most, &self.shapes, poses, &memories.poses);
+                if pass.outline_crushes {
+                    let (own, others) = memories.most.split_at_mut(pass.memory);
+                    let marks = Marks { faces: &memories.faces[number], most: &others[0] };
+                    pass.mark(&marks, &mut own[pass.outline_of], &self.shapes, poses);
+                }
             }
         }
         memories.poses.clear();

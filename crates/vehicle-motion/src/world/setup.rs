@@ -107,6 +107,7 @@ impl<'a> Setup<'a> {
                         friction: self.world.friction,
                         series,
                         columns: self.laws[outline_of].len(),
+                        rubbing: [0.5; 2],
                         outline_crushes: false,
                     });
                 }
@@ -178,6 +179,7 @@ impl<'a> Setup<'a> {
                 friction,
                 series: of_car,
                 columns: 1,
+                rubbing: [1.0, 0.0],
                 outline_crushes: false,
             };
             if is_broad {
@@ -191,6 +193,7 @@ impl<'a> Setup<'a> {
                     outline_of: car,
                     memory,
                     columns,
+                    rubbing: [0.0, 1.0],
                     outline_crushes: true,
                     ..pass
                 });
