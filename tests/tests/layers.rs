@@ -10,7 +10,27 @@ use std::path::{Path, PathBuf};
 /// Crates with their rooms from the lowest to the highest.
 const ROOMS: [(&str, &[&str]); 6] = [
     ("crash-measures", &["trig", "nearest", "unit", "signal", "correlation", "measure", "injury"]),
-    ("vehicle-motion", &["tyre", "ground", "car", "driver", "chassis", "integrate", "run"]),
+    (
+        "vehicle-motion",
+        &[
+            "tyre",
+            "ground",
+            "body",
+            "car",
+            "presets",
+            "driver",
+            "chassis",
+            "barrier",
+            "crush",
+            "slider",
+            "vehicle",
+            "impulse",
+            "integrate",
+            "world",
+            "run",
+            "path",
+        ],
+    ),
     (
         "placed-text",
         &["encoding", "shown", "problem", "source", "diagnostic", "node", "path", "reader", "csv", "json", "toml"],
@@ -45,13 +65,21 @@ const CRATES: [(&str, &[&str]); 8] = [
     ("crash-measures", &[]),
     ("vehicle-motion", &[]),
     ("placed-text", &["crash-measures"]),
-    ("occupant-core", &["crash-measures", "placed-text"]),
-    ("occupant-scenario", &["crash-measures", "placed-text", "occupant-core"]),
+    ("occupant-core", &["crash-measures", "placed-text", "vehicle-motion"]),
+    ("occupant-scenario", &["crash-measures", "placed-text", "vehicle-motion", "occupant-core"]),
     ("occupant-study", &["crash-measures", "placed-text", "occupant-core", "occupant-scenario"]),
     ("cardio-legacy", &["crash-measures", "occupant-core", "occupant-scenario"]),
     (
         "occupant-cli",
-        &["crash-measures", "placed-text", "occupant-core", "occupant-scenario", "occupant-study", "cardio-legacy"],
+        &[
+            "crash-measures",
+            "placed-text",
+            "vehicle-motion",
+            "occupant-core",
+            "occupant-scenario",
+            "occupant-study",
+            "cardio-legacy",
+        ],
     ),
 ];
 

@@ -102,8 +102,8 @@ pub use placed_text::{Diagnostic, Diagnostics, Format};
 pub use places::{Place, Wanted};
 pub use presets::preset_body;
 pub use sections::{
-    Angle, DrivenVehicle, Drives, FRACTION, Length, NOT_NEGATIVE, POSITIVE, Quantity, Ratio, RecordFile, Scenario, Solved, Time, column_in,
-    column_named, read_record, schema,
+    Angle, DrivenVehicle, Drives, FRACTION, Length, NOT_NEGATIVE, POSITIVE, Quantity, Ratio, RecordFile, Scenario,
+    Solved, Time, column_in, column_named, read_record, schema,
 };
 
 #[cfg(test)]

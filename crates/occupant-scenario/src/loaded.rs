@@ -70,6 +70,12 @@ impl Loaded {
     }
 
     fn built(&self, drives: Option<&Drives>) -> Result<(Setup, Diagnostics), Diagnostics> {
+        if self.explicit.body.is_none() && self.explicit.occupants.is_empty() {
+            let found = "the scenario has no occupant";
+            let expected =
+                "`body` with `joints`, or `occupants`; `occupant drive` drives what stands in [drive] without people";
+            return Err(Diagnostics::from(self.document.place(Problem::error("", found, expected))));
+        }
         let build = if self.explicit.has_several() { together } else { setup };
         build(&self.scenario, &self.explicit, &self.document, drives)
     }

@@ -45,6 +45,7 @@
 //! | [`driver`] | steering, brake and drive over time; a driver who follows a line |
 //! | [`chassis`] | equations of motion: the rate of change of the state |
 //! | [`integrate`] | a Bogacki–Shampine pair with error control |
+//! | [`marks`] | where tyres leave marks |
 //! | [`path`] | the motion of a point of a vehicle, smooth between the steps |
 //! | [`run`] | a drive from its start to its end, its stations and its energy balance |
 
@@ -57,6 +58,7 @@ pub mod driver;
 pub mod ground;
 pub mod impulse;
 pub mod integrate;
+pub mod marks;
 pub mod path;
 pub mod presets;
 pub mod run;

@@ -243,9 +243,7 @@ impl Series {
     fn jacobian_rate(&self, turn: &V3, speed: &V3) -> V3 {
         let (along, across) = (turn.dot(speed), turn.cross(speed));
         // φ̇×φ̇ = 0
-        across * (-self.a_rate * along)
-            + turn.cross(&across) * (self.b_rate * along)
-            + speed.cross(&across) * self.b
+        across * (-self.a_rate * along) + turn.cross(&across) * (self.b_rate * along) + speed.cross(&across) * self.b
     }
 }
 
@@ -277,7 +275,9 @@ mod tests {
             assert_eq!(path.at(to.time_s), expected);
             let gap = |a: V3, b: V3| (a - b).norm() / (1.0 + b.norm());
             // measured 2e-14, 7e-16, 7e-16; the second derivatives carry the last digit of a place over h²
-            assert!((end.rotation - expected.rotation).norm() < 1e-12 && gap(end.position_m, expected.position_m) < 1e-12);
+            assert!(
+                (end.rotation - expected.rotation).norm() < 1e-12 && gap(end.position_m, expected.position_m) < 1e-12
+            );
             assert!(gap(end.velocity_m_s, expected.velocity_m_s) < 1e-12 * (1.0 + 1e-2 / h), "{h}");
             assert!(gap(end.turning_rad_s, expected.turning_rad_s) < 1e-12, "{h}");
             let rounding = 60.0 * f64::EPSILON * (1.0 + to.place[0].norm()) / (h * h);

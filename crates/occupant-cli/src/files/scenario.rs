@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use occupant_core::model::Model;
-use occupant_scenario::{Diagnostics, Draft, Format, Loaded};
+use occupant_scenario::{Diagnostics, Draft, Drives, Format, Loaded};
 use placed_text::{Severity, Value};
 
 use super::deck::{FromDeck, from_deck, is_deck};
@@ -142,6 +142,23 @@ pub(crate) fn open_source(args: &ScenarioArgs, source: Source) -> Result<Opened,
     let loaded = draft.load(&files_beside(&args.scenario)).map_err(refuse)?;
     let (model, warnings) = loaded.model().map_err(refuse)?;
     Ok(Opened { bytes, loaded, model, warnings, deck })
+}
+
+/// Reads the scenario and drives what it drives, without people.
+///
+/// # Errors
+/// As [`open`]; a scenario in which nothing drives.
+pub(crate) fn drives(args: &ScenarioArgs) -> Result<(Loaded, Drives), Failure> {
+    let name = args.scenario.display().to_string();
+    let refuse = |problems: Diagnostics| refused(&name, &problems);
+    let loaded = source(args)?.draft.load(&files_beside(&args.scenario)).map_err(refuse)?;
+    let (drives, warnings) = loaded.drives().map_err(refuse)?;
+    warn(&warnings);
+    let drives = drives.ok_or_else(|| {
+        let help = "add [drive] with a vehicle, or write a scenario that has it with `occupant new NAME.toml --template drive`";
+        Failure::with_help(format!("{name} drives no vehicle"), help)
+    })?;
+    Ok((loaded, drives))
 }
 
 /// Reads the files that a scenario names, from the folder that it stands in.

@@ -46,9 +46,9 @@ use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use heading::{heading as column_named, heading_in as column_in};
 pub use drive::{DrivenVehicle, Drives, Solved};
 pub(super) use drive::{People, asks_for_people, solve};
+pub use heading::{heading as column_named, heading_in as column_in};
 pub(super) use many::together;
 pub use quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, Quantity};
 pub use record_file::{RecordFile, read_record};
@@ -123,8 +123,7 @@ type HeatTransfer<const RANGE: usize = ANY> = Quantity<{ kind::HEAT_TRANSFER }, 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend(
-    "x-exactly-one" = [["body", "occupants"]],
-    "x-at-most-one" = [["posture", "initial_state", "mount", "stance"]],
+    "x-at-most-one" = [["body", "occupants"], ["posture", "initial_state", "mount", "stance"]],
     "x-together" = [["body", "joints"]],
 ))]
 pub struct Scenario {

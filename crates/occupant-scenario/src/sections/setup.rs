@@ -9,7 +9,7 @@ use super::builder::Builder;
 use super::drive::Drives;
 use super::quantity::si_or;
 use super::{
-    BodySection, JointsSection, Scenario, bags, belts, body, chains, columns, frames, joints, materials, mount,
+    BodySection, JointsSection, Scenario, bags, belts, body, chains, columns, drive, frames, joints, materials, mount,
     muscles, path, plausible, posture, run, self_contact, solids, surfaces, triggers,
 };
 use crate::check::references;
@@ -82,6 +82,7 @@ pub(crate) fn setup(
         bags,
         columns,
         path,
+        scenery: drives.map_or_else(Vec::new, |drives| drive::scenery(explicit, drives)),
         frames,
         members: Vec::new(),
         posture,

@@ -360,7 +360,7 @@ impl<'a> Runner<'a> {
     fn note(&mut self) {
         for (i, vehicle) in self.setup.vehicles.iter().enumerate() {
             let (state, report) = (&self.stack.cars[i], &self.found.reports[i]);
-            let steer = vehicle.controls(self.time_s, &self.memories.vehicles[i]).steer_rad;
+            let steer = vehicle.controls(self.time_s, state, &self.memories.vehicles[i]).steer_rad;
             let struck = |(pair, (force, _)): (&Pair, &(V3, f64))| match pair.partner {
                 _ if pair.car == i => *force,
                 Partner::Car(other) if other == i => -force,
@@ -490,7 +490,7 @@ impl Setup<'_> {
             if let Some(wrench) = &self.world.cars[i].push {
                 wrench.add(time_s, state, &mut outside);
             }
-            let controls = vehicle.controls(time_s, memory);
+            let controls = vehicle.controls(time_s, state, memory);
             let rate = &mut rates.cars[i];
             reports[i] = vehicle.chassis.rates(state, &controls, memory.held, &self.world.ground, &outside, rate);
         }

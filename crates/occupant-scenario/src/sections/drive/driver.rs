@@ -118,14 +118,15 @@ pub(super) fn driver(b: &mut Builder, at: &str, s: &DrivenSection, car: &Car) ->
                 follower.rate_rad_s *= 16.0 / ratio;
                 driver.steering = Steering::Follow(follower);
             }
-            Err(error) => b.error(&with_key(&with_key(at, "follow"), "line"), error.to_string(), "corners that lie apart"),
+            Err(error) => {
+                b.error(&with_key(&with_key(at, "follow"), "line"), error.to_string(), "corners that lie apart")
+            }
         }
     }
     if let Some(brake) = &s.brake {
         let at = with_key(at, "brake");
         let full = s.brakes.as_ref().and_then(|brakes| brakes.max_torque.as_ref());
-        let full_n_m =
-            full.map_or(FULL_PEDAL_G * car.mass_kg * GRAVITY_M_S2 * car.tyre.radius_m, |torque| torque.si());
+        let full_n_m = full.map_or(FULL_PEDAL_G * car.mass_kg * GRAVITY_M_S2 * car.tyre.radius_m, |torque| torque.si());
         driver.brake_n_m = match (&brake.pedal, &brake.torque) {
             (Some(pedal), _) => table(b, &at, "pedal", &brake.time, pedal, full_n_m),
             (None, torque) => table(b, &at, "torque", &brake.time, torque.as_deref().unwrap_or_default(), 1.0),

@@ -2,6 +2,7 @@
 
 mod driver;
 mod ground;
+mod scenery;
 mod vehicle;
 
 use std::sync::Arc;
@@ -15,6 +16,7 @@ use vehicle_motion::path::DrivenPath as Motion;
 use vehicle_motion::world::{Begin, Entry, Outcome, World, WorldError};
 
 use self::ground::RoadSection;
+pub(super) use self::scenery::scenery;
 use self::vehicle::DrivenSection;
 use super::builder::Builder;
 use super::frames::VEHICLE;
@@ -172,7 +174,11 @@ pub(crate) fn solve(
     let b = &mut Builder { document, problems: Diagnostics::new(), drives: None };
     let gravity_m_s2 = si_or(&s.gravity, STANDARD_GRAVITY_M_S2);
     if gravity_m_s2 != STANDARD_GRAVITY_M_S2 {
-        b.error("gravity", format!("vehicles that drive under {gravity_m_s2} m/s²"), "standard gravity: leave the key out");
+        b.error(
+            "gravity",
+            format!("vehicles that drive under {gravity_m_s2} m/s²"),
+            "standard gravity: leave the key out",
+        );
     }
     let (ground, friction) = ground::ground(b, section.ground.as_ref());
     let mut vehicles = Vec::new();
@@ -220,7 +226,9 @@ const LONGEST_S: f64 = 0.01;
 
 /// Reports why vehicles could not be driven.
 fn refuse(b: &mut Builder, section: &DriveSection, error: &WorldError) {
-    let at = |car: usize| section.vehicles.get_index(car).map_or_else(String::new, |(name, _)| with_key("drive.vehicles", name));
+    let at = |car: usize| {
+        section.vehicles.get_index(car).map_or_else(String::new, |(name, _)| with_key("drive.vehicles", name))
+    };
     match error {
         WorldError::Car { car, what } => b.error(&at(*car), what.to_string(), "a vehicle that can stand on its wheels"),
         WorldError::Overlap { between: (one, other), depth_m } => {
@@ -235,14 +243,22 @@ fn refuse(b: &mut Builder, section: &DriveSection, error: &WorldError) {
 /// The path of a vehicle of `drive`.
 pub(super) fn path(b: &mut Builder, section: &DrivenPathSection) -> Option<VehiclePath> {
     let Some(drive) = b.section::<DriveSection>("drive") else {
-        b.error("path", "a path of kind \"drive\" where nothing is driven", "[drive] with a vehicle in [drive.vehicles.NAME]");
+        b.error(
+            "path",
+            "a path of kind \"drive\" where nothing is driven",
+            "[drive] with a vehicle in [drive.vehicles.NAME]",
+        );
         return None;
     };
     let Some(number) = drive.named(section) else {
         let names: Vec<&str> = drive.vehicles.keys().map(String::as_str).collect();
         match &section.vehicle {
             Some(name) => b.unknown("path.vehicle", "vehicle of `drive`", name, &names),
-            None => b.error("path", "several vehicles are driven", format!("vehicle = {}", placed_text::one_of(&names, '"'))),
+            None => b.error(
+                "path",
+                "several vehicles are driven",
+                format!("vehicle = {}", placed_text::one_of(&names, '"')),
+            ),
         }
         return None;
     };
@@ -259,7 +275,11 @@ pub(super) fn check_names(b: &mut Builder, s: &Scenario) {
         let Some(number) = drive.named(own) else { continue };
         match taken.iter().find(|(other, _)| *other == number) {
             Some((_, other)) => {
-                b.error(&at, format!("`{other}` is the same vehicle of `drive`"), "another vehicle of `drive` for each path");
+                b.error(
+                    &at,
+                    format!("`{other}` is the same vehicle of `drive`"),
+                    "another vehicle of `drive` for each path",
+                );
             }
             None => taken.push((number, at)),
         }
@@ -269,7 +289,9 @@ pub(super) fn check_names(b: &mut Builder, s: &Scenario) {
 /// Warns of what a load does that moves with the vehicle.
 fn warn_of_load(b: &mut Builder, at: &str, load_kg: f64, mass_kg: f64) {
     if load_kg > 0.1 * mass_kg {
-        let found = format!("a load of {load_kg:.0} kg in a vehicle of {mass_kg:.0} kg, which moves with it as if it were fixed");
+        let found = format!(
+            "a load of {load_kg:.0} kg in a vehicle of {mass_kg:.0} kg, which moves with it as if it were fixed"
+        );
         let expected = "at most a tenth: heavier people and cargo push the vehicle";
         b.report(Problem::warning(with_key(at, "payload"), found, expected));
     }
