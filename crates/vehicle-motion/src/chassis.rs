@@ -327,6 +327,18 @@ impl Chassis {
         speed_m_s / (self.tyre.radius_m - depth_m / 3.0)
     }
 
+    /// Place of a wheel's centre and direction of its axle to the right, body axes.
+    pub(crate) fn wheel_at(&self, state: &State, i: usize, steer_rad: f64) -> (V3, V3) {
+        let jounce_m = state.jounce_m()[i];
+        let Wheel { centre_m, slide, .. } = self.wheels[i];
+        (centre_m + slide * jounce_m, self.axle_direction(i, jounce_m, steer_rad))
+    }
+
+    /// Free radius of the tyres, m.
+    pub(crate) fn radius_m(&self) -> f64 {
+        self.tyre.radius_m
+    }
+
     /// Direction of a wheel's axle to the right, body axes.
     pub(crate) fn axle_direction(&self, i: usize, jounce_m: f64, steer_rad: f64) -> V3 {
         let Wheel { axle, side, .. } = &self.wheels[i];
@@ -414,7 +426,7 @@ impl Chassis {
             let held_by_body = across * (gravity_b - swings) * m;
             let pushed = met.force.dot(&u) - resists_n;
             force += held_by_body + met.force - u * pushed;
-            moment += place.cross(&held_by_body) + met.arm_m.cross(&met.force) - place.cross(&u) * pushed;
+            moment += place.cross(&held_by_body) + met.arm_m.cross(&met.force) - place.cross(&u) * pushed + met.couple;
             // spinning wheels: τ = I_w ϖ̇ â − Ω×H, H = −I_w ϖ â; a held wheel is part of the body
             if held[i] {
                 inertia += axis * axis.transpose() * axle.spin_kg_m2;
@@ -497,6 +509,7 @@ impl Chassis {
             work.driving_j += driven;
             return Met {
                 force: V3::zeros(),
+                couple: V3::zeros(),
                 arm_m: place,
                 spin_rate: (of.drive_n_m - brake) / spin_inertia,
                 slip_rates: of.slips.map(|slip| -slip / FADING_S),
@@ -548,6 +561,7 @@ impl Chassis {
         let spun_n_m = shear[0] * lever;
         Met {
             force: ahead * shear[0] + right * shear[1] + normal * load,
+            couple: to_body * at.couple_m * (elastic / at.share.max(1e-9)),
             arm_m,
             spin_rate: (of.drive_n_m - brake - spun_n_m - rolling) / spin_inertia,
             slip_rates: tyre.slip_rates(of.slips, slide, rolls),
@@ -650,6 +664,7 @@ struct Carrier {
 /// What the ground, the brake and the drive do to a wheel, body axes.
 struct Met {
     force: V3,
+    couple: V3,
     arm_m: V3,
     spin_rate: f64,
     slip_rates: [f64; 2],

@@ -56,6 +56,7 @@ pub mod chassis;
 pub mod crush;
 pub mod driver;
 pub mod ground;
+mod hull;
 pub mod impulse;
 pub mod integrate;
 pub mod marks;

@@ -11,6 +11,8 @@ pub struct Damage {
     pub dynamic_m: f64,
     /// Deepest crush that stayed, m.
     pub residual_m: f64,
+    /// Deepest crush of the roof by the ground, m.
+    pub roof_m: f64,
     /// Damaged sides.
     pub profiles: Vec<Profile>,
     /// Speed of a barrier that absorbs as much as its structure did: √(2E/M), m/s.
@@ -53,6 +55,7 @@ impl Damage {
         Damage {
             dynamic_m: deepest(&Law::crush_m),
             residual_m: deepest(&Law::residual_m),
+            roof_m: 0.0,
             profiles: profiles.collect(),
             ees_m_s: (2.0 * taken_j.max(0.0) / mass_kg).sqrt(),
         }

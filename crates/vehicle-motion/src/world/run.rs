@@ -3,6 +3,7 @@
 use crate::V3;
 use crate::chassis::{NUMBERS, Outside, Report, State, Work};
 use crate::crush::touch::{Marks, Pose, Push};
+use crate::hull::Rub;
 use crate::impulse::Pulse;
 use crate::integrate::{Pair as Method, Stack, next_step};
 use crate::run::{Ride, Station};
@@ -27,6 +28,8 @@ pub(crate) struct Findings {
     pub reports: Vec<Report>,
     pub pushes: Vec<Push>,
     pub poses: Vec<Pose>,
+    /// What the ground does to each hull.
+    pub rubs: Vec<Rub>,
     /// Force on the car of each pair, vehicle-space, and the sum of the forces' sizes, N.
     pub forces: Vec<(V3, f64)>,
 }
@@ -92,6 +95,7 @@ impl<'a> Runner<'a> {
             memories: setup.memories(),
             found: Findings {
                 reports: vec![Report::default(); stack.cars.len()],
+                rubs: vec![Rub::default(); stack.cars.len()],
                 forces: vec![Default::default(); setup.pairs.len()],
                 ..Findings::default()
             },
@@ -140,6 +144,10 @@ impl<'a> Runner<'a> {
                 (cap_s, self.rejected) = (earlier_s, self.rejected + 1);
                 continue;
             }
+            if self.sinks(&method.end.cars) {
+                self.rejected += 1;
+                continue;
+            }
             let is_full = h >= 0.99 * wanted_s;
             let grown_s = next_step(h, error, before, true);
             wanted_s = if is_full { grown_s } else { wanted_s.max(grown_s) };
@@ -180,6 +188,9 @@ impl<'a> Runner<'a> {
         for (i, vehicle) in self.setup.vehicles.iter().enumerate() {
             vehicle.look(&self.stack.cars[i], 0.0, &mut self.memories.vehicles[i]);
             vehicle.hold_locked(&mut self.stack.cars[i], 0.0, &mut self.memories.vehicles[i]);
+            let (hull, memory) = (&self.setup.hulls[i], &mut self.memories.hulls[i]);
+            memory.clear_m = hull.clear_m(&self.stack.cars[i], &self.setup.world.ground);
+            hull.commit(&self.stack.cars[i], &vehicle.chassis, || [0.0; 4], memory, &self.setup.world.ground);
         }
         self.fire();
         self.evaluate();
@@ -229,6 +240,19 @@ impl<'a> Runner<'a> {
         earliest.filter(|at_s| *at_s > SHORTEST_S)
     }
 
+    /// Whether a hull went into the ground that was not looked at; it is from now on.
+    fn sinks(&mut self, cars: &[State]) -> bool {
+        let mut sinks = false;
+        for (i, hull) in self.setup.hulls.iter().enumerate() {
+            let memory = &mut self.memories.hulls[i];
+            memory.clear_m = hull.clear_m(&cars[i], &self.setup.world.ground);
+            if !memory.is_near && memory.clear_m < 0.0 {
+                (memory.is_near, sinks) = (true, true);
+            }
+        }
+        sinks
+    }
+
     /// Remembers what the step did; true if the rates jump.
     fn commit(&mut self) -> bool {
         let mut jumps = false;
@@ -249,6 +273,9 @@ impl<'a> Runner<'a> {
                 vehicle.look(state, self.time_s, memory);
             }
             jumps |= vehicle.commit(self.time_s, state, &self.found.reports[i], memory) || looks;
+            let (hull, of_hull) = (&self.setup.hulls[i], &mut self.memories.hulls[i]);
+            let steer = || vehicle.controls(self.time_s, memory).steer_rad;
+            hull.commit(state, &vehicle.chassis, steer, of_hull, &self.setup.world.ground);
         }
         jumps
     }
@@ -378,7 +405,7 @@ impl<'a> Runner<'a> {
                 felt_m_s2: report.felt_m_s2,
                 steer_rad: 0.5 * (steer[0] + steer[1]),
                 struck_n: self.setup.pairs.iter().zip(&self.found.forces).map(struck).sum(),
-                hull_n: V3::zeros(),
+                hull_n: self.found.rubs[i].force_n,
                 wheels: report.wheels,
                 state: *state,
             });
@@ -390,7 +417,8 @@ impl<'a> Runner<'a> {
         let damage = |i: usize| {
             let (shape, taken_j) = (&setup.shapes[i], stack.cars[i].work().crush_j);
             let mass_kg = setup.vehicles[i].mass_kg;
-            Damage::of(&shape.nodes, &memories.most[i], &setup.laws[i], &shape.outline, taken_j, mass_kg)
+            let crush = Damage::of(&shape.nodes, &memories.most[i], &setup.laws[i], &shape.outline, taken_j, mass_kg);
+            Damage { roof_m: setup.hulls[i].roof_m(&memories.hulls[i]), ..crush }
         };
         let damage = (0..rides.len()).map(damage).collect();
         for contact in &mut contacts {
@@ -473,7 +501,7 @@ impl Setup<'_> {
         found: &mut Findings,
         rates: &mut Stack,
     ) {
-        let Findings { reports, pushes, poses, forces } = found;
+        let Findings { reports, pushes, poses, forces, rubs } = found;
         pushes.clear();
         pushes.resize(self.vehicles.len() + self.solids.len(), Push::default());
         if !self.pairs.is_empty() {
@@ -486,11 +514,18 @@ impl Setup<'_> {
         for (i, vehicle) in self.vehicles.iter().enumerate() {
             let state = &stack.cars[i];
             let memory = &memories.vehicles[i];
+            let controls = vehicle.controls(time_s, state, memory);
             let mut outside = outside(&pushes[i], state);
+            if memories.hulls[i].is_near {
+                let ground = &self.world.ground;
+                rubs[i] = self.hulls[i].rub(state, &vehicle.chassis, controls.steer_rad, &memories.hulls[i], ground);
+                outside.rub(&rubs[i], state);
+            } else {
+                rubs[i] = Rub::default();
+            }
             if let Some(wrench) = &self.world.cars[i].push {
                 wrench.add(time_s, state, &mut outside);
             }
-            let controls = vehicle.controls(time_s, state, memory);
             let rate = &mut rates.cars[i];
             reports[i] = vehicle.chassis.rates(state, &controls, memory.held, &self.world.ground, &outside, rate);
         }
@@ -555,6 +590,15 @@ impl Setup<'_> {
             sums[1] += slide.taken_j(stack.more[2 * i], most_m);
         }
         sums
+    }
+}
+
+impl Outside {
+    fn rub(&mut self, rub: &Rub, state: &State) {
+        let to_body = state.attitude().inverse();
+        self.force_n += to_body * rub.force_n;
+        self.moment_n_m += to_body * rub.moment_n_m;
+        self.powers.hull_j += rub.power_w;
     }
 }
 

@@ -6,6 +6,7 @@ use crate::chassis::State;
 use crate::crush::law::{Law, Series};
 use crate::crush::outline::{Node, Outline, of_body};
 use crate::crush::touch::{NO_FACE, Pass, Pose, Shape};
+use crate::hull::{Hull, HullMemory};
 use crate::slider::Slide;
 use crate::vehicle::{Memory, Vehicle};
 use crate::world::{Begin, Partner, World, WorldError};
@@ -40,6 +41,7 @@ pub(crate) struct Setup<'a> {
     pub pairs: Vec<Pair>,
     /// Of each barrier: its body, where it stands, how it slides.
     pub solids: Vec<Solid>,
+    pub hulls: Vec<Hull>,
     /// Lengths of the lists of greatest forces.
     lists: Vec<usize>,
 }
@@ -60,6 +62,8 @@ pub(crate) struct Memories {
     pub most: Vec<Vec<f64>>,
     /// By barrier: greatest way and its direction.
     pub slides: Vec<crate::slider::SlideMemory>,
+    /// Hulls on the ground.
+    pub hulls: Vec<HullMemory>,
     /// Poses at the last accepted step.
     pub poses: Vec<Pose>,
 }
@@ -77,8 +81,19 @@ impl<'a> Setup<'a> {
             shapes.push(Shape { outline, nodes });
             laws.push(of_faces);
         }
-        let mut setup =
-            Setup { world, vehicles, laws, shapes, passes: Vec::new(), pairs: Vec::new(), solids: Vec::new(), lists };
+        let hull = |v: &Vehicle| Hull::of(&v.body, v.chassis.height_m(), v.chassis.radius_m());
+        let hulls = vehicles.iter().map(hull).collect();
+        let mut setup = Setup {
+            hulls,
+            world,
+            vehicles,
+            laws,
+            shapes,
+            passes: Vec::new(),
+            pairs: Vec::new(),
+            solids: Vec::new(),
+            lists,
+        };
         for (number, barrier) in world.barriers.iter().enumerate() {
             setup.add_barrier(number, barrier)?;
         }
@@ -228,6 +243,7 @@ impl<'a> Setup<'a> {
             faces: self.passes.iter().map(|pass| vec![NO_FACE; self.shapes[pass.nodes_of].nodes.len()]).collect(),
             most: self.lists.iter().map(|n| vec![0.0; *n]).collect(),
             slides: self.solids.iter().map(|_| Default::default()).collect(),
+            hulls: self.hulls.iter().map(Hull::memory).collect(),
             poses: Vec::new(),
         }
     }
