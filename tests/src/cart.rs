@@ -25,6 +25,7 @@ pub fn lap(integrator: Integrator) -> Setup {
     Setup {
         frames: Vec::new(),
         members: Vec::new(),
+        scenery: Vec::new(),
         title: "cart, lap belt".into(),
         body: male50(),
         joints: joints(),

@@ -95,6 +95,7 @@ pub fn afloat(body: Body, end_s: f64, step_s: f64) -> Setup {
     Setup {
         frames: Vec::new(),
         members: Vec::new(),
+        scenery: Vec::new(),
         title: "afloat".into(),
         body,
         joints: Joints::free(&TTI12),

@@ -11,7 +11,27 @@ use std::path::{Path, PathBuf};
 const ROOMS: [(&str, &[&str]); 9] = [
     ("occupant-units", &["trig", "unit"]),
     ("crash-measures", &["signal", "correlation", "measure", "injury"]),
-    ("vehicle-motion", &["tyre", "ground", "car", "driver", "chassis", "integrate", "run"]),
+    (
+        "vehicle-motion",
+        &[
+            "tyre",
+            "ground",
+            "body",
+            "car",
+            "presets",
+            "driver",
+            "chassis",
+            "barrier",
+            "crush",
+            "slider",
+            "vehicle",
+            "impulse",
+            "integrate",
+            "world",
+            "run",
+            "path",
+        ],
+    ),
     (
         "placed-text",
         &[
@@ -82,8 +102,8 @@ const CRATES: [(&str, &[&str]); 11] = [
     ("occupant-units", &["placed-text"]),
     ("crash-measures", &["occupant-units"]),
     ("vehicle-motion", &[]),
-    ("occupant-core", &["placed-text", "occupant-units", "crash-measures"]),
-    ("occupant-scenario", &["placed-text", "occupant-units", "crash-measures", "occupant-core"]),
+    ("occupant-core", &["placed-text", "occupant-units", "crash-measures", "vehicle-motion"]),
+    ("occupant-scenario", &["placed-text", "occupant-units", "crash-measures", "vehicle-motion", "occupant-core"]),
     ("occupant-study", &["placed-text", "occupant-units", "crash-measures", "occupant-core", "occupant-scenario"]),
     ("cardio-legacy", &["occupant-units", "occupant-core", "occupant-scenario"]),
     (
@@ -97,6 +117,7 @@ const CRATES: [(&str, &[&str]); 11] = [
             "placed-text",
             "occupant-units",
             "crash-measures",
+            "vehicle-motion",
             "occupant-core",
             "occupant-scenario",
             "occupant-study",

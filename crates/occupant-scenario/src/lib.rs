@@ -103,8 +103,8 @@ pub use placed_text::{Diagnostic, Diagnostics, Format};
 pub use places::{Place, Wanted};
 pub use presets::preset_body;
 pub use sections::{
-    Angle, FRACTION, Length, NOT_NEGATIVE, POSITIVE, Quantity, Ratio, RecordFile, Scenario, Time, column_in,
-    column_named, read_record, schema, speed_named,
+    Angle, DrivenVehicle, Drives, FRACTION, Length, NOT_NEGATIVE, POSITIVE, Quantity, Ratio, RecordFile, Scenario,
+    Solved, Time, column_in, column_named, read_record, schema, speed_named,
 };
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::draft::Draft;
 use super::expand::expand;
-use super::sections::{Scenario, setup, together};
+use super::sections::{Drives, People, Scenario, asks_for_people, setup, solve, together};
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
 use placed_text::{Diagnostics, Document, Format, Problem, Problems, table_text, with_key};
@@ -63,8 +63,37 @@ impl Loaded {
     /// # Errors
     /// Everything that does not fit together: names that lead nowhere, keys that are missing or have no meaning here.
     pub fn build(&self) -> Result<(Setup, Diagnostics), Diagnostics> {
+        let (drives, mut problems) = self.drives()?;
+        let (setup, found) = self.built(drives.as_ref())?;
+        problems.extend(found);
+        Ok((setup, problems))
+    }
+
+    fn built(&self, drives: Option<&Drives>) -> Result<(Setup, Diagnostics), Diagnostics> {
+        if self.explicit.body.is_none() && self.explicit.occupants.is_empty() {
+            let found = "the scenario has no occupant";
+            let expected =
+                "`body` with `joints`, or `occupants`; `occupant drive` drives what stands in [drive] without people";
+            return Err(Diagnostics::from(self.document.place(Problem::error("", found, expected))));
+        }
         let build = if self.explicit.has_several() { together } else { setup };
-        build(&self.scenario, &self.explicit, &self.document)
+        build(&self.scenario, &self.explicit, &self.document, drives)
+    }
+
+    /// What is driven before people are looked at, with warnings; none in a scenario without `drive`.
+    ///
+    /// # Errors
+    /// What is wrong with vehicles, ground and drivers.
+    pub fn drives(&self) -> Result<(Option<Drives>, Diagnostics), Diagnostics> {
+        let people = if asks_for_people(&self.explicit) { self.people()? } else { Vec::new() };
+        solve(&self.explicit, &self.document, &people)
+    }
+
+    /// Those who begin in each vehicle of `drive`, as they sit there while it stands.
+    fn people(&self) -> Result<Vec<Option<People>>, Diagnostics> {
+        let (setup, _) = self.built(None)?;
+        let model = Model::new(setup).map_err(|problems| self.diagnose(&problems))?;
+        Ok(self.explicit.weighed(&model))
     }
 
     /// The model of the scenario, ready to be run, with warnings.

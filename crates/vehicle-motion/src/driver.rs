@@ -77,6 +77,15 @@ impl Table {
         from + (to - from) * (time_s - from_s) / (to_s - from_s)
     }
 
+    /// Its slope at a time.
+    fn slope_at(&self, time_s: f64) -> f64 {
+        let next = self.times_s.partition_point(|t| *t <= time_s);
+        if next == 0 || next == self.times_s.len() {
+            return 0.0;
+        }
+        (self.values[next] - self.values[next - 1]) / (self.times_s[next] - self.times_s[next - 1])
+    }
+
     /// Times at which its slope may jump, s.
     pub fn corners_s(&self) -> &[f64] {
         if self.times_s.len() < 2 { &[] } else { &self.times_s }
@@ -92,6 +101,8 @@ pub struct Driver {
     pub brake_n_m: Table,
     /// Drive torque, N·m; negative brakes by the engine.
     pub drive_n_m: Table,
+    /// Speed that drive and brakes follow in their place, m/s.
+    pub speed_m_s: Option<Table>,
     /// Wheels that are locked from a time on, s.
     pub locked_from_s: [Option<f64>; crate::WHEELS],
     /// Wheels that are locked from the first collision on.
@@ -130,10 +141,17 @@ impl Driver {
             steering: Steering::Table(Table::constant(0.0)),
             brake_n_m: Table::constant(0.0),
             drive_n_m: Table::constant(0.0),
+            speed_m_s: None,
             locked_from_s: [None; crate::WHEELS],
             locked_on_impact: [false; crate::WHEELS],
             on_impact: OnImpact::Release,
         }
+    }
+
+    /// Acceleration with which he comes to his speed within 0.2 s, m/s²; none without such a speed, or after a first collision.
+    pub(crate) fn speeds_up_m_s2(&self, time_s: f64, speed_m_s: f64, hit_s: Option<f64>) -> Option<f64> {
+        let table = self.speed_m_s.as_ref().filter(|_| hit_s.is_none() || self.on_impact == OnImpact::Continue)?;
+        Some(table.slope_at(time_s) + (table.at(time_s) - speed_m_s) / SPEED_S)
     }
 
     /// Brake and drive torque at a time, N·m, after a first collision at another.
@@ -149,8 +167,12 @@ impl Driver {
 
     /// Times at which an input may turn, s, in order.
     pub(crate) fn corners_s(&self) -> Vec<f64> {
-        let mut all: Vec<f64> =
-            [&self.brake_n_m, &self.drive_n_m].iter().flat_map(|table| table.corners_s()).copied().collect();
+        let mut all: Vec<f64> = [Some(&self.brake_n_m), Some(&self.drive_n_m), self.speed_m_s.as_ref()]
+            .into_iter()
+            .flatten()
+            .flat_map(Table::corners_s)
+            .copied()
+            .collect();
         if let Steering::Table(table) = &self.steering {
             all.extend(table.corners_s());
         }
@@ -175,6 +197,9 @@ pub struct Follower {
     /// Time at which he lets go, s; the angle then stays.
     pub until_s: f64,
 }
+
+/// Time in which a driver makes up for what is missing of his speed, s.
+const SPEED_S: f64 = 0.2;
 
 /// How often a driver looks, s.
 pub const LOOK_S: f64 = 0.01;

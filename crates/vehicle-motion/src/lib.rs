@@ -52,6 +52,8 @@
 //! | [`integrate`] | a Bogacki–Shampine pair with error control |
 //! | [`world`] | vehicles, ground, barriers and impacts in one run; contacts and damage |
 //! | [`run`] | one vehicle from its start to its end, its stations and the energy balance |
+//! | [`marks`] | where tyres leave marks |
+//! | [`path`] | the motion of a point of a vehicle, smooth between the steps |
 
 pub mod barrier;
 pub mod body;
@@ -63,6 +65,8 @@ pub mod ground;
 mod hull;
 pub mod impulse;
 pub mod integrate;
+pub mod marks;
+pub mod path;
 pub mod presets;
 mod rail;
 pub mod run;

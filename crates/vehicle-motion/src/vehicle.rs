@@ -23,6 +23,7 @@ pub(crate) struct Vehicle {
     pub mass_kg: f64,
     pub yaw_kg_m2: f64,
     rear_m: f64,
+    radius_m: f64,
     wheelbase_m: f64,
     track_m: f64,
     ackermann: f64,
@@ -58,6 +59,7 @@ impl Vehicle {
             mass_kg: car.mass_kg,
             yaw_kg_m2: car.inertia_kg_m2[(2, 2)],
             rear_m: car.rear.ahead_m,
+            radius_m: car.tyre.radius_m,
             wheelbase_m: car.wheelbase_m(),
             track_m: car.front.track_m,
             ackermann: car.ackermann,
@@ -70,10 +72,17 @@ impl Vehicle {
     }
 
     /// The controls at a time.
-    pub fn controls(&self, time_s: f64, memory: &Memory) -> Controls {
+    pub fn controls(&self, time_s: f64, state: &State, memory: &Memory) -> Controls {
         // who was hit keeps the wheel where it was
         let steer_s = memory.hit_s.map_or(time_s, |hit_s| time_s.min(hit_s));
-        let pedals = self.driver.pedals(time_s, memory.hit_s);
+        let mut pedals = self.driver.pedals(time_s, memory.hit_s);
+        let ahead_m_s = || (state.attitude().inverse() * state.velocity_m_s()).x;
+        if let Some(wanted) =
+            self.driver.speed_m_s.as_ref().and_then(|_| self.driver.speeds_up_m_s2(time_s, ahead_m_s(), memory.hit_s))
+        {
+            let torque_n_m = self.mass_kg * wanted * self.radius_m;
+            pedals = [(-torque_n_m).max(0.0), torque_n_m.max(0.0)];
+        }
         let [(from_s, from), (to_s, to)] = memory.steer;
         let mean = match &self.driver.steering {
             Steering::Table(table) if self.driver.on_impact == OnImpact::Continue => table.at(time_s),
@@ -142,7 +151,7 @@ impl Vehicle {
 
     /// Stops a wheel against its carrier. What is left of its spin goes into the brake.
     fn hold(&self, state: &mut State, time_s: f64, wheel: usize, memory: &Memory) {
-        let steer = self.controls(time_s, memory).steer_rad[wheel];
+        let steer = self.controls(time_s, state, memory).steer_rad[wheel];
         let axis = self.chassis.axle_direction(wheel, state.jounce_m()[wheel], steer);
         let before_j = self.chassis.kinetic_j(state);
         state.set_spin(wheel, -state.rotation_rad_s().dot(&axis));

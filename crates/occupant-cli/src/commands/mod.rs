@@ -11,6 +11,7 @@ mod check;
 mod compare;
 mod completions;
 mod convert;
+mod drive;
 mod explain;
 mod export;
 mod fit;
@@ -67,6 +68,7 @@ macro_rules! commands {
 
 commands! {
     Run: run::run,
+    Drive: drive::drive,
     Sweep: sweep::sweep,
     Study: study::study,
     Fit: fit::fit,

@@ -3,6 +3,7 @@
 //! A job takes what it needs as values and gives results and their words; it reads no command line.
 
 pub(crate) mod compare;
+pub(crate) mod drive;
 pub(crate) mod ensemble;
 pub(crate) mod export;
 pub(crate) mod extend;

@@ -216,6 +216,7 @@ fn vehicle(model: &Model) -> VehicleFigures {
             VehiclePath::Pulse(_) => "pulse",
             VehiclePath::Sensors(_) => "sensors",
             VehiclePath::Fixed(_) => "fixed",
+            VehiclePath::Driven(_) => "drive",
             VehiclePath::Own(_) => "own",
         },
         start_speed_m_s: first.norm(),

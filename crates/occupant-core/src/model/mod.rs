@@ -23,9 +23,11 @@ use crate::model::seat::Seated;
 use crate::model::settle::Settled;
 use crate::model::setup::{Integrator, Member, Setup};
 use crate::motion::frame::{Frames, Moving, VEHICLE};
+use crate::motion::kinematics::Kinematics;
 use crate::motion::layout::{MOST_BODIES, Trunk};
 use crate::motion::state::State;
 use crate::vehicle::{FrameMotion, PathCursor, VehiclePath};
+use nalgebra::Vector3;
 use placed_text::Problems;
 
 /// Times nearer than this are one time, s.
@@ -95,6 +97,17 @@ impl Model {
         let skeleton = &self.system.skeleton;
         let mass_kg = |trunk: &Trunk| trunk.segments().map(|n| skeleton.links[n].mass).sum();
         skeleton.layout.trunks().iter().map(mass_kg).collect()
+    }
+
+    /// Mass of all bodies and their centre of gravity at the start, space axes, kg and m.
+    pub fn centre_at_start(&self) -> (f64, Vector3<f64>) {
+        let (skeleton, k) = (&self.system.skeleton, Kinematics::new(&self.system.skeleton, &self.start.state));
+        let (mut mass_kg, mut moment) = (0.0, Vector3::zeros());
+        for n in 0..skeleton.layout.len() {
+            mass_kg += skeleton.links[n].mass;
+            moment += skeleton.links[n].mass * k.cg(skeleton, n).to_vector();
+        }
+        (mass_kg, moment / mass_kg)
     }
 
     /// Planes and outlines of the surfaces, in the setup's order.

@@ -184,6 +184,17 @@ impl OtherFrame {
     }
 }
 
+/// Something that is drawn and touches nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scenery {
+    /// Its name.
+    pub name: String,
+    /// The frame that it moves with.
+    pub frame: Frame,
+    /// Convex polygons, m.
+    pub polygons_m: Vec<Vec<Point3<f64>>>,
+}
+
 /// One of several bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Member {
@@ -246,6 +257,8 @@ pub struct Setup {
     pub columns: Vec<Column>,
     /// Motion of the vehicle.
     pub path: VehiclePath,
+    /// What is drawn and touches nothing: the road, the outside of vehicles.
+    pub scenery: Vec<Scenery>,
     /// Frames besides the vehicle's and space.
     pub frames: Vec<OtherFrame>,
     /// The bodies, where there are several.
@@ -398,6 +411,7 @@ impl SetupBuilder {
             bags: Vec::new(),
             columns: Vec::new(),
             path: VehiclePath::parked(),
+            scenery: Vec::new(),
             frames: Vec::new(),
             members: Vec::new(),
             posture: InitialPosture::Coordinates(Box::new(ReportCoordinates { q: [0.0; DOF], rates: [0.0; DOF] })),

@@ -10,6 +10,7 @@
 //!   (ours);
 //! - [`SensorPath`]: recorded accelerations and turning rates, or velocity changes, integrated (ours);
 //! - [`FixedPath`]: a frame at rest, such as a vehicle in a free fall test (ours);
+//! - [`DrivenPath`]: a vehicle that was driven on a road and beside it, by `vehicle_motion` (ours);
 //! - [`OwnPath`]: a program's own vehicle model, any [`VehicleMotion`] (ours).
 //!
 //! Input is in the report's vehicle-space axes X′_v forward, Y′_v right, Z′_v down, with roll, pitch and yaw; output is in
@@ -22,6 +23,7 @@
 mod attitude;
 mod cursor;
 mod differences;
+mod driven;
 mod fixed;
 mod frame;
 mod own;
@@ -37,6 +39,7 @@ use nalgebra::Vector3;
 
 pub use attitude::Attitude;
 pub use cursor::PathCursor;
+pub use driven::DrivenPath;
 pub use fixed::FixedPath;
 pub use frame::FrameMotion;
 pub use own::{OwnPath, VehicleMotion, VehicleState};
@@ -76,6 +79,8 @@ pub enum VehiclePath {
     Sensors(Box<SensorPath>),
     /// At rest.
     Fixed(FixedPath),
+    /// A drive that was computed before.
+    Driven(DrivenPath),
     /// What a program computes itself.
     Own(OwnPath),
 }
@@ -111,6 +116,7 @@ impl VehiclePath {
             VehiclePath::Pulse(pulse) => pulse.motion(t_s, cursor),
             VehiclePath::Sensors(sensors) => sensors.motion(t_s, step_middle_s, cursor),
             VehiclePath::Fixed(fixed) => fixed.motion,
+            VehiclePath::Driven(driven) => driven.motion(t_s),
             VehiclePath::Own(own) => own.motion(t_s),
         }
     }
@@ -143,6 +149,7 @@ impl VehiclePath {
             VehiclePath::Pulse(pulse) => pulse.pose(t_s, cursor),
             VehiclePath::Sensors(sensors) => sensors.pose(t_s, cursor),
             VehiclePath::Fixed(fixed) => fixed.pose(),
+            VehiclePath::Driven(driven) => driven.pose(t_s),
             VehiclePath::Own(own) => own.pose(t_s),
         }
     }
@@ -161,6 +168,7 @@ impl VehiclePath {
         match self {
             VehiclePath::Table(table) => table.check_span(start_s, end_s),
             VehiclePath::Sensors(sensors) => sensors.check_span(start_s, end_s),
+            VehiclePath::Driven(driven) => driven.check_span(start_s, end_s),
             VehiclePath::Own(own) => own.check_span(start_s, end_s),
             VehiclePath::Pulse(_) | VehiclePath::Fixed(_) => Ok(()),
         }
@@ -174,7 +182,8 @@ impl VehiclePath {
             VehiclePath::Pulse(pulse) => pulse.breaks_s(),
             VehiclePath::Sensors(sensors) => sensors.breaks_s(),
             VehiclePath::Own(own) => own.breaks_s(),
-            VehiclePath::Fixed(_) => Vec::new(),
+            // accelerations are continuous
+            VehiclePath::Fixed(_) | VehiclePath::Driven(_) => Vec::new(),
         }
     }
 
@@ -184,6 +193,7 @@ impl VehiclePath {
         match self {
             VehiclePath::Table(table) => table.stations().iter().map(|station| station.time_s).collect(),
             VehiclePath::Sensors(sensors) => sensors.given_s(),
+            VehiclePath::Driven(driven) => driven.given_s().to_vec(),
             _ => self.breaks_s(),
         }
     }

@@ -53,12 +53,14 @@ impl Snapshot {
         }
     }
 
-    /// What there is to touch, as polygons: the surfaces, then all sides of the solids, m.
+    /// What there is to touch, and to see, as polygons: the surfaces, then all sides of the solids, then what is drawn alone, m.
     pub fn polygons_m(&self, model: &Model) -> Vec<Vec<Point3<f64>>> {
         let faces = model.faces().iter().map(|face| self.corners_m(face));
         let solids = &model.setup().solids;
         let sides = solids.iter().flat_map(|s| s.outline().into_iter().map(|side| self.placed(s.frame, side)));
-        faces.chain(sides).collect()
+        let drawn = model.setup().scenery.iter();
+        let drawn = drawn.flat_map(|own| own.polygons_m.iter().map(|side| self.placed(own.frame, side.clone())));
+        faces.chain(sides).chain(drawn).collect()
     }
 
     /// A surface's corners, an unbounded one's as a square below the vehicle's origin, m.

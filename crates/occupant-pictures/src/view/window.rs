@@ -30,6 +30,7 @@ impl Window {
         if let Some(moment) = strip.moments.first() {
             window.add_surfaces(strip, moment, &near);
         }
+        window.add_scenery(strip);
         window.grown(MARGIN_M)
     }
 
@@ -80,6 +81,12 @@ impl Window {
                 }
             }
         }
+    }
+
+    /// The outside of the vehicle, whole.
+    fn add_scenery(&mut self, strip: &Strip<'_>) {
+        let own = strip.model.setup().scenery.iter().filter(|own| own.frame == Frame::Vehicle);
+        own.flat_map(|own| own.polygons_m.iter().flatten()).for_each(|corner| self.add(corner));
     }
 
     fn add(&mut self, p: &Point3<f64>) {

@@ -28,10 +28,7 @@ impl Checker<'_> {
                 given.sort_by_key(|(_, e)| e.key_span.start);
                 match given.as_slice() {
                     [] if needed => {
-                        let found = match path {
-                            "" => "the scenario does not say where the occupant is".to_owned(),
-                            _ => format!("`{path}` has none of {}", quoted(&group, '`')),
-                        };
+                        let found = format!("`{path}` has none of {}", quoted(&group, '`'));
                         self.report_table(node, Problem::error(path, found, one_of(&group, '`')));
                     }
                     [] | [_] => {}

@@ -2,6 +2,7 @@
 
 use serde::de::DeserializeOwned;
 
+use super::drive::Drives;
 use super::quantity::Quantity;
 use occupant_core::body::Body;
 use placed_text::{Diagnostics, Document, Problem, did_you_mean, follow, one_of, parse_path, with_key};
@@ -11,6 +12,8 @@ pub(super) struct Builder<'a> {
     /// The explicit scenario.
     pub(super) document: &'a Document,
     pub(super) problems: Diagnostics,
+    /// What was driven; none while people are weighed, or where nothing drives.
+    pub(super) drives: Option<&'a Drives>,
 }
 
 impl Builder<'_> {

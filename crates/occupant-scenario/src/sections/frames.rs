@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::builder::{Builder, index_of};
+use super::drive;
 use super::path::{self, PathSection};
 use super::quantity::{NOT_NEGATIVE, POSITIVE, point, si_or};
 use super::solids::SolidSection;
@@ -188,6 +189,7 @@ pub(super) fn frames(b: &mut Builder, s: &Scenario, gravity_m_s2: f64) -> Vec<Ot
         return Vec::new();
     }
     check_names(b, s);
+    drive::check_names(b, s);
     let mut list = Vec::new();
     for (name, section) in s.other_vehicles() {
         let path = moving(b, &["vehicles", name, "path"], &section.path, gravity_m_s2);
@@ -242,7 +244,7 @@ fn check_names(b: &mut Builder, s: &Scenario) {
 pub(super) fn moving(b: &mut Builder, at: &[&str], section: &PathSection, gravity_m_s2: f64) -> Option<VehiclePath> {
     let root = with_path(&b.document.root, at)?;
     let document = Document { root, ..b.document.clone() };
-    let own = &mut Builder { document: &document, problems: Diagnostics::new() };
+    let own = &mut Builder { document: &document, problems: Diagnostics::new(), drives: b.drives };
     let path = path::path(own, section, gravity_m_s2);
     let problems = std::mem::take(&mut own.problems);
     b.problems.extend(problems);

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::belts::BeltSection;
 use super::body::BodySection;
 use super::builder::{Builder, index_of};
+use super::drive::Drives;
 use super::frames::{Meets, VEHICLE};
 use super::joints::JointsSection;
 use super::markers::MarkerSection;
@@ -130,10 +131,11 @@ pub(crate) fn together(
     written: &Scenario,
     explicit: &Scenario,
     document: &Document,
+    drives: Option<&Drives>,
 ) -> Result<(Setup, Diagnostics), Diagnostics> {
     let (mut problems, mut members, mut worlds) = (Diagnostics::new(), Vec::new(), Vec::new());
     if explicit.body.is_some() {
-        let (world, found) = setup(written, explicit, document)?;
+        let (world, found) = setup(written, explicit, document, drives)?;
         problems.extend(found);
         members.push((String::new(), Frame::Vehicle, world.clone()));
         worlds.push(world);
@@ -144,14 +146,14 @@ pub(crate) fn together(
         let sections: Scenario = own.sections("scenario")?;
         let mut says = written.clone();
         says.body = written.occupants.get(name).map(|own| own.body.clone());
-        let b = &mut Builder { document, problems: Diagnostics::new() };
+        let b = &mut Builder { document, problems: Diagnostics::new(), drives };
         let home = home_of(b, explicit, &format!("occupants.{name}"), section.vehicle.as_deref());
         if section.vehicle.is_none() && section.posture.is_some() {
             let problem = "a seated occupant without a vehicle";
             b.error(&format!("occupants.{name}"), problem, "vehicle = \"vehicle\", or the name of another");
         }
         problems.extend(std::mem::take(&mut b.problems));
-        match setup(&says, &sections, &own) {
+        match setup(&says, &sections, &own, drives) {
             Ok((world, found)) => {
                 problems.extend(found);
                 members.push((name.clone(), home, world.clone()));
@@ -161,7 +163,7 @@ pub(crate) fn together(
         }
     }
     let Some(world) = worlds.into_iter().next().filter(|_| !problems.has_errors()) else { return Err(problems) };
-    let b = &mut Builder { document, problems };
+    let b = &mut Builder { document, problems, drives };
     for (name, section) in &explicit.loose {
         let home = home_of(b, explicit, &format!("loose.{name}"), section.vehicle.as_deref());
         members.push((name.clone(), home, loose(b, name, section, &world)));

@@ -10,6 +10,7 @@ mod body_joints;
 mod builder;
 mod chains;
 mod columns;
+mod drive;
 mod frames;
 mod functions;
 mod heading;
@@ -45,6 +46,8 @@ use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use drive::{DrivenVehicle, Drives, Solved};
+pub(super) use drive::{People, asks_for_people, solve};
 pub use heading::{heading as column_named, heading_in as column_in, speed_named};
 pub(super) use many::together;
 pub use quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, Quantity};
@@ -54,6 +57,7 @@ pub(super) use setup::{occupant, setup};
 use self::bags::{BagSection, GasSection};
 use self::belts::BeltSection;
 pub(super) use self::body::BodySection;
+use self::drive::DriveSection;
 use self::frames::{FrameSection, GroundSection, VehicleSection};
 use self::functions::{LimiterSection, WebbingSection};
 use self::joints::{JointSection, JointsSection};
@@ -119,8 +123,7 @@ type HeatTransfer<const RANGE: usize = ANY> = Quantity<{ kind::HEAT_TRANSFER }, 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend(
-    "x-exactly-one" = [["body", "occupants"]],
-    "x-at-most-one" = [["posture", "initial_state", "mount", "stance"]],
+    "x-at-most-one" = [["body", "occupants"], ["posture", "initial_state", "mount", "stance"]],
     "x-together" = [["body", "joints"]],
 ))]
 pub struct Scenario {
@@ -143,6 +146,8 @@ pub struct Scenario {
     pub(crate) output: Option<OutputSection>,
     /// How the equations of motion are integrated; "adaptive" with its own defaults if absent.
     pub(crate) integrator: Option<IntegratorSection>,
+    /// Vehicles that drive by themselves before people are looked at.
+    pub(crate) drive: Option<DriveSection>,
     /// Motion of the vehicle; of several, of that which is called "vehicle". Absent, the first of `vehicles` is called so too.
     pub(crate) path: Option<PathSection>,
     /// Other vehicles by name.

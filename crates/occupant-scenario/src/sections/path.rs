@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::builder::Builder;
+use super::drive::{self, DrivenPathSection};
 use super::number_table::{Column, NumberTable, column, names_of, read_csv, read_inline};
 use super::pulse::{self, PulseSection};
 use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, si_or};
@@ -30,6 +31,8 @@ pub(crate) enum PathSection {
     Table(Box<TableSection>),
     /// Recorded accelerations and turning rates, or velocity changes, as of an event data recorder.
     Sensors(Box<SensorsSection>),
+    /// A vehicle of `drive`, which is driven first.
+    Drive(Box<DrivenPathSection>),
 }
 
 /// Where the vehicle is. Angles are yaw, then pitch, then roll.
@@ -106,7 +109,7 @@ impl PathSection {
             PathSection::Table(table) => table.file.as_deref(),
             PathSection::Pulse(pulse) => pulse.file.as_deref(),
             PathSection::Sensors(sensors) => sensors.file.as_deref(),
-            PathSection::Fixed(_) => None,
+            PathSection::Fixed(_) | PathSection::Drive(_) => None,
         }
     }
 }
@@ -125,6 +128,7 @@ impl Scenario {
 pub(super) fn path(b: &mut Builder, section: &PathSection, gravity_m_s2: f64) -> Option<VehiclePath> {
     let table = section.file().and_then(|file| b.document.sources.named(file));
     match section {
+        PathSection::Drive(s) => drive::path(b, s),
         PathSection::Fixed(s) => {
             let path = FixedPath::new(pose(&s.position, [&s.roll, &s.pitch, &s.yaw]));
             path.map_err(|p| refuse(b, &p, None)).ok().map(VehiclePath::Fixed)

@@ -6,9 +6,10 @@
 use serde::Deserialize;
 
 use super::builder::Builder;
+use super::drive::Drives;
 use super::quantity::si_or;
 use super::{
-    BodySection, JointsSection, Scenario, bags, belts, body, chains, columns, frames, joints, materials, mount,
+    BodySection, JointsSection, Scenario, bags, belts, body, chains, columns, drive, frames, joints, materials, mount,
     muscles, path, plausible, posture, run, self_contact, solids, surfaces, triggers,
 };
 use crate::check::references;
@@ -24,8 +25,9 @@ pub(crate) fn setup(
     written: &Scenario,
     explicit: &Scenario,
     document: &Document,
+    drives: Option<&Drives>,
 ) -> Result<(Setup, Diagnostics), Diagnostics> {
-    let b = &mut Builder { document, problems: Diagnostics::new() };
+    let b = &mut Builder { document, problems: Diagnostics::new(), drives };
     let is_part = explicit.mount.is_some();
     let preset = written.body.as_ref().and_then(|body| body.preset.as_deref());
     let whole = explicit.body.as_ref().and_then(|own| body::body(b, preset, own, is_part));
@@ -80,6 +82,7 @@ pub(crate) fn setup(
         bags,
         columns,
         path,
+        scenery: drives.map_or_else(Vec::new, |drives| drive::scenery(explicit, drives)),
         frames,
         members: Vec::new(),
         posture,
@@ -108,7 +111,7 @@ fn first_path(b: &mut Builder, s: &Scenario, gravity_m_s2: f64) -> Option<Vehicl
 pub(crate) fn occupant(preset: &str, document: &Document) -> Option<(Body, Joints)> {
     let body = BodySection::deserialize(document.root.get("body")?).ok()?;
     let joints = JointsSection::deserialize(document.root.get("joints")?).ok()?;
-    let b = &mut Builder { document, problems: Diagnostics::new() };
+    let b = &mut Builder { document, problems: Diagnostics::new(), drives: None };
     let body = body::body(b, Some(preset), &body, false)?;
     let joints = joints::joints(b, &joints, body.tree);
     (!b.problems.has_errors()).then_some((body, joints))

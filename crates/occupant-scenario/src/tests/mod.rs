@@ -8,6 +8,7 @@ mod caveats;
 mod columns;
 mod crowds;
 mod devices;
+mod drive;
 mod limits;
 mod markers;
 mod materials;

@@ -198,6 +198,11 @@ impl Ground {
         from_m[1] + (to_m[1] - from_m[1]) * (right_m - from_m[0]) / (to_m[0] - from_m[0])
     }
 
+    /// Corners of the cross-section from left to right: right of the X axis and height at X = 0, m. The outer planes go on.
+    pub fn corners_m(&self) -> &[[f64; 2]] {
+        &self.corners_m
+    }
+
     /// Height at a place, m.
     pub fn height_m(&self, x_m: f64, y_m: f64) -> f64 {
         self.section_height_m(y_m) + self.grade * x_m

@@ -101,7 +101,7 @@ impl Setup<'_> {
         for (i, vehicle) in self.vehicles.iter().enumerate() {
             let state = &stack.cars[i];
             let memory = &memories.vehicles[i];
-            let controls = vehicle.controls(time_s, memory);
+            let controls = vehicle.controls(time_s, state, memory);
             let mut outside = outside(&pushes[i], state);
             if memories.hulls[i].is_near {
                 let ground = &self.world.ground;

@@ -14,7 +14,7 @@ impl Runner<'_> {
     pub fn note(&mut self) {
         for (i, vehicle) in self.setup.vehicles.iter().enumerate() {
             let (state, report) = (&self.stack.cars[i], &self.found.reports[i]);
-            let steer = vehicle.controls(self.time_s, &self.memories.vehicles[i]).steer_rad;
+            let steer = vehicle.controls(self.time_s, state, &self.memories.vehicles[i]).steer_rad;
             let struck = |(pair, (force, _)): (&Pair, &(V3, f64))| match pair.partner {
                 _ if pair.car == i => *force,
                 Partner::Car(other) if other == i => -force,

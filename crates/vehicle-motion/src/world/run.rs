@@ -265,7 +265,7 @@ impl<'a> Runner<'a> {
             }
             jumps |= vehicle.commit(self.time_s, state, &self.found.reports[i], memory) || looks;
             let (hull, of_hull) = (&self.setup.hulls[i], &mut self.memories.hulls[i]);
-            let steer = || vehicle.controls(self.time_s, memory).steer_rad;
+            let steer = || vehicle.controls(self.time_s, state, memory).steer_rad;
             hull.commit(state, &vehicle.chassis, steer, of_hull, &self.setup.world.ground);
         }
         jumps

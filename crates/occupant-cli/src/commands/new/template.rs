@@ -24,6 +24,8 @@ pub(super) enum Template {
     Pedestrian,
     /// A belted driver in a crash that sensors in the car have recorded
     Sensors,
+    /// A belted driver in a sedan that runs off the road into a ditch
+    Drive,
     /// A study of my-case.toml: what is varied, and between which ends
     Study,
 }
@@ -50,6 +52,7 @@ impl Template {
             Template::Sled => include_str!("sled.toml").to_owned(),
             Template::Pedestrian => include_str!("pedestrian.toml").to_owned(),
             Template::Sensors => changed(driver, include_str!("sensors.toml")),
+            Template::Drive => changed(driver, include_str!("drive.toml")),
             Template::Study => include_str!("study.toml").to_owned(),
         }
     }
@@ -57,6 +60,7 @@ impl Template {
     /// What one does next with a file of this name.
     pub(super) fn next(self, name: &str) -> String {
         match self {
+            Template::Drive => format!("occupant drive {name}\n      occupant run {name}"),
             Template::Study => format!("occupant sweep {name} --dry-run\n      occupant sweep {name}"),
             _ => format!("occupant check {name}\n      occupant run {name}"),
         }

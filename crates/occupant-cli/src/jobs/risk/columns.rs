@@ -13,9 +13,9 @@ use super::{Figures, Report};
 type Last = Option<(VehiclePath, [f64; 2], Vec<Figure>)>;
 static LAST: Mutex<Last> = Mutex::new(None);
 
-/// `vehicle.oiv_x`, `vehicle.asi_2010` and so on, of a path that is a table or a record; none of others.
+/// `vehicle.oiv_x`, `vehicle.asi_2010` and so on, of a path that is a table, a record or a drive; none of others.
 pub(crate) fn columns(setup: &Setup) -> Vec<Figure> {
-    if !matches!(setup.path, VehiclePath::Table(_) | VehiclePath::Sensors(_)) {
+    if !matches!(setup.path, VehiclePath::Table(_) | VehiclePath::Sensors(_) | VehiclePath::Driven(_)) {
         return Vec::new();
     }
     let ends = [setup.time.start_s, setup.time.end_s];

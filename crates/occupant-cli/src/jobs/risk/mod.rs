@@ -19,7 +19,7 @@ use occupant_study::risk::{
 };
 
 pub(crate) use columns::columns;
-pub(crate) use figures::Figures;
+pub(crate) use figures::{Figure, Figures};
 pub(crate) use intervals::Intervals;
 pub(crate) use json::json;
 pub(crate) use page::{OWN_STYLE, page, sections};

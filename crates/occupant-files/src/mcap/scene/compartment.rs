@@ -19,6 +19,8 @@ const PATCH_M: f64 = 2.5;
 /// Corners of the polygon that stands for a disc.
 const DISC_CORNERS: usize = 48;
 const EDGE_M: f64 = 0.006;
+/// The road, the outside of vehicles.
+const SCENERY: Color = Color(0.55, 0.55, 0.52, OPACITY);
 /// Colours of the materials, in their order, again from the first when they run out.
 const PALETTE: [Color; 8] = [
     Color(0.35, 0.55, 0.75, OPACITY),
@@ -31,14 +33,15 @@ const PALETTE: [Color; 8] = [
     Color(0.50, 0.70, 0.65, OPACITY),
 ];
 
-/// One entity for each surface, then for each solid.
+/// One entity for each surface, then for each solid, then for what is drawn alone.
 pub fn write(wire: &mut Wire, model: &Model) {
     let setup = model.setup();
     let surfaces = setup.surfaces.iter().zip(model.faces());
     let surfaces = surfaces.map(|(s, face)| (&s.name, s.frame, s.material, vec![corners_m(face)]));
     let solids = setup.solids.iter().map(|s| (&s.name, s.frame, s.material, s.outline()));
-    for (name, frame, material, polygons) in surfaces.chain(solids) {
-        let color = color_of(material);
+    let touched = surfaces.chain(solids).map(|(name, frame, material, sides)| (name, frame, color_of(material), sides));
+    let scenery = setup.scenery.iter().map(|own| (&own.name, own.frame, SCENERY, own.polygons_m.clone()));
+    for (name, frame, color, polygons) in touched.chain(scenery) {
         entity(wire, 0, &frame_name(model, frame), name, |w| {
             for corners in &polygons {
                 polygon(w, corners, color);

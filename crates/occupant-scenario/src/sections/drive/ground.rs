@@ -1,0 +1,130 @@
+//! `[drive.ground]`: its keys, and the ground they come to.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use vehicle_motion::ground::{Curb, Ground, GroundError, Zone};
+
+use super::super::builder::Builder;
+use super::super::quantity::{NOT_NEGATIVE, POSITIVE, si_or};
+use super::super::{Angle, Length, Ratio};
+use placed_text::with_key;
+
+/// What vehicles drive on.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-at-most-one" = [["section", "cross_slope"]]))]
+pub(crate) struct RoadSection {
+    /// Friction of tyres of grip 1; 0.76 if absent, dry asphalt (0.64 to 0.88 in 95 % of tests).
+    pub(crate) friction: Option<Ratio<POSITIVE>>,
+    /// Rise along x; 0 if absent.
+    pub(crate) grade: Option<Ratio>,
+    /// Rise to the right of a plane, such as -0.02; 0 if absent.
+    pub(crate) cross_slope: Option<Ratio>,
+    /// A cross-section that runs along x: shoulder, slopes, ditch.
+    pub(crate) section: Option<CrossSection>,
+    /// Curbs along x, each of which lifts all that lies right of it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) curbs: Vec<CurbSection>,
+    /// Strips along x with friction of their own; of those that hold a point the last counts.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) zones: Vec<ZoneSection>,
+}
+
+/// Corners of a cross-section from left to right. The outer slopes go on beyond the last corners.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CrossSection {
+    /// Distances right of the x axis, rising.
+    pub(crate) right: Vec<Length>,
+    /// Height at each.
+    pub(crate) height: Vec<Length>,
+}
+
+/// A curb along x.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CurbSection {
+    /// Foot of its face, right of the x axis.
+    pub(crate) right: Length,
+    /// Height of its step up to the right; negative steps down.
+    pub(crate) height: Length,
+    /// Angle of its face to the level, below 90 deg; 80 deg if absent.
+    pub(crate) face: Option<Angle>,
+}
+
+/// A strip of ground.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ZoneSection {
+    /// What it is called in events.
+    pub(crate) name: String,
+    /// From and to, right of the x axis.
+    pub(crate) right: [Length; 2],
+    /// Friction of tyres of grip 1.
+    pub(crate) friction: Ratio<NOT_NEGATIVE>,
+    /// Further factor where a tyre slides sideways: soil that furrows; 1 if absent.
+    pub(crate) lateral: Option<Ratio<NOT_NEGATIVE>>,
+    /// Rolling resistance over load; the tyre's if absent.
+    pub(crate) rolling: Option<Ratio<NOT_NEGATIVE>>,
+}
+
+/// Friction of a road of which nothing is said.
+const DRY_ASPHALT: f64 = 0.76;
+const AT: &str = "drive.ground";
+
+/// The ground and its friction outside of zones.
+pub(super) fn ground(b: &mut Builder, section: Option<&RoadSection>) -> (Ground, f64) {
+    let none = RoadSection::default();
+    let s = section.unwrap_or(&none);
+    let friction = si_or(&s.friction, DRY_ASPHALT);
+    let grade = si_or(&s.grade, 0.0);
+    let (mut ground, mut refused) = (Ground::plane(grade, si_or(&s.cross_slope, 0.0)), Vec::new());
+    if let Some(section) = &s.section {
+        let at = with_key(AT, "section");
+        if section.right.len() != section.height.len() {
+            let found = format!("{} distances and {} heights", section.right.len(), section.height.len());
+            b.error(&at, found, "a height for each distance");
+            return (ground, friction);
+        }
+        let corners = section.right.iter().zip(&section.height).map(|(right, height)| [right.si(), height.si()]);
+        match Ground::section(corners.collect(), grade) {
+            Ok(own) => ground = own,
+            Err(GroundError::Order { number, .. }) => {
+                let last = format!("{at}.right[{}]", number - 1);
+                let found = format!("corner {number} does not lie right of the one before it");
+                b.error(&last, found, "distances that rise from left to right");
+            }
+            Err(error) => refused.push((at, error)),
+        }
+    }
+    let curb = |c: &CurbSection| Curb {
+        right_m: c.right.si(),
+        height_m: c.height.si(),
+        face_rad: si_or(&c.face, 80f64.to_radians()),
+    };
+    for (i, section) in s.curbs.iter().enumerate() {
+        match ground.with_curbs(&[curb(section)]) {
+            Ok(own) => ground = own,
+            Err(error) => refused.push((format!("{AT}.curbs[{i}]"), error)),
+        }
+    }
+    let zone = |z: &ZoneSection| Zone {
+        name: z.name.clone(),
+        right_m: [z.right[0].si(), z.right[1].si()],
+        friction: z.friction.si() / friction,
+        lateral: si_or(&z.lateral, 1.0),
+        rolling: z.rolling.as_ref().map(|rolling| rolling.si()),
+    };
+    for (i, section) in s.zones.iter().enumerate() {
+        if let Err(error) = Ground::level().with_zones(vec![zone(section)]) {
+            refused.push((format!("{AT}.zones[{i}]"), error));
+        }
+    }
+    if refused.is_empty() {
+        ground = ground.clone().with_zones(s.zones.iter().map(zone).collect()).unwrap_or(ground);
+    }
+    for (at, error) in refused {
+        b.error(&at, error.to_string(), "ground that a wheel can stand on");
+    }
+    (ground, friction)
+}

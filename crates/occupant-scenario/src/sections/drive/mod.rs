@@ -1,0 +1,298 @@
+//! `[drive]`: vehicles that move by themselves before people are looked at, and what they come to: the drives of all.
+
+mod driver;
+mod ground;
+mod scenery;
+mod vehicle;
+
+use std::sync::Arc;
+
+use indexmap::IndexMap;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use vehicle_motion::V3;
+use vehicle_motion::car::Car;
+use vehicle_motion::path::DrivenPath as Motion;
+use vehicle_motion::world::{Begin, Entry, Outcome, World, WorldError};
+
+use self::ground::RoadSection;
+pub(super) use self::scenery::scenery;
+use self::vehicle::DrivenSection;
+use super::builder::Builder;
+use super::frames::VEHICLE;
+use super::path::PathSection;
+use super::quantity::{POSITIVE, si_or};
+use super::{Length, Scenario, Time};
+use occupant_core::model::Model;
+use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
+use occupant_core::vehicle::{DrivenPath, VehiclePath};
+use placed_text::{Diagnostics, Document, Problem, with_key};
+
+/// Road vehicles that are driven before people are looked at. Axes are vehicle-space: x ahead, y to the right, z down; yaw and
+/// steering are positive to the right, heights and slopes up.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DriveSection {
+    /// How long is driven, from time 0.
+    pub(crate) end: Time<POSITIVE>,
+    /// Error of a step's places; 0.01 mm if absent.
+    pub(crate) tolerance: Option<Length<POSITIVE>>,
+    /// Vehicles by name. A `path` of kind "drive" names one of them.
+    pub(crate) vehicles: IndexMap<String, DrivenSection>,
+    /// What they drive on; a level road of friction 0.76 if absent.
+    pub(crate) ground: Option<RoadSection>,
+}
+
+/// The motion of a vehicle of `drive`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DrivenPathSection {
+    /// Name of the vehicle in `drive.vehicles`; may be left out where there is one.
+    pub(crate) vehicle: Option<String>,
+}
+
+/// Mass of the people in a vehicle and their centre of gravity in its axes, from its own without load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct People {
+    pub(crate) mass_kg: f64,
+    pub(crate) centre_m: V3,
+}
+
+/// What was driven. Clones share it.
+#[derive(Clone, Debug)]
+pub struct Drives(Arc<Solved>);
+
+/// The drives of a scenario.
+#[derive(Debug)]
+pub struct Solved {
+    /// The vehicles, in the scenario's order.
+    pub vehicles: Vec<DrivenVehicle>,
+    /// The motion of each vehicle, in that order, and their contacts.
+    pub outcome: Outcome,
+    /// Vehicles, ground, barriers and drivers.
+    pub world: World,
+    paths: Vec<VehiclePath>,
+}
+
+/// A vehicle that was driven.
+#[derive(Clone, Debug)]
+pub struct DrivenVehicle {
+    /// Its name.
+    pub name: String,
+    /// Its preset.
+    pub preset: &'static vehicle_motion::presets::Preset,
+    /// The vehicle without load.
+    pub unladen: Car,
+    /// The vehicle with its load.
+    pub car: Car,
+    /// Origin of the compartment, which is the centre of gravity without load, from that with it, body axes, m.
+    pub origin_m: V3,
+    /// Keys that the scenario gives in place of the preset's.
+    pub given: Vec<&'static str>,
+}
+
+impl std::ops::Deref for Drives {
+    type Target = Solved;
+    fn deref(&self) -> &Solved {
+        &self.0
+    }
+}
+
+impl Solved {
+    /// The motion of the compartment of a vehicle by its number.
+    pub fn motion(&self, vehicle: usize) -> Motion {
+        Motion::of(&self.outcome.rides[vehicle], self.vehicles[vehicle].origin_m)
+    }
+
+    /// The path of a vehicle's compartment by its number.
+    pub fn path(&self, vehicle: usize) -> &VehiclePath {
+        &self.paths[vehicle]
+    }
+}
+
+impl DriveSection {
+    /// The number of the vehicle that a path means.
+    fn named(&self, path: &DrivenPathSection) -> Option<usize> {
+        match &path.vehicle {
+            Some(name) => self.vehicles.get_index_of(name),
+            None => (self.vehicles.len() == 1).then_some(0),
+        }
+    }
+}
+
+/// Whether a load depends on who sits in a vehicle.
+pub(crate) fn asks_for_people(s: &Scenario) -> bool {
+    s.drive.iter().flat_map(|drive| drive.vehicles.values()).any(DrivenSection::takes_people)
+}
+
+impl Scenario {
+    /// The vehicle of `drive` that a vehicle of the scenario is.
+    fn driven(&self, vehicle: &str) -> Option<usize> {
+        let own = self.vehicles.get(vehicle).map(|own| &own.path);
+        let path = own.or_else(|| (vehicle == VEHICLE).then(|| self.first_path().map(|(_, path)| path)).flatten())?;
+        match path {
+            PathSection::Drive(own) => self.drive.as_ref()?.named(own),
+            _ => None,
+        }
+    }
+
+    /// Mass and centre of those who begin in each vehicle of `drive`; `model` has them in vehicles that stand at the origin.
+    pub(crate) fn weighed(&self, model: &Model) -> Vec<Option<People>> {
+        let mut people = vec![None; self.drive.as_ref().map_or(0, |drive| drive.vehicles.len())];
+        let first = self.body.is_some().then_some(Some(VEHICLE));
+        let others = self.occupants.values().map(|own| own.vehicle.as_deref());
+        let homes = first.into_iter().chain(others).chain(self.loose.values().map(|own| own.vehicle.as_deref()));
+        let bodies = if model.alone().is_empty() { std::slice::from_ref(model) } else { model.alone() };
+        for (home, body) in homes.zip(bodies) {
+            let Some(vehicle) = home.and_then(|home| self.driven(home)) else { continue };
+            let (mass_kg, centre) = body.centre_at_start();
+            let one = People { mass_kg, centre_m: V3::new(centre.x, -centre.y, -centre.z) };
+            people[vehicle] = Some(people[vehicle].map_or(one, |before: People| before.and(one)));
+        }
+        people
+    }
+}
+
+impl People {
+    fn and(self, other: Self) -> Self {
+        let mass_kg = self.mass_kg + other.mass_kg;
+        let centre_m = (self.centre_m * self.mass_kg + other.centre_m * other.mass_kg) / mass_kg;
+        People { mass_kg, centre_m }
+    }
+}
+
+/// Drives all vehicles; `people` are those in each. None if nothing is driven.
+///
+/// # Errors
+/// What is wrong with vehicles, ground and drivers, with its place; warnings are among the others.
+pub(crate) fn solve(
+    s: &Scenario,
+    document: &Document,
+    people: &[Option<People>],
+) -> Result<(Option<Drives>, Diagnostics), Diagnostics> {
+    let Some(section) = &s.drive else { return Ok((None, Diagnostics::new())) };
+    let b = &mut Builder { document, problems: Diagnostics::new(), drives: None };
+    let gravity_m_s2 = si_or(&s.gravity, STANDARD_GRAVITY_M_S2);
+    if gravity_m_s2 != STANDARD_GRAVITY_M_S2 {
+        b.error(
+            "gravity",
+            format!("vehicles that drive under {gravity_m_s2} m/s²"),
+            "standard gravity: leave the key out",
+        );
+    }
+    let (ground, friction) = ground::ground(b, section.ground.as_ref());
+    let mut vehicles = Vec::new();
+    let mut world = World { ground, ..World::default() };
+    if let Some(tolerance) = &section.tolerance {
+        // speeds go by ten times the places per second
+        let place_m = tolerance.si();
+        world.tolerance = vehicle_motion::integrate::Tolerance {
+            place_m,
+            speed_m_s: 10.0 * place_m,
+            relative: place_m,
+            ..world.tolerance
+        };
+    }
+    world.tolerance.longest_s = LONGEST_S;
+    for (i, (name, own)) in section.vehicles.iter().enumerate() {
+        let at = with_key("drive.vehicles", name);
+        let Some(vehicle) = own.vehicle(b, &at, name, friction, people.get(i).copied().flatten()) else { continue };
+        let driver = driver::driver(b, &at, own, &vehicle.car);
+        let begin = Begin::At(own.start.start());
+        world.cars.extend(driver.map(|driver| Entry::new(vehicle.car.clone(), driver, begin)));
+        vehicles.push(vehicle);
+    }
+    if section.vehicles.is_empty() {
+        b.error("drive.vehicles", "no vehicle", "a table for each vehicle, such as [drive.vehicles.car]");
+    }
+    if b.problems.has_errors() {
+        return Err(std::mem::take(&mut b.problems));
+    }
+    let outcome = match world.run(section.end.si()) {
+        Ok(outcome) => outcome,
+        Err(error) => {
+            refuse(b, section, &error);
+            return Err(std::mem::take(&mut b.problems));
+        }
+    };
+    let paths = outcome.rides.iter().zip(&vehicles);
+    let paths = paths.map(|(ride, own)| VehiclePath::Driven(DrivenPath::new(Motion::of(ride, own.origin_m)))).collect();
+    let solved = Solved { vehicles, outcome, world, paths };
+    Ok((Some(Drives(Arc::new(solved))), std::mem::take(&mut b.problems)))
+}
+
+/// Longest step of a drive, s: between its stations people feel polynomials.
+const LONGEST_S: f64 = 0.01;
+
+/// Reports why vehicles could not be driven.
+fn refuse(b: &mut Builder, section: &DriveSection, error: &WorldError) {
+    let at = |car: usize| {
+        section.vehicles.get_index(car).map_or_else(String::new, |(name, _)| with_key("drive.vehicles", name))
+    };
+    match error {
+        WorldError::Car { car, what } => b.error(&at(*car), what.to_string(), "a vehicle that can stand on its wheels"),
+        WorldError::Overlap { between: (one, other), depth_m } => {
+            let name = |car: usize| section.vehicles.get_index(car).map_or("", |(name, _)| name.as_str());
+            let found = format!("{} and {} overlap by {depth_m:.3} m at the start", name(*one), name(*other));
+            b.error(&with_key(&at(*other), "start"), found, "vehicles that start apart");
+        }
+        other => b.error("drive", other.to_string(), "inputs that a vehicle can follow"),
+    }
+}
+
+/// The path of a vehicle of `drive`.
+pub(super) fn path(b: &mut Builder, section: &DrivenPathSection) -> Option<VehiclePath> {
+    let Some(drive) = b.section::<DriveSection>("drive") else {
+        b.error(
+            "path",
+            "a path of kind \"drive\" where nothing is driven",
+            "[drive] with a vehicle in [drive.vehicles.NAME]",
+        );
+        return None;
+    };
+    let Some(number) = drive.named(section) else {
+        let names: Vec<&str> = drive.vehicles.keys().map(String::as_str).collect();
+        match &section.vehicle {
+            Some(name) => b.unknown("path.vehicle", "vehicle of `drive`", name, &names),
+            None => b.error(
+                "path",
+                "several vehicles are driven",
+                format!("vehicle = {}", placed_text::one_of(&names, '"')),
+            ),
+        }
+        return None;
+    };
+    // people are weighed in a vehicle that stands
+    Some(b.drives.map_or_else(VehiclePath::parked, |drives| drives.path(number).clone()))
+}
+
+/// Reports vehicles of the scenario that move as one vehicle of `drive`.
+pub(super) fn check_names(b: &mut Builder, s: &Scenario) {
+    let Some(drive) = &s.drive else { return };
+    let mut taken: Vec<(usize, String)> = Vec::new();
+    for (at, path) in s.paths() {
+        let PathSection::Drive(own) = path else { continue };
+        let Some(number) = drive.named(own) else { continue };
+        match taken.iter().find(|(other, _)| *other == number) {
+            Some((_, other)) => {
+                b.error(
+                    &at,
+                    format!("`{other}` is the same vehicle of `drive`"),
+                    "another vehicle of `drive` for each path",
+                );
+            }
+            None => taken.push((number, at)),
+        }
+    }
+}
+
+/// Warns of what a load does that moves with the vehicle.
+fn warn_of_load(b: &mut Builder, at: &str, load_kg: f64, mass_kg: f64) {
+    if load_kg > 0.1 * mass_kg {
+        let found = format!(
+            "a load of {load_kg:.0} kg in a vehicle of {mass_kg:.0} kg, which moves with it as if it were fixed"
+        );
+        let expected = "at most a tenth: heavier people and cargo push the vehicle";
+        b.report(Problem::warning(with_key(at, "payload"), found, expected));
+    }
+}

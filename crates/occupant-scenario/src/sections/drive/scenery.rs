@@ -1,0 +1,128 @@
+//! The road, tyre marks and the outside of driven vehicles, as polygons to draw.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{Point3, Vector3};
+use vehicle_motion::marks::marks;
+
+use super::super::Scenario;
+use super::super::frames::VEHICLE;
+use super::{DrivenVehicle, Drives};
+use occupant_core::forces::contact::surface::Frame;
+use occupant_core::model::setup::Scenery;
+
+type Polygons = Vec<Vec<Point3<f64>>>;
+
+/// The road reaches as far beyond what was driven, m.
+const BEYOND_M: f64 = 12.0;
+/// Corners of a wheel.
+const ROUND: usize = 24;
+/// Breadth of a tyre mark, and how far it lies over the ground, m.
+const TREAD_M: f64 = 0.16;
+const OVER_M: f64 = 0.01;
+
+/// All of it.
+pub(crate) fn scenery(s: &Scenario, drives: &Drives) -> Vec<Scenery> {
+    let mut all = vec![Scenery { name: "road".to_owned(), frame: Frame::Space, polygons_m: road(drives) }];
+    for (i, vehicle) in drives.vehicles.iter().enumerate() {
+        let name = |what: &str| format!("{} {what}", vehicle.name);
+        all.push(Scenery { name: name("marks"), frame: Frame::Space, polygons_m: strips(drives, i) });
+        let names = std::iter::once(VEHICLE).chain(s.vehicles.keys().map(String::as_str));
+        let carried = names.into_iter().find(|name| s.driven(name) == Some(i)).and_then(|name| s.frame_named(name));
+        if let Some(frame) = carried {
+            all.push(Scenery { name: name("outside"), frame, polygons_m: outside(vehicle) });
+        }
+    }
+    all
+}
+
+/// A place on the ground in space axes.
+fn on_ground(drives: &Drives, x_m: f64, right_m: f64, over_m: f64) -> Point3<f64> {
+    Point3::new(x_m, -right_m, drives.world.ground.height_m(x_m, right_m) + over_m)
+}
+
+/// The planes of the cross-section along what was driven.
+fn road(drives: &Drives) -> Polygons {
+    let places = || drives.outcome.rides.iter().flat_map(|ride| ride.stations()).map(|station| station.position_m);
+    let least = |axis: usize| places().map(|p| p[axis]).fold(f64::INFINITY, f64::min) - BEYOND_M;
+    let most = |axis: usize| places().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max) + BEYOND_M;
+    let ([from_m, to_m], [left_m, right_m]) = ([least(0), most(0)], [least(1), most(1)]);
+    let corners = drives.world.ground.corners_m();
+    let last = corners.len() - 2;
+    let plane = |(i, pair): (usize, &[[f64; 2]])| {
+        // the outer planes go on
+        let one = if i == 0 { left_m } else { pair[0][0].max(left_m) };
+        let other = if i == last { right_m } else { pair[1][0].min(right_m) };
+        let corner = |x: f64, y: f64| on_ground(drives, x, y, 0.0);
+        (one < other).then(|| vec![corner(from_m, one), corner(from_m, other), corner(to_m, other), corner(to_m, one)])
+    };
+    corners.windows(2).enumerate().filter_map(plane).collect()
+}
+
+/// Tyre marks as strips.
+fn strips(drives: &Drives, vehicle: usize) -> Polygons {
+    let mut strips = Vec::new();
+    for mark in marks(&drives.outcome.rides[vehicle], &drives.world.ground) {
+        for pair in mark.points_m.windows(2) {
+            let way = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
+            let length_m = way[0].hypot(way[1]);
+            if length_m > 0.0 {
+                let aside = [-way[1], way[0]].map(|x| 0.5 * TREAD_M * x / length_m);
+                let at =
+                    |p: [f64; 2], side: f64| on_ground(drives, p[0] + side * aside[0], p[1] + side * aside[1], OVER_M);
+                strips.push(vec![at(pair[0], -1.0), at(pair[0], 1.0), at(pair[1], 1.0), at(pair[1], -1.0)]);
+            }
+        }
+    }
+    strips
+}
+
+/// Body, cabin and wheels in the axes of the compartment.
+fn outside(vehicle: &DrivenVehicle) -> Polygons {
+    let (car, body) = (&vehicle.car, &vehicle.car.body);
+    let rear_m = body.front_m - body.length_m;
+    let at =
+        |x: f64, y: f64, height_m: f64| Point3::from(Vector3::new(x, y, car.height_m - height_m) - vehicle.origin_m);
+    // heights: sill, belt line, roof
+    let [sill_m, belt_m, roof_m] = [0.2, 0.63 * body.height_m, body.height_m];
+    let [half_m, top_m] = [0.5 * body.width_m, 0.38 * body.width_m];
+    let mut all = frustum(&at, [rear_m, body.front_m], half_m, sill_m, [rear_m, body.front_m], half_m, belt_m);
+    let cabin = [rear_m + 0.12 * body.length_m, body.front_m - 0.26 * body.length_m];
+    let roof = [rear_m + 0.24 * body.length_m, body.front_m - 0.45 * body.length_m];
+    all.extend(frustum(&at, cabin, half_m, belt_m, roof, top_m, roof_m));
+    for axle in [&car.front, &car.rear] {
+        for side in [-0.5, 0.5] {
+            let rim = (0..ROUND).map(|i| {
+                let (sine, cosine) = (TAU * i as f64 / ROUND as f64).sin_cos();
+                let radius_m = car.tyre.radius_m;
+                at(axle.ahead_m + radius_m * cosine, side * axle.track_m, radius_m * (1.0 + sine))
+            });
+            all.push(rim.collect());
+        }
+    }
+    all
+}
+
+/// The sides and the top of a block that may narrow upwards.
+fn frustum(
+    at: &dyn Fn(f64, f64, f64) -> Point3<f64>,
+    [back_m, front_m]: [f64; 2],
+    half_m: f64,
+    low_m: f64,
+    [top_back_m, top_front_m]: [f64; 2],
+    top_half_m: f64,
+    high_m: f64,
+) -> Polygons {
+    let low = |x: f64, side: f64| at(x, side * half_m, low_m);
+    let high = |x: f64, side: f64| at(x, side * top_half_m, high_m);
+    let side = |s: f64| vec![low(back_m, s), low(front_m, s), high(top_front_m, s), high(top_back_m, s)];
+    let end = |x: f64, top: f64| vec![low(x, -1.0), low(x, 1.0), high(top, 1.0), high(top, -1.0)];
+    let top = [(top_back_m, -1.0), (top_front_m, -1.0), (top_front_m, 1.0), (top_back_m, 1.0)];
+    vec![
+        side(-1.0),
+        side(1.0),
+        end(back_m, top_back_m),
+        end(front_m, top_front_m),
+        top.map(|(x, s)| high(x, s)).to_vec(),
+    ]
+}

@@ -1,0 +1,342 @@
+//! `[drive.vehicles.NAME]`: a preset, what replaces its numbers, the load, the start.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use vehicle_motion::V3;
+use vehicle_motion::car::{Axle, Car, Class};
+use vehicle_motion::run::Start;
+
+use super::super::builder::Builder;
+use super::super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, Quantity, all_si, si_or};
+use super::super::{
+    Angle, AngularVelocity, Area, Force, Inertia, Length, Mass, Moment, Ratio, RotationalStiffness, Speed, Stiffness,
+};
+use super::driver::{BrakeSection, FollowSection, SpeedSection, SteerSection, ThrottleSection, WheelsSection};
+use super::{DrivenVehicle, People, warn_of_load};
+use placed_text::{Problem, with_key};
+
+/// A vehicle of `drive`. What is not said is its preset's.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend(
+    "x-at-most-one" = [["steer", "follow"], ["speed", "hold_speed"], ["speed", "brake"], ["speed", "drive"], ["hold_speed", "brake"], ["hold_speed", "drive"], ["payload", "load"]],
+))]
+pub(crate) struct DrivenSection {
+    /// A class: "small" (MASH 1100C), "sedan", "suv", "van", "pickup" (MASH 2270P), "en900", "en1500" (EN 1317), or a measured
+    /// car of the 1980s, "bmw-320i", "vanagon".
+    #[schemars(extend("enum" = ["small", "sedan", "suv", "van", "pickup", "en900", "en1500", "bmw-320i", "vanagon"]))]
+    pub(crate) preset: String,
+    /// Mass without load.
+    pub(crate) mass: Option<Mass<POSITIVE>>,
+    /// Distance between the axles.
+    pub(crate) wheelbase: Option<Length<POSITIVE>>,
+    /// Centre of gravity behind the front axle.
+    pub(crate) cg_behind_front_axle: Option<Length<POSITIVE>>,
+    /// Height of the centre of gravity over the road.
+    pub(crate) cg_height: Option<Length<POSITIVE>>,
+    /// Track width of both axles.
+    pub(crate) track: Option<Length<POSITIVE>>,
+    /// Roll, pitch and yaw inertia about the centre of gravity; by rule from mass, axles and track if one of these is given.
+    pub(crate) inertia: Option<[Inertia<POSITIVE>; 3]>,
+    /// Area times drag coefficient.
+    pub(crate) drag_area: Option<Area<NOT_NEGATIVE>>,
+    /// Front and rear suspension.
+    pub(crate) suspension: Option<SuspensionSection>,
+    /// Tyres.
+    pub(crate) tyres: Option<TyresSection>,
+    /// Brakes.
+    pub(crate) brakes: Option<BrakesSection>,
+    /// Shares of the drive torque: left front, right front, left rear, right rear; front-wheel drive if absent.
+    pub(crate) drive_shares: Option<[Ratio<NOT_NEGATIVE>; 4]>,
+    /// Angle of the steering wheel over that of the front wheels; 16 if absent.
+    pub(crate) steering_ratio: Option<Ratio<POSITIVE>>,
+    /// "from occupants": those who begin in the vehicle move with it as if they were fixed. Without it they weigh nothing for it.
+    #[schemars(extend("enum" = ["from occupants"]))]
+    pub(crate) payload: Option<String>,
+    /// A load that moves with the vehicle as if it were fixed, instead.
+    pub(crate) load: Option<LoadSection>,
+    /// Where and how it starts, standing on the ground.
+    #[serde(default)]
+    pub(crate) start: StartSection,
+    /// Steering over time; straight ahead if neither this nor `follow` is given.
+    pub(crate) steer: Option<SteerSection>,
+    /// A line to follow.
+    pub(crate) follow: Option<FollowSection>,
+    /// Brake over time.
+    pub(crate) brake: Option<BrakeSection>,
+    /// Drive torque over time.
+    pub(crate) drive: Option<ThrottleSection>,
+    /// Speed over time, which drive and brakes follow.
+    pub(crate) speed: Option<SpeedSection>,
+    /// Speed that drive and brakes hold.
+    pub(crate) hold_speed: Option<Speed<NOT_NEGATIVE>>,
+    /// Wheels that lock.
+    pub(crate) wheels: Option<WheelsSection>,
+}
+
+/// A load.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LoadSection {
+    /// Mass.
+    pub(crate) mass: Mass<POSITIVE>,
+    /// [x, z] of its centre, vehicle axes from the centre of gravity without load; [0, 0] if absent.
+    pub(crate) at: Option<[Length; 2]>,
+}
+
+/// A start.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StartSection {
+    /// Place of the centre of gravity; 0 if absent.
+    pub(crate) x: Option<Length>,
+    /// To the right; 0 if absent.
+    pub(crate) y: Option<Length>,
+    /// Heading, to the right of x; 0 if absent.
+    pub(crate) yaw: Option<Angle>,
+    /// Speed along the ground; 0 if absent.
+    pub(crate) speed: Option<Speed<NOT_NEGATIVE>>,
+    /// Direction of travel to the right of the heading; 0 if absent.
+    pub(crate) sideslip: Option<Angle>,
+    /// Yaw rate, to the right; 0 if absent.
+    pub(crate) yaw_rate: Option<AngularVelocity>,
+    /// True: the wheels do not turn at the start. False if absent: they roll.
+    pub(crate) wheels_stand: Option<bool>,
+}
+
+/// Suspension.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SuspensionSection {
+    /// Front axle.
+    pub(crate) front: Option<AxleSection>,
+    /// Rear axle.
+    pub(crate) rear: Option<AxleSection>,
+}
+
+/// An axle; numbers are those of one wheel, at the wheel.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct AxleSection {
+    /// Track width.
+    pub(crate) track: Option<Length<POSITIVE>>,
+    /// Mass that moves with the wheel.
+    pub(crate) wheel_mass: Option<Mass<POSITIVE>>,
+    /// Inertia of the wheel about its axle.
+    pub(crate) spin_inertia: Option<Inertia<POSITIVE>>,
+    /// Spring rate.
+    pub(crate) rate: Option<Stiffness<POSITIVE>>,
+    /// Damping in jounce over critical damping.
+    pub(crate) jounce_damping: Option<Ratio<NOT_NEGATIVE>>,
+    /// Damping in rebound over critical damping.
+    pub(crate) rebound_damping: Option<Ratio<NOT_NEGATIVE>>,
+    /// Anti-roll bar of the axle.
+    pub(crate) anti_roll: Option<RotationalStiffness<NOT_NEGATIVE>>,
+    /// Height of the roll centre over the road.
+    pub(crate) roll_centre: Option<Length>,
+    /// Jounce at which the stop begins.
+    pub(crate) jounce_stop: Option<Length<POSITIVE>>,
+    /// Rebound at which the stop begins.
+    pub(crate) rebound_stop: Option<Length<POSITIVE>>,
+}
+
+/// Tyres, all alike.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TyresSection {
+    /// Factor on the friction of the ground; 1 if absent.
+    pub(crate) grip: Option<Ratio<NOT_NEGATIVE>>,
+    /// Free radius.
+    pub(crate) radius: Option<Length<POSITIVE>>,
+    /// Radial stiffness.
+    pub(crate) stiffness: Option<Stiffness<POSITIVE>>,
+    /// Cornering stiffness over load at the reference load, for each radian of slip.
+    pub(crate) cornering: Option<Ratio<POSITIVE>>,
+    /// Load at which `cornering` holds.
+    pub(crate) reference_load: Option<Force<POSITIVE>>,
+    /// Load of the greatest cornering stiffness over the reference load; large: it is proportional to load.
+    pub(crate) greatest_at: Option<Ratio<POSITIVE>>,
+    /// Longitudinal slip stiffness over load.
+    pub(crate) slip_stiffness: Option<Ratio<POSITIVE>>,
+    /// Camber stiffness over load, for each radian.
+    pub(crate) camber: Option<Ratio<NOT_NEGATIVE>>,
+    /// Friction of fast sliding over the greatest.
+    pub(crate) sliding_share: Option<Ratio<FRACTION>>,
+    /// Relaxation length.
+    pub(crate) relaxation: Option<Length<POSITIVE>>,
+    /// Rolling resistance over load.
+    pub(crate) rolling: Option<Ratio<NOT_NEGATIVE>>,
+}
+
+/// Brakes.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BrakesSection {
+    /// Torque of all wheels at a full pedal; that of 1.2 g if absent.
+    pub(crate) max_torque: Option<Moment<POSITIVE>>,
+    /// Shares: left front, right front, left rear, right rear.
+    pub(crate) shares: Option<[Ratio<NOT_NEGATIVE>; 4]>,
+}
+
+impl StartSection {
+    pub(super) fn start(&self) -> Start {
+        Start {
+            x_m: si_or(&self.x, 0.0),
+            y_m: si_or(&self.y, 0.0),
+            yaw_rad: si_or(&self.yaw, 0.0),
+            speed_m_s: si_or(&self.speed, 0.0),
+            sideslip_rad: si_or(&self.sideslip, 0.0),
+            yaw_rate_rad_s: si_or(&self.yaw_rate, 0.0),
+            wheels_stand: self.wheels_stand == Some(true),
+        }
+    }
+}
+
+/// Puts what is written in the place of a number.
+fn put<const KIND: usize, const RANGE: usize>(to: &mut f64, written: &Option<Quantity<KIND, RANGE>>) {
+    *to = si_or(written, *to);
+}
+
+impl DrivenSection {
+    /// Whether its load depends on who sits in it.
+    pub(super) fn takes_people(&self) -> bool {
+        self.payload.is_some()
+    }
+
+    /// The vehicle on a road of a friction; what is wrong is reported.
+    pub(super) fn vehicle(
+        &self,
+        b: &mut Builder,
+        at: &str,
+        name: &str,
+        friction: f64,
+        people: Option<People>,
+    ) -> Option<DrivenVehicle> {
+        let preset = Class::named(&self.preset)?.preset();
+        let mut sized = *preset;
+        put(&mut sized.mass_kg, &self.mass);
+        put(&mut sized.wheelbase_m, &self.wheelbase);
+        put(&mut sized.behind_front_m, &self.cg_behind_front_axle);
+        put(&mut sized.height_m, &self.cg_height);
+        put(&mut sized.track_m, &self.track);
+        if sized.behind_front_m >= sized.wheelbase_m {
+            let found = format!("a centre of gravity {} m behind the front axle", sized.behind_front_m);
+            let expected = format!("between the axles, which are {} m apart", sized.wheelbase_m);
+            b.error(&with_key(at, "cg_behind_front_axle"), found, expected);
+            return None;
+        }
+        let mut car = sized.car();
+        if let Some(inertia) = &self.inertia {
+            car.inertia_kg_m2 = nalgebra::Matrix3::from_diagonal(&V3::from(all_si(inertia)));
+        }
+        if let Some(area) = &self.drag_area {
+            car.drag_n_s2_per_m2 = 0.5 * AIR_KG_M3 * area.si();
+        }
+        let suspension = self.suspension.as_ref();
+        let loads_n = car.static_loads_n();
+        if let Some(front) = suspension.and_then(|own| own.front.as_ref()) {
+            front.fit(&mut car.front, loads_n[0]);
+        }
+        if let Some(rear) = suspension.and_then(|own| own.rear.as_ref()) {
+            rear.fit(&mut car.rear, loads_n[1]);
+        }
+        car.tyre.friction = friction;
+        if let Some(tyres) = &self.tyres {
+            tyres.fit(&mut car);
+        }
+        if let Some(shares) = self.brakes.as_ref().and_then(|brakes| brakes.shares.as_ref()) {
+            car.brake_share = all_si(shares);
+        }
+        if let Some(shares) = &self.drive_shares {
+            car.drive_share = all_si(shares);
+        }
+        if let Err(error) = car.check() {
+            b.error(at, error.to_string(), "a vehicle that can stand on its wheels");
+            return None;
+        }
+        self.warn(b, at, &car);
+        let load = self.load.as_ref().map(|load| {
+            let [x, z] = load.at.as_ref().map_or([0.0; 2], all_si);
+            People { mass_kg: load.mass.si(), centre_m: V3::new(x, 0.0, z) }
+        });
+        let unladen = car.clone();
+        let mut origin_m = V3::zeros();
+        if let Some(load) = load.or(people.filter(|_| self.takes_people())) {
+            warn_of_load(b, at, load.mass_kg, car.mass_kg);
+            // wheels stand symmetrically: a load to one side would need springs that level it
+            let (loaded, shift_m) = car.with_load(load.mass_kg, V3::new(load.centre_m.x, 0.0, load.centre_m.z));
+            (car, origin_m) = (loaded, -shift_m);
+        }
+        Some(DrivenVehicle { name: name.to_owned(), preset, unladen, car, origin_m, given: self.given() })
+    }
+
+    /// Keys that replace numbers of the preset.
+    fn given(&self) -> Vec<&'static str> {
+        let keys = [
+            ("mass", self.mass.is_some()),
+            ("wheelbase", self.wheelbase.is_some()),
+            ("cg_behind_front_axle", self.cg_behind_front_axle.is_some()),
+            ("cg_height", self.cg_height.is_some()),
+            ("track", self.track.is_some()),
+            ("inertia", self.inertia.is_some()),
+            ("drag_area", self.drag_area.is_some()),
+            ("suspension", self.suspension.is_some()),
+            ("tyres", self.tyres.is_some()),
+            ("brakes", self.brakes.is_some()),
+        ];
+        keys.into_iter().filter(|(_, is_given)| *is_given).map(|(key, _)| key).collect()
+    }
+
+    fn warn(&self, b: &mut Builder, at: &str, car: &Car) {
+        if car.stability() < 1.0 {
+            let found = format!("a stability factor T/2h of {:.2}", car.stability());
+            let expected = "at least 1: it tips over before it slides on a road of friction 1";
+            b.report(Problem::warning(at, found, expected));
+        }
+        for (key, axle) in [("front", &car.front), ("rear", &car.rear)] {
+            if axle.jounce_n_s_per_m + axle.rebound_n_s_per_m == 0.0 {
+                let at = with_key(&with_key(at, "suspension"), key);
+                b.report(Problem::warning(at, "wheels that hop without damping", "dampers"));
+            }
+        }
+    }
+}
+
+const AIR_KG_M3: f64 = 1.2;
+
+impl AxleSection {
+    fn fit(&self, axle: &mut Axle, load_n: f64) {
+        put(&mut axle.track_m, &self.track);
+        put(&mut axle.wheel_kg, &self.wheel_mass);
+        put(&mut axle.spin_kg_m2, &self.spin_inertia);
+        put(&mut axle.rate_n_per_m, &self.rate);
+        put(&mut axle.roll_centre_m, &self.roll_centre);
+        put(&mut axle.jounce_stop_m, &self.jounce_stop);
+        put(&mut axle.rebound_stop_m, &self.rebound_stop);
+        let corner_kg = load_n / vehicle_motion::GRAVITY_M_S2 - axle.wheel_kg;
+        let critical = 2.0 * (axle.rate_n_per_m * corner_kg.max(0.0)).sqrt();
+        let damper = |ratio: &Ratio<NOT_NEGATIVE>| ratio.si() * critical;
+        axle.jounce_n_s_per_m = self.jounce_damping.as_ref().map_or(axle.jounce_n_s_per_m, damper);
+        axle.rebound_n_s_per_m = self.rebound_damping.as_ref().map_or(axle.rebound_n_s_per_m, damper);
+        if let Some(bar) = &self.anti_roll {
+            axle.anti_roll_n_per_m = bar.si() / (axle.track_m * axle.track_m);
+        }
+    }
+}
+
+impl TyresSection {
+    fn fit(&self, car: &mut Car) {
+        let tyre = &mut car.tyre;
+        tyre.friction *= si_or(&self.grip, 1.0);
+        put(&mut tyre.radius_m, &self.radius);
+        put(&mut tyre.stiffness_n_per_m, &self.stiffness);
+        put(&mut tyre.cornering_per_rad, &self.cornering);
+        put(&mut tyre.reference_load_n, &self.reference_load);
+        put(&mut tyre.greatest_at, &self.greatest_at);
+        put(&mut tyre.slip_stiffness, &self.slip_stiffness);
+        put(&mut tyre.camber_per_rad, &self.camber);
+        put(&mut tyre.sliding_share, &self.sliding_share);
+        put(&mut tyre.relaxation_m, &self.relaxation);
+        put(&mut tyre.rolling, &self.rolling);
+    }
+}
