@@ -12,7 +12,7 @@ use crate::V3;
 /// A wheel that leans more than this (sine of its angle to the ground's normal) lies on its side and has no footprint.
 const LYING: f64 = 0.94;
 /// Range of the lean over which the footprint fades before.
-const FADES: f64 = 0.1;
+const FADES: f64 = 0.06;
 /// Share of the crown by which a wheel sees planes that it does not touch yet.
 const SEEN: f64 = 0.1;
 /// Steepest plane against the wheel's upward direction that is cut as it is.
