@@ -16,6 +16,8 @@ const EDGE_M: [f64; 3] = [0.05, 0.08, 0.05];
 const EDGE_N_PER_M: f64 = 2e6;
 /// Behind this depth an edge is twenty times as stiff, so that no wheel passes through a curb's face, m.
 const EDGE_BOTTOMS_M: f64 = 0.05;
+/// Faces in a row that an edge remembers.
+const FACES: usize = 4;
 /// An edge that is first seen deeper than this came in by the tread and does not count until it is out again, m.
 const FRESH_M: f64 = 0.03;
 /// A vehicle that leans more (sine) may stand on the edges of its wheels.
@@ -44,8 +46,9 @@ pub(crate) struct Hull {
 /// What is remembered of it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct HullMemory {
-    /// Greatest depth of each sphere, then of the two edges of each wheel, m.
+    /// Greatest depth of each sphere, then of the two edges of each wheel by face, m; and that before the last step.
     most_m: Vec<f64>,
+    before_m: Vec<f64>,
     /// Whether it may touch within the next step.
     pub is_near: bool,
     /// Least height over the ground when it was last looked at, m.
@@ -100,7 +103,12 @@ impl Hull {
     }
 
     pub fn memory(&self) -> HullMemory {
-        HullMemory { most_m: vec![0.0; self.spheres.len() + 8], is_near: false, clear_m: 0.0 }
+        HullMemory {
+            most_m: vec![0.0; self.spheres.len() + 8 * FACES],
+            before_m: vec![0.0; self.spheres.len() + 8 * FACES],
+            is_near: false,
+            clear_m: 0.0,
+        }
     }
 
     /// Least height of a sphere over the ground, m.
@@ -144,18 +152,10 @@ impl Hull {
             let down = if down.norm() > 0.2 { down.normalize() } else { pose.axes.column(2).into_owned() };
             for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
                 let centre_m = centre + axle * (sign * aside_m) + down * (self.wheel_m - inward_m);
-                let (depth_m, normal, counts) =
-                    ground.beside(&centre_m, radius_m, &axle).unwrap_or((0.0, V3::zeros(), 0.0));
-                let number = self.spheres.len() + 2 * wheel + side;
-                meet(Dip {
-                    number,
-                    centre_m,
-                    radius_m,
-                    depth_m,
-                    normal,
-                    stiffness: EDGE_N_PER_M,
-                    is_edge: true,
-                    counts,
+                let first = self.spheres.len() + FACES * (2 * wheel + side);
+                ground.beside(&centre_m, radius_m, &axle, |face, depth_m, normal, counts| {
+                    let (number, stiffness) = (first + face % FACES, EDGE_N_PER_M);
+                    meet(Dip { number, centre_m, radius_m, depth_m, normal, stiffness, is_edge: true, counts });
                 });
             }
         }
@@ -202,11 +202,14 @@ impl Hull {
         ground: &Ground,
     ) {
         if memory.is_near {
-            let most_m = &mut memory.most_m;
+            let HullMemory { most_m, before_m, .. } = memory;
+            core::mem::swap(most_m, before_m);
+            most_m.fill(0.0);
             self.dips(&state.pose(), chassis, state, steer(), ground, &mut |dip| {
                 let is_roof = self.spheres.get(dip.number).is_some_and(|sphere| sphere.is_roof);
-                let most = &mut most_m[dip.number];
-                *most = if is_roof || dip.is_felt(*most) { most.max(dip.depth_m) } else { 0.0 };
+                let before_m = before_m[dip.number];
+                let is_kept = is_roof || dip.is_felt(before_m);
+                most_m[dip.number] = if is_kept { before_m.max(dip.depth_m) } else { 0.0 };
             });
         }
         let leans = state.attitude() * V3::y();

@@ -115,7 +115,6 @@ fn the_dynamic_reading_comes_near_a_measured_wall() {
     // measured 0.687 m (−7 %), 37.3 g (−10 %), 18.0 m/s
     assert!((depth / 0.741 - 1.0).abs() < 0.12 && (peak / 41.7 - 1.0).abs() < 0.2, "{depth} {peak}");
     assert!(((57.09 / 3.6 - back) / 18.16 - 1.0).abs() < 0.02, "{back}");
-    println!("CAMRY {depth} {peak} {}", 57.09 / 3.6 - back);
 }
 
 #[test]

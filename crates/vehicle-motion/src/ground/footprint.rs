@@ -115,8 +115,8 @@ impl Tread<'_> {
         let Tread { ground, radius_m, crown_m } = *self;
         let up = (-V3::z() + axle * axle.z).try_normalize(1e-6)?;
         let disc = Disc { ground, centre_m, ahead: up.cross(&axle).normalize(), up };
-        // one radius for all leans, so that nothing jumps where the centre passes a corner
-        let first = disc.cut(radius_m + SEEN * crown_m);
+        // a radius that no plane has a part in, so that nothing jumps where the centre passes a corner
+        let first = disc.cut(crowned(radius_m, crown_m, axle.z) + SEEN * crown_m);
         let under = ground.normals[first.plane].dot(&axle);
         let lean = if first.level > 0.0 { first.lean / first.level } else { under };
         if lean.abs() > LYING {

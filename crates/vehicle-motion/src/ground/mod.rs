@@ -262,13 +262,12 @@ impl Ground {
         if least == over_m { (over_m, normal) } else { (least, (V3::y() * away[0] + across * away[1]) / least) }
     }
 
-    /// Of the steep faces beside an axle, that which a sphere is deepest behind: depth, m, normal, and how much it counts, from 0
-    /// where the normal is at 53° to the axle to 1 at 37°. The upper edge of a face is round to the sphere.
-    pub(crate) fn beside(&self, centre_m: &V3, radius_m: f64, axle: &V3) -> Option<(f64, V3, f64)> {
+    /// Calls for each face beside an axle that a sphere is behind, with its number, the depth, m, the normal, and how much it
+    /// counts, from 0 where the normal is at 53° to the axle to 1 at 37°. The upper edge of a face is round to the sphere.
+    pub(crate) fn beside(&self, centre_m: &V3, radius_m: f64, axle: &V3, mut with: impl FnMut(usize, f64, V3, f64)) {
         let slant = (1.0 + self.grade * self.grade).sqrt();
         let across = V3::new(self.grade / slant, 0.0, 1.0 / slant);
         let point = [centre_m.y, centre_m.dot(&across)];
-        let mut deepest: Option<(f64, V3, f64)> = None;
         for piece in self.pieces(centre_m.y, 0.5) {
             let normal = self.normals[piece];
             let counts = ((normal.dot(axle).abs() - 0.6) / 0.2).clamp(0.0, 1.0);
@@ -285,11 +284,10 @@ impl Ground {
             } else {
                 (radius_m - normal.dot(&(centre_m - self.point_m(piece))), normal)
             };
-            if (0.0..0.5).contains(&depth_m) && deepest.is_none_or(|(most, ..)| depth_m > most) {
-                deepest = Some((depth_m, normal, counts));
+            if depth_m < 0.5 {
+                with(piece, depth_m, normal, counts);
             }
         }
-        deepest
     }
 
     /// The zone at a distance right of the X axis.
