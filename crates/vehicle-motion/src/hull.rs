@@ -16,9 +16,10 @@ const EDGE_M: [f64; 3] = [0.05, 0.08, 0.05];
 const EDGE_N_PER_M: f64 = 2e6;
 /// Behind this depth an edge is twenty times as stiff, so that no wheel passes through a curb's face, m.
 const EDGE_BOTTOMS_M: f64 = 0.05;
-/// Faces whose normal is nearer to the axle than this (cosine) are met by the edges, not by the tread.
-const BESIDE: f64 = core::f64::consts::FRAC_1_SQRT_2;
-
+/// Faces in a row that an edge remembers.
+const FACES: usize = 4;
+/// An edge that is first seen deeper than this came in by the tread and does not count until it is out again, m.
+const FRESH_M: f64 = 0.03;
 /// A vehicle that leans more (sine) may stand on the edges of its wheels.
 const LEANS: f64 = 0.6;
 
@@ -45,8 +46,9 @@ pub(crate) struct Hull {
 /// What is remembered of it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct HullMemory {
-    /// Greatest depth of each sphere, then of the two edges of each wheel, m.
+    /// Greatest depth of each sphere, then of the two edges of each wheel by face, m; and that before the last step.
     most_m: Vec<f64>,
+    before_m: Vec<f64>,
     /// Whether it may touch within the next step.
     pub is_near: bool,
     /// Least height over the ground when it was last looked at, m.
@@ -70,9 +72,15 @@ struct Dip {
     normal: V3,
     stiffness: f64,
     is_edge: bool,
+    /// How much it counts.
+    counts: f64,
 }
 
 impl Dip {
+    fn is_felt(&self, most_m: f64) -> bool {
+        self.depth_m > 0.0 && (!self.is_edge || most_m > 0.0 || self.depth_m < FRESH_M)
+    }
+
     /// Force, N, and energy, J, at a depth on loading.
     fn load(&self, depth_m: f64) -> [f64; 2] {
         let beyond_m = if self.is_edge { (depth_m - EDGE_BOTTOMS_M).max(0.0) } else { 0.0 };
@@ -95,7 +103,12 @@ impl Hull {
     }
 
     pub fn memory(&self) -> HullMemory {
-        HullMemory { most_m: vec![0.0; self.spheres.len() + 8], is_near: false, clear_m: 0.0 }
+        HullMemory {
+            most_m: vec![0.0; self.spheres.len() + 8 * FACES],
+            before_m: vec![0.0; self.spheres.len() + 8 * FACES],
+            is_near: false,
+            clear_m: 0.0,
+        }
     }
 
     /// Least height of a sphere over the ground, m.
@@ -124,7 +137,7 @@ impl Hull {
             let (distance, normal) = ground.distance(&centre_m);
             let (radius_m, stiffness) = (sphere.radius_m, sphere.stiffness);
             let depth_m = radius_m - distance;
-            meet(Dip { number, centre_m, radius_m, depth_m, normal, stiffness, is_edge: false });
+            meet(Dip { number, centre_m, radius_m, depth_m, normal, stiffness, is_edge: false, counts: 1.0 });
         }
         // a face that only an edge meets, or wheels that lie nearly flat
         if !(ground.has_steep() || pose.axes[(2, 1)].abs() > LEANS) {
@@ -139,9 +152,11 @@ impl Hull {
             let down = if down.norm() > 0.2 { down.normalize() } else { pose.axes.column(2).into_owned() };
             for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
                 let centre_m = centre + axle * (sign * aside_m) + down * (self.wheel_m - inward_m);
-                let (depth_m, normal) = ground.beside(&centre_m, radius_m, &axle, BESIDE).unwrap_or((0.0, V3::zeros()));
-                let number = self.spheres.len() + 2 * wheel + side;
-                meet(Dip { number, centre_m, radius_m, depth_m, normal, stiffness: EDGE_N_PER_M, is_edge: true });
+                let first = self.spheres.len() + FACES * (2 * wheel + side);
+                ground.beside(&centre_m, radius_m, &axle, |face, depth_m, normal, counts| {
+                    let (number, stiffness) = (first + face % FACES, EDGE_N_PER_M);
+                    meet(Dip { number, centre_m, radius_m, depth_m, normal, stiffness, is_edge: true, counts });
+                });
             }
         }
     }
@@ -151,10 +166,10 @@ impl Hull {
         let pose = state.pose();
         let mut sum = Rub::default();
         self.dips(&pose, chassis, state, steer, ground, &mut |dip| {
-            if dip.depth_m <= 0.0 {
+            let most_m = memory.most_m[dip.number];
+            if !dip.is_felt(most_m) {
                 return;
             }
-            let most_m = memory.most_m[dip.number];
             let load_n = if dip.depth_m >= most_m {
                 dip.load(dip.depth_m)[0]
             } else {
@@ -163,6 +178,7 @@ impl Hull {
                 let way_m = 2.0 * self.returned * energy_j / top_n;
                 top_n * (1.0 - (most_m - dip.depth_m) / way_m).max(0.0)
             };
+            let load_n = dip.counts * load_n;
             let arm_m = dip.centre_m - dip.normal * (dip.radius_m - 0.5 * dip.depth_m) - pose.at_m;
             let velocity = pose.velocity_m_s + pose.turning_rad_s.cross(&arm_m);
             let along = velocity - dip.normal * velocity.dot(&dip.normal);
@@ -186,11 +202,14 @@ impl Hull {
         ground: &Ground,
     ) {
         if memory.is_near {
-            let most_m = &mut memory.most_m;
+            let HullMemory { most_m, before_m, .. } = memory;
+            core::mem::swap(most_m, before_m);
+            most_m.fill(0.0);
             self.dips(&state.pose(), chassis, state, steer(), ground, &mut |dip| {
                 let is_roof = self.spheres.get(dip.number).is_some_and(|sphere| sphere.is_roof);
-                let most = &mut most_m[dip.number];
-                *most = if dip.depth_m > 0.0 || is_roof { most.max(dip.depth_m) } else { 0.0 };
+                let before_m = before_m[dip.number];
+                let is_kept = is_roof || dip.is_felt(before_m);
+                most_m[dip.number] = if is_kept { before_m.max(dip.depth_m) } else { 0.0 };
             });
         }
         let leans = state.attitude() * V3::y();

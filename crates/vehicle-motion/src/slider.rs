@@ -91,7 +91,8 @@ impl Slide {
     /// Energy on loading, J.
     fn loaded_j(&self, way_m: f64) -> f64 {
         let beyond_m = if self.end == End::Rigid { (way_m - self.end_m()).max(0.0) } else { 0.0 };
-        self.energy_j(way_m) + 0.5 * RIGID_N_PER_M * beyond_m * beyond_m
+        let end_n = self.table_n(self.end_m());
+        self.energy_j(way_m) + end_n * beyond_m + 0.5 * RIGID_N_PER_M * beyond_m * beyond_m
     }
 
     /// Force that holds it back, N, after a greatest way.

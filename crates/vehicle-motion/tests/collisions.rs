@@ -102,6 +102,21 @@ fn the_dynamic_reading_keeps_energy_and_residual_crush() {
     assert!((outcome.damage[0].residual_m - 0.5).abs() < 1e-3);
 }
 
+/// A measured pulse, blind: NHTSA's test 10146 (Camry of 2018, 1719 kg, 57.09 km/h; rear crossmember, CFC 60) has 41.7 g, 0.741 m
+/// and Δv 18.16 m/s. Class stiffness read as dynamic crush; residual reading has 0.573 m.
+#[test]
+fn the_dynamic_reading_comes_near_a_measured_wall() {
+    let mut car = plain_car();
+    car.mass_kg = 1719.0;
+    car.body.width_m = 1.837;
+    car.body.crush.front = Stiffness::by_speed(1719.0, 1.837, 27.7);
+    car.body.crush.reading = Reading::Dynamic { longer: 0.2 };
+    let [depth, peak, back] = end(&into_wall(&car, 57.09 / 3.6, Tolerance::default()), 0.25);
+    // measured 0.687 m (−7 %), 37.3 g (−10 %), 18.0 m/s
+    assert!((depth / 0.741 - 1.0).abs() < 0.12 && (peak / 41.7 - 1.0).abs() < 0.2, "{depth} {peak}");
+    assert!(((57.09 / 3.6 - back) / 18.16 - 1.0).abs() < 0.02, "{back}");
+}
+
 #[test]
 fn two_equal_cars_head_on_are_a_wall() {
     let car = plain_car();

@@ -11,6 +11,8 @@ use crate::V3;
 
 /// A wheel that leans more than this (sine of its angle to the ground's normal) lies on its side and has no footprint.
 const LYING: f64 = 0.94;
+/// Range of the lean over which the footprint fades before.
+const FADES: f64 = 0.06;
 /// Share of the crown by which a wheel sees planes that it does not touch yet.
 const SEEN: f64 = 0.1;
 /// Steepest plane against the wheel's upward direction that is cut as it is.
@@ -78,7 +80,7 @@ impl Ground {
         let height_m = normal.dot(&(centre_m - self.point_m(plane)));
         let lean = normal.dot(&axle);
         let upright = (1.0 - lean * lean).max(0.0).sqrt();
-        let depth_m = crown_m - (height_m - (radius_m - crown_m) * upright);
+        let depth_m = standing(lean) * (crown_m - (height_m - (radius_m - crown_m) * upright));
         if depth_m <= 0.0 || lean.abs() > LYING {
             return None;
         }
@@ -113,8 +115,8 @@ impl Tread<'_> {
         let Tread { ground, radius_m, crown_m } = *self;
         let up = (-V3::z() + axle * axle.z).try_normalize(1e-6)?;
         let disc = Disc { ground, centre_m, ahead: up.cross(&axle).normalize(), up };
-        // one radius for all leans, so that nothing jumps where the centre passes a corner
-        let first = disc.cut(radius_m + SEEN * crown_m);
+        // a radius that no plane has a part in, so that nothing jumps where the centre passes a corner
+        let first = disc.cut(crowned(radius_m, crown_m, axle.z) + SEEN * crown_m);
         let under = ground.normals[first.plane].dot(&axle);
         let lean = if first.level > 0.0 { first.lean / first.level } else { under };
         if lean.abs() > LYING {
@@ -127,7 +129,7 @@ impl Tread<'_> {
             return None;
         }
         // Δ = c Δ₁ with c the cosine of the lean
-        let depth_m = upright * level_depth(reach_m, overlap.area_m2);
+        let depth_m = standing(lean) * upright * level_depth(reach_m, overlap.area_m2);
         let back = disc.up * overlap.run_m - disc.ahead * overlap.rise_m;
         let push = back + axle * aside_m;
         let is_one_plane = is_one_plane && first.is_one_plane;
@@ -156,6 +158,12 @@ impl Tread<'_> {
             lean: met.lean,
         })
     }
+}
+
+/// Share of a footprint that is left as a wheel comes to lie.
+fn standing(lean: f64) -> f64 {
+    let left = ((LYING - lean.abs()) / FADES).clamp(0.0, 1.0);
+    left * left * (3.0 - 2.0 * left)
 }
 
 /// Radius in the wheel's plane of a tyre that leans: r₁ = r₀ − ρ + ρ/c.

@@ -267,27 +267,32 @@ impl Ground {
         if least == over_m { (over_m, normal) } else { (least, (V3::y() * away[0] + across * away[1]) / least) }
     }
 
-    /// Depth of a sphere behind the deepest face whose normal is within a cosine of an axle, m, and that normal.
-    pub(crate) fn beside(&self, centre_m: &V3, radius_m: f64, axle: &V3, cosine: f64) -> Option<(f64, V3)> {
+    /// Calls for each face beside an axle that a sphere is behind, with its number, the depth, m, the normal, and how much it
+    /// counts, from 0 where the normal is at 53° to the axle to 1 at 37°. The upper edge of a face is round to the sphere.
+    pub(crate) fn beside(&self, centre_m: &V3, radius_m: f64, axle: &V3, mut with: impl FnMut(usize, f64, V3, f64)) {
         let slant = (1.0 + self.grade * self.grade).sqrt();
-        let down_m = centre_m.dot(&V3::new(self.grade / slant, 0.0, 1.0 / slant));
-        let mut deepest: Option<(f64, V3)> = None;
+        let across = V3::new(self.grade / slant, 0.0, 1.0 / slant);
+        let point = [centre_m.y, centre_m.dot(&across)];
         for piece in self.pieces(centre_m.y, 0.5) {
             let normal = self.normals[piece];
-            if normal.dot(axle).abs() < cosine {
+            let counts = ((normal.dot(axle).abs() - 0.6) / 0.2).clamp(0.0, 1.0);
+            if counts == 0.0 {
                 continue;
             }
-            let depth_m = radius_m - normal.dot(&(centre_m - self.point_m(piece)));
             let [from, to] = self.seen(piece);
-            let way = [to[0] - from[0], to[1] - from[1]];
-            let share =
-                ((centre_m.y - from[0]) * way[0] + (down_m - from[1]) * way[1]) / (way[0] * way[0] + way[1] * way[1]);
-            let is_over = (0.0..=1.0).contains(&share);
-            if is_over && (0.0..0.5).contains(&depth_m) && deepest.is_none_or(|(most, _)| depth_m > most) {
-                deepest = Some((depth_m, normal));
+            let (top, foot) = if from[1] < to[1] { (from, to) } else { (to, from) };
+            let up = [top[0] - foot[0], top[1] - foot[1]];
+            let off = [point[0] - top[0], point[1] - top[1]];
+            let (depth_m, normal) = if off[0] * up[0] + off[1] * up[1] > 0.0 {
+                let far_m = off[0].hypot(off[1]);
+                (radius_m - far_m, (V3::y() * off[0] + across * off[1]) / far_m.max(1e-12))
+            } else {
+                (radius_m - normal.dot(&(centre_m - self.point_m(piece))), normal)
+            };
+            if depth_m < 0.5 {
+                with(piece, depth_m, normal, counts);
             }
         }
-        deepest
     }
 
     /// The zone at a distance right of the X axis.

@@ -16,6 +16,8 @@ use crate::world::{Outcome, Partner, World, WorldError, Wrench};
 const SHORTEST_S: f64 = 1e-9;
 /// Steps end at most this deep behind a first touch, m.
 const TOUCH_M: f64 = 1e-4;
+/// Way of a step where there are curbs, m.
+const CURB_M: f64 = 0.02;
 /// Longest step within the gap `NEAR_M`, s.
 const NEAR_S: f64 = 0.002;
 
@@ -205,6 +207,11 @@ impl<'a> Runner<'a> {
     /// Longest step that leaps over no touch.
     fn near_s(&self) -> f64 {
         let mut near_s = f64::INFINITY;
+        if self.setup.world.ground.has_steep() {
+            // no edge of a wheel leaps behind a curb's face
+            let fastest = self.stack.cars.iter().map(|car| car.velocity_m_s().norm()).fold(0.0, f64::max);
+            near_s = CURB_M / fastest.max(1e-3);
+        }
         for (pair, touch) in self.setup.pairs.iter().zip(&self.touches) {
             if touch.gap_m < f64::INFINITY {
                 let speed = self.setup.closing_m_s(pair, &self.found.poses);
