@@ -17,3 +17,4 @@ pub mod room;
 pub mod scene;
 pub mod segment_motion;
 pub mod space_state;
+pub mod strap;

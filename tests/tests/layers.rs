@@ -8,12 +8,27 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Crates with their rooms from the lowest to the highest.
-const ROOMS: [(&str, &[&str]); 6] = [
-    ("crash-measures", &["trig", "nearest", "unit", "signal", "correlation", "measure", "injury"]),
+const ROOMS: [(&str, &[&str]); 9] = [
+    ("occupant-units", &["trig", "unit"]),
+    ("crash-measures", &["signal", "correlation", "measure", "injury"]),
     ("vehicle-motion", &["tyre", "ground", "car", "driver", "chassis", "integrate", "run"]),
     (
         "placed-text",
-        &["encoding", "shown", "problem", "source", "diagnostic", "node", "path", "reader", "csv", "json", "toml"],
+        &[
+            "encoding",
+            "nearest",
+            "shown",
+            "problem",
+            "source",
+            "diagnostic",
+            "node",
+            "path",
+            "reader",
+            "csv",
+            "json",
+            "toml",
+            "document",
+        ],
     ),
     (
         "occupant-core",
@@ -35,23 +50,60 @@ const ROOMS: [(&str, &[&str]); 6] = [
             "write",
             "convert",
             "back",
+            "print",
         ],
     ),
-    ("occupant-cli", &["base", "files", "pictures", "jobs", "commands"]),
+    (
+        "occupant-files",
+        &[
+            "base",
+            "channel_code",
+            "signals",
+            "trouble",
+            "book",
+            "table",
+            "mcap",
+            "deck",
+            "scenario",
+            "results",
+            "history",
+            "export",
+            "mme",
+            "measured",
+        ],
+    ),
+    ("occupant-pictures", &["font", "svg", "format", "body", "view", "plot", "gltf", "film", "html"]),
+    ("occupant-cli", &["base", "files", "jobs", "commands"]),
 ];
 
 /// Crates that a crate of the workspace may depend on, outside its tests.
-const CRATES: [(&str, &[&str]); 8] = [
-    ("crash-measures", &[]),
+const CRATES: [(&str, &[&str]); 11] = [
+    ("placed-text", &[]),
+    ("occupant-units", &["placed-text"]),
+    ("crash-measures", &["occupant-units"]),
     ("vehicle-motion", &[]),
-    ("placed-text", &["crash-measures"]),
-    ("occupant-core", &["crash-measures", "placed-text"]),
-    ("occupant-scenario", &["crash-measures", "placed-text", "occupant-core"]),
-    ("occupant-study", &["crash-measures", "placed-text", "occupant-core", "occupant-scenario"]),
-    ("cardio-legacy", &["crash-measures", "occupant-core", "occupant-scenario"]),
+    ("occupant-core", &["placed-text", "occupant-units", "crash-measures"]),
+    ("occupant-scenario", &["placed-text", "occupant-units", "crash-measures", "occupant-core"]),
+    ("occupant-study", &["placed-text", "occupant-units", "crash-measures", "occupant-core", "occupant-scenario"]),
+    ("cardio-legacy", &["occupant-units", "occupant-core", "occupant-scenario"]),
+    (
+        "occupant-files",
+        &["placed-text", "occupant-units", "crash-measures", "occupant-core", "occupant-scenario", "cardio-legacy"],
+    ),
+    ("occupant-pictures", &["placed-text", "occupant-units", "occupant-core", "occupant-files"]),
     (
         "occupant-cli",
-        &["crash-measures", "placed-text", "occupant-core", "occupant-scenario", "occupant-study", "cardio-legacy"],
+        &[
+            "placed-text",
+            "occupant-units",
+            "crash-measures",
+            "occupant-core",
+            "occupant-scenario",
+            "occupant-study",
+            "cardio-legacy",
+            "occupant-files",
+            "occupant-pictures",
+        ],
     ),
 ];
 
@@ -144,7 +196,9 @@ fn crates_depend_only_on_crates_below_them() {
         let manifest = fs::read_to_string(crates().join(krate).join("Cargo.toml")).unwrap();
         let own = manifest.split("[dev-dependencies]").next().unwrap_or_default();
         for (other, _) in CRATES {
-            let depends = own.lines().any(|line| line.starts_with(&format!("{other}.workspace")));
+            let depends = own.lines().any(|line| {
+                line.starts_with(&format!("{other}.workspace")) || line.starts_with(&format!("{other} = "))
+            });
             assert!(!depends || below.contains(&other), "{krate} depends on {other}");
         }
     }
@@ -152,7 +206,9 @@ fn crates_depend_only_on_crates_below_them() {
 
 #[test]
 fn the_core_reads_no_files_prints_nothing_and_starts_no_threads() {
-    for krate in ["crash-measures", "placed-text", "occupant-core", "occupant-scenario", "cardio-legacy"] {
+    for krate in
+        ["placed-text", "occupant-units", "crash-measures", "occupant-core", "occupant-scenario", "cardio-legacy"]
+    {
         let mut files = Vec::new();
         sources(&crates().join(krate).join("src"), &mut files);
         for file in files {
@@ -169,6 +225,36 @@ fn the_scanner_sees_what_is_there() {
     let text = "use crate::run::Run;\nuse crate::{model::Model, results::{a, b}, forces};\nlet x = $crate::no; occupant_crate::no;";
     let found: Vec<_> = uses(text).into_iter().filter(|word| !word.is_empty()).collect();
     assert_eq!(found, ["forces", "model", "results", "run"]);
+}
+
+/// A page in a browser and Python need files and pictures, and have no terminal.
+#[test]
+fn files_and_pictures_talk_to_nobody() {
+    for krate in ["occupant-files", "occupant-pictures"] {
+        let mut files = Vec::new();
+        sources(&crates().join(krate).join("src"), &mut files);
+        for file in files {
+            let code = code(&file);
+            for forbidden in ["println!", "eprintln!", "stdout()", "stderr()", "process::exit"] {
+                assert!(!code.contains(forbidden), "{} uses {forbidden}", file.display());
+            }
+        }
+    }
+}
+
+/// What computes needs no format: only `schema` and `documents`, which texts ask for, bring JSON, TOML and schemas.
+#[test]
+fn what_computes_depends_on_no_format() {
+    for krate in ["vehicle-motion", "occupant-units", "crash-measures", "occupant-core", "placed-text"] {
+        let manifest = fs::read_to_string(crates().join(krate).join("Cargo.toml")).unwrap();
+        let after = manifest.split("[dependencies]").nth(1).unwrap_or_default();
+        let own = after.split("[dev-dependencies]").next().unwrap_or_default();
+        for format in ["toml", "serde_json", "jsonc-parser", "schemars"] {
+            let needs = |line: &str| line.split(['.', ' ']).next() == Some(format) && !line.contains("optional = true");
+            assert!(!own.lines().any(needs), "{krate} needs {format}");
+        }
+        assert!(!own.contains("documents") && !own.contains("\"schema\""), "{krate} asks for formats");
+    }
 }
 
 /// Files of tests are modules of one binary: one that no binary names would never run.

@@ -7,6 +7,7 @@ mod belts;
 mod bodies;
 mod cars;
 mod cart_cases;
+mod closed;
 mod columns;
 mod contact_scene;
 mod driver;

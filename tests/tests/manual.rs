@@ -12,8 +12,8 @@ fn core() -> PathBuf {
 }
 
 /// Where a file that the manual names may stand.
-fn source_folders() -> [PathBuf; 4] {
-    ["occupant-core", "crash-measures", "occupant-scenario", "occupant-study"]
+fn source_folders() -> [PathBuf; 5] {
+    ["occupant-core", "occupant-units", "crash-measures", "occupant-scenario", "occupant-study"]
         .map(|name| Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates").join(name).join("src"))
 }
 

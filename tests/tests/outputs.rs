@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Series, channels};
+use occupant_core::results::summary::Summarizer;
 use occupant_core::run::simulate::simulate;
 use occupant_scenario::{Format, Scenario};
 use occupant_tests::measure::assert_below;
@@ -49,6 +50,29 @@ fn every_vehicle_has_channels() {
     let last = [vector(&series, "vehicle.velocity", 180), vector(&series, "vehicle.light.velocity", 180)];
     assert_below("both go on together, each as its own axes have it", (last[0] + last[1]).amax(), 1e-9);
     assert!(series.of("vehicle.ground.yaw").is_none(), "the ground is no vehicle");
+}
+
+/// A neck driven at T1: what the chest does is an input, and there are no legs. A head that a mount lets go is measured.
+#[test]
+fn what_a_mount_moves_has_no_measures() {
+    let measured = |text: &str| {
+        let mut summarizer = Summarizer::new();
+        simulate(&model(text), &mut summarizer).expect("a run");
+        let summary = summarizer.summary(None).expect("an end");
+        let names = summary.measures.iter().filter(|m| m.has_part()).map(|m| m.name);
+        (names.collect::<Vec<_>>(), summary.accelerations)
+    };
+    let (neck, accelerations) = measured(include_str!("../../scenarios/neck-sled.toml"));
+    assert!(neck.contains(&"hic15") && neck.contains(&"nij"), "{neck:?}");
+    assert!(
+        !neck
+            .iter()
+            .any(|name| ["chest_3ms", "chest_peak", "pelvis", "left_femur"].iter().any(|part| name.starts_with(part))),
+        "{neck:?}"
+    );
+    assert!(accelerations.chest.peak_g.is_nan() && accelerations.head.peak_g > 10.0, "{accelerations:?}");
+    let (head, accelerations) = measured(include_str!("../../scenarios/head-drop.toml"));
+    assert!(head.contains(&"hic15") && accelerations.head.peak_g > 200.0, "{head:?}");
 }
 
 /// What surfaces and solids do to bodies is what spheres feel.

@@ -1,5 +1,8 @@
 //! Seats: the cushion carries what it should, legs reach their heels, settled bodies stay.
 
+use std::fs;
+use std::path::{Path, PathBuf};
+
 use nalgebra::{Matrix3, Vector3};
 use occupant_core::body::tti12::{self, TTI12};
 use occupant_core::body::{Body, Segment};
@@ -10,12 +13,14 @@ use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating, Se
 use occupant_core::model::setup::{Integrator, Setup};
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::{Contact, Sample};
+use occupant_core::results::summary::Summarizer;
 use occupant_core::run::simulate::simulate;
 use occupant_core::vehicle::{Attitude, FixedPath, VehiclePath, VehiclePose};
+use occupant_scenario::{Draft, Format};
 use occupant_tests::cart::{self, GRAVITY_M_S2, lap};
 use occupant_tests::cases::{INCH_M, male50, parked};
 use occupant_tests::measure::{assert_below, assert_within};
-use occupant_tests::room::setup;
+use occupant_tests::room::{run, setup};
 
 const PELVIS: usize = 2;
 
@@ -340,4 +345,56 @@ fn the_spool_of_a_retractor_does_not_turn_a_seated_body() {
     let [l, r] = [tti12::LEFT_LOWER_LEG, tti12::RIGHT_LOWER_LEG].map(|n| start.joints_m[n.index()][0]);
     assert_below("one knee ahead of the other, m", l.x - r.x, 1e-3);
     assert_below("to the side, m", (l + r).y / 2.0 + 0.35, 1e-3);
+}
+
+/// A summary says whose start is not in balance, and of which figures that takes the sense: pressed 3.6 mm into a bolster each knee feels
+/// 3.6 kN, which are gone after 4 ms.
+#[test]
+fn figures_of_an_unbalanced_start_are_marked() {
+    let shipped = include_str!("../../scenarios/sled-person.toml");
+    let pressed = r#"surfaces.bolster.edge=[["459.5 mm", "-87.6 mm"], ["620.2 mm", "103.9 mm"]]"#;
+    let caveat = |set: &[&str]| {
+        let mut summarizer = Summarizer::new();
+        run(setup(shipped, set), &mut summarizer);
+        summarizer.summary(None).unwrap().caveats.into_iter().find(|caveat| caveat.name == "start_unbalanced")
+    };
+    assert_eq!(caveat(&["time.end=20 ms"]), None);
+    let marked = caveat(&["time.end=20 ms", pressed]).expect("7.2 kN are left over");
+    assert!(marked.text.contains("7188 N are left over of a weight of 740 N"), "{}", marked.text);
+    for figure in ["pelvis.peak", "contacts.left_knee.peak", "hic15"] {
+        assert!(marked.touches(figure), "{figure}: {:?}", marked.figures);
+    }
+    // what comes later stands
+    let marked = caveat(&[pressed]).unwrap();
+    assert!(!marked.touches("head.peak") && marked.touches("contacts.left_knee.peak"), "{:?}", marked.figures);
+}
+
+/// The scenarios in a folder of the repository.
+fn shipped(folder: &str) -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(folder);
+    let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    files.filter(|path| path.extension().is_some_and(|ending| ending == "toml")).collect()
+}
+
+/// A scenario with the tables beside it.
+fn read(path: &Path) -> Setup {
+    let beside = |name: &str| fs::read(path.with_file_name(name)).map_err(|e| e.to_string());
+    let draft = Draft::read(&fs::read_to_string(path).unwrap(), Format::Toml, "test").unwrap();
+    draft.load(&beside).and_then(|loaded| loaded.build()).unwrap().0
+}
+
+#[test]
+fn every_shipped_body_begins_in_balance() {
+    let mut seen = 0;
+    for path in ["scenarios", "scenarios/templates"].into_iter().flat_map(shipped) {
+        let name = path.display();
+        let model = Model::new(read(&path)).unwrap_or_else(|e| panic!("{name}: {e:?}"));
+        let all = if model.alone().is_empty() { std::slice::from_ref(&model) } else { model.alone() };
+        for alone in all {
+            let left = alone.start().unsettled.or(alone.start().settled);
+            assert!(!left.is_some_and(|left| left.is_unbalanced()), "{name}: {left:?}");
+            seen += usize::from(left.is_some());
+        }
+    }
+    assert!(seen > 15, "{seen} seated bodies");
 }

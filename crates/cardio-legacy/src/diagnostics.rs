@@ -125,6 +125,9 @@ impl fmt::Display for Diagnostic {
     }
 }
 
+/// So many problems of one rule are shown.
+const SHOWN: usize = 5;
+
 /// All problems of a file, in the order in which they were found.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Diagnostics {
@@ -154,10 +157,21 @@ impl Diagnostics {
 }
 
 impl fmt::Display for Diagnostics {
-    /// Every problem, then one line that counts them.
+    /// The problems, of each rule the first ones, then one line that counts them all.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut seen: Vec<(Rule, usize)> = Vec::new();
         for item in &self.items {
-            writeln!(f, "{item}")?;
+            let at = seen.iter().position(|(rule, _)| *rule == item.rule).unwrap_or_else(|| {
+                seen.push((item.rule, 0));
+                seen.len() - 1
+            });
+            seen[at].1 += 1;
+            if seen[at].1 <= SHOWN {
+                writeln!(f, "{item}")?;
+            }
+        }
+        for (rule, count) in seen.iter().filter(|(_, count)| *count > SHOWN) {
+            writeln!(f, "and {} more of the kind [{}]\n", count - SHOWN, rule.name())?;
         }
         let counted = |severity, name: &str| {
             let n = self.count(severity);

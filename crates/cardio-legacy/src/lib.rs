@@ -38,7 +38,7 @@
 //!
 //! The sources by room, each using only those before it (`tests/rooms.rs`): `rule`, `punched` (80 columns), `fortran`
 //! (fields), `cards` (the table, a file for each series: what card 7 means stands in `cards/card_07_spheres.rs`), `deck`,
-//! `compartment`, `notes`, `diagnostics`, `check`, `read`, `write`, `convert` (deck → scenario), `back` (scenario → deck).
+//! `compartment`, `notes`, `diagnostics`, `check`, `read`, `write`, `convert` (deck → scenario), `back` (scenario → deck), `print` (a run as the printout of 1970).
 //!
 //! # Rules that hold for any bytes
 //!
@@ -65,6 +65,7 @@ mod deck;
 mod diagnostics;
 pub mod fortran;
 mod notes;
+pub mod print;
 mod punched;
 mod read;
 mod rule;

@@ -107,6 +107,11 @@ rules! {
     EmptyFile: Fatal, "empty-file", expects "two title cards, series 3 to 16 and FINI";
     /// The characters are those of EBCDIC.
     Ebcdic: Remark, "ebcdic";
+    /// The characters are those of UTF-16.
+    Utf16: Remark, "utf-16";
+    /// Bytes that are no text of cards.
+    NotCards: Fatal, "not-cards", expects "text: Latin-1, UTF-16 or EBCDIC",
+        remedy "unpack the file, or export it as text; records must not carry their lengths";
     /// Records of 80 columns one after the other.
     NoLineEnds: Remark, "no-line-ends";
     /// A tab, which has no column.

@@ -1,6 +1,7 @@
 //! The decks as a user meets them, a module each subject, in one binary.
 
 mod any_bytes;
+mod damaged;
 mod decks;
 mod fields;
 mod round_trips;

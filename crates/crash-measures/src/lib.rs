@@ -4,7 +4,4 @@
 pub mod correlation;
 pub mod injury;
 pub mod measure;
-pub mod nearest;
 pub mod signal;
-pub mod trig;
-pub mod unit;

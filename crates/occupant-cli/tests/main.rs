@@ -6,6 +6,7 @@ mod common;
 mod convert;
 mod ensembles;
 mod everyday;
+mod examined;
 mod fit;
 mod histories;
 mod laboratory;

@@ -289,3 +289,41 @@ fn the_page_of_a_run_has_what_risk_says_of_its_vehicle() {
     assert_eq!(both.matches("<summary>Motion of").count(), 1);
     assert!(!page(&["report", "still.mcap"]).contains("Motion of"));
 }
+
+/// The class or level of a rule, by steady accelerations of 0.2 s.
+#[test]
+fn classes_and_levels_are_the_best_whose_bounds_are_all_kept() {
+    let folder = folder();
+    let judged = |x: f64, y: f64, z: f64, rule: &str, flags: &[&str]| {
+        steady(folder.path(), "ax[g],ay[g],az[g],wx[deg/s],wy[deg/s],wz[deg/s]", &format!("{x},{y},{z},0,0,0"), 10_000);
+        let report = json(folder.path(), &[&["a.csv"], flags].concat());
+        let classes = report["classes"].as_array().unwrap();
+        let found = classes.iter().find(|c| c["rule"] == rule).unwrap_or_else(|| panic!("no {rule}"));
+        found["class"].as_str().map_or_else(|| found["by"].as_str().unwrap().to_owned(), str::to_owned)
+    };
+    let class = |x, y, z, rule| judged(x, y, z, rule, &[]);
+    // THIV √(2·0.6 m·a): 24.7 km/h at 4 g, 39.1 at 10 g; ASI of z alone is z/10
+    let en1317 = |x, y, z| class(x, y, z, "EN 1317-1:2010");
+    assert_eq!(en1317(-4.0, 0.0, 0.0), "class A");
+    assert_eq!(en1317(-4.0, 0.0, 12.0), "class B");
+    assert_eq!(en1317(-4.0, 0.0, 18.0), "class C");
+    assert_eq!(en1317(-4.0, 0.0, 20.0), "beyond ASI (2010) 2.03 of 1.90");
+    assert_eq!(en1317(-10.0, 0.0, 0.0), "beyond THIV 39.1 of 33.0 km/h");
+    assert_eq!(class(-10.0, 0.0, 0.0, "EN 1317-3 (cushion, head on)"), "class A");
+    assert_eq!(class(-10.0, 0.0, 0.0, "EN 1317-3 (cushion, side)"), "beyond THIV 39.1 of 33.0 km/h");
+    // PHD, of the edition of 1998 alone
+    assert_eq!(class(-4.0, 0.0, 0.0, "EN 1317-1:1998"), "class A");
+    let en12767 = |x, y, z| class(x, y, z, "EN 12767 (50 to 100 km/h)");
+    // √(2·0.1 m·4.7 g) = 10.9 km/h
+    let near = judged(-4.7, 0.0, 0.0, "EN 12767 (50 to 100 km/h)", &["--flail-x", "0.1 m"]);
+    assert_eq!(near, "level NE 3");
+    assert_eq!(en12767(-4.0, 0.0, 0.0), "levels HE 3, LE 3, NE 2");
+    assert_eq!(en12767(-6.0, 0.0, 0.0), "levels HE 2, LE 2, NE 1");
+    assert_eq!(en12767(-6.0, 0.0, 11.5), "levels HE 1, LE 1");
+    assert_eq!(en12767(-10.0, 0.0, 14.0), "beyond ASI (1998) 1.63 of 1.40");
+    assert_eq!(class(-4.0, 0.0, 0.0, "EN 12767 (35 km/h)"), "all levels but NE 3");
+    // a bound that could not be looked at
+    steady(folder.path(), "ax[g],ay[g],az[g]", "-4,0,0", 10_000);
+    let out = occupant(folder.path(), &["risk", "a.csv", "--rule", "en1317-2010"]).1;
+    assert!(out.contains("not known: THIV was not measured"), "{out}");
+}

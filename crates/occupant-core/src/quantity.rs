@@ -6,8 +6,8 @@
 
 use std::fmt;
 
-use crash_measures::unit::Unit;
 use nalgebra::{UnitQuaternion, Vector3};
+use occupant_units::unit::Unit;
 
 /// The axes that a component is along.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

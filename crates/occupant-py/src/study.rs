@@ -8,7 +8,7 @@ use occupant_core::model::Model;
 use occupant_core::results::summary::Summarizer;
 use occupant_core::run::batch::Kernel;
 use occupant_scenario::Draft;
-use occupant_study::ending::Ending;
+use occupant_scenario::ending::Ending;
 use occupant_study::engine::{Engine, Finished, NotBegun, Source, Unrecorded};
 use occupant_study::{StudyText, Value};
 use pyo3::exceptions::PyIndexError;

@@ -5,13 +5,13 @@
 use std::error::Error;
 use std::f64::consts::PI;
 
-use crash_measures::trig::sin_cos;
 use nalgebra::Vector3;
 use occupant_core::model::Model;
 use occupant_core::results::summary::Summarizer;
 use occupant_core::run::simulate::simulate;
 use occupant_core::vehicle::{Attitude, VehicleMotion, VehiclePath, VehiclePose, VehicleState};
 use occupant_scenario::{Format, Scenario};
+use occupant_units::trig::sin_cos;
 
 /// A collision whose force and yaw moment are half sines in time. Axes: x forward as the vehicle came, y right, z down.
 #[derive(Debug)]

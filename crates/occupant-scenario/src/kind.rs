@@ -1,7 +1,7 @@
 //! The kinds of quantity a scenario can hold: how each is called and written, what a bare number means in each unit
 //! system, and how a written one becomes a number in SI units.
 
-use crash_measures::unit::{Dimension, Scale, Unit, UnitError, parse, parse_heading};
+use occupant_units::unit::{Dimension, Scale, Unit, UnitError, parse, parse_heading};
 use serde::{Deserialize, Serialize};
 
 use placed_text::Value;

@@ -85,6 +85,7 @@
 
 mod check;
 mod draft;
+pub mod ending;
 mod expand;
 pub mod kind;
 mod loaded;
@@ -103,7 +104,7 @@ pub use places::{Place, Wanted};
 pub use presets::preset_body;
 pub use sections::{
     Angle, FRACTION, Length, NOT_NEGATIVE, POSITIVE, Quantity, Ratio, RecordFile, Scenario, Time, column_in,
-    column_named, read_record, schema,
+    column_named, read_record, schema, speed_named,
 };
 
 #[cfg(test)]

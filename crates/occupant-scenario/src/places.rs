@@ -11,8 +11,8 @@ use super::expand::expand;
 use super::kind::{Kind, split_number};
 use super::overrides::put;
 use super::sections::schema;
-use crash_measures::unit::parse;
 use occupant_core::body::both_sides;
+use occupant_units::unit::parse;
 use placed_text::{Node, Problem, Step, Value, child, children, did_you_mean, follow, parse_path, targets, to_text};
 
 /// What may stand at a place.

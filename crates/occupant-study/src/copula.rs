@@ -6,7 +6,7 @@
 use std::f64::consts::PI;
 
 use super::normal;
-use crash_measures::trig::sin_cos;
+use occupant_units::trig::sin_cos;
 
 /// Probabilities stay this far from 0 and 1, as those of the random numbers do.
 const LEAST: f64 = f64::EPSILON / 2.0;

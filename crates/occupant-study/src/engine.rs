@@ -18,17 +18,16 @@ use std::sync::mpsc::{SyncSender, sync_channel};
 use std::time::Instant;
 
 use occupant_core::model::Model;
-use occupant_core::results::outcome::RecordingFailed;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_core::run::batch::{self, Job, Kernel, simulate_many};
 use occupant_scenario::Diagnostics;
+use occupant_scenario::ending::Ending;
+pub use occupant_scenario::ending::Unrecorded;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 /// Stack of a thread, bytes: eight runs side by side of many bodies are large to make.
 const STACK: usize = 16 << 20;
-
-use crate::ending::Ending;
 
 /// Where runs come from and what they leave. One is shared by all threads.
 pub trait Source: Sync {
@@ -97,30 +96,6 @@ pub struct Ran<R> {
     pub recorder: R,
     /// What computed it.
     pub kernel: Kernel,
-}
-
-/// A run whose results could not be recorded.
-#[derive(Debug, thiserror::Error)]
-#[error("sample {index}: {}", with_causes(.source))]
-pub struct Unrecorded {
-    /// Its number.
-    pub index: u64,
-    /// What its recorder said.
-    pub source: RecordingFailed,
-}
-
-/// An error with what has caused it: the reason of the operating system stands last.
-fn with_causes(error: &dyn std::error::Error) -> String {
-    let mut text = error.to_string();
-    let mut cause = error.source();
-    while let Some(deeper) = cause {
-        let words = deeper.to_string();
-        if !text.contains(&words) {
-            text.push_str(&format!(": {words}"));
-        }
-        cause = deeper.source();
-    }
-    text
 }
 
 /// The threads that compute runs, and how each does it.

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::normal;
-use crash_measures::trig::{exp, ln};
+use occupant_units::trig::{exp, ln};
 
 /// A value of a parameter: SI units, angles in radians.
 #[derive(Clone, Debug, PartialEq)]

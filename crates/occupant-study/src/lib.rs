@@ -53,7 +53,6 @@ mod copula;
 mod corners;
 mod design;
 mod direction_numbers;
-pub mod ending;
 pub mod engine;
 mod ensemble;
 mod fit;

@@ -133,7 +133,7 @@ mod tests {
     fn pulse(shift_s: f64, size: f64) -> Vec<f64> {
         let value = |i: usize| {
             let t = i as f64 * 1e-4 - shift_s;
-            -size * crash_measures::trig::exp(-((t - 0.05) / 0.012) * ((t - 0.05) / 0.012))
+            -size * occupant_units::trig::exp(-((t - 0.05) / 0.012) * ((t - 0.05) / 0.012))
         };
         (0..=1000).map(value).collect()
     }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use crash_measures::trig::{erfc, ln};
+use occupant_units::trig::{erfc, ln};
 
 /// Φ(z), the part of a standard normal distribution below z.
 pub(super) fn cumulative(z: f64) -> f64 {

@@ -51,8 +51,15 @@ impl Separator {
     }
 
     fn is_number(self, text: &str) -> bool {
+        self.value(text).is_some()
+    }
+
+    /// A finite number: the minus may be that of type-setters, the sign of the exponent the D of Fortran.
+    fn value(self, text: &str) -> Option<f64> {
         let point = if self.0 == ',' { text.to_owned() } else { text.replace(',', ".") };
-        point.replace(['\u{2212}', '\u{2013}'], "-").parse::<f64>().is_ok_and(f64::is_finite)
+        let point = point.replace(['\u{2212}', '\u{2013}'], "-");
+        let exponent = || point.replacen(['D', 'd'], "E", 1).parse().ok();
+        point.parse().ok().or_else(exponent).filter(|x: &f64| x.is_finite())
     }
 
     /// The pieces of a line with where each begins. Nothing separates within double quotes, no blank a name from its unit.
@@ -94,14 +101,10 @@ impl Separator {
     /// # Errors
     /// What was found instead of a finite number.
     pub fn number(self, cell: &Cell) -> Result<f64, String> {
-        let point = if self.0 == ',' { cell.text.to_owned() } else { cell.text.replace(',', ".") };
-        // minus signs of type-setters
-        let point = point.replace(['\u{2212}', '\u{2013}'], "-");
-        match (cell.text, point.parse::<f64>()) {
-            (_, Ok(x)) if x.is_finite() => Ok(x),
-            ("", _) => Err("an empty cell".to_owned()),
-            (text, _) => Err(format!("`{}`", shortened(text, CELL))),
-        }
+        self.value(cell.text).ok_or_else(|| match cell.text {
+            "" => "an empty cell".to_owned(),
+            text => format!("`{}`", shortened(text, CELL)),
+        })
     }
 }
 
@@ -155,7 +158,7 @@ impl<'a> TextTable<'a> {
     pub fn of(sources: &'a Sources, id: SourceId, is_unit: impl Fn(&str) -> bool) -> Option<Self> {
         let lines: Vec<Span> = lines(sources, id).collect();
         let Some(body) = Body::longest(sources, &lines) else { return Self::at_first(sources, lines, is_unit) };
-        let Body { separator, first, end, .. } = body;
+        let Body { separator, first, .. } = body;
         let cells = |line: usize| separator.cells(sources, lines[line]);
         let names_units = |cell: &Cell| matches!(cell.text, "" | "-") || is_unit(bare(cell.text));
         let is_head = |line: usize| line == 0 || cells(line).len() > 1;
@@ -169,12 +172,13 @@ impl<'a> TextTable<'a> {
             None => (None, None),
         };
         let start = heads.unwrap_or(first);
+        let (start, numbers, end) = pages(sources, &lines, &body, start);
         Some(TextTable {
             separator,
             first: lines[start],
             headings: heads.map(cells).unwrap_or_default(),
             units: units.map(cells).unwrap_or_default(),
-            lines: lines[first..end].to_vec(),
+            lines: numbers,
             before: start,
             behind: lines.get(end).copied(),
         })
@@ -202,6 +206,44 @@ impl<'a> TextTable<'a> {
             || self.units.get(column).map(|cell| (bare(cell.text), cell.span)).filter(|(unit, _)| !unit.is_empty());
         name_and_unit(heading.text).1.map(|unit| (unit, heading.span)).or_else(below)
     }
+}
+
+/// Lines between two pages of a printout that are read over: title, number of the page.
+const BETWEEN_PAGES: usize = 12;
+
+/// A table whose headings stand on every page: its first line of all, its lines of numbers, and one past its last line.
+fn pages(sources: &Sources, lines: &[Span], body: &Body, start: usize) -> (usize, Vec<Span>, usize) {
+    let words = |line: &Span| sources.slice(*line).split_whitespace().collect::<Vec<_>>();
+    let heads: Vec<_> = lines[start..body.first].iter().map(words).collect();
+    let page = |at: usize| {
+        let same = lines.get(at..at + heads.len()).is_some_and(|own| own.iter().map(words).eq(heads.iter().cloned()));
+        let from = (same && at + heads.len() < lines.len()).then_some(at + heads.len())?;
+        Body::from(sources, lines, from).filter(|page| page.count == body.count)
+    };
+    // a page goes on with the times; another table of the same headings begins anew
+    let time =
+        |line: usize| body.separator.cells(sources, lines[line]).first().and_then(|c| body.separator.value(c.text));
+    let goes_on = |end: usize, page: &Body| time(page.first) > time(end - 1);
+    let follow = |first: usize, end: usize| {
+        let (mut end, mut all) = (end, lines[first..end].to_vec());
+        while let Some(next) = (end..end + BETWEEN_PAGES).find_map(page).filter(|next| goes_on(end, next)) {
+            all.extend_from_slice(&lines[next.first..next.end]);
+            end = next.end;
+        }
+        (all, end)
+    };
+    let earlier = (0..start).filter(|_| !heads.is_empty()).find_map(|at| {
+        let first = page(at)?;
+        let (all, end) = follow(first.first, first.end);
+        (end >= body.end).then_some((at, all, end))
+    });
+    earlier.unwrap_or_else(|| match heads.is_empty() {
+        true => (start, lines[body.first..body.end].to_vec(), body.end),
+        false => {
+            let (all, end) = follow(body.first, body.end);
+            (start, all, end)
+        }
+    })
 }
 
 /// Lines of numbers of a table.

@@ -160,6 +160,14 @@ impl Diagnostics {
         self.kept.len() + self.more.iter().sum::<usize>()
     }
 
+    /// The same with at most so many to show; the others are counted.
+    #[must_use]
+    pub fn abridged(mut self, most: usize) -> Self {
+        let left_out = self.kept.split_off(most.min(self.kept.len()));
+        left_out.iter().for_each(|diagnostic| self.more[diagnostic.problem.severity as usize] += 1);
+        self
+    }
+
     /// Each that is kept in turn.
     pub fn iter(&self) -> std::slice::Iter<'_, Diagnostic> {
         self.kept.iter()

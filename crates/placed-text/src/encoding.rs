@@ -3,13 +3,24 @@
 /// Characters of the bytes 0x80 to 0x9f in Windows-1252; the others are those of Latin-1.
 const UPPER: &str = "€\u{81}‚ƒ„…†‡ˆ‰Š‹Œ\u{8d}Ž\u{8f}\u{90}‘’“”•–—˜™š›œ\u{9d}žŸ";
 
-/// The text of a table's bytes, and the name of their encoding where it is not UTF-8. A byte-order mark is no part of it.
+/// The text of a table's bytes, and the name of their encoding where it is not UTF-8. A byte-order mark is no part of it, and every line ends
+/// with a line feed.
 ///
 /// # Errors
 /// Bytes that are no text.
 pub fn decoded(bytes: &[u8]) -> Result<(String, Option<&'static str>), String> {
+    let (text, name) = of_code(bytes)?;
+    // lines of old Macs end with a carriage return alone
+    let is_old = text.contains('\r') && !text.contains('\n');
+    Ok((if is_old { text.replace('\r', "\n") } else { text }, name))
+}
+
+fn of_code(bytes: &[u8]) -> Result<(String, Option<&'static str>), String> {
     match bytes {
-        [0xef, 0xbb, 0xbf, rest @ ..] => return decoded(rest),
+        [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => {
+            return Err("UTF-32 text: neither UTF-8, UTF-16 nor Windows-1252".to_owned());
+        }
+        [0xef, 0xbb, 0xbf, rest @ ..] => return of_code(rest),
         [0xff, 0xfe, rest @ ..] => return wide(rest, u16::from_le_bytes),
         [0xfe, 0xff, rest @ ..] => return wide(rest, u16::from_be_bytes),
         _ => {}
@@ -74,6 +85,7 @@ mod tests {
         assert_eq!(UPPER.chars().count(), 32);
         assert_eq!(decoded(b"\x80 5").unwrap().0, "€ 5");
         assert_eq!(decoded(b"").unwrap().0, "");
+        assert_eq!(decoded(b"t;x\r0;1\r").unwrap().0, "t;x\n0;1\n");
     }
 
     #[test]
@@ -81,5 +93,6 @@ mod tests {
         assert!(decoded(&[0xff, 0xfe, 0x00]).unwrap_err().contains("not UTF-8") || decoded(&[0xff, 0xfe, 0]).is_err());
         assert!(decoded(&[0x89, b'P', b'N', b'G', 0x0d, 0x01, 0x00, 0x1b]).is_err());
         assert!(decoded(&[0xff, 0xfe, 0x00, 0xd8]).is_err());
+        assert!(decoded(&[0xff, 0xfe, 0, 0, b't', 0, 0, 0]).unwrap_err().contains("UTF-32"));
     }
 }

@@ -1,124 +1,54 @@
 //! Texts that inputs are made of: TOML and JSON as one tree whose values know their places, paths into it, lines of CSV,
 //! and messages that point at the words they are about. Knows no key of any section and no simulator; reads no files, prints
 //! nothing.
+//!
+//! Without the feature `documents` there are messages alone: what computes has problems to tell, and reads no text.
 
+#![cfg_attr(not(feature = "documents"), allow(dead_code, reason = "what messages of documents need"))]
+
+#[cfg(feature = "documents")]
 mod csv;
+#[cfg(feature = "documents")]
 mod diagnostic;
+#[cfg(feature = "documents")]
+mod document;
+#[cfg(feature = "documents")]
 mod encoding;
+#[cfg(feature = "documents")]
 mod json;
+mod nearest;
+#[cfg(feature = "documents")]
 mod node;
+#[cfg(feature = "documents")]
 mod path;
 mod problem;
+#[cfg(feature = "documents")]
 mod reader;
 mod shown;
+#[cfg(feature = "documents")]
 mod source;
+#[cfg(feature = "documents")]
 mod toml;
 
+#[cfg(feature = "documents")]
 pub use csv::{CELL, Cell, MOST_CELLS, Separator, TextTable, is_missing, lines, name_and_unit};
+#[cfg(feature = "documents")]
 pub use diagnostic::{Diagnostic, Diagnostics};
+#[cfg(feature = "documents")]
+pub use document::{Document, refuse, table_text, text_of};
+#[cfg(feature = "documents")]
 pub use encoding::decoded;
+pub use nearest::nearest;
+#[cfg(feature = "documents")]
 pub use node::{Entry, Format, Node, Table, Value, Written};
-pub use path::{Step, child, children, follow, locate, parse as parse_path, targets, to_text, with_key, with_step};
-pub use problem::{Problem, Problems, Severity};
-pub use shown::{number, plain, shortened, shown};
+#[cfg(feature = "documents")]
+pub use path::{Step, child, children, follow, locate, parse as parse_path, targets, to_text, with_step};
+pub use problem::{Problem, Problems, Severity, with_key};
+pub use shown::{number, plain, shortened, shown, trimmed, without_zeros};
+#[cfg(feature = "documents")]
 pub use source::{Position, SourceId, Sources, Span};
+#[cfg(feature = "documents")]
 pub use toml::parse_value;
-
-use crash_measures::nearest::nearest;
-use serde::de::DeserializeOwned;
-
-/// A text that has been read: its tree, and the texts that the places of the tree point into.
-#[derive(Clone, Debug)]
-pub struct Document {
-    /// Every text that places point into.
-    pub sources: Sources,
-    /// The text itself.
-    pub main: SourceId,
-    /// Its tree.
-    pub root: Node,
-}
-
-impl Document {
-    /// Reads a text; `name` is what messages call it, such as its file name.
-    ///
-    /// # Errors
-    /// Everything that is wrong with its syntax.
-    pub fn read(text: &str, format: Format, name: &str) -> Result<Document, Diagnostics> {
-        let mut sources = Sources::new();
-        let main = sources.add(name, text);
-        let root = match format {
-            Format::Toml => toml::parse(&sources, main)?,
-            Format::Json => json::parse(&sources, main)?,
-        };
-        Ok(Document { sources, main, root })
-    }
-
-    /// Reads bytes that should be UTF-8 text; [`Format::of_text`] says the format unless it is given.
-    ///
-    /// # Errors
-    /// The place of the first byte that is not UTF-8; else as [`Document::read`].
-    pub fn read_bytes(bytes: &[u8], format: Option<Format>, name: &str) -> Result<Document, Diagnostics> {
-        let text = text_of(bytes, name)?;
-        Document::read(text, format.unwrap_or_else(|| Format::of_text(text)), name)
-    }
-
-    /// The text it was read from.
-    pub fn text(&self) -> &str {
-        self.sources.text(self.main)
-    }
-
-    /// Whether its root has this key.
-    pub fn has(&self, key: &str) -> bool {
-        self.root.get(key).is_some()
-    }
-
-    /// A problem at the words that its path points at.
-    pub fn place(&self, problem: Problem) -> Diagnostic {
-        match locate(&self.root, &problem.path) {
-            Some(span) => Diagnostic::at(&self.sources, span, problem),
-            None => Diagnostic::of(self.sources.name(self.main), problem),
-        }
-    }
-
-    /// Its sections, once it has passed the check; `what` is what messages call it. A difference between check and
-    /// sections is reported, not a panic.
-    ///
-    /// # Errors
-    /// The first such difference.
-    pub fn sections<T: DeserializeOwned>(&self, what: &str) -> Result<T, Diagnostics> {
-        T::deserialize(&self.root).map_err(|error| {
-            let found = format!("the {what} cannot be read: {error}");
-            refuse(self.sources.name(self.main), found, &format!("a {what}"))
-        })
-    }
-}
-
-/// Bytes as text; `name` is what messages call them.
-///
-/// # Errors
-/// The line of the first byte that is not UTF-8.
-pub fn text_of<'a>(bytes: &'a [u8], name: &str) -> Result<&'a str, Diagnostics> {
-    std::str::from_utf8(bytes).map_err(|error| {
-        let before = &bytes[..error.valid_up_to()];
-        let line = before.iter().filter(|b| **b == b'\n').count() + 1;
-        let byte = bytes.get(before.len()).copied().unwrap_or(0);
-        let found = format!("byte 0x{byte:02x} in line {line} is not UTF-8");
-        refuse(name, found, "a text in UTF-8")
-    })
-}
-
-/// The bytes of a table as text, as [`decoded`]; `name` is what messages call them.
-///
-/// # Errors
-/// Bytes that are no text.
-pub fn table_text(bytes: &[u8], name: &str) -> Result<String, Diagnostics> {
-    decoded(bytes).map(|(text, _)| text).map_err(|found| refuse(name, found, "a text table"))
-}
-
-/// One problem of a text as a whole.
-pub fn refuse(source: &str, found: String, expected: &str) -> Diagnostics {
-    Diagnostic::of(source, Problem::error("", found, expected)).into()
-}
 
 /// Names of a long list that are shown.
 const NAMES: usize = 40;

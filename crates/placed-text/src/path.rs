@@ -1,6 +1,7 @@
 //! Paths into a scenario: `belts.lap.anchors[1]`, `joints.*.damping`, `surfaces."front cushion".material`.
 
 use crate::node::{Node, Value};
+use crate::problem::with_key;
 use crate::source::Span;
 
 /// One step of a path.
@@ -71,13 +72,6 @@ fn index_step(text: &str) -> Result<(Step, usize), String> {
 fn quoted_step(text: &str) -> Result<(Step, usize), String> {
     let inner = text[1..].find('"').ok_or_else(|| format!("a quote without its second one in `{text}`"))?;
     Ok((Step::Key(text[1..=inner].to_owned()), inner + 2))
-}
-
-/// A path with one more key.
-pub fn with_key(path: &str, key: &str) -> String {
-    let plain = !key.is_empty() && key.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-');
-    let key = if plain { key.to_owned() } else { format!("\"{key}\"") };
-    if path.is_empty() { key } else { format!("{path}.{key}") }
 }
 
 /// The path of step texts, for messages.

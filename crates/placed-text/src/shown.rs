@@ -56,6 +56,16 @@ fn escaped(chars: impl Iterator<Item = char>, is_hidden: impl Fn(char) -> bool) 
     text
 }
 
+/// A number with so many decimals at most: without the zeros at its end.
+pub fn trimmed(value: f64, decimals: usize) -> String {
+    without_zeros(&format!("{value:.decimals$}")).to_owned()
+}
+
+/// The digits of a number with decimals without the zeros at their end.
+pub fn without_zeros(digits: &str) -> &str {
+    digits.trim_end_matches('0').trim_end_matches('.')
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

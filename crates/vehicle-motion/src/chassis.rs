@@ -12,9 +12,11 @@ use nalgebra::{Matrix3, Matrix6, Quaternion, UnitQuaternion, Vector6};
 
 /// Numbers of the state: place 3, attitude 4, velocity 3, rotation 3, and of each wheel jounce, its rate, spin and two slips;
 /// then the sums of work.
-pub const NUMBERS: usize = 33 + SUMS;
+pub const NUMBERS: usize = MOTION + SUMS;
+/// Numbers of the state without its sums of work.
+pub const MOTION: usize = 33;
 /// Sums of work at the end of the state, in the order of [`Work`].
-pub const SUMS: usize = 6;
+pub const SUMS: usize = 10;
 
 /// Spin below which a wheel counts as standing, rad/s.
 const STANDING_RAD_S: f64 = 0.5;
@@ -40,6 +42,63 @@ pub struct Work {
     pub air_j: f64,
     /// Drive torque, put in.
     pub driving_j: f64,
+    /// Taken up by crush, with what it holds at the moment.
+    pub crush_j: f64,
+    /// This vehicle's half of what was lost in sliding along others.
+    pub rubbing_j: f64,
+    /// Hull and rims on the ground, with what they hold at the moment.
+    pub hull_j: f64,
+    /// What occupants and other pushes from outside put in.
+    pub pushed_j: f64,
+}
+
+impl Work {
+    fn of(sums: &[f64]) -> Self {
+        Work {
+            sliding_j: sums[0],
+            damping_j: sums[1],
+            braking_j: sums[2],
+            rolling_j: sums[3],
+            air_j: sums[4],
+            driving_j: sums[5],
+            crush_j: sums[6],
+            rubbing_j: sums[7],
+            hull_j: sums[8],
+            pushed_j: sums[9],
+        }
+    }
+
+    fn sums(&self) -> [f64; SUMS] {
+        [
+            self.sliding_j,
+            self.damping_j,
+            self.braking_j,
+            self.rolling_j,
+            self.air_j,
+            self.driving_j,
+            self.crush_j,
+            self.rubbing_j,
+            self.hull_j,
+            self.pushed_j,
+        ]
+    }
+
+    /// All that was lost or is held in contacts, less what was put in, J.
+    pub fn spent_j(&self) -> f64 {
+        let out = self.sliding_j + self.damping_j + self.braking_j + self.rolling_j + self.air_j;
+        out + self.crush_j + self.rubbing_j + self.hull_j - self.driving_j - self.pushed_j
+    }
+}
+
+/// What acts on the body besides its wheels and air: force and moment about the centre of gravity, body axes, and powers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outside {
+    /// N.
+    pub force_n: V3,
+    /// N·m.
+    pub moment_n_m: V3,
+    /// Powers, J/s in place of J; only crush, rubbing, hull and pushed count.
+    pub powers: Work,
 }
 
 impl State {
@@ -78,6 +137,16 @@ impl State {
         self.vector(10)
     }
 
+    pub(crate) fn pose(&self) -> crate::crush::touch::Pose {
+        let axes = *self.attitude().to_rotation_matrix().matrix();
+        crate::crush::touch::Pose {
+            at_m: self.position_m(),
+            axes,
+            velocity_m_s: self.velocity_m_s(),
+            turning_rad_s: axes * self.rotation_rad_s(),
+        }
+    }
+
     fn of_wheels(&self, at: usize) -> [f64; WHEELS] {
         [0, 1, 2, 3].map(|i| self.0[at + i])
     }
@@ -108,8 +177,7 @@ impl State {
 
     /// Work since the start.
     pub fn work(&self) -> Work {
-        let [sliding_j, damping_j, braking_j, rolling_j, air_j, driving_j] = [0, 1, 2, 3, 4, 5].map(|i| self.0[33 + i]);
-        Work { sliding_j, damping_j, braking_j, rolling_j, air_j, driving_j }
+        Work::of(&self.0[MOTION..])
     }
 
     /// Yaw, pitch and roll (SAE J670): yaw about Z, then pitch, then roll, rad.
@@ -259,6 +327,18 @@ impl Chassis {
         speed_m_s / (self.tyre.radius_m - depth_m / 3.0)
     }
 
+    /// Place of a wheel's centre and direction of its axle to the right, body axes.
+    pub(crate) fn wheel_at(&self, state: &State, i: usize, steer_rad: f64) -> (V3, V3) {
+        let jounce_m = state.jounce_m()[i];
+        let Wheel { centre_m, slide, .. } = self.wheels[i];
+        (centre_m + slide * jounce_m, self.axle_direction(i, jounce_m, steer_rad))
+    }
+
+    /// Free radius of the tyres, m.
+    pub(crate) fn radius_m(&self) -> f64 {
+        self.tyre.radius_m
+    }
+
     /// Direction of a wheel's axle to the right, body axes.
     pub(crate) fn axle_direction(&self, i: usize, jounce_m: f64, steer_rad: f64) -> V3 {
         let Wheel { axle, side, .. } = &self.wheels[i];
@@ -296,6 +376,7 @@ impl Chassis {
         controls: &Controls,
         held: [bool; WHEELS],
         ground: &Ground,
+        outside: &Outside,
         rates: &mut State,
     ) -> Report {
         let attitude = state.attitude().to_rotation_matrix();
@@ -305,11 +386,11 @@ impl Chassis {
         let gravity_b = to_body * V3::new(0.0, 0.0, GRAVITY_M_S2);
         let (jounce, jounce_rate, spin) = (state.jounce_m(), state.jounce_rate_m_s(), state.spin_rad_s());
         let mut report = Report::default();
-        let mut work = Work::default();
+        let mut work = outside.powers;
 
         let air = velocity_b * (-self.drag * velocity_b.norm());
         work.air_j = -air.dot(&velocity_b);
-        let (mut force, mut moment) = (air, V3::zeros());
+        let (mut force, mut moment) = (air + outside.force_n, outside.moment_n_m);
         let mut inertia = self.rest_inertia;
         let mut mass = Matrix6::zeros();
         // per wheel: û·F − S, axle, centripetal acceleration, place
@@ -345,7 +426,7 @@ impl Chassis {
             let held_by_body = across * (gravity_b - swings) * m;
             let pushed = met.force.dot(&u) - resists_n;
             force += held_by_body + met.force - u * pushed;
-            moment += place.cross(&held_by_body) + met.arm_m.cross(&met.force) - place.cross(&u) * pushed;
+            moment += place.cross(&held_by_body) + met.arm_m.cross(&met.force) - place.cross(&u) * pushed + met.couple;
             // spinning wheels: τ = I_w ϖ̇ â − Ω×H, H = −I_w ϖ â; a held wheel is part of the body
             if held[i] {
                 inertia += axis * axis.transpose() * axle.spin_kg_m2;
@@ -404,8 +485,7 @@ impl Chassis {
         rates.put(4, half.imag());
         rates.put(7, acceleration);
         rates.put(10, turning_rate);
-        let Work { sliding_j, damping_j, braking_j, rolling_j, air_j, driving_j } = *work;
-        rates.0[33..].copy_from_slice(&[sliding_j, damping_j, braking_j, rolling_j, air_j, driving_j]);
+        rates.0[MOTION..].copy_from_slice(&work.sums());
     }
 
     /// How a wheel meets the ground, and what its brake and drive do; powers are added to `work`.
@@ -429,6 +509,7 @@ impl Chassis {
             work.driving_j += driven;
             return Met {
                 force: V3::zeros(),
+                couple: V3::zeros(),
                 arm_m: place,
                 spin_rate: (of.drive_n_m - brake) / spin_inertia,
                 slip_rates: of.slips.map(|slip| -slip / FADING_S),
@@ -480,6 +561,7 @@ impl Chassis {
         let spun_n_m = shear[0] * lever;
         Met {
             force: ahead * shear[0] + right * shear[1] + normal * load,
+            couple: to_body * at.couple_m * (elastic / at.share.max(1e-9)),
             arm_m,
             spin_rate: (of.drive_n_m - brake - spun_n_m - rolling) / spin_inertia,
             slip_rates: tyre.slip_rates(of.slips, slide, rolls),
@@ -582,6 +664,7 @@ struct Carrier {
 /// What the ground, the brake and the drive do to a wheel, body axes.
 struct Met {
     force: V3,
+    couple: V3,
     arm_m: V3,
     spin_rate: f64,
     slip_rates: [f64; 2],

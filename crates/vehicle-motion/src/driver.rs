@@ -94,6 +94,24 @@ pub struct Driver {
     pub drive_n_m: Table,
     /// Wheels that are locked from a time on, s.
     pub locked_from_s: [Option<f64>; crate::WHEELS],
+    /// Wheels that are locked from the first collision on.
+    pub locked_on_impact: [bool; crate::WHEELS],
+    /// What he does from the first collision on.
+    pub on_impact: OnImpact,
+}
+
+/// What a driver does from his first collision on; the steering wheel stays where it was unless he goes on.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum OnImpact {
+    /// Feet off.
+    #[default]
+    Release,
+    /// Pedals stay where they were.
+    Hold,
+    /// Brakes with this torque, N·m, and drives no more.
+    Brake(f64),
+    /// Goes on as if nothing had happened.
+    Continue,
 }
 
 /// Mean angle of the front wheels; positive to the right.
@@ -113,6 +131,19 @@ impl Driver {
             brake_n_m: Table::constant(0.0),
             drive_n_m: Table::constant(0.0),
             locked_from_s: [None; crate::WHEELS],
+            locked_on_impact: [false; crate::WHEELS],
+            on_impact: OnImpact::Release,
+        }
+    }
+
+    /// Brake and drive torque at a time, N·m, after a first collision at another.
+    pub(crate) fn pedals(&self, time_s: f64, hit_s: Option<f64>) -> [f64; 2] {
+        let at = |time_s: f64| [self.brake_n_m.at(time_s), self.drive_n_m.at(time_s)];
+        match (hit_s, self.on_impact) {
+            (None, _) | (_, OnImpact::Continue) => at(time_s),
+            (Some(hit_s), OnImpact::Hold) => at(time_s.min(hit_s)),
+            (Some(_), OnImpact::Release) => [0.0, 0.0],
+            (Some(_), OnImpact::Brake(torque_n_m)) => [torque_n_m, 0.0],
         }
     }
 

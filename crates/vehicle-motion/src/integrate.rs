@@ -1,6 +1,6 @@
 //! The pair of Bogacki and Shampine, orders 3 and 2, with error control (Appl. Math. Lett. 2 (1989) 321).
 
-use crate::chassis::{NUMBERS, State};
+use crate::chassis::{MOTION, State};
 
 /// What the error of a step is measured against.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,52 +21,95 @@ impl Default for Tolerance {
     }
 }
 
-/// The state after a step, its rate there, and its error in units of the tolerance.
-pub(crate) struct Trial {
-    pub state: State,
-    pub rate: State,
-    pub error: f64,
+/// Vehicles, then whatever else moves: places and speeds by turns.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Stack {
+    pub cars: Vec<State>,
+    pub more: Vec<f64>,
+    /// Of them those of light masses: rails.
+    pub light_from: usize,
 }
 
-/// `state` and `share` of the step's rates.
-pub(crate) fn moved(state: &State, parts: &[(f64, &State)]) -> State {
-    let mut out = *state;
-    for (share, rate) in parts {
-        for (to, by) in out.0.iter_mut().zip(&rate.0) {
-            *to += share * by;
+impl Stack {
+    fn numbers(&self) -> impl Iterator<Item = &f64> {
+        self.cars.iter().flat_map(|car| car.0.iter()).chain(&self.more)
+    }
+
+    /// Sets this to a state and shares of rates.
+    fn set(&mut self, state: &Stack, parts: &[(f64, &Stack)]) {
+        self.clone_from(state);
+        for (share, rate) in parts {
+            for (to, by) in self.cars.iter_mut().zip(&rate.cars) {
+                to.0.iter_mut().zip(&by.0).for_each(|(to, by)| *to += share * by);
+            }
+            self.more.iter_mut().zip(&rate.more).for_each(|(to, by)| *to += share * by);
         }
     }
-    out
 }
 
-/// Tries a step of `h` s from `state`, whose rate is `k1`; `rate` is called with the share of the step.
-pub(crate) fn attempt(
-    state: &State,
-    k1: &State,
-    h: f64,
-    tolerance: &Tolerance,
-    mut rate: impl FnMut(f64, &State) -> State,
-) -> Trial {
-    let k2 = rate(0.5, &moved(state, &[(0.5 * h, k1)]));
-    let k3 = rate(0.75, &moved(state, &[(0.75 * h, &k2)]));
-    let mut end = moved(state, &[(2.0 / 9.0 * h, k1), (h / 3.0, &k2), (4.0 / 9.0 * h, &k3)]);
-    let length = end.0[3..7].iter().map(|x| x * x).sum::<f64>().sqrt();
-    end.0[3..7].iter_mut().for_each(|x| *x /= length);
-    let k4 = rate(1.0, &end);
-    // third-order weights less 7/24, 1/4, 1/3, 1/8
-    let weights = [-5.0 / 72.0, 1.0 / 12.0, 1.0 / 9.0, -1.0 / 8.0];
-    let error = |i: usize| {
-        let ks = [k1.0[i], k2.0[i], k3.0[i], k4.0[i]];
-        h * weights.iter().zip(ks).map(|(w, k)| w * k).sum::<f64>()
-    };
-    let mut most = 0.0f64;
-    for i in 0..NUMBERS {
-        let scale = scale(i, &end, tolerance);
-        let share = (error(i) / scale).abs();
-        // a number that is none counts as far too large
-        most = if share.is_nan() { f64::INFINITY } else { most.max(share) };
+/// The pair, with room for its stages.
+pub(crate) struct Pair {
+    /// The state after the last step that was tried, and its rate there.
+    pub end: Stack,
+    pub end_rate: Stack,
+    stages: [Stack; 2],
+    middle: Stack,
+}
+
+impl Pair {
+    /// For states of the size of this one.
+    pub fn of(state: &Stack) -> Self {
+        let room = || state.clone();
+        Pair { end: room(), end_rate: room(), stages: [room(), room()], middle: room() }
     }
-    Trial { state: end, rate: k4, error: most }
+
+    /// Tries a step of `h` s from `state`, whose rate is `k1`, and returns its error in units of the tolerance; `rate` is called
+    /// with the share of the step.
+    pub fn attempt(
+        &mut self,
+        state: &Stack,
+        k1: &Stack,
+        h: f64,
+        tolerance: &Tolerance,
+        mut rate: impl FnMut(f64, &Stack, &mut Stack),
+    ) -> f64 {
+        let [k2, k3] = &mut self.stages;
+        self.middle.set(state, &[(0.5 * h, k1)]);
+        rate(0.5, &self.middle, k2);
+        self.middle.set(state, &[(0.75 * h, k2)]);
+        rate(0.75, &self.middle, k3);
+        self.end.set(state, &[(2.0 / 9.0 * h, k1), (h / 3.0, k2), (4.0 / 9.0 * h, k3)]);
+        for car in &mut self.end.cars {
+            let length = car.0[3..7].iter().map(|x| x * x).sum::<f64>().sqrt();
+            car.0[3..7].iter_mut().for_each(|x| *x /= length);
+        }
+        rate(1.0, &self.end, &mut self.end_rate);
+        // third-order weights less 7/24, 1/4, 1/3, 1/8
+        let weights = [-5.0 / 72.0, 1.0 / 12.0, 1.0 / 9.0, -1.0 / 8.0];
+        let error = |ks: [f64; 4]| h * weights.iter().zip(ks).map(|(w, k)| w * k).sum::<f64>();
+        let mut most = 0.0f64;
+        // a number that is none counts as far too large
+        let mut judge = |share: f64| most = if share.is_nan() { f64::INFINITY } else { most.max(share.abs()) };
+        for (c, car) in self.end.cars.iter().enumerate() {
+            let rates = [k1, &*k2, &*k3, &self.end_rate].map(|k| &k.cars[c].0);
+            for i in 0..MOTION {
+                judge(error(rates.map(|k| k[i])) / scale(i, car, tolerance));
+            }
+        }
+        for (i, value) in self.end.more.iter().enumerate() {
+            // light masses that shake do the vehicles no harm
+            let [place, speed] = if i < self.end.light_from { [1.0, 1.0] } else { [10.0, 100.0] };
+            let speed_m_s = speed * tolerance.speed_m_s + tolerance.relative * value.abs();
+            let of = if i % 2 == 0 { place * tolerance.place_m } else { speed_m_s };
+            judge(error([k1, &*k2, &*k3, &self.end_rate].map(|k| k.more[i])) / of);
+        }
+        most
+    }
+
+    /// Whether the end is finite.
+    pub fn is_finite(&self) -> bool {
+        self.end.numbers().all(|x| x.is_finite())
+    }
 }
 
 /// Largest error of a number of the state.
@@ -79,9 +122,8 @@ fn scale(i: usize, state: &State, tolerance: &Tolerance) -> f64 {
         3..7 => tolerance.place_m,
         7..13 | 17..21 => tolerance.speed_m_s + relative,
         21..25 => 3.0 * tolerance.speed_m_s + relative,
-        25..33 => 10.0 * tolerance.place_m,
-        // work follows what is integrated
-        _ => f64::INFINITY,
+        // slips; work follows what is integrated
+        _ => 10.0 * tolerance.place_m,
     }
 }
 

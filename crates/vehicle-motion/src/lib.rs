@@ -39,21 +39,37 @@
 //!
 //! | room | holds |
 //! |---|---|
-//! | [`car`] | the vehicle as data, classes and how their numbers follow, checks |
+//! | [`car`] | the vehicle as data, checks |
+//! | [`presets`] | vehicles by class, and how far their numbers can be trusted |
+//! | [`body`] | outline, stiffness of the faces, spheres of the hull |
 //! | [`ground`] | plane, cross-section, curbs, zones of friction; how a wheel meets them |
 //! | [`tyre`] | the law of slip and shear force |
-//! | [`driver`] | steering, brake and drive over time; a driver who follows a line |
+//! | [`driver`] | steering, brake and drive over time; a driver who follows a line; what he does when hit |
 //! | [`chassis`] | equations of motion: the rate of change of the state |
+//! | [`crush`] | force per width over crush, outlines and nodes, contacts that keep momentum |
+//! | [`barrier`] | walls, poles, blocks, cushions, signs, rails |
+//! | [`impulse`] | impacts by impulse and momentum |
 //! | [`integrate`] | a Bogacki–Shampine pair with error control |
-//! | [`run`] | a drive from its start to its end, its stations and its energy balance |
+//! | [`world`] | vehicles, ground, barriers and impacts in one run; contacts and damage |
+//! | [`run`] | one vehicle from its start to its end, its stations and the energy balance |
 
+pub mod barrier;
+pub mod body;
 pub mod car;
 pub mod chassis;
+pub mod crush;
 pub mod driver;
 pub mod ground;
+mod hull;
+pub mod impulse;
 pub mod integrate;
+pub mod presets;
+mod rail;
 pub mod run;
+mod slider;
 pub mod tyre;
+mod vehicle;
+pub mod world;
 
 /// A vector in m, m/s, N …, in the axes that its name says.
 pub type V3 = nalgebra::Vector3<f64>;

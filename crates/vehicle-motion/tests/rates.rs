@@ -5,7 +5,7 @@ mod common;
 use common::proof_car;
 use serde_json::Value;
 use vehicle_motion::car::Car;
-use vehicle_motion::chassis::{Chassis, Controls, NUMBERS, State};
+use vehicle_motion::chassis::{Chassis, Controls, NUMBERS, Outside, State};
 use vehicle_motion::ground::Ground;
 use vehicle_motion::tyre::Tyre;
 
@@ -39,7 +39,7 @@ fn rates_are_those_of_a_dense_formulation() {
         // the reference steers all wheels
         let controls = Controls { steer_rad: [steer; 4], brake_n_m: number("brake"), drive_n_m: number("drive") };
         let mut rates = State([0.0; NUMBERS]);
-        let report = chassis.rates(&state, &controls, [false; 4], &ground, &mut rates);
+        let report = chassis.rates(&state, &controls, [false; 4], &ground, &Outside::default(), &mut rates);
         for (i, (found, expected)) in rates.0.iter().zip(numbers(&case["rate"])).enumerate() {
             let off = (found - expected).abs() / expected.abs().max(1.0);
             assert!(off < 1e-9, "number {i}: {found}, expected {expected}");
@@ -76,7 +76,14 @@ fn the_mirrored_state_has_the_mirrored_rates() {
             let steer = sign * case["steer"].as_f64().unwrap();
             let controls = Controls { steer_rad: [steer; 4], brake_n_m: 2000.0, drive_n_m: 300.0 };
             let mut rates = State([0.0; NUMBERS]);
-            chassis.rates(&state, &controls, [false; 4], &Ground::plane(0.0, sign * 0.25), &mut rates);
+            chassis.rates(
+                &state,
+                &controls,
+                [false; 4],
+                &Ground::plane(0.0, sign * 0.25),
+                &Outside::default(),
+                &mut rates,
+            );
             rates.0[..33].to_vec()
         };
         let state = numbers(&case["state"]);

@@ -3,7 +3,7 @@
 //! A quantity of a scenario is its number times its unit's factor. The shortest decimal number that gives the same product
 //! is the number that was written, so a deck's digits come back however its scenario was read.
 
-use crash_measures::unit::parse;
+use occupant_units::unit::parse;
 
 use crate::cards::Unit;
 use crate::deck::Number;

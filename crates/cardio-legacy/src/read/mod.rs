@@ -55,7 +55,7 @@ impl Deck {
 
     /// Reads a file of decks. Every problem of the file is in the diagnostics; a deck with an error is not handed out.
     ///
-    /// The bytes are Latin-1, or EBCDIC; records of 80 columns need no line ends. Nothing that they hold makes this panic.
+    /// The bytes are Latin-1, UTF-16 with its mark, or EBCDIC; records of 80 columns need no line ends. Nothing that they hold makes this panic.
     pub fn parse(bytes: impl AsRef<[u8]>, options: &ParseOptions) -> (Vec<Self>, Diagnostics) {
         let mut sink = Sink::new(&options.file, options.strictness);
         let decks = read_file(bytes.as_ref(), &mut sink);
@@ -66,6 +66,9 @@ impl Deck {
 /// Reads all decks of a file; those with an error are left out.
 fn read_file(bytes: &[u8], sink: &mut Sink) -> Vec<Deck> {
     let bytes = records::as_lines(bytes, sink);
+    if records::are_no_cards(&bytes, sink) {
+        return Vec::new();
+    }
     let mut cards = read_cards(&bytes, sink);
     while cards.last().is_some_and(PunchedCard::is_blank) {
         cards.pop();

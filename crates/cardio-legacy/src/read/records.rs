@@ -1,9 +1,9 @@
-//! Files as tapes and mainframes leave them: EBCDIC, and records of 80 columns without line ends.
+//! Files as tapes, mainframes and editors leave them: EBCDIC, UTF-16, and records of 80 columns without line ends.
 
 use std::borrow::Cow;
 
 use crate::diagnostics::{Diagnostic, Sink};
-use crate::punched::CARD_WIDTH;
+use crate::punched::{CARD_WIDTH, is_control};
 use crate::rule::Rule;
 
 /// The characters of EBCDIC, code page 037, in Latin-1; both of its line ends are LF.
@@ -32,8 +32,30 @@ const BLANK: u8 = 0x40;
 
 /// The file in Latin-1 with line ends, as a text editor would have it, and what was done to it.
 pub(super) fn as_lines<'a>(bytes: &'a [u8], sink: &mut Sink) -> Cow<'a, [u8]> {
-    let bytes = if is_ebcdic(bytes) { Cow::Owned(from_ebcdic(bytes, sink)) } else { Cow::Borrowed(bytes) };
+    let bytes = match bytes {
+        [0xff, 0xfe, rest @ ..] => Cow::Owned(from_utf16(rest, u16::from_le_bytes, sink)),
+        [0xfe, 0xff, rest @ ..] => Cow::Owned(from_utf16(rest, u16::from_be_bytes, sink)),
+        _ if is_ebcdic(bytes) => Cow::Owned(from_ebcdic(bytes, sink)),
+        // blocks of a tape are filled up with zeros
+        _ => Cow::Borrowed(bytes.iter().rposition(|b| *b != 0).map_or(bytes, |last| &bytes[..=last])),
+    };
     if has_no_lines(&bytes) { Cow::Owned(cut(&bytes, sink)) } else { bytes }
+}
+
+/// Reports a file of which more than one character in fifty is none of a card, and says so.
+pub(super) fn are_no_cards(bytes: &[u8], sink: &mut Sink) -> bool {
+    let odd = bytes.iter().filter(|b| is_control(**b) && !matches!(**b, b'\n' | b'\r' | b'\t' | 0x0c | 0x1a)).count();
+    let is_none = 50 * odd > bytes.len();
+    if is_none {
+        let message = format!("{odd} of {} characters are control characters: the file holds no cards", bytes.len());
+        Diagnostic::new(Rule::NotCards, message).report(sink);
+    }
+    is_none
+}
+
+fn from_utf16(bytes: &[u8], number: fn([u8; 2]) -> u16, sink: &mut Sink) -> Vec<u8> {
+    Diagnostic::new(Rule::Utf16, "the file is in UTF-16 and was read as such").report(sink);
+    bytes.chunks_exact(2).map(|pair| u8::try_from(number([pair[0], pair[1]])).unwrap_or(b'?')).collect()
 }
 
 /// Whether more than half of a file are blanks and digits of EBCDIC, of which ASCII has one as `@` and the others not at all.

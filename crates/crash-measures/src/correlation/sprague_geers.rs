@@ -5,7 +5,8 @@
 //! all three within 40 %, is quoted from general knowledge, not read.
 
 use super::require_pair;
-use crate::{signal::SignalError, trig};
+use crate::signal::SignalError;
+use occupant_units::trig;
 
 /// Largest magnitude of each error that W179 is said to accept.
 pub const W179_LARGEST_ERROR: f64 = 0.40;

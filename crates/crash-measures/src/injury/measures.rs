@@ -13,7 +13,7 @@ use crate::measure::{
 };
 use crate::signal::ChannelClass::{self, Cfc60, Cfc180, Cfc600, Cfc1000};
 use crate::signal::{SignalError, resultant};
-use crate::unit::Unit::{self, Metre, MetrePerSecondSquared, Newton, NewtonMetre, One};
+use occupant_units::unit::Unit::{self, Metre, MetrePerSecondSquared, Newton, NewtonMetre, One};
 
 /// All measures, in the order of a dummy from head to femur.
 pub(super) const MEASURES: &[Definition] = &[
@@ -224,7 +224,15 @@ impl Definition {
     }
 }
 
+/// Of a measure without a part that it could be of.
+const NO_PART: &str = "the body has no such part, or a mount moves it as it is told";
+
 impl Measure {
+    /// Whether the body has the part that it is of, and moves it by itself.
+    pub fn has_part(&self) -> bool {
+        self.remark.as_deref() != Some(NO_PART)
+    }
+
     /// Finds risks, of ever worse injuries, that cannot both be: the worse one is the more likely.
     fn compare_risks(&mut self) {
         for worse in 1..self.risks.len() {
@@ -297,7 +305,7 @@ fn why(error: &SignalError) -> String {
             format!("outputs every {every_ms} ms are too coarse for the filter: run with output.interval = \"0.1 ms\"")
         }
         // a reading that is none from the first sample on is that of a part which is not there
-        SignalError::NotFinite { index: 0, found, .. } if found.is_nan() => "the body has no such part".to_owned(),
+        SignalError::NotFinite { index: 0, found, .. } if found.is_nan() => NO_PART.to_owned(),
         error => error.to_string(),
     }
 }

@@ -14,7 +14,7 @@ use serde::{Serialize, Serializer};
 
 use crate::measure::{Basis, Dummy, Grade, Rule};
 use crate::signal::CfcFamily;
-use crate::unit::Unit;
+use occupant_units::unit::Unit;
 
 pub use readings::{Acceleration, Readings};
 pub use signals::{Components, Extreme, Extremes, Signals};

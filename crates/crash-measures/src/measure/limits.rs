@@ -129,6 +129,8 @@ pub enum Grade {
     Level2,
     /// Bound of levels HE 1 and LE 1 of EN 12767.
     Level1,
+    /// Bound of all levels of EN 12767 but NE 3, at 35 km/h.
+    AnyLevel,
 }
 
 impl Grade {
@@ -145,6 +147,7 @@ impl Grade {
             Self::Level3 => "levels HE 3, LE 3, NE 2",
             Self::Level2 => "levels HE 2, LE 2, NE 1",
             Self::Level1 => "levels HE 1, LE 1",
+            Self::AnyLevel => "all levels but NE 3",
         }
     }
 }
@@ -215,7 +218,7 @@ const MALE: Option<Dummy> = Some(Dummy::HybridIii50M);
 const FEMALE: Option<Dummy> = Some(Dummy::HybridIii5F);
 
 use Basis::{CommonKnowledge, SecondarySource};
-use Grade::{ClassA, ClassB, ClassC, Level1, Level2, Level3, LevelNe3, Maximum, Preferred};
+use Grade::{AnyLevel, ClassA, ClassB, ClassC, Level1, Level2, Level3, LevelNe3, Maximum, Preferred};
 use Quantity::{
     Asi, ChestDeflection, ChestThreeMsCumulative, FemurAxial, FemurDurationUse, HeadThreeMsCumulative, Hic15, Hic36,
     LongitudinalImpactVelocity, NeckCompression, NeckTension, OccupantImpactVelocity, Phd, Pitch, RidedownAcceleration,
@@ -296,9 +299,9 @@ pub const LIMITS: &[Limit] = &[
     entry(En12767, None, Thiv, 33.0 / 3.6, Level2, CommonKnowledge),
     entry(En12767, None, Thiv, 44.0 / 3.6, Level1, CommonKnowledge),
     entry(En12767Slow, None, Asi, 0.6, LevelNe3, CommonKnowledge),
-    entry(En12767Slow, None, Asi, 1.0, Maximum, CommonKnowledge),
+    entry(En12767Slow, None, Asi, 1.0, AnyLevel, CommonKnowledge),
     entry(En12767Slow, None, Thiv, 11.0 / 3.6, LevelNe3, CommonKnowledge),
-    entry(En12767Slow, None, Thiv, 27.0 / 3.6, Maximum, CommonKnowledge),
+    entry(En12767Slow, None, Thiv, 27.0 / 3.6, AnyLevel, CommonKnowledge),
     entry(Rule::SeverityIndex, None, Quantity::SeverityIndex, 1000.0, Maximum, SecondarySource),
 ];
 

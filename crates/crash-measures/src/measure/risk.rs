@@ -6,7 +6,8 @@
 //! load (Nij: 3.8 %, criticised in SAE 2010-22-0004).
 
 use super::Dummy;
-use crate::{signal::STANDARD_GRAVITY_MPS2, trig};
+use crate::signal::STANDARD_GRAVITY_MPS2;
+use occupant_units::trig;
 
 /// Severity of injury, on the abbreviated injury scale: this level or worse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -12,7 +12,7 @@
 //! programs and manuals, not from the standards; no published worked example was found.
 
 use crate::signal::{CumulativeIntegral, MovingAverage, SignalError, WindowExtreme, require_same_length, resultant2};
-use crate::trig;
+use occupant_units::trig;
 
 /// Where the head starts and how far it may fly.
 #[derive(Debug, Clone, Copy, PartialEq)]

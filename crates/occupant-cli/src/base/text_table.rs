@@ -152,21 +152,13 @@ pub(crate) fn table<R: IntoIterator<Item = String>>(
     table.text()
 }
 
+pub(crate) use placed_text::{trimmed, without_zeros};
+
 /// A number with so many decimals; one that no column holds, with an exponent.
 pub(crate) fn number(value: f64, decimals: usize) -> String {
     let digits = if value.abs() < 1e6 { format!("{value:.decimals$}") } else { format!("{value:.2e}") };
     let is_nothing = digits.bytes().all(|digit| b"-0.".contains(&digit));
     if is_nothing { digits.replace('-', "") } else { digits }
-}
-
-/// A number with so many decimals at most: without the zeros at its end.
-pub(crate) fn trimmed(value: f64, decimals: usize) -> String {
-    without_zeros(&format!("{value:.decimals$}")).to_owned()
-}
-
-/// The digits of a number with decimals without the zeros at their end.
-pub(crate) fn without_zeros(digits: &str) -> &str {
-    digits.trim_end_matches('0').trim_end_matches('.')
 }
 
 /// Two columns of words without a head: a name and its description, which is broken where a terminal is too narrow.

@@ -1,10 +1,10 @@
 //! The units in which tables and pages tell people their numbers: those of the scenario, or as asked for. Answers in JSON and
 //! tables in files are SI.
 
-use crash_measures::unit::{Shown, Unit};
 use occupant_scenario::Draft;
 use occupant_scenario::kind::UnitSystem;
 use occupant_study::Parameter;
+use occupant_units::unit::{Shown, Unit};
 
 use super::text_table::number;
 

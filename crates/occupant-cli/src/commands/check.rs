@@ -4,7 +4,7 @@ use occupant_core::diagnosis::{Diagnosis, RK4_STABILITY_LIMIT, diagnose};
 
 use super::tables::check::check_text;
 use crate::base::{Done, Failure, UnitsArg, say, talk};
-use crate::files::scenario::{self, ScenarioArgs};
+use crate::files::scenario::{self, ScenarioArgs, warn_of};
 
 /// Check a scenario and show what will be simulated, without running it
 ///
@@ -31,7 +31,7 @@ pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
     if args.quiet {
         scenario::warn(&opened.warnings)
     } else {
-        opened.warn()
+        warn_of(&opened)
     }
     let mut diagnosis = diagnose(&opened.model);
     opened.loaded.compare_with_people(&mut diagnosis.body);

@@ -34,8 +34,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME")]
     object: Option<String>,
 
-    /// Place of the vehicle's accelerometers that the path is made of, as the test names it; the centre of gravity, or the first
-    /// place, if absent
+    /// Place of the vehicle's accelerometers that the path is made of, as the test names it; if absent the centre of gravity, or the
+    /// place that rings least of those that agree on the velocity change
     #[arg(long, value_name = "PLACE")]
     at: Option<String>,
 

@@ -2,9 +2,11 @@
 
 use std::path::PathBuf;
 
+use cardio_legacy::print::{printout, uneven};
+
 use super::flags::history::interval;
 use crate::base::{Failure, UnitsArg, deliver, note, print, refuse_input, say};
-use crate::jobs::print::{Case, printout, uneven};
+use crate::jobs::print::read;
 
 /// Print a run as paged text, as the report's program did
 ///
@@ -34,7 +36,7 @@ pub(crate) struct Args {
 
 pub(crate) fn print_run(args: &Args) -> Result<(), Failure> {
     let name = args.run.display();
-    let case = Case::read(&args.run)?;
+    let (case, flaw) = read(&args.run)?;
     let units = args.units.or(case.loaded.scenario.units).system;
     let text = printout(&case, units.into(), args.every).map_err(|e| Failure::plain(format!("{name}: {e}")))?;
     match &args.output {
@@ -47,7 +49,7 @@ pub(crate) fn print_run(args: &Args) -> Result<(), Failure> {
     if let Some(words) = args.every.and_then(|every_s| uneven(&case, every_s)) {
         note(&words);
     }
-    if let Some(flaw) = case.file.flaw() {
+    if let Some(flaw) = flaw {
         note(&format!("{name} is {flaw}"));
     }
     if !case.is_complete() {

@@ -48,7 +48,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME|NUMBER")]
     vehicle: Option<String>,
 
-    /// Place of the vehicle's accelerometers in a test, as the test names it; the centre of gravity, or the first place, if absent
+    /// Place of the vehicle's accelerometers in a test, as the test names it; if absent the centre of gravity, or the place that rings
+    /// least of those that agree on the velocity change
     #[arg(long, value_name = "PLACE")]
     at: Option<String>,
 
@@ -162,7 +163,9 @@ pub(crate) fn risk(args: &Args) -> Result<Done, Failure> {
     let preparation = preparation(args)?;
     let flight = flight(args)?;
     let errors = errors(args)?;
-    let (subject, signals, notes) = measured(args, &preparation)?;
+    let mut notes = Vec::new();
+    // what was taken for granted may be why it fails
+    let (subject, signals) = measured(args, &preparation, &mut notes).inspect_err(|_| notes.iter().for_each(note))?;
     warn_of_coarse_samples(&signals, &preparation);
     let mut report = Report::new(subject, preparation, signals, flight, &args.rule).with_errors(errors);
     report.notes = [notes, report.notes].concat();

@@ -6,7 +6,7 @@ use occupant_core::diagnosis::{RK4_STABILITY_LIMIT, UnstableFriction, diagnose};
 use occupant_core::model::setup::Integrator;
 use occupant_core::results::summary::{Caveat, Degree, RunStatus, Summary};
 use occupant_scenario::Diagnostics;
-use occupant_study::ending::Balance;
+use occupant_scenario::ending::Balance;
 use serde::Serialize;
 
 use super::check::too_long;
@@ -18,7 +18,7 @@ use crate::base::input_file::is_input;
 use crate::base::{
     Done, Existing, Failure, Interrupt, Units, UnitsArg, ending, is_page, json, print, program, say, with_word,
 };
-use crate::files::scenario::{self, Opened, ScenarioArgs};
+use crate::files::scenario::{self, Opened, ScenarioArgs, warn_of};
 use crate::jobs::ensemble::report::Report;
 use crate::jobs::ensemble::text::text as ensemble_text;
 use crate::jobs::report::MOST_RUNS;
@@ -201,7 +201,7 @@ fn one(args: &Args) -> Result<(Done, Summary, Units), Failure> {
     let ensemble = args.ensemble.wanted(&draft, &opened, &chosen.scenario, (existing, units))?;
     let from = args.resume.as_deref().map(|file| Resumption::find(file, &opened)).transpose()?;
     if !args.quiet {
-        opened.warn();
+        warn_of(&opened);
     }
     let recording = output_name(args)?.map(|name| {
         Recording::begin(&name, existing_at(args, &name, &chosen, &opened), &chosen, &opened, from.as_ref())

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::base::{Existing, Failure, UnitsArg, file_name, print, sha256, talk};
 use crate::files::history::UnitChoice;
-use crate::files::scenario::{ScenarioArgs, files_beside, inputs, open_source, source};
+use crate::files::scenario::{ScenarioArgs, files_beside, inputs, open_source, source, warn_of};
 use crate::files::table::Form;
 use crate::jobs::export::TableFiles;
 use crate::jobs::sensitivity::{Words, about, analyse, answer, ask, histories, text};
@@ -57,7 +57,7 @@ pub(crate) fn sensitivity(args: &Args) -> Result<(), Failure> {
     let source = source(&args.scenario)?;
     let base = source.draft.clone();
     let opened = open_source(&args.scenario, source)?;
-    opened.warn();
+    warn_of(&opened);
     let scenario = &args.scenario.scenario;
     let resolver = files_beside(scenario);
     let words = Words { to: &args.to, of: &args.of, channels: &args.channels };

@@ -13,7 +13,7 @@ use super::flags::history::seconds;
 use crate::base::progress::{bar, counted};
 use crate::base::{Failure, deliver_and, ending, file_name, note, publish, refuse_input, say, with_word};
 use crate::files::results::Results;
-use crate::files::scenario::{self, ScenarioArgs};
+use crate::files::scenario::{self, ScenarioArgs, warn_of};
 use crate::pictures::Format;
 use crate::pictures::body::Snapshot;
 use crate::pictures::film::{Draw, FRAMES_A_SECOND, Film};
@@ -184,7 +184,7 @@ fn seated(args: &Args, output: &Path, kind: Kind) -> Result<(), Failure> {
     }
     let scenario = ScenarioArgs { scenario: args.input.clone(), overrides: args.overrides.clone() };
     let opened = scenario::open(&scenario)?;
-    opened.warn();
+    warn_of(&opened);
     let mut first = First(None);
     let run = simulate(&opened.model, &mut first);
     let moments: Vec<Snapshot> = first.0.into_iter().collect();

@@ -1,17 +1,7 @@
-//! Files that are read and written: results (MCAP), tables, workbooks, measured tests, ISO-MME, folders of studies.
-//!
-//! Draws no picture, starts no run of its own and knows no command.
+//! Files as the library of files has them, what the command says of them, and the folders of studies.
 
-mod book;
-pub(crate) mod deck;
-pub(crate) mod export;
 pub(crate) mod history;
-pub mod mcap;
-pub(crate) mod measured;
-pub(crate) mod mme;
-pub mod results;
 pub(crate) mod scenario;
-pub(crate) mod signals;
 pub(crate) mod study_folder;
-pub(crate) mod table;
-mod trouble;
+
+pub(crate) use occupant_files::{export, mcap, measured, mme, results, signals, table};

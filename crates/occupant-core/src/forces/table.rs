@@ -2,8 +2,8 @@
 //!
 //! JSON, text tables, studies and reports are made from the columns alone and name no kind.
 
-use crash_measures::unit::Unit;
 use indexmap::IndexMap;
+use occupant_units::unit::Unit;
 use serde::Serialize;
 
 /// Tables of several kinds, by what their elements are called.

@@ -73,6 +73,11 @@ impl Instruments<f64> {
         let (rows, layout) = (body.tree.bodies(), &system.skeleton.layout);
         let all = rows.iter().enumerate().zip(sites);
         system.instruments = all.map(|((of, row), site)| Instruments::of(body, layout, of, row, *site)).collect();
+        // a chest or pelvis that a mount drives is the input, not what is measured
+        for ((own, root), trunk) in system.instruments.iter_mut().zip(&system.skeleton.roots).zip(layout.trunks()) {
+            let driven = root.mount.as_ref().map(|_| trunk.first);
+            own.accelerometers[1..].iter_mut().for_each(|n| *n = n.filter(|n| Some(*n) != driven));
+        }
         let legs = system.instruments.iter().flat_map(|own| own.legs.iter().flatten());
         for Leg { thigh, knee, .. } in legs {
             let half_m = 0.5 * body.segment(body.tree.segment(*thigh)).length_m;

@@ -24,7 +24,7 @@ use crate::motion::skeleton::Skeleton;
 use crate::motion::state::State;
 use crate::motion::vector::V3;
 use crate::vehicle::FrameMotion;
-use crash_measures::trig;
+use occupant_units::trig;
 
 /// A limp body at rest in a vehicle that stands still.
 struct Limp {

@@ -99,7 +99,7 @@ impl Pose {
 
 /// Z of a segment that leans back by γ, vehicle axes (Eq. 109).
 pub(super) fn along(gamma: f64) -> Vector3<f64> {
-    let (s, c) = crash_measures::trig::sin_cos(gamma);
+    let (s, c) = occupant_units::trig::sin_cos(gamma);
     Vector3::new(-s, 0.0, -c)
 }
 

@@ -134,7 +134,7 @@ fn sink(
             "seat.cushion",
             format!(
                 "a cushion whose normal makes {:.0}° with the vertical",
-                crash_measures::trig::acos(support).to_degrees()
+                occupant_units::trig::acos(support).to_degrees()
             ),
             "a cushion that faces up at the start",
             "check the cushion's `inside` point, or give the initial state in report coordinates",
@@ -199,7 +199,7 @@ impl Leg {
 
 /// Length of a link in the X–Z plane of its segment, m, and how far it leans ahead of the segment's Z axis, rad.
 fn planar(link_m: &Vector3<f64>) -> (f64, f64) {
-    let ahead = crash_measures::trig::atan2(link_m.x, -link_m.z);
+    let ahead = occupant_units::trig::atan2(link_m.x, -link_m.z);
     ((link_m.x * link_m.x + link_m.z * link_m.z).sqrt(), ahead)
 }
 
@@ -231,9 +231,9 @@ fn warn_short(seating: &Seating, heel_m: Vector3<f64>, problems: &mut Problems) 
 
 /// Legs too short for the heels' place: along the cushion, and from the knees down to the height of the heels if they reach.
 fn short_leg(a: f64, b: f64, hip: Vector3<f64>, cushion: &Vector3<f64>, heel_z: f64) -> [f64; 2] {
-    let thigh = crash_measures::trig::atan2(-cushion.z, cushion.x);
+    let thigh = occupant_units::trig::atan2(-cushion.z, cushion.x);
     let down = (heel_z - (hip - along(thigh) * a).z) / b;
-    let shank = if down.abs() < 1.0 { crash_measures::trig::acos(down) } else { thigh };
+    let shank = if down.abs() < 1.0 { occupant_units::trig::acos(down) } else { thigh };
     [thigh, shank]
 }
 
@@ -277,12 +277,12 @@ fn leg(
     }
     // angle at the hip between thigh and the line to the heel
     let cosine = (a * a + distance * distance - b * b) / (2.0 * a * distance);
-    let opening = crash_measures::trig::acos(cosine.clamp(-1.0, 1.0));
+    let opening = occupant_units::trig::acos(cosine.clamp(-1.0, 1.0));
     // γ of a link that points down along d is atan2(d_x, d_z); raising the knee increases it
-    let line = crash_measures::trig::atan2(to_heel.x, to_heel.z);
+    let line = occupant_units::trig::atan2(to_heel.x, to_heel.z);
     let thigh_lean = line + opening;
     let knee = hip - along(thigh_lean) * a;
     let down = Vector3::new(x, 0.0, z) - knee;
-    let shank_lean = crash_measures::trig::atan2(down.x, down.z);
+    let shank_lean = occupant_units::trig::atan2(down.x, down.z);
     of(thigh_lean, shank_lean)
 }

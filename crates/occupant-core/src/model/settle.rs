@@ -25,7 +25,7 @@ use crate::motion::skeleton::Skeleton;
 use crate::motion::state::State;
 use crate::motion::vector::{V3, v3};
 use crate::vehicle::FrameMotion;
-use crash_measures::trig;
+use occupant_units::trig;
 use placed_text::Problems;
 
 /// Lever that turns moments into comparable forces, m.
@@ -67,6 +67,14 @@ fn in_degrees<S: Serializer>(angle_rad: &f64, serializer: S) -> Result<S::Ok, S:
 }
 
 impl Settled {
+    /// How long what is left over spoils the figures of a run, s.
+    pub const FADES_S: f64 = 0.05;
+
+    /// Whether so much is left over, a tenth of the weight, that it spoils them.
+    pub fn is_unbalanced(&self) -> bool {
+        self.residual_force_n > 0.1 * self.weight_n
+    }
+
     /// Warns when the body does not rest.
     pub(crate) fn warn(&self, problems: &mut Problems) {
         if self.residual_force_n > 0.01 * self.weight_n || self.residual_moment_n_m > 0.01 * self.weight_n * LEVER_M {

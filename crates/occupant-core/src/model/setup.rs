@@ -4,7 +4,6 @@
 
 use nalgebra::Point3;
 use placed_text::with_key;
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::body::{Body, ContactSphere, Segment, called};
@@ -146,7 +145,8 @@ impl Marker {
 }
 
 /// Who sees the motion of a marker.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum MarkerFrame {
     /// The vehicle.

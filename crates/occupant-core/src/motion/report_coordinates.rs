@@ -15,7 +15,7 @@ use crate::motion::kinematics::axes;
 use crate::motion::layout::Layout;
 use crate::motion::state::{Quat, Shape, State};
 use crate::motion::vector::{V3, v3};
-use crash_measures::trig::{atan2, sin_cos};
+use occupant_units::trig::{atan2, sin_cos};
 
 /// Number of degrees of freedom.
 pub const DOF: usize = 3 + 3 * FREE.len() + LIMBS.len();

@@ -7,7 +7,7 @@
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
-use crash_measures::trig;
+use occupant_units::trig;
 
 /// `+=` and `-=` of a type by its `+` and `-`.
 macro_rules! in_place {

@@ -4,7 +4,7 @@
 //! `head.acceleration.x`, `belt.lap.force`, `joint.neck.moment.resultant`; names of spheres and belts are those of the
 //! scenario. The list depends on the model alone, so every run of a scenario has the same channels.
 
-pub(crate) use crash_measures::unit::Unit;
+pub(crate) use occupant_units::unit::Unit;
 
 use crate::model::Model;
 use crate::quantity::Axes;
@@ -12,7 +12,7 @@ use crate::quantity::Value;
 use crate::results::catalogue::{Catalogue, Source};
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
-use crash_measures::nearest::nearest;
+use placed_text::nearest;
 
 /// A scalar time history of a run.
 #[derive(Clone, Debug)]

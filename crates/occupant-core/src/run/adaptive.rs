@@ -5,7 +5,7 @@ use super::{Front, Run, Step};
 use crate::model::Model;
 use crate::motion::integrate::bogacki_shampine::{ERROR_ORDER, EVALUATIONS, Tolerance};
 use crate::results::outcome::StepError;
-use crash_measures::trig;
+use occupant_units::trig;
 
 /// What bounds the steps.
 #[derive(Clone, Copy, Debug)]

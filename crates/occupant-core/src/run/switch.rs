@@ -135,9 +135,10 @@ impl Search {
 
         let [low_s, high_s] = [self.before.time_s, self.behind.time_s];
         let due = self.before.memory.due(&self.behind.memory, forces, [low_s, high_s]);
-        // what was due before the step comes with its end; so does what cannot tell, and follows another at once: it might
-        // switch to and fro
-        let comes_late = if due.is_known { due.share <= 0.0 } else { last_s <= 2.0 * CLOSE * step.length_s() };
+        // what was due at the start of the step, or cannot tell, and follows another at once comes with the end of the step:
+        // it might switch to and fro
+        let may_come_late = !due.is_known || due.share <= 0.0;
+        let comes_late = may_come_late && last_s <= 2.0 * CLOSE * step.length_s();
         let due_s = low_s + due.share.min(1.0) * (high_s - low_s);
         let found = high_s - low_s <= self.close_s || switched && high_s - due_s <= self.close_s;
         if is_first && comes_late || found || self.trials > MOST {

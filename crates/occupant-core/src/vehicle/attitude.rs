@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Matrix3, Vector3};
 
-use crash_measures::trig;
+use occupant_units::trig;
 
 /// Attitude of a vehicle by the aeronautical standard, rad, positive nose up (pitch), to the right (yaw), right side
 /// down (roll).

@@ -64,7 +64,7 @@ impl VehicleState {
 /// The velocities must be the derivatives of the place and the angles: contacts and belts take energy out of the vehicle's
 /// motion by them, and the energy ledger shows a contradiction as an imbalance. Place and velocity must be continuous;
 /// accelerations may jump, at the times of [`VehicleMotion::breaks_s`]. For the same bits on every machine take sines and
-/// the like from `crash_measures::trig`: those of the standard library differ in the last digit.
+/// the like from `occupant_units::trig`: those of the standard library differ in the last digit.
 pub trait VehicleMotion: Debug + Send + Sync {
     /// The vehicle at `t_s`, a time within [`VehicleMotion::span_s`].
     fn at(&self, t_s: f64) -> VehicleState;

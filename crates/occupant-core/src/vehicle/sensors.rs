@@ -19,7 +19,6 @@ mod record;
 mod strapdown;
 
 use nalgebra::Vector3;
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::attitude::Attitude;
@@ -33,9 +32,10 @@ pub use record::{AccelerationRecord, DeltaVRecord, SensorRecord};
 use strapdown::{Piece, integrate};
 
 /// What gravity does in recorded accelerations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
-#[schemars(rename = "RecordedGravity")]
+#[cfg_attr(feature = "schema", schemars(rename = "RecordedGravity"))]
 pub enum SensorGravity {
     /// It is in them: a level vehicle at rest reads 1 g upwards.
     Included,

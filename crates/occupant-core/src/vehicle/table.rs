@@ -1,7 +1,6 @@
 //! A vehicle path given by stations in time: the report's tabular record (its POSVEH), and the smooth one.
 
 use nalgebra::{Vector3, Vector6};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::attitude::Attitude;
@@ -14,9 +13,10 @@ use super::station::{Station, problems_of};
 use super::{TIME_SLACK, VehiclePose, VehicleState};
 
 /// How a table is read between its times.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
-#[schemars(rename = "Interpolate")]
+#[cfg_attr(feature = "schema", schemars(rename = "Interpolate"))]
 pub enum Interpolation {
     /// Straight lines, as in the report; velocities jump at every time.
     Linear,
@@ -26,9 +26,10 @@ pub enum Interpolation {
 }
 
 /// What the vehicle does after the last time of a table.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
-#[schemars(rename = "After")]
+#[cfg_attr(feature = "schema", schemars(rename = "After"))]
 pub enum AfterEnd {
     /// A run that goes on is refused.
     #[default]

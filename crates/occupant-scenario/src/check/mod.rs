@@ -6,7 +6,7 @@ mod references;
 pub(super) mod schema;
 mod view;
 
-use crash_measures::unit::UnitError;
+use occupant_units::unit::UnitError;
 use serde_json::Value as Json;
 
 pub(super) use references::references;

@@ -1,6 +1,6 @@
 //! Headings of recorders, in words: "Delta-V, longitudinal" is what `dvx` is.
 
-use crash_measures::unit::{Dimension, Unit};
+use occupant_units::unit::{Dimension, Unit};
 
 /// Things that headings speak of, and the words that they have for them.
 type Sense = (&'static str, &'static [&'static str]);
@@ -60,6 +60,10 @@ const SENSES: [Sense; 25] = [
             "sensor",
             "center",
             "centre",
+            "tm",
+            "indicated",
+            "pre",
+            "precrash",
         ],
     ),
     (
@@ -123,6 +127,11 @@ const COLUMNS: [(&str, &str); 26] = [
 /// The column of a path's table that a heading means, if every word of it is known.
 pub fn heading(text: &str) -> Option<&'static str> {
     column_of(&senses(text)?)
+}
+
+/// Whether a heading means the speed of the vehicle.
+pub fn speed_named(text: &str) -> bool {
+    senses(text).is_some_and(|senses| senses == "v")
 }
 
 /// The same of a column whose unit has this dimension, which settles what the words leave open; none where unit and words are at odds.
@@ -200,12 +209,14 @@ mod tests {
             ("THETA", Some("pitch")),
             ("PSI", Some("yaw")),
             ("AVz", Some("wz")),
+            ("Xcg_TM", Some("x")),
             ("Vehicle speed", None),
             ("Engine rpm", None),
             ("", None),
         ] {
             assert_eq!(heading(text), column, "{text}");
         }
+        assert!(speed_named("Vehicle speed") && speed_named("Speed, Vehicle Indicated") && !speed_named("Delta-V"));
         assert!(COLUMNS.iter().all(|(senses, _)| senses.chars().is_sorted()));
     }
 

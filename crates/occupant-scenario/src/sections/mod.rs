@@ -45,7 +45,7 @@ use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use heading::{heading as column_named, heading_in as column_in};
+pub use heading::{heading as column_named, heading_in as column_in, speed_named};
 pub(super) use many::together;
 pub use quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, Quantity};
 pub use record_file::{RecordFile, read_record};

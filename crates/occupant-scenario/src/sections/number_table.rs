@@ -7,7 +7,7 @@
 
 use super::heading::{heading, heading_in};
 use crate::kind::{KINDS, UnitSystem};
-use crash_measures::unit::parse_heading;
+use occupant_units::unit::parse_heading;
 use placed_text::{
     CELL, Cell, Diagnostic, Diagnostics, Node, Problem, Separator, SourceId, Sources, Span, TextTable, did_you_mean,
     name_and_unit, one_of, shortened,

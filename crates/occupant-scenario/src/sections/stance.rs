@@ -74,7 +74,7 @@ pub(super) fn stance(
         angles_rad,
     };
     let heading = yaw.map_or(0.0, Quantity::si);
-    let (sin, cos) = crash_measures::trig::sin_cos(heading);
+    let (sin, cos) = occupant_units::trig::sin_cos(heading);
     let velocity = Vector3::new(cos, sin, 0.0) * si_or(&section.speed, 0.0);
     let placing = Placing { at, stands: true, spin_rad_s: Vector3::zeros() };
     (InitialPosture::Placed(Box::new(placing)), InitialVelocity::Given(velocity))

@@ -100,7 +100,7 @@ pub(super) fn nodes(
 fn track(body: &Body, out: f64) -> NodeSection {
     let shoulder = &body.spheres[body.sphere(if out > 0.0 { "right_shoulder" } else { "left_shoulder" }).unwrap_or(0)];
     let (centre, r) = (shoulder.centre_from_lower_end_m, shoulder.radius_m);
-    let (ahead, up) = crash_measures::trig::sin_cos(TRACK_LEANS_RAD);
+    let (ahead, up) = occupant_units::trig::sin_cos(TRACK_LEANS_RAD);
     let point = |share: f64, beyond: f64, height: f64| {
         let outward = share * centre.y + beyond * r * centre.y.signum();
         [centre.x + height * r * ahead, outward, centre.z + height * r * up].map(Length::of_si)

@@ -4,7 +4,7 @@ use crate::kind::{
     ACCELERATION, ANGLE, ANGULAR_VELOCITY, FORCE, INERTIA, KINDS, LENGTH, MASS, RATIO, ROTATIONAL_DAMPING, SPEED,
     STIFFNESS, TIME, UnitSystem,
 };
-use crash_measures::unit::{Dimension, UNITS, UnitError, parse};
+use occupant_units::unit::{Dimension, UNITS, UnitError, parse};
 use placed_text::Value;
 
 fn read(text: &str, kind: usize) -> Result<f64, UnitError> {

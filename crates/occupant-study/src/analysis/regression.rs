@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{AnalysisError, Estimate, at_rows, bootstrap, complete_rows, deviation, mean};
-use crash_measures::trig;
+use occupant_units::trig;
 
 /// Spearman's rank correlation of a parameter and a figure.
 #[derive(Clone, Copy, Debug, PartialEq)]

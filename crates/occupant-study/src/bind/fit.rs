@@ -6,9 +6,9 @@ use super::Binder;
 use crate::fit::Fit;
 use crate::fit_section::{FitChannel, FitSection, FitTest};
 use crate::{Parameter, Study, StudyText};
-use crash_measures::trig::ln;
 use occupant_scenario::Time;
 use occupant_scenario::{Diagnostics, Draft, Resolver};
+use occupant_units::trig::ln;
 use placed_text::{Problem, Value};
 
 /// Evaluations for each parameter.

@@ -1,7 +1,7 @@
 //! Measures against the limits of rules.
 
 use super::VehicleRisk;
-use crash_measures::measure::limits::{LIMITS, Limit, Quantity, Rule, Verdict};
+use crash_measures::measure::limits::{Grade, LIMITS, Limit, Quantity, Rule, Verdict};
 
 /// The rules that judge a vehicle's motion.
 pub const ROADSIDE_RULES: [Rule; 10] = [
@@ -35,6 +35,38 @@ impl Judgement {
     pub fn breaks_the_rule(&self) -> bool {
         self.limit.is_last() && self.verdict.is_some_and(|verdict| !verdict.passed)
     }
+}
+
+/// What a rule with classes or levels says of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Attained {
+    /// The best class or level whose every bound is kept.
+    Grade(Grade),
+    /// None: this bound is exceeded.
+    Beyond(&'static Limit),
+    /// Not known: this measure was left out.
+    NotMeasured(&'static str),
+}
+
+/// The class or level that a rule gives; none for a rule without any. A maximum beside the classes holds for each.
+pub fn attained(rule: Rule, judgements: &[Judgement]) -> Option<Attained> {
+    let own = || judgements.iter().filter(move |judgement| judgement.limit.rule == rule);
+    let has_classes = own().any(|judgement| !matches!(judgement.limit.grade, Grade::Maximum | Grade::Preferred));
+    has_classes.then_some(())?;
+    if let Some(unknown) = own().find(|judgement| judgement.verdict.is_none()) {
+        return Some(Attained::NotMeasured(unknown.measure));
+    }
+    let exceeded = |grade: Grade| {
+        let of = move |judgement: &&Judgement| judgement.limit.grade == grade;
+        own().filter(of).find(|judgement| judgement.verdict.is_some_and(|verdict| !verdict.passed))
+    };
+    if let Some(beyond) = exceeded(Grade::Maximum) {
+        return Some(Attained::Beyond(beyond.limit));
+    }
+    // from the best to the last, as they are listed
+    let grades = || own().map(|judgement| judgement.limit.grade).filter(|grade| *grade != Grade::Maximum);
+    let best = grades().find(|grade| exceeded(*grade).is_none()).map(Attained::Grade);
+    best.or_else(|| Some(Attained::Beyond(exceeded(grades().last()?)?.limit)))
 }
 
 /// Every limit of `rules`, in the order of the rules, with what it says of `risk`.

@@ -22,7 +22,7 @@ use crash_measures::measure::{
 };
 use crash_measures::signal::{CumulativeIntegral, WindowExtreme};
 pub use errors::SensorErrors;
-pub use judgement::{Judgement, ROADSIDE_RULES, judge};
+pub use judgement::{Attained, Judgement, ROADSIDE_RULES, attained, judge};
 pub use missing::{Measured, Missing};
 use occupant_core::vehicle::Attitude;
 pub use prepare::{Preparation, Unprepared, VerticalGravity, prepare};

@@ -12,7 +12,7 @@ use nalgebra::DMatrix;
 use super::eigen;
 use crate::normal::quantile;
 use crate::random::{Purpose, unit};
-use crash_measures::trig::{exp, ln};
+use occupant_units::trig::{exp, ln};
 
 /// The state of one descent.
 #[derive(Clone, Debug)]

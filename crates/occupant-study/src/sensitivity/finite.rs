@@ -6,11 +6,11 @@ use rayon::prelude::*;
 
 use super::measures::pick;
 use super::parameter::{Parameter, fine_interval_s};
-use crate::ending::Ending;
 use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
 use occupant_core::results::summary::Summarizer;
 use occupant_core::run::batch::{Ended, Job, Kernel, simulate_many};
+use occupant_scenario::ending::Ending;
 
 /// Changes as parts of a parameter's size, to either side.
 pub const CHANGES: [f64; 3] = [2e-3, 5e-3, 1e-2];

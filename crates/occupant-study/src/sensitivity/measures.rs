@@ -12,7 +12,6 @@ use super::ladder::Slope;
 use super::parameter::{Family, Parameter};
 use super::trajectory::Trajectory;
 use super::trouble::Trouble;
-use crash_measures::nearest::nearest;
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, Series, matches};
 use occupant_core::results::checkpoint::{Checkpoint, Progress};
@@ -21,6 +20,7 @@ use occupant_core::results::recorder::{Recorder, Watch};
 use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::run::simulate::replay;
 use placed_text::Problem;
+use placed_text::nearest;
 
 /// How far outputs are displaced at most, m and rad.
 const FARTHEST: [f64; 3] = [1e-6, 2e-5, 4e-4];

@@ -46,10 +46,13 @@ pub(super) fn overlap(radius_m: f64, from_m: [f64; 2], to_m: [f64; 2]) -> Overla
         }
         let middle = 0.5 * (from + to);
         let (z, arc) = (height(middle), half_chord(radius_m, middle));
+        if z <= -arc {
+            continue;
+        }
         let under_arc = arc_area(radius_m, to) - arc_area(radius_m, from);
         if z >= arc {
             sum.area_m2 += 2.0 * under_arc;
-        } else if z > -arc {
+        } else {
             sum.area_m2 += z * (to - from) + under_arc;
             sum.run_m += to - from;
             sum.rise_m += slope * (to - from);

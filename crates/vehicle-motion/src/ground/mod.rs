@@ -17,6 +17,7 @@ pub struct Ground {
     normals: Vec<V3>,
     /// Rise along X.
     grade: f64,
+    has_steep: bool,
     zones: Vec<Zone>,
 }
 
@@ -165,13 +166,24 @@ impl Ground {
             let cross_slope = (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
             V3::new(-grade, -cross_slope, -1.0).normalize()
         });
-        Ground { normals: normals.collect(), corners_m, grade, zones: Vec::new() }
+        let normals: Vec<V3> = normals.collect();
+        let has_steep = normals.iter().any(|normal| normal.y.abs() > -normal.z);
+        Ground { normals, corners_m, grade, has_steep, zones: Vec::new() }
     }
 
     /// Number of the plane at a distance right of the X axis.
     fn plane_at(&self, right_m: f64) -> usize {
         let inner = &self.corners_m[1..self.corners_m.len() - 1];
         inner.partition_point(|corner| corner[0] <= right_m)
+    }
+
+    /// The plane at a distance right of the X axis, if it goes on for a way to both sides.
+    pub(crate) fn lone_plane(&self, right_m: f64, way_m: f64) -> Option<usize> {
+        let plane = self.plane_at(right_m);
+        let last = self.normals.len() - 1;
+        let is_alone = (plane == 0 || self.corners_m[plane][0] < right_m - way_m)
+            && (plane == last || self.corners_m[plane + 1][0] > right_m + way_m);
+        is_alone.then_some(plane)
     }
 
     /// A point of a plane, vehicle-space, m.
@@ -194,6 +206,83 @@ impl Ground {
     /// Upward normal at a distance right of the X axis, vehicle-space.
     pub fn normal(&self, right_m: f64) -> V3 {
         self.normals[self.plane_at(right_m)]
+    }
+
+    /// Normal and a point of the plane at a distance right of the X axis, if it goes on for a way to both sides.
+    pub(crate) fn lone(&self, right_m: f64, way_m: f64) -> Option<(V3, V3)> {
+        self.lone_plane(right_m, way_m).map(|plane| (self.normals[plane], self.point_m(plane)))
+    }
+
+    /// Whether some face is steeper than 45°.
+    pub(crate) fn has_steep(&self) -> bool {
+        self.has_steep
+    }
+
+    /// Pieces within `far_m` of a distance right of the X axis.
+    fn pieces(&self, right_m: f64, far_m: f64) -> core::ops::RangeInclusive<usize> {
+        self.plane_at(right_m - far_m)..=self.plane_at(right_m + far_m)
+    }
+
+    /// A piece seen along the extrusion: its ends, right and down across the grade, m.
+    fn seen(&self, piece: usize) -> [[f64; 2]; 2] {
+        let slant = (1.0 + self.grade * self.grade).sqrt();
+        [0, 1].map(|j| {
+            let [right_m, height_m] = self.corners_m[piece + j];
+            [right_m, -height_m / slant]
+        })
+    }
+
+    /// Distance of a point to the ground, m, negative below it, and the direction away from the ground, vehicle-space. Corners
+    /// that stand out are round to it.
+    pub fn distance(&self, point_m: &V3) -> (f64, V3) {
+        let plane = self.plane_at(point_m.y);
+        let normal = self.normals[plane];
+        let over_m = normal.dot(&(point_m - self.point_m(plane)));
+        if over_m <= 0.0 || over_m > 1.0 {
+            return (over_m, normal);
+        }
+        let slant = (1.0 + self.grade * self.grade).sqrt();
+        let across = V3::new(self.grade / slant, 0.0, 1.0 / slant);
+        let (right_m, down_m) = (point_m.y, point_m.dot(&across));
+        let (mut least, mut away) = (over_m, [0.0; 2]);
+        let last = self.normals.len() - 1;
+        for piece in self.pieces(right_m, over_m).filter(|piece| *piece != plane || last == 0) {
+            let [from, to] = self.seen(piece);
+            let way = [to[0] - from[0], to[1] - from[1]];
+            let to_point = [right_m - from[0], down_m - from[1]];
+            let share = (to_point[0] * way[0] + to_point[1] * way[1]) / (way[0] * way[0] + way[1] * way[1]);
+            let share = share.clamp(0.0, 1.0);
+            let off = [to_point[0] - share * way[0], to_point[1] - share * way[1]];
+            let far = off[0].hypot(off[1]);
+            if far < least {
+                (least, away) = (far, off);
+            }
+        }
+        // the foot of the plane's own normal may lie beyond its corner
+        if least == over_m { (over_m, normal) } else { (least, (V3::y() * away[0] + across * away[1]) / least) }
+    }
+
+    /// Depth of a sphere behind the deepest face whose normal is within a cosine of an axle, m, and that normal.
+    pub(crate) fn beside(&self, centre_m: &V3, radius_m: f64, axle: &V3, cosine: f64) -> Option<(f64, V3)> {
+        let slant = (1.0 + self.grade * self.grade).sqrt();
+        let down_m = centre_m.dot(&V3::new(self.grade / slant, 0.0, 1.0 / slant));
+        let mut deepest: Option<(f64, V3)> = None;
+        for piece in self.pieces(centre_m.y, 0.5) {
+            let normal = self.normals[piece];
+            if normal.dot(axle).abs() < cosine {
+                continue;
+            }
+            let depth_m = radius_m - normal.dot(&(centre_m - self.point_m(piece)));
+            let [from, to] = self.seen(piece);
+            let way = [to[0] - from[0], to[1] - from[1]];
+            let share =
+                ((centre_m.y - from[0]) * way[0] + (down_m - from[1]) * way[1]) / (way[0] * way[0] + way[1] * way[1]);
+            let is_over = (0.0..=1.0).contains(&share);
+            if is_over && (0.0..0.5).contains(&depth_m) && deepest.is_none_or(|(most, _)| depth_m > most) {
+                deepest = Some((depth_m, normal));
+            }
+        }
+        deepest
     }
 
     /// The zone at a distance right of the X axis.

@@ -3,11 +3,11 @@
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use crash_measures::unit::UnitError;
 use occupant_core::run::batch::Kernel;
 use occupant_scenario::Draft;
 use occupant_scenario::kind::{self, KINDS, UnitSystem};
 use occupant_study::{Study, Tolerances, without_place};
+use occupant_units::unit::UnitError;
 use placed_text::Value;
 
 use super::sweep::engine;

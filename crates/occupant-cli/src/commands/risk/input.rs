@@ -11,21 +11,25 @@ use occupant_study::risk::{Preparation, Unprepared, VehicleSignals, prepare};
 use super::Args;
 use crate::base::{Failure, ending, input_file, note};
 use crate::files::mcap::StoredRun;
-use crate::files::measured::{self, Axes, Known, Motion, MotionKind, Placed, Reading, doubts};
-use crate::files::scenario::{self, ScenarioArgs};
+use crate::files::measured::{self, Axes, Known, Motion, MotionKind, Placed, Reading, doubts, rounded_table};
+use crate::files::scenario::{self, ScenarioArgs, warn_of};
 use crate::jobs::import::PathFilter;
 use crate::jobs::risk::{PATH_INTERVAL_S, Subject};
 
 /// Length of the beginning of a record that says whether gravity is in it, s.
 const BEFORE_S: f64 = 0.01;
 
-/// What the file holds, the signals that it gives, and what to know of them.
-pub(crate) fn measured(args: &Args, wanted: &Preparation) -> Result<(Subject, VehicleSignals, Vec<String>), Failure> {
+/// What the file holds, the signals that it gives, and into `notes` what to know of them.
+pub(crate) fn measured(
+    args: &Args,
+    wanted: &Preparation,
+    notes: &mut Vec<String>,
+) -> Result<(Subject, VehicleSignals), Failure> {
     let name = args.file.display().to_string();
     let extension = ending(&args.file);
     if matches!(extension.as_str(), "toml" | "json" | "mcap") {
-        let subject = path_of(args, &name, &extension, wanted)?;
-        return sampled(&name, subject, wanted).map(|(subject, signals)| (subject, signals, Vec::new()));
+        let subject = path_of(args, &name, &extension, wanted, notes)?;
+        return sampled(&name, subject, wanted);
     }
     if !args.overrides.is_empty() {
         return Err(Failure::with_help(
@@ -33,8 +37,7 @@ pub(crate) fn measured(args: &Args, wanted: &Preparation) -> Result<(Subject, Ve
             "leave --set out, or give a scenario (.toml, .json)",
         ));
     }
-    let mut notes = Vec::new();
-    let (motion, axes) = motion(args, &name, &mut notes)?;
+    let (motion, axes) = motion(args, &name, notes)?;
     let known = Known {
         contact_s: wanted.start_s,
         speed_m_s: None,
@@ -46,14 +49,13 @@ pub(crate) fn measured(args: &Args, wanted: &Preparation) -> Result<(Subject, Ve
         let record = record(&motion, axes);
         notes.extend(doubt_of_gravity(&record, args.gravity_included));
         let signals = prepare(&record, wanted).map_err(|error| unprepared(&name, &error))?;
-        return Ok((Subject::recorded(&name, record), signals, notes));
+        return Ok((Subject::recorded(&name, record), signals));
     }
     let path = path(&motion, axes, hertz(args)).map_err(|reason| Failure::plain(format!("{name}: {reason}")))?;
     let ends = [motion.time_s[0], motion.time_s[motion.time_s.len() - 1]];
     let interval_s = wanted.interval_s.unwrap_or(PATH_INTERVAL_S);
     let subject = Subject::path(&name, &path, ends, interval_s).ok_or_else(|| unsampled(&name, interval_s))?;
-    let (subject, signals) = sampled(&name, subject, &Preparation { baseline_s: [None; 2], ..wanted.clone() })?;
-    Ok((subject, signals, notes))
+    sampled(&name, subject, &Preparation { baseline_s: [None; 2], ..wanted.clone() })
 }
 
 /// The signals of a path, which was sampled as asked and knows neither sensors nor gravity.
@@ -72,7 +74,13 @@ fn hertz(args: &Args) -> Option<f64> {
 }
 
 /// The path of the scenario or run in the file.
-fn path_of(args: &Args, name: &str, extension: &str, wanted: &Preparation) -> Result<Subject, Failure> {
+fn path_of(
+    args: &Args,
+    name: &str,
+    extension: &str,
+    wanted: &Preparation,
+    notes: &mut Vec<String>,
+) -> Result<Subject, Failure> {
     let foreign = [
         ("--columns", args.columns.is_some()),
         ("--offset", args.offset.is_some()),
@@ -104,10 +112,13 @@ fn path_of(args: &Args, name: &str, extension: &str, wanted: &Preparation) -> Re
         _ => {
             let opened =
                 scenario::open(&ScenarioArgs { scenario: args.file.clone(), overrides: args.overrides.clone() })?;
-            opened.warn();
+            warn_of(&opened);
             opened.model
         }
     };
+    if args.vehicle.is_none() {
+        notes.extend(rounded_table(&model.setup().path));
+    }
     let interval_s = wanted.interval_s.unwrap_or(PATH_INTERVAL_S);
     let subject = Subject::of_run(name, model.setup(), args.vehicle.as_deref(), interval_s).map_err(|known| {
         let known: Vec<&str> = known.iter().map(String::as_str).collect();

@@ -1,6 +1,7 @@
 //! The tables of `occupant check`.
 
 use occupant_core::diagnosis::{Diagnosis, Rate, SeatStart, SegmentFigures};
+use occupant_core::model::settle::Settled;
 use placed_text::shown;
 
 use super::elements;
@@ -132,7 +133,7 @@ fn seating(seat: &SeatStart, units: Units) -> String {
         );
         lines.push(("joints", words + "muscles with tone hold it, posture.limp = true lets it sink before the run"));
     }
-    if let Some(s) = seat.unsettled.filter(|s| s.residual_force_n > 0.1 * s.weight_n) {
+    if let Some(s) = seat.unsettled.filter(Settled::is_unbalanced) {
         let left = [s.residual_force_n, s.weight_n].map(|n| units.say(n, "N", 0));
         let left = format!("{} left over of a weight of {}", left[0], left[1]);
         lines.push(("unsettled", format!("{left} spoil the first 50 ms; posture.settle = true mends it")));

@@ -1,8 +1,8 @@
 //! Injury measures as tables.
 
 use crash_measures::injury::{Judgement, Measure};
-use crash_measures::unit::Unit;
 use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
+use occupant_units::unit::Unit;
 
 use super::summary::Marks;
 use crate::base::Units;
@@ -41,7 +41,7 @@ pub(crate) fn table<'m>(measures: impl IntoIterator<Item = &'m Measure>, marks: 
         (Right, &["margin"]),
         (Left, &[""]),
     ]);
-    for m in measures {
+    for m in measures.into_iter().filter(|m| m.has_part()) {
         let value = m.value.map_or(NONE.to_owned(), |v| shown(m, v, units));
         let mut left = [m.label.to_owned(), marks.put(m.figure.unwrap_or(m.name), value), unit(m, units), at(m)];
         for i in 0..m.limits.len().max(1) {
@@ -59,7 +59,7 @@ pub(crate) fn side_by_side(runs: &[(&[Measure], &Marks)], units: Units) -> Strin
     let heads: Vec<&str> = numbers.iter().map(String::as_str).collect();
     let mut table = Table::new(&[(Left, &["injury measure", "unit"]), (Right, &["limit"]), (Right, &heads)]);
     let mut known: Vec<&Measure> = Vec::new();
-    for m in runs.iter().flat_map(|(measures, _)| *measures) {
+    for m in runs.iter().flat_map(|(measures, _)| *measures).filter(|m| m.has_part()) {
         if !known.iter().any(|other| other.name == m.name) {
             known.push(m);
         }

@@ -75,7 +75,11 @@ pub(crate) fn summary_table(summary: &Summary, written: &Written, marks: &Marks,
         parts.push(first_contacts(summary, marks, units));
     }
     for (prefix, person) in summary.people() {
-        let own = measures::table(person.measures.iter().filter(|m| m.brief), &marks.of_occupant(&prefix), units);
+        let own = measures::table(
+            person.measures.iter().filter(|m| m.brief && m.value.is_some()),
+            &marks.of_occupant(&prefix),
+            units,
+        );
         parts.push(if prefix.is_empty() { own } else { format!("{}\n{own}", shown(prefix.trim_end_matches('.'))) });
     }
     parts.extend(ejections(summary, marks));
@@ -93,8 +97,8 @@ fn title(summary: &Summary) -> String {
         RunStatus::Failed => format!("FAILED: {reached} of {} ms", ms(summary.end_s)),
     };
     let every = (summary.reached_s - summary.start_s) / summary.solver.outputs.saturating_sub(1).max(1) as f64;
-    let peaks = format!("peaks are those of outputs every {} ms", without_zeros(&number(every * 1e3, 3)));
-    format!("{}\n{ending}; {peaks}\n", shown(&summary.title))
+    let outputs = format!("outputs every {} ms", without_zeros(&number(every * 1e3, 3)));
+    format!("{}\n{ending}, {outputs}\n", shown(&summary.title))
 }
 
 fn accelerations(summary: &Summary, marks: &Marks) -> String {

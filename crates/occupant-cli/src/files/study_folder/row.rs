@@ -1,7 +1,7 @@
 //! One sample's line of the table, and of the journal.
 
 use occupant_core::results::summary::Caveat;
-use occupant_study::ending::Ending;
+use occupant_scenario::ending::Ending;
 use occupant_study::engine::Finished;
 use serde::{Deserialize, Serialize};
 

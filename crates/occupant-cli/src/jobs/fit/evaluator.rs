@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use occupant_core::model::Model;
 use occupant_core::results::channel::Series;
-use occupant_study::ending::Ending;
+use occupant_scenario::ending::Ending;
 use occupant_study::engine::{Engine, Finished, NotBegun, Source};
 use occupant_study::search::Stage;
 

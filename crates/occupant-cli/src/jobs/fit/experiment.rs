@@ -7,8 +7,8 @@ use occupant_core::model::setup::Integrator;
 use occupant_core::results::channel::{Channel, Series};
 use occupant_core::results::recorder::Recorder;
 use occupant_core::run::simulate::simulate;
+use occupant_scenario::ending::Ending;
 use occupant_scenario::{Diagnostics, Loaded};
-use occupant_study::ending::Ending;
 use occupant_study::{Misfit, Study};
 
 use super::report::short;

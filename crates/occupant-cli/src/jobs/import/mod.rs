@@ -14,7 +14,7 @@ pub(crate) use path::{PathFilter, PathTable};
 /// What is asked for.
 #[derive(Clone, Debug)]
 pub(crate) struct Request<'a> {
-    /// Place of the vehicle's sensors; the centre of gravity, or the first that there is, if absent.
+    /// Place of the vehicle's sensors; if absent the centre of gravity, or a typical place.
     pub(crate) place: Option<&'a str>,
     /// First and last time of what is written, s.
     pub(crate) window_s: [Option<f64>; 2],

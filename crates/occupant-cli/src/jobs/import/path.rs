@@ -1,12 +1,14 @@
 //! The section of a scenario that makes a path of the recorded motion, and its table.
 
 use crash_measures::signal::{STANDARD_GRAVITY_MPS2, usual_interval};
+use occupant_scenario::speed_named;
+use occupant_units::unit::Unit;
 
 use super::Request;
 use super::curves::written;
 use crate::base::Failure;
-use crate::files::measured::{Axes, Imported, Known, Motion, MotionKind, Placed, doubts, velocity_changes};
-use crate::files::signals::Recording;
+use crate::files::measured::{Axes, Imported, Known, Motion, MotionKind, Placed, doubts};
+use crate::files::signals::{Recording, Signal};
 
 /// A vehicle's path as a table and the section of a scenario that reads it.
 #[derive(Debug)]
@@ -43,7 +45,6 @@ pub(super) fn of(
     let placed = Placed { at: request.place, bridge_s: request.bridge_s };
     let Some(mut motion) = Motion::of(recording, placed, notes)? else { return Ok(None) };
     begin_at_zero(&mut motion, notes);
-    say_if_places_differ(recording, request, notes);
     let axes = axes(&motion, imported, request, notes);
     let time_s = &motion.time_s;
     let (first_s, last_s) = (time_s[0], time_s[time_s.len() - 1]);
@@ -85,21 +86,6 @@ fn begin_at_zero(motion: &mut Motion, notes: &mut Vec<String>) {
     for column in &mut motion.columns {
         let value = if column.name == "wz" { column.values[0] } else { 0.0 };
         column.values.insert(0, value);
-    }
-}
-
-/// Places of the vehicle whose accelerometers tell of other velocity changes, by more than a tenth.
-fn say_if_places_differ(recording: &Recording, request: &Request, notes: &mut Vec<String>) {
-    let changes = velocity_changes(recording);
-    let (Some(least), Some(most)) =
-        (changes.iter().map(|(_, v)| *v).reduce(f64::min), changes.iter().map(|(_, v)| *v).reduce(f64::max))
-    else {
-        return;
-    };
-    if request.place.is_none() && most - least > 0.1 * most.abs().max(least.abs()) && most - least > 0.5 {
-        let told = changes.iter().map(|(place, v)| format!("{place} {:.1}", v * 3.6));
-        let told = told.collect::<Vec<_>>().join(", ");
-        notes.push(format!("places of the vehicle do not agree on its velocity change ahead, km/h: {told}; --at takes another than the path's"));
     }
 }
 
@@ -146,7 +132,13 @@ fn keys_of_sensors(
 ) -> Result<(Vec<String>, Option<f64>), Failure> {
     let text = |words: &str| toml_edit::Value::from(words).to_string();
     let known = imported.record.speed_km_h.map(|speed| format!("{speed} km/h"));
-    let told = request.speed.map(str::to_owned).or(known);
+    let mut recorded = || {
+        let (name, t_s, speed_m_s) = recorded_speed(&imported.recording)?;
+        let speed = format!("{} km/h", placed_text::number((speed_m_s * 3.6e3).round() / 1e3));
+        notes.push(format!("`speed` is {name} at {} s, {speed}; --speed says otherwise", placed_text::number(t_s)));
+        Some(speed)
+    };
+    let told = request.speed.map(str::to_owned).or(known).or_else(&mut recorded);
     let speed_m_s = told.as_deref().and_then(|speed| super::speed(speed).ok());
     let speed = told.unwrap_or_else(|| {
         notes.push("how fast the vehicle went is not told: `speed` is a guess of 50 km/h; --speed says it".to_owned());
@@ -179,6 +171,16 @@ fn keys_of_sensors(
     );
     keys.push("after = \"coast\"             # beyond the last row".to_owned());
     Ok((keys, speed_m_s))
+}
+
+/// The speed that a recorder tells of the time before the crash: its name, and the last at time zero of the record or before, m/s.
+fn recorded_speed(recording: &Recording) -> Option<(&str, f64, f64)> {
+    let speed = Unit::MetrePerSecond.dimension();
+    let is_speed = |signal: &&Signal| speed_named(&signal.name) && signal.scale.is_some_and(|s| s.dimension == speed);
+    let signal = recording.signals.iter().find(is_speed)?;
+    let told = signal.time_s.iter().zip(&signal.values).filter(|(t, v)| **t <= 0.0 && v.is_finite());
+    let (t_s, value) = told.last()?;
+    Some((&signal.name, *t_s, value * signal.scale?.factor))
 }
 
 fn other_filter(expected: &str) -> Failure {

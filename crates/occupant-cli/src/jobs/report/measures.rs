@@ -1,10 +1,10 @@
 //! The table of measures: injury measures against limits, then the run's summary.
 
 use crash_measures::injury;
-use crash_measures::unit::{Shown, Unit};
 use occupant_core::forces::table::{Holds, Table};
 use occupant_core::results::summary::{Caveat, Peak, Person, Summary, word};
 use occupant_scenario::kind::UnitSystem;
+use occupant_units::unit::{Shown, Unit};
 use serde::Serialize;
 
 use super::ride_down::RideDown;

@@ -2,10 +2,10 @@
 
 use std::sync::Mutex;
 
-use crash_measures::unit::Unit;
 use occupant_core::model::setup::Setup;
 use occupant_core::results::summary::Figure;
 use occupant_core::vehicle::VehiclePath;
+use occupant_units::unit::Unit;
 
 use super::{Figures, Report};
 

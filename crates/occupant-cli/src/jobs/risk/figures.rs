@@ -2,9 +2,9 @@
 
 use crash_measures::measure::{FlailSpace, Peak, Thiv};
 use crash_measures::signal::WindowExtreme;
-use crash_measures::unit::Shown;
-use crash_measures::unit::Unit::{MetrePerSecond, MetrePerSecondSquared, One, Radian};
 use occupant_study::risk::{AXES, Measured, VehicleRisk, VehicleSignals, VelocityChange};
+use occupant_units::unit::Shown;
+use occupant_units::unit::Unit::{MetrePerSecond, MetrePerSecondSquared, One, Radian};
 use serde::Serialize;
 
 use super::Report;

@@ -1,5 +1,6 @@
 //! The report as JSON: SI, units in the names.
 
+use occupant_scenario::kind::UnitSystem;
 use serde_json::{Map, Value, json as value};
 
 use super::Report;
@@ -42,6 +43,11 @@ pub(crate) fn json(report: &Report) -> Value {
         },
         "measures": measures,
         "left_out": figures.left_out,
+        "classes": report
+            .classes(Some(UnitSystem::Si))
+            .into_iter()
+            .map(|(rule, class, by)| value!({ "rule": rule, "class": class, "by": by }))
+            .collect::<Vec<Value>>(),
         "limits": limits
             .map(|j| value!({
                 "rule": j.limit.rule.name(),

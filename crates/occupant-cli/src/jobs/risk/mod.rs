@@ -9,11 +9,13 @@ mod plots;
 mod subject;
 mod table;
 
-use crash_measures::measure::limits::Rule;
+use crash_measures::measure::limits::{Grade, Quantity, Rule};
 use crash_measures::signal::{CfcFamily, ChannelClass};
 use occupant_core::model::setup::Setup;
+use occupant_scenario::kind::UnitSystem;
 use occupant_study::risk::{
-    Flight, Judgement, Preparation, ROADSIDE_RULES, SensorErrors, VehicleRisk, VehicleSignals, judge, prepare,
+    Attained, Flight, Judgement, Preparation, ROADSIDE_RULES, SensorErrors, VehicleRisk, VehicleSignals, attained,
+    judge, prepare,
 };
 
 pub(crate) use columns::columns;
@@ -23,6 +25,7 @@ pub(crate) use json::json;
 pub(crate) use page::{OWN_STYLE, page, sections};
 pub(crate) use subject::{PATH_INTERVAL_S, Subject, vehicles};
 pub(crate) use table::text;
+use table::{shown, unit_of};
 
 /// Everything that is reported.
 #[derive(Debug)]
@@ -86,6 +89,32 @@ impl Report {
             self.judgements.iter().filter(|j| j.breaks_the_rule()).map(|j| j.limit.rule.name()).collect();
         rules.dedup();
         rules
+    }
+
+    /// The class or level of each rule that has any: the rule, the class, and why.
+    pub(crate) fn classes(&self, units: Option<UnitSystem>) -> Vec<(&'static str, Option<&'static str>, String)> {
+        let mut rules: Vec<Rule> = self.judgements.iter().map(|judgement| judgement.limit.rule).collect();
+        rules.dedup();
+        let of = |rule: Rule| {
+            let bounds = |keep: &dyn Fn(&Judgement) -> bool| {
+                let own = self.judgements.iter().filter(|j| j.limit.rule == rule && keep(j));
+                let words = own.filter_map(|j| {
+                    let unit = unit_of(j.limit.quantity, units);
+                    let symbol =
+                        if j.limit.quantity == Quantity::Asi { String::new() } else { format!(" {}", unit.0.symbol()) };
+                    Some(format!("{} {} of {}{symbol}", j.measure, shown(j.value?, unit), shown(j.limit.most, unit)))
+                });
+                words.collect::<Vec<_>>().join(", ")
+            };
+            Some(match attained(rule, &self.judgements)? {
+                Attained::Grade(grade) => {
+                    (rule.name(), Some(grade.name()), bounds(&|j| [grade, Grade::Maximum].contains(&j.limit.grade)))
+                }
+                Attained::Beyond(limit) => (rule.name(), None, format!("beyond {}", bounds(&|j| j.limit == limit))),
+                Attained::NotMeasured(measure) => (rule.name(), None, format!("not known: {measure} was not measured")),
+            })
+        };
+        rules.into_iter().filter_map(of).collect()
     }
 
     /// With what errors of the sensors make of the measures.

@@ -58,6 +58,14 @@ pub(crate) fn sections(report: &Report, units: Option<UnitSystem>) -> String {
     }
     html.text("h2", "Limits");
     limits(&mut html, report, units);
+    let classes = report.classes(units);
+    if !classes.is_empty() {
+        html.text("h3", "Classes and levels");
+        let row = |(rule, class, by): (&str, Option<&str>, String)| {
+            [rule, class.unwrap_or("none"), &by].map(|words| Cell::Words(words.to_owned())).to_vec()
+        };
+        html.table(&["rule", "class or level", "by"], &classes.into_iter().map(row).collect::<Vec<_>>());
+    }
     html.text("h2", "Histories");
     html.raw("<div class=\"grid\">\n");
     plots::plots(report).iter().for_each(|figure| html.raw(&format!("<figure>{}</figure>\n", inline(figure, PLOT))));

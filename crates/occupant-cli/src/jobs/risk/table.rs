@@ -17,6 +17,7 @@ pub(crate) fn text(report: &Report, units: Option<UnitSystem>) -> String {
     let mut parts = vec![head, measures(&figures, report, units)];
     if !report.judgements.is_empty() {
         parts.push(limits(&report.judgements, units));
+        parts.extend(classes(report, units));
     }
     if !figures.left_out.is_empty() {
         let lines = figures.left_out.iter();
@@ -184,6 +185,14 @@ fn limits(judgements: &[Judgement], units: Option<UnitSystem>) -> String {
     }
     let notes = read_in.iter().zip(MARKS).map(|(words, mark)| format!("{mark} limit read in {words}\n"));
     table.text() + &notes.collect::<String>()
+}
+
+/// The class or level of each rule that has any.
+fn classes(report: &Report, units: Option<UnitSystem>) -> Option<String> {
+    let mut table = Table::new(&[(Align::Left, &["rule", "class or level", "by"])]);
+    let classes = report.classes(units);
+    classes.iter().for_each(|(rule, class, why)| table.row([*rule, class.unwrap_or("none"), why].map(str::to_owned)));
+    (!classes.is_empty()).then(|| table.text())
 }
 
 /// Marks of footnotes.

@@ -3,6 +3,8 @@
 mod difference;
 pub(crate) mod earlier;
 pub(crate) mod estimate;
+#[cfg(test)]
+mod hostile_files;
 pub(crate) mod recording;
 pub(crate) mod resume;
 

@@ -1,8 +1,8 @@
 //! Which figures of the runs a report is about.
 
 use crate::base::customary::FIGURES;
-use crash_measures::nearest::nearest;
 use occupant_core::results::channel::star;
+use placed_text::nearest;
 
 use super::Gathered;
 use super::samples::varies;

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use nalgebra::{Point3, Vector3};
 
 use super::data::{Bag, Shape};
-use crash_measures::trig::sin_cos;
+use occupant_units::trig::sin_cos;
 
 use crate::forces::shown::Section;
 
@@ -59,7 +59,7 @@ pub(super) fn sections(bag: &Bag, scale: f64) -> Vec<Section> {
 fn dome_profile(shape: &Shape) -> Vec<[f64; 2]> {
     let Shape::Dome { depth_m, radius_m, face_radius_m, .. } = *shape else { return Vec::new() };
     let reach = radius_m.min(face_radius_m);
-    let half = crash_measures::trig::atan2(reach, (face_radius_m * face_radius_m - reach * reach).max(0.0).sqrt());
+    let half = occupant_units::trig::atan2(reach, (face_radius_m * face_radius_m - reach * reach).max(0.0).sqrt());
     let face = (0..=2 * QUARTER).map(|i| {
         let (sine, cosine) = sin_cos(half * (1.0 - i as f64 / QUARTER as f64));
         [face_radius_m * sine, (depth_m - face_radius_m * (1.0 - cosine)).max(0.0)]

@@ -1,9 +1,9 @@
 //! What a bag contributes to results.
 
-use crash_measures::unit::Unit::{
+use nalgebra::Point3;
+use occupant_units::unit::Unit::{
     Joule, Kelvin, Kilogram, KilogramPerSecond, MetreCubed, MetreSquared, Newton, One, Pascal, Second,
 };
-use nalgebra::Point3;
 
 use super::data::{Bag, FOLDED};
 use super::inflator::Outflow;

@@ -4,8 +4,8 @@ use crate::body::Body;
 use crate::forces::belt::law::BeltLaw;
 use crate::forces::belt::{Belt, RestLength};
 use crate::motion::vector::V3;
-use crash_measures::trig;
 use nalgebra::Vector3;
+use occupant_units::trig;
 use placed_text::{Problem, Problems};
 
 pub(super) fn data(belts: &[Belt], body: &Body, problems: &mut Problems) {

@@ -1,6 +1,6 @@
 //! What a belt contributes to the results (report, "Output", item 7).
 
-use crash_measures::unit::Unit::{self, Joule, Metre, Newton, Radian};
+use occupant_units::unit::Unit::{self, Joule, Metre, Newton, Radian};
 
 use super::course::course_m;
 use super::law::{BeltAction, BeltHistory, BeltLaw};

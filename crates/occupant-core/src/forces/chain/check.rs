@@ -234,7 +234,7 @@ fn planes(chain: &Chain, past: &ChainPast<f64>, k: usize, lies: &Lies<f64>, prob
 }
 
 fn degrees(cosine: f64) -> f64 {
-    crash_measures::trig::acos(cosine.clamp(-1.0, 1.0)).to_degrees()
+    occupant_units::trig::acos(cosine.clamp(-1.0, 1.0)).to_degrees()
 }
 
 /// From the pelvis to its anchors a lap part goes back and down, at this angle below the level, °: a flatter one slides up to the belly.
@@ -260,7 +260,7 @@ fn slope(
             continue;
         }
         let to = axes.into_frame(places[other].centre - places[k].centre);
-        let slope_deg = crash_measures::trig::atan2(to.z, -to.x).to_degrees();
+        let slope_deg = occupant_units::trig::atan2(to.z, -to.x).to_degrees();
         if (-90.0..LEAST_SLOPE_DEG).contains(&slope_deg) {
             let found = format!(
                 "the lap belt goes from the pelvis to an anchor at {slope_deg:.0}° below the level, counted from straight back"

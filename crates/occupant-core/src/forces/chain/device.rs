@@ -9,14 +9,21 @@ use std::array::from_fn;
 use super::cue::{CueLaw, Cued};
 use super::data::{Cue, Device, NEVER};
 use super::feed::Feed;
-use super::past::DevicePast;
+use super::past::{DevicePast, NodePast};
 use super::reel::ReelLaw;
+use crate::forces::decay::decay;
 use crate::forces::element::passes;
 use crate::forces::function::{Function, FunctionLaw};
 use crate::motion::scalar::Scalar;
 
 /// Time constant of the average that the acceleration of webbing is measured against, s.
 const SENSOR_S: f64 = 5e-3;
+
+/// Speed at which a limiter goes back, m/s: no rounding is as fast.
+const BACK_M_S: f64 = 1e-4;
+
+/// Halvings that leave nothing of an interval.
+const HALVES: u32 = 54;
 
 /// Phases of the first node. Those of spools alone: open, locking, pulled in; what stands fast is locked.
 pub(super) struct Phase;
@@ -58,18 +65,24 @@ impl DeviceLaw<f64> {
     }
 }
 
-/// A commit of a device: what it remembers, the payout, and the tension of the first strap.
+/// A commit of a device: what it remembers, what its node does, and the tension of the first strap.
 #[derive(Clone, Copy)]
 pub(super) struct Moment<'a, S> {
     pub(super) past: &'a DevicePast<S>,
-    pub(super) payout: S,
+    pub(super) first: &'a NodePast<S>,
     pub(super) tension: S,
 }
 
+impl<S: Copy> Moment<'_, S> {
+    pub(super) fn payout(&self) -> S {
+        self.first.fed
+    }
+}
+
 impl DeviceLaw<f64> {
-    /// Whether there is a spool, or anything that a cue sets off.
+    /// Whether there is a spool or a limiter, or anything that a cue sets off.
     pub(super) fn can_switch(&self) -> bool {
-        self.reel.is_some() || self.second.is_some() || self.release.can_fire()
+        self.reel.is_some() || self.limiter.is_some() || self.release.can_fire()
     }
 }
 
@@ -82,7 +95,7 @@ impl<S: Scalar<Mask = bool>> DeviceLaw<S> {
             time_s: of.past.time,
             due_s,
             since_s,
-            seen: [Some(of.tension), Some(of.payout), Some(of.past.speed), None],
+            seen: [Some(of.tension), Some(of.payout()), Some(of.past.speed), None],
         };
         let cue = |law: Option<&CueLaw<S>>, due: fn(&DevicePast<S>) -> [S; 2]| {
             let [from, to] = [before, now].map(|of| cued(of, due(of.past)[0], due(of.past)[1]));
@@ -101,8 +114,36 @@ impl<S: Scalar<Mask = bool>> DeviceLaw<S> {
                 let level = self.level(self.share(b.time, b));
                 reel.due(before, now, level)
             }),
+            self.turns(before, now),
+            self.takes_over(before, now),
         ];
         all.into_iter().flatten().reduce(S::min)
+    }
+}
+
+impl<S: Scalar<Mask = bool>> DeviceLaw<S> {
+    /// Where between two commits the second limiter was due to begin or to end to take over; the step behind that, or behind a
+    /// lock, tells at once how the payout goes on.
+    fn takes_over(&self, before: &Moment<'_, S>, now: &Moment<'_, S>) -> Option<S> {
+        match [before, now].map(|of| of.first.pays_anew()) {
+            [true, false] => Some(S::zero()),
+            [false, true] => {
+                let (due, over) = (now.past.switch_due, self.second.as_ref()?.2);
+                let [from, to] = [before, now].map(|of| of.past.time);
+                let comes = [due, due + over].into_iter().find(|at| from.lt(*at) && !to.lt(*at));
+                comes.map(|at| passes(at, from, to))
+            }
+            _ => None,
+        }
+    }
+
+    /// Where between two commits the limiter was due to go back, or to load again.
+    fn turns(&self, before: &Moment<'_, S>, now: &Moment<'_, S>) -> Option<S> {
+        match [before, now].map(|of| of.first.goes_back()) {
+            [false, true] => Some(passes(S::of(BACK_M_S), -before.past.speed, -now.past.speed)),
+            [true, false] => Some(passes(before.past.greatest, before.past.solution, now.past.solution)),
+            _ => None,
+        }
     }
 }
 
@@ -178,14 +219,43 @@ impl<S: Scalar> DeviceLaw<S> {
         if let Some(limiter) = &self.limiter {
             let [level, other] = self.levels;
             let (mut delta, _, _) = limiter.reach(tension.min(level), past.greatest, limiter.set(past.greatest));
-            if let (Some((second, ..)), true) = (&self.second, S::any(share.gt(S::zero()))) {
+            if let (Some((second, ..)), true) = (&self.second, S::any(locks & share.gt(S::zero()))) {
                 let (of_second, _, _) = second.reach(tension.min(other), past.greatest, second.set(past.greatest));
-                delta += (of_second - delta) * share;
+                let both = self.reach(share, tension.min(self.level(share)), [delta, of_second], past.greatest);
+                delta = S::select(share.gt(S::zero()), both, delta);
             }
             past.greatest = S::select(locks, past.greatest.max(delta), past.greatest);
             past.base = S::select(locks, payout - delta, past.base);
             past.solution = S::select(locks, delta, past.solution);
         }
+    }
+
+    /// δ at which both limiters together have this tension, between those at which each has it.
+    #[inline(always)]
+    fn reach(&self, share: S, tension: S, [a, b]: [S; 2], greatest: S) -> S {
+        let (mut low, mut high) = (a.min(b), a.max(b));
+        for _ in 0..HALVES {
+            let middle = (low + high) * S::of(0.5);
+            let is_below = self.limit(middle, greatest, share)[0].lt(tension);
+            (low, high) = (S::select(is_below, middle, low), S::select(is_below, high, middle));
+        }
+        // nothing but the slopes is left to be done
+        let [force, slope] = self.limit(high, greatest, share);
+        let rest = tension - force;
+        high + S::select(slope.gt(S::zero()), (rest - rest.value_alone()) / slope.value_alone(), S::zero())
+    }
+
+    /// Force of the limiters and its slope at δ.
+    #[inline(always)]
+    pub(super) fn limit(&self, delta: S, greatest: S, share: S) -> [S; 2] {
+        let Some(limiter) = &self.limiter else { return [S::zero(); 2] };
+        let mut q = limiter.respond(delta, greatest);
+        if let (Some((second, ..)), true) = (&self.second, S::any(share.gt(S::zero()))) {
+            let other = second.respond(delta, greatest);
+            q.force += (other.force - q.force) * share;
+            q.slope += (other.slope - q.slope) * share;
+        }
+        [q.force, q.slope]
     }
 
     /// How the first strap is fed at a time; `payout` is that of the last commit.
@@ -239,35 +309,58 @@ impl<S: Scalar> DeviceLaw<S> {
 
     /// Phases at an accepted step, with the tension of the first strap and the payout now and before.
     #[inline(always)]
-    pub(super) fn commit(&self, time: S, tension: S, [payout, before]: [S; 2], past: &mut DevicePast<S>) {
+    pub(super) fn commit(
+        &self,
+        time: S,
+        tension: S,
+        [payout, before]: [S; 2],
+        (past, first): (&mut DevicePast<S>, &mut NodePast<S>),
+    ) {
         let h = time - past.time;
-        let speed = (payout - before) / h;
+        let mean = (payout - before) / h;
+        let speed = first.pay(mean, h);
+        past.average += (mean - past.average) * (S::one() - decay(h * S::of(1.0 / SENSOR_S)));
         let acceleration = (speed - past.average) * S::of(1.0 / SENSOR_S);
-        past.average += (speed - past.average) * (h / (S::of(SENSOR_S) + h));
         past.speed = speed;
         let seen = [tension, payout, speed, acceleration];
         self.release.commit(time, &seen, &mut past.release_due, &mut past.release_since);
         past.free = S::select(!time.lt(past.release_due), S::one(), past.free);
-        if let Some((_, cue, _)) = &self.second {
+        if let Some((_, cue, over)) = &self.second {
             cue.commit(time, &seen, &mut past.switch_due, &mut past.switch_since);
+            let comes = |at: S| past.time.lt(at) & !time.lt(at);
+            first.pay_anew(comes(past.switch_due) | comes(past.switch_due + *over));
         }
         if let Some(reel) = &self.reel {
             reel.lock.commit(time, &seen, &mut past.lock_due, &mut past.lock_since);
             let share = self.share(time, past);
             let stops = reel.commit_pull(time, &seen, self.level(share), past);
-            let locks = reel.commit_lock(time, payout, past);
-            self.lock(stops | locks, share, tension, payout, past);
+            let locks = stops | reel.commit_lock(time, payout, past);
+            self.lock(locks, share, tension, payout, past);
             let is_pulling = past.phase.gt(S::of(Phase::LOCKING)) & past.phase.lt(S::of(Phase::LOCKED));
             past.solution = S::select(is_pulling, tension, past.solution);
             let by_force = reel.pull.as_ref().is_some_and(|pull| pull.by_force.is_some());
             let is_open = past.phase.lt(S::of(if by_force { Phase::LOCKED } else { Phase::PULLING }));
             past.solution = S::select(is_open, S::zero(), past.solution);
+            self.follow(payout, past, first);
+            first.pay_anew(locks);
+            first.normal_z = S::select(locks, S::zero(), first.normal_z);
+        } else {
+            self.follow(payout, past, first);
         }
-        if self.limiter.is_some() {
-            let is_locked = past.phase.gt(S::of(Phase::PULLING));
-            past.greatest = S::select(is_locked, past.greatest.max(payout - past.base), past.greatest);
-            past.solution = S::select(is_locked, payout - past.base, past.solution);
+    }
+
+    /// The limiter at an accepted step.
+    #[inline(always)]
+    fn follow(&self, payout: S, past: &mut DevicePast<S>, first: &mut NodePast<S>) {
+        if self.limiter.is_none() {
+            return;
         }
+        let (delta, is_locked) = (payout - past.base, past.phase.gt(S::of(Phase::PULLING)));
+        let is_less = delta.lt(past.greatest);
+        let is_back = (first.goes_back() & is_less) | (!first.goes_back() & past.speed.lt(S::of(-BACK_M_S)));
+        first.normal_z = S::select(is_locked & is_back, S::one(), S::zero());
+        past.greatest = S::select(is_locked, past.greatest.max(delta), past.greatest);
+        past.solution = S::select(is_locked, delta, past.solution);
     }
 
     /// Recoverable energy of the limiter, J.

@@ -50,15 +50,10 @@ impl<S: Scalar> Feed<'_, S> {
     pub(super) fn at(&self, x: S) -> Fed<S> {
         let (o, one) = (S::zero(), S::one());
         let mut fed = Fed { tension: x, tension_rate: one, passed: self.passed, passed_rate: o };
-        if let Some(limiter) = &self.law.limiter {
-            let mut q = limiter.respond(x, self.greatest);
-            if let (Some((second, ..)), true) = (&self.law.second, S::any(self.share.gt(o))) {
-                let other = second.respond(x, self.greatest);
-                q.force += (other.force - q.force) * self.share;
-                q.slope += (other.slope - q.slope) * self.share;
-            }
-            fed.tension = S::select(self.is_limited, q.force, fed.tension);
-            fed.tension_rate = S::select(self.is_limited, q.slope, fed.tension_rate);
+        if self.law.limiter.is_some() {
+            let [force, slope] = self.law.limit(x, self.greatest, self.share);
+            fed.tension = S::select(self.is_limited, force, fed.tension);
+            fed.tension_rate = S::select(self.is_limited, slope, fed.tension_rate);
             fed.passed = S::select(self.is_limited, self.base + x, fed.passed);
             fed.passed_rate = S::select(self.is_limited, one, fed.passed_rate);
         }

@@ -8,6 +8,9 @@ use crate::motion::vector::{V3, v3};
 /// No change of speed along a track is foreseen over more than so many times the step that showed it.
 const MOST_AHEAD: f64 = 2.0;
 
+/// Length of the last step where the payout has gone on otherwise since.
+const ANEW: f64 = -1.0;
+
 /// Speed of a stroke that has stalled.
 pub(super) const STALLED: f64 = -1.0;
 
@@ -46,7 +49,8 @@ numbers! {
         /// 1 while the webbing passes it.
         on,
         /// Remembered normal of a sphere's plane, and direction from its centre to where the webbing comes onto it, segment axes;
-        /// of a track for the latter by how much its speed changed in the last step, m/s, how long that lasted, s, and whether there
+        /// of the first node for the normal the mean speed of the payout in the last step, m/s, how long that lasted, s, and
+        /// whether its limiter goes back; of a track for the direction by how much its speed changed in the last step, m/s, how long that lasted, s, and whether there
         /// was one.
         normal_x,
         normal_y,
@@ -161,6 +165,8 @@ impl<S: Scalar> ChainPast<S> {
         };
         note(device.pulled.gt(o));
         note(device.free.gt(o));
+        note(self.nodes[0].pays_anew());
+        note(self.nodes[0].goes_back());
         for time in [device.lock_due, device.pull_due, device.switch_due, device.release_due] {
             note(time.lt(soon));
         }
@@ -197,6 +203,33 @@ impl<S: Scalar> NodePast<S> {
         self.touch_x = S::select(is_known, speed - self.speed, o);
         self.touch_y = S::select(is_known, h, o);
         (self.touch_z, self.speed) = (S::one(), speed);
+    }
+
+    /// Speed of the payout at the end of a step of length h in which it was `mean`: that of the parabola through this step and the
+    /// last; the mean where there was none.
+    #[inline(always)]
+    pub(super) fn pay(&mut self, mean: S, h: S) -> S {
+        let (before, lasted) = (self.normal_x, self.normal_y);
+        (self.normal_x, self.normal_y) = (mean, h);
+        mean + S::select(lasted.gt(S::zero()), (mean - before) * (h / (h + lasted)), S::zero())
+    }
+
+    /// Where the payout goes on otherwise: its speed is not known.
+    #[inline(always)]
+    pub(super) fn pay_anew(&mut self, anew: S::Mask) {
+        self.normal_y = S::select(anew, S::of(ANEW), self.normal_y);
+    }
+
+    /// Whether the payout has gone on otherwise since the last step.
+    #[inline(always)]
+    pub(super) fn pays_anew(&self) -> S::Mask {
+        self.normal_y.lt(S::zero())
+    }
+
+    /// Whether the limiter goes back: δ falls, or has fallen and is not the greatest again.
+    #[inline(always)]
+    pub(super) fn goes_back(&self) -> S::Mask {
+        self.normal_z.gt(S::zero())
     }
 
     /// Of a node that is pulled.

@@ -50,7 +50,7 @@ impl<S: Scalar<Mask = bool>> ReelLaw<S> {
     pub(super) fn due(&self, before: &Moment<'_, S>, now: &Moment<'_, S>, level: S) -> Option<S> {
         let (a, time) = (before.past, now.past.time);
         let at = |due: S| (!time.lt(due)).then(|| passes(due, a.time, time));
-        let paid = |out: S| (!now.payout.lt(out)).then(|| passes(out, before.payout, now.payout));
+        let paid = |out: S| (!now.payout().lt(out)).then(|| passes(out, before.payout(), now.payout()));
         let [after, within] = self.lock_after;
         let ends = if a.phase.lt(S::of(Phase::LOCKING)) {
             [at(a.lock_due), paid(self.on_spool), None]
@@ -109,11 +109,12 @@ impl<S: Scalar> ReelLaw<S> {
         let is_pulling = past.phase.gt(S::of(Phase::LOCKING)) & past.phase.lt(S::of(Phase::LOCKED));
         let age = time - past.pull_due;
         let is_tight = !tension.lt(pull.stall.min(level));
-        let mut stops = !age.lt(pull.table.end()) | is_tight;
+        // as it is foreseen: no rounding between both
+        let mut stops = !time.lt(past.pull_due + pull.table.end()) | is_tight;
         if pull.by_force.is_some() {
             stops = stops | (!speed.lt(S::zero()) & tension.gt(pull.table.at(age)));
         }
-        let fires = !age.lt(S::zero()) & !past.pulled.gt(S::zero());
+        let fires = !time.lt(past.pull_due) & !past.pulled.gt(S::zero());
         let fails = fires & is_tight & past.phase.lt(S::of(Phase::LOCKED));
         let stops = stops & is_pulling | fails;
         past.pulled = S::select(fires, S::one(), past.pulled);

@@ -2,8 +2,8 @@
 
 use std::array::from_fn;
 
-use crash_measures::unit::Unit::{self, Joule, Metre, Newton, One, Radian};
 use nalgebra::Point3;
+use occupant_units::unit::Unit::{self, Joule, Metre, Newton, One, Radian};
 
 use super::law::Now;
 use super::past::ChainPast;
@@ -155,7 +155,7 @@ impl Arc<f64> {
         let steps = (self.wrap.max(0.0) / ARC_STEP_RAD).ceil();
         let angle = move |i: f64| self.wrap * if steps > 0.0 { i / steps } else { 0.0 };
         let point = move |angle: f64| {
-            let (sine, cosine) = crash_measures::trig::sin_cos(angle);
+            let (sine, cosine) = occupant_units::trig::sin_cos(angle);
             Point3::from(centre + touch * cosine + axis.cross(&touch) * sine)
         };
         let count = if self.wrap > 0.0 { steps as u64 + 1 } else { 0 };

@@ -72,7 +72,7 @@ impl TrackLaw<f64> {
         let along = normal.normalize().cross(&out);
         let way = |p: Vector3<f64>| {
             let arm = p - centre;
-            let angle = crash_measures::trig::atan2(arm.dot(&along), arm.dot(&out));
+            let angle = occupant_units::trig::atan2(arm.dot(&along), arm.dot(&out));
             radius * if angle < 0.0 { angle + std::f64::consts::TAU } else { angle }
         };
         Some(TrackLaw {

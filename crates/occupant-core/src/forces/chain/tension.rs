@@ -169,7 +169,7 @@ impl<S: Scalar<Mask = bool>> Straps<S> {
         let first = |past: &NodePast<S>| self.tension(past);
         let [from, to] = [before, now].map(|past| Moment {
             past: &past.device,
-            payout: past.nodes[0].fed,
+            first: &past.nodes[0],
             tension: first(&past.nodes[0]),
         });
         let greatest = |past: &ChainPast<S>| {
@@ -327,7 +327,7 @@ impl<S: Scalar> Straps<S> {
         self.book(taut, first, past, next);
         next.device.solution = taut.solved.x;
         let payout = [next.nodes[0].fed, past.nodes[0].fed];
-        self.device.commit(time, straps[0].tension, payout, &mut next.device);
+        self.device.commit(time, straps[0].tension, payout, (&mut next.device, &mut next.nodes[0]));
         next.device.free = S::select(greatest.gt(self.strength), S::one(), next.device.free);
         let feed = self.device.feed(time, &next.device, next.nodes[0].fed);
         next.device.stored = self.device.stored(&feed, feed.delta(next.device.solution));

@@ -1,6 +1,6 @@
 //! What a column contributes to results.
 
-use crash_measures::unit::Unit::{Joule, Metre, MetrePerSecond, Newton, One, Second};
+use occupant_units::unit::Unit::{Joule, Metre, MetrePerSecond, Newton, One, Second};
 
 use super::law::Now;
 use super::past::ColumnPast;

@@ -1,15 +1,15 @@
 //! What a surface is made of.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::forces::function::ForceDeflection;
 use crate::forces::spring::BilinearSpring;
 
 /// Whether crush is remembered.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
-#[schemars(rename = "MemoryChoice")]
+#[cfg_attr(feature = "schema", schemars(rename = "MemoryChoice"))]
 pub enum Memory {
     /// Forgotten when contact ends: padding that recovers.
     #[default]

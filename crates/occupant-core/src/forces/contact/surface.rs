@@ -3,17 +3,17 @@
 //! Report: "The Idealized Passenger Compartment". The report's planes have no edges in print; bounded faces
 //! are our decision (see the theory manual).
 
-use crash_measures::trig;
 use nalgebra::{Point3, Vector3};
-use schemars::JsonSchema;
+use occupant_units::trig;
 use serde::{Deserialize, Serialize};
 
 use crate::motion::frame::{MOST_FRAMES, SPACE, VEHICLE};
 
 /// What a surface is fixed to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
-#[schemars(rename = "FrameChoice")]
+#[cfg_attr(feature = "schema", schemars(rename = "FrameChoice"))]
 pub enum Frame {
     /// The first vehicle: x forward, y right, z down from its centre of gravity.
     #[default]

@@ -9,7 +9,6 @@
 //! any frictionless force on a sphere must. At A, with the rest of the contact force, it has the moment −U N̂×ê about the
 //! centre, which is work done on a turning segment that nothing stores. [`EdgeForce`] names both readings.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::forces::contact::encounter::Approach;
@@ -21,8 +20,9 @@ use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
 /// Where the edge force acts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[schemars(rename = "EdgeForceChoice")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(rename = "EdgeForceChoice"))]
 pub enum EdgeForce {
     /// At the point of contact, like the rest of the contact force.
     // A = centre − r N̂, the specification's words

@@ -1,6 +1,5 @@
 //! Force functions as data, and what can be wrong with them by themselves.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::cubic::Cubic;
@@ -21,9 +20,10 @@ pub struct Function {
 }
 
 /// A curve between points.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
-#[schemars(rename = "ShapeChoice")]
+#[cfg_attr(feature = "schema", schemars(rename = "ShapeChoice"))]
 pub enum Shape {
     /// Straight.
     #[default]
@@ -36,9 +36,10 @@ pub enum Shape {
 }
 
 /// A curve beyond its last point.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
-#[schemars(rename = "BeyondChoice")]
+#[cfg_attr(feature = "schema", schemars(rename = "BeyondChoice"))]
 pub enum Beyond {
     /// Goes on with its last slope.
     #[default]

@@ -15,7 +15,7 @@ use crate::motion::scalar::Scalar;
 use crate::motion::skeleton::Skeleton;
 use crate::motion::state::State;
 use crate::motion::vector::V3;
-use crash_measures::trig;
+use occupant_units::trig;
 
 /// Damping that rises from `begin` over `1/slope` radians by `rise`.
 #[derive(Clone, Copy, Debug)]

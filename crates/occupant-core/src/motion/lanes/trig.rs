@@ -1,11 +1,11 @@
-//! Sines and arcs of all lanes at once, with the bits of [`crash_measures::trig`].
+//! Sines and arcs of all lanes at once, with the bits of [`occupant_units::trig`].
 //!
-//! The operations are those of the library behind `crash_measures::trig` (the algorithms of Sun's fdlibm), in the same order; its
+//! The operations are those of the library behind `occupant_units::trig` (the algorithms of Sun's fdlibm), in the same order; its
 //! branches are selections here. Arguments that an occupant never has (zeros, infinities, angles beyond 5π/4 or within
 //! 10⁻⁶ of π/2) go to the library one by one.
 
 use super::Lanes;
-use crash_measures::trig;
+use occupant_units::trig;
 
 /// π/2 in two and in three parts, as the library splits it.
 const HALF_PI_1: f64 = f64::from_bits(0x3FF9_21FB_5440_0000);

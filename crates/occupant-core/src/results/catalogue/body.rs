@@ -1,9 +1,9 @@
 //! Place and motion of the segments (report, "Output", items 1 to 4), the dummy's load cells, the report's coordinates.
 
-use crash_measures::unit::Unit::{
+use nalgebra::Vector3;
+use occupant_units::unit::Unit::{
     Metre, MetrePerSecond, MetrePerSecondSquared, Newton, NewtonMetre, One, RadianPerSecond, RadianPerSecondSquared,
 };
-use nalgebra::Vector3;
 
 use crate::body::tree::{Landmarks, Segment};
 use crate::kernel::instruments;

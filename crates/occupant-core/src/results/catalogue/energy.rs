@@ -1,6 +1,6 @@
 //! The energy ledger and the work of the integrator.
 
-use crash_measures::unit::Unit::Second;
+use occupant_units::unit::Unit::Second;
 
 use crate::quantity::{Energy, Owner, Quantity, energy};
 use crate::results::energy::EnergyLedger;

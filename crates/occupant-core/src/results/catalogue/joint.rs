@@ -1,6 +1,6 @@
 //! Angles of the joints and what they carry.
 
-use crash_measures::unit::Unit::{Newton, NewtonMetre, Radian};
+use occupant_units::unit::Unit::{Newton, NewtonMetre, Radian};
 
 use crate::body::tree::{Joint, Tree};
 use crate::quantity::{Axes, Owner, Quantity};

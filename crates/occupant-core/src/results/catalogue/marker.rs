@@ -3,8 +3,8 @@
 //! With the vehicle's origin O, velocity V, acceleration A and angular velocity Ω, a point at r from O has there
 //! v′ = v − V − Ω × r and a′ = a − A − Ω̇ × r − Ω × (Ω × r) − 2Ω × v′.
 
-use crash_measures::unit::Unit::{Metre, MetrePerSecond, MetrePerSecondSquared};
 use nalgebra::Vector3;
+use occupant_units::unit::Unit::{Metre, MetrePerSecond, MetrePerSecondSquared};
 
 use crate::forces::sphere::Site;
 use crate::model::Model;

@@ -1,6 +1,6 @@
 //! Forces on the contact spheres and the surfaces that they touch (report, "Output", items 5 and 6).
 
-use crash_measures::unit::Unit::{Metre, MetrePerSecond, Newton, One};
+use occupant_units::unit::Unit::{Metre, MetrePerSecond, Newton, One};
 
 use crate::quantity::{Axes, Kind, Owner, Quantity, Take, Value, values};
 use crate::results::sample::{Contact, Sample};

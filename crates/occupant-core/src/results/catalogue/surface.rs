@@ -1,6 +1,6 @@
 //! Forces of surfaces and solids on the bodies, and how deep the bodies are in them.
 
-use crash_measures::unit::Unit::{Metre, Newton};
+use occupant_units::unit::Unit::{Metre, Newton};
 
 use crate::forces::contact::surface::Frame;
 use crate::quantity::{Axes, Owner, Quantity};

@@ -1,6 +1,6 @@
 //! Motion of the vehicles.
 
-use crash_measures::unit::Unit::{
+use occupant_units::unit::Unit::{
     Metre, MetrePerSecond, MetrePerSecondSquared, Radian, RadianPerSecond, RadianPerSecondSquared,
 };
 

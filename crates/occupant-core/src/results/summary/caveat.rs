@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::{Exit, Peak, RunStatus, Summary, Throw, word};
 use crate::body::{Body, Joint, Limb, Segment};
 use crate::forces::rate::Rate;
+use crate::model::settle::Settled;
 use crate::results::energy::{Balance, EnergyCheck};
 
 /// Runs of every kind keep their energy better than this where their steps are short enough: by 1e-4 and less, as a rule.
@@ -42,11 +43,14 @@ impl Caveat {
 
     /// The same of one of several occupants, whose name stands before those of its figures.
     pub(super) fn of_occupant(self, name: &str) -> Self {
-        if name.is_empty() {
-            return self;
-        }
-        let figures = self.figures.iter().map(|figure| format!("{name}.{figure}")).collect();
-        Caveat { text: format!("{name}: {}", self.text), figures, ..self }
+        let figures =
+            self.figures.iter().map(|figure| if name.is_empty() { figure.clone() } else { format!("{name}.{figure}") });
+        Caveat { figures: figures.collect(), ..self }.with_subject(name)
+    }
+
+    /// The same, whose text says of whom it is; its figures have their names.
+    pub(super) fn with_subject(self, name: &str) -> Self {
+        if name.is_empty() { self } else { Caveat { text: format!("{name}: {}", self.text), ..self } }
     }
 
     /// A run that did not complete; none for one that did.
@@ -125,6 +129,18 @@ impl Caveat {
             1e2 * part
         );
         Some(Caveat::new("undetermined", text, figures))
+    }
+
+    /// A body that does not rest where the run puts it, and its figures of the first 50 ms.
+    pub(super) fn unbalanced(left: &Settled, early: Vec<String>) -> Self {
+        let text = format!(
+            "the body does not rest at the start: {:.0} N are left over of a weight of {:.0} N, and figures of the first {:.0} ms are those of its way \
+             into balance; posture.settle = true mends it, or surfaces that just carry it",
+            left.residual_force_n,
+            left.weight_n,
+            1e3 * Settled::FADES_S
+        );
+        Caveat::new("start_unbalanced", text, early)
     }
 
     /// A joint that turned to `turned` beyond the end of a stop.

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use crash_measures::unit::Unit::{
+use occupant_units::unit::Unit::{
     self, Joule, Metre, MetrePerSecond, MetrePerSecondSquared, Newton, One, Radian, Second,
 };
 

@@ -117,6 +117,27 @@ pub struct Person {
     pub measures: Vec<Measure>,
 }
 
+impl Person {
+    /// Names of the figures that are of a time, or of a window that begins at one, for which `is_when` holds.
+    fn figures_when(&self, is_when: impl Fn(f64) -> bool) -> Vec<String> {
+        let a = &self.accelerations;
+        let parts = [("head", &a.head), ("chest", &a.chest), ("pelvis", &a.pelvis)].into_iter();
+        let times = parts.flat_map(|(part, own)| {
+            let levels =
+                [("three_ms_contiguous", own.three_ms_contiguous), ("three_ms_cumulative", own.three_ms_cumulative)];
+            let levels = levels.map(|(name, level)| (name, level.map(|level| level.from_s)));
+            let all = levels.into_iter().chain([("peak", Some(own.peak_time_s)), ("peak_time", Some(own.peak_time_s))]);
+            all.map(move |(name, time_s)| (format!("{part}.{name}"), time_s))
+        });
+        let measures = self.measures.iter().filter_map(|measure| Some((measure.figure?.to_owned(), measure.from_s)));
+        let then = times.chain(measures).filter(|(_, time_s)| time_s.is_some_and(&is_when));
+        let mut names: Vec<String> = then.map(|(name, _)| name).collect();
+        names.sort();
+        names.dedup();
+        names
+    }
+}
+
 impl Summary {
     /// All occupants by what stands before the names of their figures: nothing of one alone, else the name and a dot.
     pub fn people(&self) -> Vec<(String, Person)> {

@@ -16,6 +16,7 @@ pub(super) struct Watched {
     pub(super) name: &'static str,
     pub(super) mass_kg: f64,
     has_head: bool,
+    /// Whether it has a head, a chest and a pelvis that no mount moves as it is told: else their readings are an input.
     has: [bool; 3],
     pub(super) signals: Signals,
 }
@@ -27,13 +28,14 @@ impl Watched {
         let watched = |&of: &usize| {
             let row = &rows[of];
             let head = if row.name.is_empty() { "head".to_owned() } else { format!("{}.head", row.name) };
-            let own = body.tree.segments().filter(|segment| body.tree.body_of(*segment) == of);
+            let own = || body.tree.segments().filter(|segment| body.tree.body_of(*segment) == of);
+            let told = own().next().filter(|_| model.system().skeleton.layout.is_guided(of));
             Watched {
                 of,
                 name: row.name,
-                mass_kg: own.map(|segment| body.segment(segment).mass_kg).sum(),
+                mass_kg: own().map(|segment| body.segment(segment).mass_kg).sum(),
                 has_head: body.sphere(&head).is_some(),
-                has: row.landmarks.instruments().map(|segment| segment.is_some()),
+                has: row.landmarks.instruments().map(|segment| segment.is_some() && segment != told),
                 signals: begun(model, fine),
             }
         };
@@ -46,7 +48,10 @@ impl Watched {
             (self.signals.start_s, self.signals.interval_s) = (fine.first_s(), fine.interval_s);
         }
         for sample in fine.of(place) {
-            self.signals.all_mut().zip(sample).for_each(|(values, number)| values.push(f64::from(*number)));
+            for ((n, values), number) in self.signals.all_mut().enumerate().zip(sample) {
+                let is_read = self.has.get(n / 3).is_none_or(|has| *has);
+                values.push(if is_read { f64::from(*number) } else { f64::NAN });
+            }
         }
     }
 
@@ -61,7 +66,8 @@ impl Watched {
     ) -> (Person, Signals) {
         let mut whole = self.clone();
         whole.take(place, fine);
-        let own = peaks.felt.get(self.of).copied().unwrap_or([Peak::NONE; FELT]);
+        let mut own = peaks.felt.get(self.of).copied().unwrap_or([Peak::NONE; FELT]);
+        (0..3).filter(|i| !self.has[*i]).for_each(|i| own[i] = Peak::NONE);
         whole.signals.peaks =
             are_of_steps.then(|| std::array::from_fn(|i| Extreme { value: own[i].value, time_s: own[i].time_s }));
         let readings = Readings::new(&whole.signals, options);

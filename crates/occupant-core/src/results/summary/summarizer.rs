@@ -8,12 +8,13 @@ use super::events::Events;
 use super::flight::Flight;
 use super::person::Watched;
 use super::signs::Signs;
-use super::{Caveat, ContactBegin, Ejection, FirstContact, Person, RunStatus, Solver, SpherePeak, Summary};
+use super::{Caveat, ContactBegin, Ejection, FirstContact, Person, RunStatus, Solver, SpherePeak, Summary, word};
 use crate::body::{Body, ContactSphere};
 use crate::forces::bag::Bag;
 use crate::forces::chain::Chain;
 use crate::kernel::instruments::{READINGS, Reading};
 use crate::model::Model;
+use crate::model::settle::Settled;
 use crate::model::setup::{Setup, TimeSpan};
 use crate::results::fine::Fine;
 use crate::results::outcome::{Outcome, Status};
@@ -68,8 +69,29 @@ struct Case {
     is_on_rig: bool,
     /// [`Joints::is_half_a_neck`](crate::forces::joint::Joints::is_half_a_neck).
     is_half_a_neck: bool,
+    /// By the names of the bodies that do not rest at the start.
+    unbalanced: Vec<(&'static str, Settled)>,
     integrator: &'static str,
     time: TimeSpan,
+}
+
+impl Case {
+    /// Bodies that do not rest at the start, with the figures that fall into the time for which that spoils them.
+    fn caveats_of_start(&self, people: &[(&'static str, Person, Signals)], touched: &[SpherePeak]) -> Vec<Caveat> {
+        let is_early = |time_s: f64| time_s < self.time.start_s + Settled::FADES_S;
+        let one = |(name, left): &(&'static str, Settled)| {
+            let prefix = if name.is_empty() { String::new() } else { format!("{name}.") };
+            let own = people.iter().filter(|(person, ..)| person == name);
+            let mut early: Vec<String> = own
+                .flat_map(|(_, person, _)| person.figures_when(is_early))
+                .map(|figure| prefix.clone() + &figure)
+                .collect();
+            let own = touched.iter().filter(|touch| touch.sphere.starts_with(&prefix) && is_early(touch.time_s));
+            early.extend(own.map(|touch| format!("contacts.{}.*", word(&touch.sphere))));
+            Caveat::unbalanced(left, early).with_subject(name)
+        };
+        self.unbalanced.iter().map(one).collect()
+    }
 }
 
 impl Summarizer {
@@ -91,6 +113,8 @@ impl Summarizer {
         peaks.merge(&self.now);
         let people = self.persons(&peaks);
         let caveats = self.caveats(case, &people, outcome.time_s);
+        let sphere_forces = sphere_forces(case, &peaks);
+        let unbalanced = case.caveats_of_start(&people, &sphere_forces);
         let mut people = people.into_iter().map(|(name, person, _)| (name, person));
         let (occupant, Person { accelerations, head_excursion, measures }) = people.next()?;
         let contacts = contacts(outcome, case);
@@ -113,7 +137,7 @@ impl Summarizer {
             more_events: self.events.more(),
             first_contacts: first_contacts(&contacts, &case.body),
             contacts,
-            sphere_forces: sphere_forces(case, &peaks),
+            sphere_forces,
             head_excursion,
             measures,
             others: people.collect(),
@@ -121,6 +145,7 @@ impl Summarizer {
                 .into_iter()
                 .chain(Caveat::of_rough_balance(&outcome.energy))
                 .chain(caveats)
+                .chain(unbalanced)
                 .chain(Self::unmet(case, &ejections))
                 .chain(on_the_way)
                 .collect(),
@@ -238,6 +263,7 @@ impl Recorder for Summarizer {
             has_ground: has_ground(setup),
             is_on_rig: setup.is_on_rig(),
             is_half_a_neck: setup.joints.is_half_a_neck(),
+            unbalanced: unbalanced(model),
             integrator: setup.integrator.name(),
             time: setup.time,
         };
@@ -276,6 +302,14 @@ impl Recorder for Summarizer {
         self.outcome = Some(outcome.clone());
         Ok(())
     }
+}
+
+/// The bodies that do not rest where they begin.
+fn unbalanced(model: &Model) -> Vec<(&'static str, Settled)> {
+    let all = if model.alone().is_empty() { std::slice::from_ref(model) } else { model.alone() };
+    let left = all.iter().map(|alone| alone.start().unsettled.or(alone.start().settled));
+    let bodies = model.body().tree.bodies().into_iter().map(|body| body.name);
+    bodies.zip(left).filter_map(|(name, left)| Some((name, left.filter(Settled::is_unbalanced)?))).collect()
 }
 
 /// Names of surfaces and solids, and the parts of the spheres that others can touch.

@@ -4,7 +4,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::profile::{Profile, Ramp};
-use crash_measures::trig;
+use occupant_units::trig;
 
 /// Two speeds nearer than this fraction of the speeds involved are the same. A pulse whose change of velocity is
 /// meant to equal the initial speed misses it by a rounding, and the vehicle must stop at its end all the same.

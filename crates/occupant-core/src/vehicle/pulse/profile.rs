@@ -6,7 +6,7 @@
 use std::f64::consts::PI;
 
 use super::super::cursor::PathCursor;
-use crash_measures::trig;
+use occupant_units::trig;
 
 /// Deceleration, speed lost and distance lost at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]

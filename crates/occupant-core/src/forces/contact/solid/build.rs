@@ -8,7 +8,7 @@ use super::faced::{Face, Faced};
 use crate::forces::contact::face::V2;
 use crate::forces::contact::flat_face::{SAME_M, plane_axes};
 use crate::motion::vector::{M3, V3};
-use crash_measures::trig;
+use occupant_units::trig;
 
 /// Farther than anything is, m.
 pub(super) const FAR_M: f64 = 1e6;

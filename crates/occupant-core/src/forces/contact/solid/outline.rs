@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::distance::Section;
 use super::{Shape, Solid, build};
-use crash_measures::trig;
+use occupant_units::trig;
 
 /// Corners of a circle.
 const ROUND: usize = 24;

@@ -53,7 +53,7 @@ impl Bend<f64> {
     /// A limit with its torque.
     pub fn new(angle: Curve<f64>, stop: Stop<f64>) -> Self {
         let [least, _] = angle.bounds();
-        let gate = crash_measures::trig::sin_cos((least - MARGIN_RAD).max(0.0)).1;
+        let gate = occupant_units::trig::sin_cos((least - MARGIN_RAD).max(0.0)).1;
         Bend { angle, stop, gate }
     }
 }
@@ -63,7 +63,7 @@ impl Turn<f64> {
     pub fn new(range: [f64; 2], stop: Stop<f64>) -> Self {
         let [lower, upper] = range;
         let nearer = upper.min(-lower).max(0.0);
-        Turn { range, stop, gate: crash_measures::trig::sin_cos(nearer).1 + 1e-9 }
+        Turn { range, stop, gate: occupant_units::trig::sin_cos(nearer).1 + 1e-9 }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Elastic limits in results.
 
-use crash_measures::unit::Unit::{self, NewtonMetre, Radian};
+use occupant_units::unit::Unit::{self, NewtonMetre, Radian};
 
 use super::{JointLimits, LimitAction, LimitHistory, LockPast, Past};
 use crate::forces::shown::{Named, OneOf, Reported, Tracked, Tracker};

@@ -11,7 +11,7 @@ use super::Centre;
 use crate::body::{Body, Joint, JointSite, Side};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{M3, V3};
-use crash_measures::trig;
+use occupant_units::trig;
 
 /// Axes (x̂, ŷ, ĉ) in the inner segment and (x̂_l, ŷ_l, ẑ) in the outer one.
 #[derive(Clone, Copy, Debug)]

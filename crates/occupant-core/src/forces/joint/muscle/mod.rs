@@ -15,9 +15,9 @@ use crate::motion::mobility::{Mobility, greatest};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 use crate::quantity::Quantity;
-use crash_measures::unit::Unit;
 pub use law::{Muscle, NEVER_S};
 use law::{MuscleAction, MuscleLaw};
+use occupant_units::unit::Unit;
 use placed_text::Problems;
 
 /// Place of the work that muscles take up; what they do is its negative.

@@ -1,6 +1,6 @@
 //! Muscles in results.
 
-use crash_measures::unit::Unit::{NewtonMetre, One, Second};
+use occupant_units::unit::Unit::{NewtonMetre, One, Second};
 
 use super::{MuscleAction, Muscles};
 use crate::forces::shown::{Named, OneOf, Reported, Tracked, Tracker};

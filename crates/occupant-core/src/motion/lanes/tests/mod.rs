@@ -1,7 +1,7 @@
 pub(crate) mod plain;
 
 use super::*;
-use crash_measures::trig;
+use occupant_units::trig;
 
 /// A fixed sequence of numbers in [0, 1).
 struct Numbers(u64);

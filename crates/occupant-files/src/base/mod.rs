@@ -1,0 +1,20 @@
+//! What every room may lean on: how work with files ends, how files come to their names, what is shown by default.
+
+#[cfg(feature = "clap")]
+mod choice;
+pub mod customary;
+pub mod failure;
+pub mod input_file;
+pub mod names;
+pub mod output_file;
+mod sha256;
+
+#[cfg(feature = "clap")]
+pub use choice::one_of;
+pub use failure::{Done, Failure};
+pub use names::{by_ending, ending, escape, file_name, file_stem, is_page, program, quoted};
+pub use output_file::{
+    Existing, FileProblem, PartialFile, begun, is_at, partial_path, publish, refuse_input, remove_if_there, with_word,
+    write_whole,
+};
+pub use sha256::sha256;

@@ -1,0 +1,203 @@
+//! The 16 characters of a channel code, and which of our channels they are.
+//!
+//! ```text
+//! 1 1 HEAD CG 00 H3 AC X A
+//! │ │ │    │  │  │  │  │ └ filter class: A 1000, B 600, C 180, D 60, 0 none
+//! │ │ │    │  │  │  │  └ direction X Y Z, R resultant, 0 none; 1 2 3 with other signs than SAE J211
+//! │ │ │    │  │  │  └ physical dimension
+//! │ │ │    │  │  └ fine location 3: dummy, or point of a belt
+//! │ │ │    └──┴ fine locations 1 and 2
+//! │ │ └ main location
+//! │ └ position: seat, 0 for the vehicle
+//! └ test object
+//! ```
+//!
+//! Segment axes are X ahead, Y left, Z up; SAE J211 turns them about X: Y and Z change their signs.
+
+use std::fmt;
+use std::str::FromStr;
+
+use crash_measures::signal::ChannelClass;
+use occupant_core::model::Model;
+use occupant_core::results::channel::Channel;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Code([u8; 16]);
+
+/// Where a channel of ours stands in the dictionary.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Main and fine locations 1 and 2, eight characters.
+    pub location: &'static str,
+    /// Fine location 3 of webbing; that of the dummy if absent.
+    pub webbing: Option<&'static str>,
+    /// Physical dimension.
+    pub dimension: &'static str,
+    pub direction: char,
+    /// Whether it belongs to the vehicle, not to the occupant.
+    of_vehicle: bool,
+    /// Their value over ours.
+    pub sign: f64,
+}
+
+impl FromStr for Code {
+    type Err = ();
+
+    fn from_str(text: &str) -> Result<Self, ()> {
+        let bytes: [u8; 16] = text.trim().as_bytes().try_into().map_err(|_| ())?;
+        let word = |b: &u8| b.is_ascii_uppercase() || b.is_ascii_digit() || *b == b'?';
+        bytes.iter().all(word).then_some(Code(bytes)).ok_or(())
+    }
+}
+
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.iter().try_for_each(|b| write!(f, "{}", char::from(*b)))
+    }
+}
+
+impl Code {
+    /// The code of a place.
+    pub fn new(place: &Place, seat: char, dummy: &str, class: Option<ChannelClass>) -> Option<Self> {
+        let position = if place.of_vehicle { '0' } else { seat };
+        let third = if place.of_vehicle { "00" } else { place.webbing.unwrap_or(dummy) };
+        let filter = class.map_or('0', ChannelClass::mme_letter);
+        format!("1{position}{}{third}{}{}{filter}", place.location, place.dimension, place.direction).parse().ok()
+    }
+
+    fn part(&self, from: usize, to: usize) -> &str {
+        std::str::from_utf8(&self.0[from..to]).unwrap_or_default()
+    }
+
+    /// Our value over theirs, if this is the channel of that name for the occupant on `seat`.
+    pub fn sign_for(&self, channel: &str, seat: char) -> Option<f64> {
+        if let Some(rest) = channel.strip_prefix("belt.") {
+            let name = rest.strip_suffix(".force")?;
+            let points = webbing_points(name)?;
+            let is_webbing = (self.part(2, 6), self.part(12, 14)) == ("SEBE", "FO") && self.is_at(seat);
+            return (is_webbing && points.contains(&self.part(10, 12))).then_some(1.0);
+        }
+        let place = place_of_name(channel)?;
+        let fine = self.part(6, 10);
+        let position = if place.of_vehicle { self.is_at('0') } else { self.is_at(seat) };
+        let fits = self.part(2, 6) == &place.location[..4]
+            && (fine == &place.location[4..] || fine == "0000")
+            && self.part(12, 14) == place.dimension
+            && char::from(self.0[14]) == place.direction
+            && position;
+        fits.then_some(place.sign)
+    }
+
+    /// Where on the vehicle it is an acceleration, and along which axis, from 0.
+    pub fn vehicle_acceleration(&self) -> Option<(String, usize)> {
+        let axis = "XYZ".find(char::from(self.0[14]))?;
+        let is_own = self.part(12, 14) == "AC" && self.is_at('0');
+        is_own.then(|| (self.part(2, 10).trim_end_matches('0').to_owned(), axis))
+    }
+
+    fn is_at(&self, position: char) -> bool {
+        let own = char::from(self.0[1]);
+        own == position || own == '?' || (position == '0' && self.0[0] == b'S')
+    }
+}
+
+/// Where a channel of a model stands; none for what the dictionary has no place for.
+pub fn place_of(model: &Model, channel: &Channel) -> Option<Place> {
+    let Some(rest) = channel.name.strip_prefix("belt.") else {
+        return place_of_name(&channel.name);
+    };
+    let name = rest.strip_suffix(".force")?;
+    let round = model.named("belt").into_iter().find(|one| one.name == name)?.sphere?;
+    let segment = model.body().spheres.get(round).map(|s| s.segment);
+    let (segment, marks) = (segment?, model.body().tree.landmarks());
+    let webbing = match segment {
+        _ if Some(segment) == marks.pelvis => Some("B6"),
+        _ if model.body().tree.is_trunk(segment) => Some("B3"),
+        _ => return None,
+    };
+    let place = Place { location: "SEBE0000", webbing, dimension: "FO", direction: '0', of_vehicle: false, sign: 1.0 };
+    Some(place)
+}
+
+/// Points of webbing (fine location 3) that a belt of this name may mean.
+fn webbing_points(name: &str) -> Option<[&'static str; 2]> {
+    let has = |words: &[&str]| words.iter().any(|w| name.contains(w));
+    match () {
+        () if has(&["lap", "pelvis"]) => Some(["B5", "B6"]),
+        () if has(&["torso", "shoulder", "diagonal", "chest"]) => Some(["B3", "B4"]),
+        () => None,
+    }
+}
+
+fn place_of_name(name: &str) -> Option<Place> {
+    let (of, component) = name.rsplit_once('.')?;
+    // segment axes become those of SAE J211; loads of neck and femurs and the vehicle are in such axes already
+    let (location, dimension, turned, of_vehicle) = match of {
+        "head.acceleration" => ("HEADCG00", "AC", true, false),
+        "head.angular_velocity" => ("HEADCG00", "AV", true, false),
+        "head.angular_acceleration" => ("HEADCG00", "AA", true, false),
+        "upper_torso.acceleration" => ("CHST0000", "AC", true, false),
+        "upper_torso.angular_velocity" => ("CHST0000", "AV", true, false),
+        "lower_torso.acceleration" => ("PELV0000", "AC", true, false),
+        "lower_torso.angular_velocity" => ("PELV0000", "AV", true, false),
+        "neck.force" => ("NECKUP00", "FO", false, false),
+        "neck.moment" => ("NECKUP00", "MO", false, false),
+        "right_femur" => ("FEMRRI00", "FO", false, false),
+        "left_femur" => ("FEMRLE00", "FO", false, false),
+        "vehicle.acceleration" => ("VEHCCG00", "AC", false, true),
+        "vehicle.velocity" => ("VEHCCG00", "VE", false, true),
+        "vehicle.angular_velocity" => ("VEHCCG00", "AV", false, true),
+        "vehicle" => ("VEHCCG00", "AN", false, true),
+        _ => return None,
+    };
+    let direction = match component {
+        "x" | "roll" => 'X',
+        "y" | "pitch" => 'Y',
+        "z" | "yaw" | "axial" => 'Z',
+        "resultant" => 'R',
+        _ => return None,
+    };
+    let sign = if turned && matches!(direction, 'Y' | 'Z') { -1.0 } else { 1.0 };
+    Some(Place { location, webbing: None, dimension, direction, of_vehicle, sign })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn code(text: &str) -> Code {
+        text.parse().unwrap()
+    }
+
+    #[test]
+    fn codes_are_sixteen_capitals_or_digits() {
+        assert_eq!(code("11HEADCG00H3ACXA").to_string(), "11HEADCG00H3ACXA");
+        assert!("11HEADCG00H3ACX".parse::<Code>().is_err());
+        assert!("11headCG00H3ACXA".parse::<Code>().is_err());
+        assert!("11HEADCG00H3ACXé".parse::<Code>().is_err());
+    }
+
+    #[test]
+    fn segment_axes_turn_into_those_of_j211() {
+        let sign = |text: &str, name| code(text).sign_for(name, '1');
+        assert_eq!(sign("11HEADCG00H3ACXA", "head.acceleration.x"), Some(1.0));
+        assert_eq!(sign("11HEAD0000H3ACYA", "head.acceleration.y"), Some(-1.0));
+        assert_eq!(sign("11HEADCG00H3ACZA", "head.acceleration.z"), Some(-1.0));
+        assert_eq!(sign("11HEADCG00H3ACRA", "head.acceleration.resultant"), Some(1.0));
+        assert_eq!(sign("11NECKUP00H3FOZB", "neck.force.z"), Some(1.0));
+        assert_eq!(sign("10VEHCCG0000ACXD", "vehicle.acceleration.x"), Some(1.0));
+        // direction 3 has unknown signs, seat 3 is another occupant, the lower neck is another place
+        assert_eq!(sign("11HEADCG00H3AC3A", "head.acceleration.z"), None);
+        assert_eq!(sign("13HEADCG00H3ACXA", "head.acceleration.x"), None);
+        assert_eq!(sign("11NECKLO00H3FOZB", "neck.force.z"), None);
+    }
+
+    #[test]
+    fn belts_are_known_by_their_points() {
+        let sign = |text: &str, name| code(text).sign_for(name, '1');
+        assert_eq!(sign("11SEBE0000B6FO0D", "belt.lap.force"), Some(1.0));
+        assert_eq!(sign("11SEBE0000B3FO0D", "belt.torso.force"), Some(1.0));
+        assert_eq!(sign("11SEBE0000B3FO0D", "belt.lap.force"), None);
+        assert_eq!(sign("11SEBE0000B1FO0D", "belt.torso.force"), None);
+    }
+}

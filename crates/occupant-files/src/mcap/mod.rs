@@ -1,0 +1,37 @@
+//! Runs as MCAP files that Foxglove-compatible viewers show and Python reads.
+//!
+//! [`McapRecorder`] is a recorder of `occupant_core`. What a file holds — topics, units, frames, schemas — stands in
+//! `crates/occupant-cli/docs/mcap.md`.
+//!
+//! Field numbers, topic names and frame names are never used again for something else; additions get new ones.
+
+pub mod about;
+mod channel;
+pub mod checkpoint;
+mod clock;
+mod descriptor;
+mod foxglove;
+mod layout;
+mod log;
+mod press;
+mod recorder;
+pub mod records;
+pub mod scene;
+mod stored;
+pub mod topics;
+mod transforms;
+pub mod wire;
+
+use occupant_core::model::Model;
+use occupant_core::results::catalogue::{self, Message};
+
+pub use about::{About, Document};
+pub use recorder::{McapOptions, McapRecorder};
+pub use stored::StoredRun;
+
+/// The messages of every output, in the order in which they are written: the catalogue of the model and the checkpoint.
+pub fn messages(model: &Model) -> Vec<Message> {
+    let mut messages = catalogue::messages(model);
+    messages.push(checkpoint::checkpoint());
+    messages
+}

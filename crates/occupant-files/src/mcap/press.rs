@@ -1,0 +1,156 @@
+//! Where messages go: to a thread that compresses and writes them while the run is at work.
+//!
+//! The thread does with the writer, in the same order, what would have been done without it, so the file has the same
+//! bytes. Its errors come back with the next chunk, at the latest when the writer is called home. If no thread can be had,
+//! everything is done at once.
+
+use std::io::{Seek, Write};
+use std::sync::mpsc::{SyncSender, sync_channel};
+use std::sync::{Arc, Mutex};
+use std::thread::{Builder, JoinHandle};
+
+use mcap::records::MessageHeader;
+use mcap::{McapResult, Writer};
+
+use super::channel::Channel;
+use super::wire::Wire;
+
+/// Chunks that may wait to be written; then the run waits.
+const WAITING: usize = 2;
+
+/// The writer of a file, and what is on its way to it.
+pub struct Press<W: Write + Seek + Send + 'static> {
+    writer: Shared<W>,
+    /// Has the writer locked as long as it is there.
+    thread: Option<Thread>,
+    /// What has not been handed over.
+    batch: Batch,
+}
+
+/// The writer of a file; none once the target was taken back.
+type Shared<W> = Arc<Mutex<Option<Writer<W>>>>;
+
+/// A thread that writes batches until none can come any more, or one fails.
+struct Thread {
+    batches: SyncSender<Batch>,
+    handle: JoinHandle<McapResult<()>>,
+}
+
+/// Messages in a row.
+#[derive(Default)]
+struct Batch {
+    /// Header of each, and where it ends in `wire`.
+    messages: Vec<(MessageHeader, usize)>,
+    wire: Wire,
+    /// A chunk ends behind them.
+    ends_chunk: bool,
+}
+
+impl<W: Write + Seek + Send + 'static> Press<W> {
+    /// Without a thread so far.
+    pub fn new(writer: Writer<W>) -> Self {
+        Press { writer: Arc::new(Mutex::new(Some(writer))), thread: None, batch: Batch::default() }
+    }
+
+    /// Takes the next message of a channel, as `write` writes it.
+    pub fn put(&mut self, channel: &mut Channel, ns: u64, write: impl FnOnce(&mut Wire)) {
+        write(&mut self.batch.wire);
+        self.batch.messages.push((channel.next(ns), self.batch.wire.bytes.len()));
+    }
+
+    /// Ends the chunk and hands it over.
+    ///
+    /// # Errors
+    /// What the target reported since the last chunk.
+    pub fn end_chunk(&mut self) -> McapResult<()> {
+        self.batch.ends_chunk = true;
+        if self.thread.is_none() {
+            self.thread = Thread::begin(&self.writer);
+        }
+        self.hand_over()
+    }
+
+    /// The writer, with everything written that was handed over.
+    ///
+    /// # Errors
+    /// What the target reported.
+    pub fn home(&mut self) -> McapResult<&mut Writer<W>> {
+        let handed_over = self.hand_over();
+        let written = self.wait();
+        handed_over.and(written)?;
+        self.own()?.as_mut().ok_or_else(lost)
+    }
+
+    /// The target; what was not yet handed to it is cut off.
+    ///
+    /// # Errors
+    /// None is left, because the thread broke off.
+    pub fn into_inner(mut self) -> McapResult<W> {
+        // an error was reported with the chunk that it was about, or the run's end would have called the writer home
+        let _ = self.wait();
+        self.own()?.take().map(Writer::into_inner).ok_or_else(lost)
+    }
+
+    /// Gives the batch to the thread, or writes it.
+    fn hand_over(&mut self) -> McapResult<()> {
+        let batch = std::mem::take(&mut self.batch);
+        match &self.thread {
+            // a thread that has ended says why
+            Some(thread) => thread.batches.send(batch).or_else(|_| self.wait()),
+            None => batch.write(self.own()?),
+        }
+    }
+
+    /// Waits until the thread has written everything and ends it.
+    fn wait(&mut self) -> McapResult<()> {
+        let Some(Thread { batches, handle }) = self.thread.take() else {
+            return Ok(());
+        };
+        drop(batches);
+        handle.join().unwrap_or_else(|_broke_off| Err(lost()))
+    }
+
+    /// The writer's place, while no thread has it.
+    fn own(&mut self) -> McapResult<&mut Option<Writer<W>>> {
+        let alone = Arc::get_mut(&mut self.writer).and_then(|writer| writer.get_mut().ok());
+        alone.ok_or_else(lost)
+    }
+}
+
+impl<W: Write + Seek + Send + 'static> Drop for Press<W> {
+    /// What was taken is written, as a writer does that is dropped; nobody is left to hear of an error.
+    fn drop(&mut self) {
+        let _ = self.home();
+    }
+}
+
+impl Thread {
+    /// None if no thread can be had.
+    fn begin<W: Write + Seek + Send + 'static>(writer: &Shared<W>) -> Option<Thread> {
+        let writer = Arc::clone(writer);
+        let (batches, coming) = sync_channel::<Batch>(WAITING);
+        let work = move || {
+            let mut writer = writer.lock().map_err(|_| lost())?;
+            coming.into_iter().try_for_each(|batch| batch.write(&mut writer))
+        };
+        let handle = Builder::new().name("mcap".to_owned()).spawn(work).ok()?;
+        Some(Thread { batches, handle })
+    }
+}
+
+impl Batch {
+    fn write<W: Write + Seek>(self, writer: &mut Option<Writer<W>>) -> McapResult<()> {
+        let writer = writer.as_mut().ok_or_else(lost)?;
+        let mut start = 0;
+        for (header, end) in self.messages {
+            writer.write_to_known_channel(&header, &self.wire.bytes[start..end])?;
+            start = end;
+        }
+        if self.ends_chunk { writer.flush() } else { Ok(()) }
+    }
+}
+
+/// After an error the writer is not used again.
+fn lost() -> mcap::McapError {
+    std::io::Error::other("the file's writer is gone").into()
+}

@@ -1,0 +1,86 @@
+//! The surfaces and the sides of the solids, as translucent plates with edges.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Point3;
+use occupant_core::forces::contact::flat_face::FlatFace;
+use occupant_core::forces::contact::surface::{Frame, Outline};
+use occupant_core::model::Model;
+
+use super::primitive::{Closing, line, polygon};
+use super::{Color, entity};
+use crate::mcap::topics::{SPACE_FRAME, VEHICLE_FRAME, origin_frame, other_frame};
+use crate::mcap::wire::Wire;
+
+/// Opacity of the plates.
+const OPACITY: f64 = 0.3;
+/// Half side of the square that stands for an unbounded plane, m.
+const PATCH_M: f64 = 2.5;
+/// Corners of the polygon that stands for a disc.
+const DISC_CORNERS: usize = 48;
+const EDGE_M: f64 = 0.006;
+/// Colours of the materials, in their order, again from the first when they run out.
+const PALETTE: [Color; 8] = [
+    Color(0.35, 0.55, 0.75, OPACITY),
+    Color(0.75, 0.60, 0.40, OPACITY),
+    Color(0.55, 0.65, 0.45, OPACITY),
+    Color(0.60, 0.75, 0.80, OPACITY),
+    Color(0.70, 0.50, 0.60, OPACITY),
+    Color(0.45, 0.45, 0.50, OPACITY),
+    Color(0.80, 0.75, 0.50, OPACITY),
+    Color(0.50, 0.70, 0.65, OPACITY),
+];
+
+/// One entity for each surface, then for each solid.
+pub fn write(wire: &mut Wire, model: &Model) {
+    let setup = model.setup();
+    let surfaces = setup.surfaces.iter().zip(model.faces());
+    let surfaces = surfaces.map(|(s, face)| (&s.name, s.frame, s.material, vec![corners_m(face)]));
+    let solids = setup.solids.iter().map(|s| (&s.name, s.frame, s.material, s.outline()));
+    for (name, frame, material, polygons) in surfaces.chain(solids) {
+        let color = color_of(material);
+        entity(wire, 0, &frame_name(model, frame), name, |w| {
+            for corners in &polygons {
+                polygon(w, corners, color);
+                line(w, Closing::Closed, corners, EDGE_M, color.with_opacity(0.9));
+            }
+        });
+    }
+}
+
+/// The colour of a material, by its place among them.
+pub fn color_of(material: usize) -> Color {
+    PALETTE[material % PALETTE.len()]
+}
+
+/// The viewer's name of a surface's frame.
+pub fn frame_name(model: &Model, frame: Frame) -> String {
+    match frame {
+        Frame::Vehicle => VEHICLE_FRAME.to_owned(),
+        Frame::Space => SPACE_FRAME.to_owned(),
+        Frame::Other(i) => model.setup().frames.get(i).map_or_else(String::new, |frame| other_frame(&frame.name)),
+        Frame::Segment(n) => origin_frame(model.body().tree.segment_rows()[n].name),
+    }
+}
+
+/// The outline as a polygon, counter-clockwise seen from the open side, in the axes of its frame.
+pub fn corners_m(face: &FlatFace) -> Vec<Point3<f64>> {
+    let (u, v) = face.plane_axes();
+    match &face.outline {
+        Outline::Polygon(corners) => corners.clone(),
+        Outline::Disc { centre_m, radius_m, .. } => {
+            let corner = |i| {
+                let angle = TAU * i as f64 / DISC_CORNERS as f64;
+                centre_m + (u * angle.cos() + v * angle.sin()) * *radius_m
+            };
+            (0..DISC_CORNERS).map(corner).collect()
+        }
+        Outline::Unbounded { point_m, .. } => square_m(face, *point_m, PATCH_M),
+    }
+}
+
+/// A square of the plane about a point of it, for a plane without bounds.
+pub fn square_m(face: &FlatFace, about_m: Point3<f64>, half_m: f64) -> Vec<Point3<f64>> {
+    let (u, v) = face.plane_axes();
+    [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].map(|(a, b)| about_m + (u * a + v * b) * half_m).to_vec()
+}

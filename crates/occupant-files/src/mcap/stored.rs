@@ -1,0 +1,207 @@
+//! Reading a result file back as far as a run can resume it: what it says of itself, its documents, its checkpoints.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use mcap::records::op;
+use occupant_core::results::checkpoint::Checkpoint;
+use occupant_core::results::summary::RunStatus;
+
+use super::about::{RESULT, RUN};
+use super::checkpoint::{self, TOPIC};
+use super::records::{Frame, Index, Record};
+
+/// What a result file holds, or what a run that was cut off has left of it.
+#[derive(Clone, Debug, Default)]
+pub struct StoredRun {
+    /// The entries of the metadata record `occupant.run`.
+    pub run: BTreeMap<String, String>,
+    /// The entries of `occupant.result`; none if the run was cut off.
+    pub result: Option<BTreeMap<String, String>>,
+    pub attachments: BTreeMap<String, Vec<u8>>,
+    /// Checkpoints in the file's order.
+    pub checkpoints: Vec<Checkpoint>,
+    /// First byte at which the file is not what was written, and what is wrong there.
+    damage: Option<(usize, &'static str)>,
+    /// The byte at which a file that has lost its end breaks off.
+    end: Option<usize>,
+    /// Bytes that checkpoints may still take.
+    room: usize,
+    /// Bytes that compressed chunks may still make.
+    pub(super) unpacked: u64,
+}
+
+/// Bytes that the checkpoints of a small file may take; one of a large file may take so many times its own.
+const MOST_OF_CHECKPOINTS: usize = 256 << 20;
+const MOST_TIMES_FILE: usize = 8;
+/// Bytes that the chunks of a small file may make; those of a large file may make so many times its own. Ours make 2 to 5.
+const MOST_UNPACKED: u64 = 256 << 20;
+const MOST_TIMES_PACKED: u64 = 32;
+
+/// How reading ends early.
+enum Refused {
+    /// The record is damaged.
+    Damaged(&'static str),
+    /// The file is of no use to this version.
+    Unknown(String),
+}
+
+impl From<&'static str> for Refused {
+    fn from(what: &'static str) -> Self {
+        Refused::Damaged(what)
+    }
+}
+
+impl StoredRun {
+    /// Reads a file up to its end, or up to where it is cut off. A chunk counts whole or not at all; behind a record that
+    /// is damaged reading resumes with the next one that is whole.
+    ///
+    /// # Errors
+    /// A file that is not MCAP, or a checkpoint that cannot be read, in words.
+    pub fn read(bytes: &[u8]) -> Result<Self, String> {
+        if !bytes.starts_with(mcap::MAGIC) {
+            return Err("it is not an MCAP file".to_owned());
+        }
+        let room = MOST_OF_CHECKPOINTS.max(bytes.len().saturating_mul(MOST_TIMES_FILE));
+        let unpacked = MOST_UNPACKED.max((bytes.len() as u64).saturating_mul(MOST_TIMES_PACKED));
+        let mut stored = StoredRun { room, unpacked, ..StoredRun::default() };
+        let index = Index::of(bytes);
+        let mut wanted = index.channels.iter().find(|(_, topic)| topic == TOPIC).map(|(id, _)| *id);
+        let mut at = mcap::MAGIC.len();
+        loop {
+            let landmark = index.after(at);
+            // no record reaches over the beginning of another one
+            let frame = Frame::at(bytes, at).filter(|frame| landmark.is_none_or(|landmark| frame.next <= landmark));
+            let Some(frame) = frame else {
+                let Some(landmark) = landmark else {
+                    stored.end = Some(at);
+                    return Ok(stored);
+                };
+                stored.damaged(at, "a record whose length does not fit");
+                at = landmark;
+                continue;
+            };
+            match stored.take(frame, &mut wanted) {
+                Ok(()) => {}
+                Err(Refused::Damaged(what)) => stored.damaged(at, what),
+                Err(Refused::Unknown(why)) => return Err(why),
+            }
+            if frame.opcode == op::DATA_END {
+                let fits = [0, crc32fast::hash(&bytes[..at])].contains(&frame.checksum());
+                if !fits {
+                    stored.damaged(at, "a checksum of all that stands before, which does not fit");
+                }
+                return Ok(stored);
+            }
+            at = frame.next;
+        }
+    }
+
+    fn damaged(&mut self, at: usize, what: &'static str) {
+        self.damage.get_or_insert((at, what));
+    }
+
+    /// Takes what counts from a record; `wanted` is the channel of checkpoints.
+    fn take(&mut self, frame: Frame<'_>, wanted: &mut Option<u16>) -> Result<(), Refused> {
+        match frame.record(&mut self.unpacked)? {
+            Record::Chunk(content) => {
+                let before = self.checkpoints.len();
+                let taken = self.take_all(&content, wanted);
+                if taken.is_err() {
+                    self.checkpoints.truncate(before);
+                }
+                return taken;
+            }
+            Record::Channel { id, topic } if topic == TOPIC => *wanted = Some(id),
+            Record::Message { channel, data } if *wanted == Some(channel) => {
+                let takes = size_of::<Checkpoint>() + data.len();
+                self.room = self.room.checked_sub(takes).ok_or("more outputs than a file of its size holds")?;
+                let found = checkpoint::read(data).map_err(Refused::Unknown)?;
+                if self.checkpoints.last().is_some_and(|last| last.index >= found.index) {
+                    return Err("an output that is out of order".into());
+                }
+                self.checkpoints.push(found);
+            }
+            Record::Metadata { name, entries } if name == RUN => self.run = entries,
+            Record::Metadata { name, entries } if name == RESULT => self.result = Some(entries),
+            Record::Attachment { name, data } => _ = self.attachments.insert(name, data.to_owned()),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// The records of a chunk: documents do not stand in one, where a small file could hold large ones.
+    fn take_all(&mut self, content: &[u8], wanted: &mut Option<u16>) -> Result<(), Refused> {
+        let mut at = 0;
+        while at < content.len() {
+            let frame = Frame::at(content, at).ok_or("a chunk with a record that is not whole")?;
+            if matches!(frame.opcode, op::CHUNK | op::ATTACHMENT | op::METADATA) {
+                return Err("a chunk with a record that stands in no chunk".into());
+            }
+            self.take(frame, wanted)?;
+            at = frame.next;
+        }
+        Ok(())
+    }
+
+    /// Numbers of the outputs that the file has lost.
+    fn gaps(&self) -> Vec<Range<usize>> {
+        let number = |entries: &BTreeMap<String, String>, key| entries.get(key)?.parse::<usize>().ok();
+        let first = number(&self.run, "resumed_output").unwrap_or(0);
+        let count = self.result.as_ref().and_then(|result| number(result, "outputs"));
+        let end = count.map(|count| first.saturating_add(count));
+        let there = self.checkpoints.iter().map(|checkpoint| checkpoint.index);
+        let mut next = first;
+        let mut gaps = Vec::new();
+        for index in there.chain(end) {
+            if index > next {
+                gaps.push(next..index);
+            }
+            next = index.saturating_add(1);
+        }
+        gaps
+    }
+
+    /// What the file has lost of a run; none if every output up to the last is there.
+    pub fn lost(&self) -> Option<String> {
+        let name = |gap: &Range<usize>| match gap.end - gap.start {
+            1 => gap.start.to_string(),
+            _ => format!("{} to {}", gap.start, gap.end - 1),
+        };
+        let gaps: Vec<String> = self.gaps().iter().map(name).collect();
+        let found = self.damage.map_or_else(|| "damaged".to_owned(), damaged_at);
+        (!gaps.is_empty()).then(|| format!("{found}; outputs {} are missing", gaps.join(", ")))
+    }
+
+    /// How the run ended, and why where it did not complete; one that was cut off, or of which outputs are lost, counts as
+    /// interrupted.
+    pub fn ending(&self) -> (RunStatus, Option<String>) {
+        let said = |key| self.result.as_ref()?.get(key).cloned();
+        let lost = self.lost();
+        let status = match said("status").as_deref() {
+            Some("completed") if lost.is_none() => return (RunStatus::Completed, None),
+            Some("failed") if lost.is_none() => RunStatus::Failed,
+            _ => RunStatus::Interrupted,
+        };
+        (status, lost.or_else(|| said("reason")).or_else(|| Some("it was cut off".to_owned())))
+    }
+
+    /// What is wrong with the file; none for one that is whole or was cut off.
+    pub fn flaw(&self) -> Option<String> {
+        let whole = if self.result.is_some() { "; all outputs are there" } else { "" };
+        self.lost().or_else(|| self.damage.map(|damage| damaged_at(damage) + whole))
+    }
+
+    /// Why something may be missing, to be added to the message that says so.
+    pub fn because(&self) -> String {
+        match (self.damage, self.end) {
+            (Some(damage), _) => format!("; it is {}", damaged_at(damage)),
+            (None, Some(end)) => format!("; it breaks off at byte {end}"),
+            (None, None) => String::new(),
+        }
+    }
+}
+
+fn damaged_at((byte, what): (usize, &str)) -> String {
+    format!("damaged at byte {byte}: {what}")
+}

@@ -1,0 +1,105 @@
+//! Measured signals: read from text tables, ISO-MME tests, tests of NHTSA and trajectories, matched to the channels of a run.
+//!
+//! Knows no run, only the channels that are wanted. Values stay in their file's unit until a channel claims them; then they are SI in that channel's axes.
+
+mod axes;
+mod doubts;
+mod motion;
+mod nhtsa;
+mod pair;
+mod table;
+mod tdms;
+mod trajectory;
+
+use std::path::Path;
+
+use placed_text::decoded;
+
+use super::mme;
+use super::signals::Recording;
+use super::trouble::Trouble;
+use crate::base::{Failure, ending, input_file, sha256};
+
+pub use axes::{AXES, Axes};
+pub use doubts::{Known, doubts, rounded_table};
+pub use motion::{Motion, MotionKind, Placed};
+pub use nhtsa::TestRecord;
+pub use pair::{MapArgument, Pair, Wanted, pairs};
+
+/// Whether a file or folder is read as measured signals, not as the results of a run.
+pub fn is_recording(path: &Path) -> bool {
+    ending(path) != "mcap"
+}
+
+/// A test and what else its record says.
+#[derive(Clone, Debug)]
+pub struct Imported {
+    pub record: TestRecord,
+    pub recording: Recording,
+    /// Which way its axes point, where the kind of file says it.
+    pub axes: Option<Axes>,
+}
+
+/// What is asked for where a file has several, or does not say it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Reading<'a> {
+    pub vehicle: Option<u32>,
+    pub object: Option<&'a str>,
+    /// Names and units of a table's columns in place of its headings.
+    pub columns: Option<&'a str>,
+}
+
+/// Reads whatever holds a test or a trajectory.
+///
+/// # Errors
+/// As [`read`].
+pub fn import(path: &Path, reading: Reading) -> Result<Imported, Failure> {
+    let Reading { vehicle, object, columns } = reading;
+    if columns.is_some() {
+        trajectory::one_vehicle(path, vehicle)?;
+        let recording = table_of(path, columns)?;
+        return Ok(Imported { record: TestRecord::default(), recording, axes: None });
+    }
+    if let Some(header) = nhtsa::header(path) {
+        let (record, recording) = nhtsa::read(&header, vehicle.unwrap_or(1))?;
+        return Ok(Imported { record, recording, axes: Some(Axes::ZDown) });
+    }
+    let trajectory = if path.is_dir() { None } else { trajectory::read(path, vehicle, object)? };
+    if trajectory.is_none() {
+        trajectory::one_vehicle(path, vehicle)?;
+    }
+    let (recording, axes) = match trajectory {
+        Some((recording, axes)) => (recording, Some(axes)),
+        None => (read(path)?, (path.is_dir() || ending(path) == "mme").then_some(Axes::ZDown)),
+    };
+    Ok(Imported { record: TestRecord::default(), recording, axes })
+}
+
+/// Reads a text table (.csv, .txt, .tsv), an ISO-MME test (its folder, or the .mme file in it) or a test of NHTSA (its folder, or the
+/// .EV5 file in it).
+///
+/// # Errors
+/// A file that cannot be read, or what is wrong in it, with file, line, what was found and what was expected.
+pub fn read(path: &Path) -> Result<Recording, Failure> {
+    if let Some(header) = nhtsa::header(path) {
+        return nhtsa::read(&header, 1).map(|(_, recording)| recording);
+    }
+    if path.is_dir() || ending(path) == "mme" {
+        return mme::read(path);
+    }
+    if ending(path) == "tdms" {
+        return tdms::read(path);
+    }
+    table_of(path, None)
+}
+
+fn table_of(path: &Path, columns: Option<&str>) -> Result<Recording, Failure> {
+    let bytes = input_file::read(path)?;
+    let (text, encoding) = decoded(&bytes).map_err(|found| {
+        Trouble::of(path, found, "a text table")
+            .hint("a run of this program has the ending .mcap, an ISO-MME test .mme")
+    })?;
+    let mut recording = table::read(path, &text, columns, sha256(&bytes))?;
+    recording.notes.extend(encoding.map(|name| format!("{} was read as {name}", path.display())));
+    Ok(recording)
+}

@@ -1,0 +1,241 @@
+//! Which measured signal belongs to which channel.
+//!
+//! By `--map column=channel`; else by the same name; else by the ISO-MME code. With a map for a channel nothing else is
+//! looked for.
+
+use std::fmt;
+use std::str::FromStr;
+
+use crash_measures::signal::{CfcFamily, ChannelClass, uniform_interval};
+use occupant_core::results::channel::Channel;
+use occupant_units::unit::Dimension;
+use placed_text::name_and_unit;
+
+use crate::base::Failure;
+use crate::history::filtered;
+use crate::signals::{Recording, Signal, scale_of};
+
+/// A channel that a signal may belong to.
+#[derive(Clone, Debug)]
+pub struct Wanted {
+    pub name: String,
+    /// What it measures and in which unit; none if it is itself measured and gives no unit.
+    pub unit: Option<(Dimension, String)>,
+}
+
+impl From<&Channel> for Wanted {
+    fn from(channel: &Channel) -> Self {
+        Wanted { name: channel.name.clone(), unit: Some((channel.unit.dimension(), channel.unit.symbol().to_owned())) }
+    }
+}
+
+impl From<&Signal> for Wanted {
+    fn from(signal: &Signal) -> Self {
+        let unit = signal.scale.map(|s| s.dimension).zip(signal.unit.clone());
+        Wanted { name: signal.name.clone(), unit }
+    }
+}
+
+/// `column[unit]=channel`, with `-channel` if the signs are opposite.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MapArgument {
+    column: String,
+    unit: Option<String>,
+    channel: String,
+    sign: f64,
+}
+
+impl FromStr for MapArgument {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (column, channel) =
+            text.rsplit_once('=').ok_or("expected column=channel, such as 'head_x[g]=head.acceleration.x'")?;
+        let (column, unit) = name_and_unit(column);
+        let channel = channel.trim();
+        let (channel, sign) = match channel.strip_prefix('-') {
+            Some(channel) => (channel, -1.0),
+            None => (channel, 1.0),
+        };
+        if column.is_empty() || channel.is_empty() {
+            return Err("expected a column before `=` and a channel after it".to_owned());
+        }
+        Ok(MapArgument { column: column.to_owned(), unit: unit.map(str::to_owned), channel: channel.to_owned(), sign })
+    }
+}
+
+impl fmt::Display for MapArgument {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let unit = self.unit.as_ref().map(|u| format!("[{u}]"));
+        let sign = if self.sign < 0.0 { "-" } else { "" };
+        let unit = unit.unwrap_or_default();
+        write!(f, "{}{unit}={sign}{}", self.column, self.channel)
+    }
+}
+
+/// A measured signal in a channel's unit and axes.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// Index among the wanted channels.
+    pub channel: usize,
+    /// Name of the signal.
+    pub signal: String,
+    pub time_s: Vec<f64>,
+    /// Values, SI, in the channel's axes; NaN where missing.
+    pub values: Vec<f64>,
+}
+
+impl Pair {
+    /// The values filtered, as the channel is.
+    ///
+    /// # Errors
+    /// Missing values, samples that are not equally spaced or too far apart.
+    pub fn filter(&mut self, class: ChannelClass, family: CfcFamily) -> Result<(), Failure> {
+        let refused = |reason: String| {
+            Failure::with_help(
+                format!("the measured signal {} cannot be filtered: {reason}", self.signal),
+                "--filter none leaves signals as they are",
+            )
+        };
+        let dt_s = uniform_interval(&self.time_s).map_err(|e| refused(e.to_string()))?;
+        self.values = filtered(&self.values, dt_s, class, family).map_err(refused)?;
+        Ok(())
+    }
+}
+
+/// Pairs for these channels, in their order, and what was taken for granted.
+///
+/// `seat` is the ISO-MME position of the occupant.
+///
+/// # Errors
+/// A map to an unknown column or channel, a unit that is not the channel's, several signals for a channel.
+pub fn pairs(
+    recording: &Recording,
+    wanted: &[Wanted],
+    maps: &[MapArgument],
+    seat: char,
+    notes: &mut Vec<String>,
+) -> Result<Vec<Pair>, Failure> {
+    for map in maps {
+        if wanted.iter().all(|w| w.name != map.channel) {
+            return Err(Failure::with_help(
+                format!("--map: the channel `{}` is not among those asked for", map.channel),
+                "name it with --channel, or mend the name",
+            ));
+        }
+    }
+    let mut found = Vec::new();
+    for (channel, wanted) in wanted.iter().enumerate() {
+        let Some((signal, map, sign)) = signal_for(recording, wanted, maps, seat)? else {
+            continue;
+        };
+        let unit = map.and_then(|m| m.unit.as_deref());
+        let factor = factor(recording, signal, unit, wanted, notes)?;
+        found.push(Pair {
+            channel,
+            signal: signal.name.clone(),
+            time_s: signal.time_s.clone(),
+            values: signal.values.iter().map(|v| v * factor * sign).collect(),
+        });
+    }
+    Ok(found)
+}
+
+type Match<'a> = (&'a Signal, Option<&'a MapArgument>, f64);
+
+fn signal_for<'a>(
+    recording: &'a Recording,
+    wanted: &Wanted,
+    maps: &'a [MapArgument],
+    seat: char,
+) -> Result<Option<Match<'a>>, Failure> {
+    let file = recording.path.display();
+    if let Some(map) = maps.iter().find(|m| m.channel == wanted.name) {
+        let mut named = recording.signals.iter().filter(|s| s.name == map.column);
+        return match (named.next(), named.next()) {
+            (Some(signal), None) => Ok(Some((signal, Some(map), map.sign))),
+            (None, _) => Err(Failure::with_help(
+                format!("--map: {file} has no column `{}`", map.column),
+                &format!("it has {}", names(&recording.signals)),
+            )),
+            _ => Err(Failure::plain(format!("--map: {file} has more than one column `{}`", map.column))),
+        };
+    }
+    if let Some(signal) = recording.signals.iter().find(|s| s.name == wanted.name) {
+        return Ok(Some((signal, None, 1.0)));
+    }
+    let sign = |s: &Signal| s.code.as_ref().and_then(|c| c.sign_for(&wanted.name, seat));
+    let fitting: Vec<Match<'a>> = recording.signals.iter().filter_map(|s| Some((s, None, sign(s)?))).collect();
+    match fitting.as_slice() {
+        [] => Ok(None),
+        [one] => Ok(Some(*one)),
+        [(first, ..), ..] => {
+            let codes: Vec<&str> = fitting.iter().map(|(s, ..)| s.name.as_str()).collect();
+            Err(Failure::with_help(
+                format!("{file} has more than one signal for {}: {}", wanted.name, codes.join(", ")),
+                &format!("choose with --map {}={}", first.name, wanted.name),
+            ))
+        }
+    }
+}
+
+/// SI units in one of the signal's.
+fn factor(
+    recording: &Recording,
+    signal: &Signal,
+    unit: Option<&str>,
+    wanted: &Wanted,
+    notes: &mut Vec<String>,
+) -> Result<f64, Failure> {
+    let (scale, written) = match unit {
+        Some(unit) => (scale_of(unit), Some(unit)),
+        None => (signal.scale, signal.unit.as_deref()),
+    };
+    let Some(written) = written else {
+        let file = recording.path.display();
+        notes.push(match &wanted.unit {
+            Some((_, symbol)) => format!(
+                "{file} gives no unit for `{}`: taken as the SI unit of {}; --map '{}[unit]={}' says otherwise",
+                signal.name, symbol, signal.name, wanted.name
+            ),
+            None => format!("{file} gives no unit for `{}`: taken as it is", signal.name),
+        });
+        return Ok(1.0);
+    };
+    let Some(scale) = scale else {
+        return Err(Failure::with_help(
+            format!("{}: `{written}`, the unit of {}, is not known", signal.place, signal.name),
+            &format!("say it as --map '{}[unit]={}'", signal.name, wanted.name),
+        ));
+    };
+    match &wanted.unit {
+        Some((dimension, symbol)) if scale.dimension != *dimension => Err(Failure::with_help(
+            format!("{}: {} is in {written}, but {} in {symbol}", signal.place, signal.name, wanted.name),
+            "map a column of the same kind of quantity",
+        )),
+        _ => Ok(scale.factor),
+    }
+}
+
+/// Names of signals for a message.
+fn names(signals: &[Signal]) -> String {
+    let mut names: Vec<&str> = signals.iter().take(12).map(|s| s.name.as_str()).collect();
+    if signals.len() > names.len() {
+        names.push("…");
+    }
+    names.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_map_names_a_column_its_unit_and_a_channel() {
+        let map: MapArgument = "head x [g]=-head.acceleration.x".parse().unwrap();
+        assert_eq!(map.column, "head x");
+        assert_eq!(map.unit.as_deref(), Some("g"));
+        assert_eq!((map.channel.as_str(), map.sign), ("head.acceleration.x", -1.0));
+        assert!("head".parse::<MapArgument>().is_err() && "=x".parse::<MapArgument>().is_err());
+    }
+}

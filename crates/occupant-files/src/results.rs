@@ -1,0 +1,258 @@
+//! A result file opened again: its scenario, its model, and its outputs as the very samples of the run.
+//!
+//! A file holds the scenario and a checkpoint at every output, so each output can be evaluated once more, to the bit.
+//! Whatever is made from results (plots, views, reports, exports, scores) is a recorder over these samples.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use crash_measures::injury::Options;
+use occupant_core::model::Model;
+use occupant_core::results::channel::{Channel, Series};
+use occupant_core::results::checkpoint::Checkpoint;
+use occupant_core::results::fine::interval_s;
+use occupant_core::results::outcome::{Outcome, Status};
+use occupant_core::results::recorder::{Recorder, Watch};
+use occupant_core::results::sample::Sample;
+use occupant_core::results::summary::{RunStatus, Summarizer, Summary};
+use occupant_core::run::simulate::{replay, simulate};
+use occupant_scenario::Loaded;
+use occupant_scenario::ending::{Balance, Ending};
+
+use super::mcap::StoredRun;
+use super::scenario::stored;
+use crate::base::{Failure, input_file, program, sha256};
+
+/// A run that was recorded.
+pub struct Results {
+    pub path: PathBuf,
+    /// Its SHA-256.
+    pub sha256: String,
+    /// What the file says of the run before its start.
+    pub run: BTreeMap<String, String>,
+    /// What the file has lost of the run, in words.
+    lost: Option<String>,
+    /// What is wrong with it.
+    flaw: Option<String>,
+    /// How the run ended.
+    status: RunStatus,
+    /// Why, where it did not complete.
+    reason: Option<String>,
+    /// The scenario, overrides included.
+    pub loaded: Loaded,
+    /// Its model.
+    pub model: Model,
+    /// The scenario as its author wrote it, without overrides.
+    pub scenario_text: Option<String>,
+    /// One an output, at least one, without gaps.
+    pub checkpoints: Vec<Checkpoint>,
+}
+
+impl Results {
+    /// Opens a result file, one of a run that did not complete as far as it goes, a damaged one as far as it has all outputs.
+    ///
+    /// # Errors
+    /// A file that cannot be read, holds no run, or whose scenario this program refuses.
+    pub fn open(path: &Path) -> Result<Self, Failure> {
+        let bytes = input_file::read(path)?;
+        let mut run = StoredRun::read(&bytes).map_err(|e| no_results(path, &e))?;
+        if run.run.is_empty() || run.checkpoints.is_empty() {
+            return Err(no_results(path, &format!("it holds no outputs of a run{}", run.because())));
+        }
+        let (loaded, model, _) = stored(path, &run)?;
+        for checkpoint in &run.checkpoints {
+            checkpoint.check(&model).map_err(|e| no_results(path, &e.to_string()))?;
+        }
+        let (lost, flaw, (status, reason)) = (run.lost(), run.flaw(), run.ending());
+        // nothing is computed over a gap
+        let next_is_there = |pair: &&[Checkpoint]| pair[1].index == pair[0].index + 1;
+        let whole = run.checkpoints.windows(2).take_while(next_is_there).count() + 1;
+        run.checkpoints.truncate(whole);
+        let text = run.run.get("scenario").and_then(|n| run.attachments.get(n));
+        Ok(Results {
+            path: path.to_owned(),
+            sha256: sha256(&bytes),
+            lost,
+            flaw,
+            scenario_text: text.map(|t| String::from_utf8_lossy(t).into_owned()),
+            run: run.run,
+            status,
+            reason,
+            loaded,
+            model,
+            checkpoints: run.checkpoints,
+        })
+    }
+
+    /// Whether the run reached its end.
+    pub fn is_complete(&self) -> bool {
+        self.status == RunStatus::Completed
+    }
+
+    /// What the run came to, by the one rule; none if it was stopped on its way.
+    pub fn ending(&self) -> Option<Ending> {
+        match self.status {
+            RunStatus::Completed => Ending::of(&self.outcome()),
+            RunStatus::Failed => Some(Ending::Failed(self.reason.clone().unwrap_or_default())),
+            RunStatus::Interrupted => None,
+        }
+    }
+
+    /// Why its histories are not to be trusted, if its energy balance says so.
+    pub fn doubt(&self) -> Option<String> {
+        let energy = self.outcome().energy;
+        let worth = match energy.balance {
+            Balance::Kept => return None,
+            Balance::Doubtful => "doubtful",
+            Balance::Lost => "worth nothing",
+        };
+        Some(format!("{}: what it holds is {worth}, its energy balance is {}", self.path.display(), energy.found()))
+    }
+
+    /// What a user should know before trusting the results, in words.
+    pub fn notes(&self) -> Vec<String> {
+        let name = self.path.display();
+        let mut notes = Vec::new();
+        notes.extend(self.flaw.iter().map(|flaw| format!("{name} is {flaw}")));
+        if self.lost.is_some() {
+            notes.push(format!("of {name} only the outputs up to the first that is missing are used"));
+        } else if let Some(reason) = &self.reason {
+            notes.push(format!("{name} holds a run that did not complete: {reason}"));
+        }
+        notes.extend(self.span());
+        let theirs = self.run.get("program").map_or("?", String::as_str);
+        if theirs != program() {
+            notes.push(format!(
+                "{name} was written by {theirs}, this is {}: loads are computed anew from its states and may differ",
+                program()
+            ));
+        }
+        notes
+    }
+
+    /// How often instruments were read, s: at the outputs alone in files of 0.1.0.
+    pub fn readings_s(&self) -> f64 {
+        let are_there = !self.checkpoints[0].peaks.is_empty();
+        if are_there { interval_s(&self.model) } else { self.model.setup().time.output_s }
+    }
+
+    /// What time a file covers that is not all of its scenario's, in words.
+    fn span(&self) -> Option<String> {
+        let (first, last) = (&self.checkpoints[0], &self.checkpoints[self.checkpoints.len() - 1]);
+        let name = self.path.display();
+        let [from_ms, to_ms] = [first.time_s, last.time_s].map(|t_s| (1e7 * t_s).round() / 1e4);
+        if first.index > 0 {
+            let whole = if first.peaks.is_empty() {
+                "nothing that is told of it counts what was before"
+            } else {
+                "peaks and measures count from the start of the run; events, throws and caveats from there"
+            };
+            return Some(format!("{name} resumes a run and covers {from_ms} to {to_ms} ms: {whole}"));
+        }
+        let overrides = self.run.get("overrides").map_or("", String::as_str);
+        let end = overrides.lines().rev().find(|line| line.starts_with("time.end="))?;
+        Some(format!("{name} covers {from_ms} to {to_ms} ms: it was run with {end}"))
+    }
+
+    /// Why nothing is to be judged by a file, if it holds a part of a run alone and not what its measures need.
+    fn part(&self) -> Option<String> {
+        let first = &self.checkpoints[0];
+        let is_part = first.index > 0 && first.peaks.is_empty();
+        is_part.then(|| format!("the file begins at {:.1} ms: nothing counts what was before", 1e3 * first.time_s))
+    }
+
+    /// Shows every output to `recorder`, which learns of the begin of the run but not of its end.
+    ///
+    /// # Errors
+    /// What the recorder reports.
+    pub fn replay(&self, mut recorder: impl Recorder) -> Result<(), Failure> {
+        let refused =
+            |e: &dyn std::fmt::Display| Failure::plain(format!("{} cannot be evaluated: {e}", self.path.display()));
+        recorder.begin(&self.model).map_err(|e| refused(&e))?;
+        for checkpoint in &self.checkpoints {
+            replay(&self.model, checkpoint, &mut recorder).map_err(|e| refused(&e))?;
+        }
+        Ok(())
+    }
+
+    /// Looks at every output.
+    ///
+    /// # Errors
+    /// None for a file that was opened.
+    pub fn watch(&self, look: impl FnMut(&Sample<'_>)) -> Result<(), Failure> {
+        self.replay(Watch(look))
+    }
+
+    /// Time histories of channels of [`Results::model`].
+    ///
+    /// # Errors
+    /// None for a file that was opened.
+    pub fn series(&self, channels: Vec<Channel>) -> Result<Series, Failure> {
+        let mut series = Series::new(channels);
+        self.replay(&mut series)?;
+        Ok(series)
+    }
+
+    /// The summary of the run, as at its end.
+    ///
+    /// # Errors
+    /// None for a file that was opened.
+    pub fn summary(&self) -> Result<Summary, Failure> {
+        self.summary_judged(Options::default())
+    }
+
+    /// The same with measures that are filtered and judged as `options` say.
+    ///
+    /// # Errors
+    /// None for a file that was opened.
+    pub fn summary_judged(&self, options: Options) -> Result<Summary, Failure> {
+        let mut summarizer = Summarizer::judging(options);
+        self.replay(&mut summarizer)?;
+        summarizer.end(&self.outcome()).map_err(|e| self.refused(&e.to_string()))?;
+        self.told(&summarizer)
+    }
+
+    /// The same of the case run again, up to the last output, with readings every `interval_s`.
+    ///
+    /// # Errors
+    /// More outputs than a run may have; a run that fails before.
+    pub fn summary_again(&self, options: Options, interval_s: f64) -> Result<Summary, Failure> {
+        let mut setup = self.model.setup().clone();
+        setup.time.end_s = self.outcome().time_s;
+        setup.output.readings_s = Some(interval_s);
+        let again = |what: String| self.refused(&format!("it cannot be run again: {what}"));
+        let model = Model::new(setup).map_err(|problems| again(self.loaded.diagnose(&problems).to_string()))?;
+        let mut summarizer = Summarizer::judging(options);
+        let outcome = simulate(&model, &mut summarizer).map_err(|e| again(e.to_string()))?;
+        if let Status::Failed(error) = outcome.status {
+            return Err(again(error.to_string()));
+        }
+        self.told(&summarizer)
+    }
+
+    fn refused(&self, what: &str) -> Failure {
+        Failure::plain(format!("{}: {what}", self.path.display()))
+    }
+
+    /// The summary that was made, of this run however it ended.
+    fn told(&self, summarizer: &Summarizer) -> Result<Summary, Failure> {
+        let summary = summarizer.summary(None).ok_or_else(|| self.refused("the run left no summary"))?;
+        let summary = summary.ended(self.status, self.reason.clone());
+        Ok(match self.part() {
+            Some(part) => summary.of_part(part),
+            None => summary,
+        })
+    }
+
+    /// The outcome up to the last output.
+    fn outcome(&self) -> Outcome {
+        self.checkpoints[self.checkpoints.len() - 1].outcome(&self.model)
+    }
+}
+
+fn no_results(path: &Path, reason: &str) -> Failure {
+    Failure::with_help(
+        format!("{} holds no results: {reason}", path.display()),
+        "give an MCAP file that `occupant run` has written",
+    )
+}

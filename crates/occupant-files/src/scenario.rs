@@ -1,0 +1,226 @@
+//! From a scenario's file name to a model.
+
+use std::path::{Path, PathBuf};
+
+use occupant_core::model::Model;
+use occupant_scenario::{Diagnostics, Draft, Format, Loaded};
+use placed_text::{Severity, Value};
+
+use super::deck::{FromDeck, from_deck, is_deck};
+use super::mcap::StoredRun;
+use super::mcap::about::RESOLVED;
+use crate::base::{Failure, by_ending, ending, file_name, input_file, quoted};
+
+/// Which scenario, and what is changed in it.
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "clap", derive(clap::Args))]
+pub struct ScenarioArgs {
+    /// The scenario, TOML or JSON, or a card deck of 1970; `-` is standard input
+    #[cfg_attr(feature = "clap", arg(value_name = "SCENARIO"))]
+    pub scenario: PathBuf,
+
+    /// Change a value, such as --set path.speed='30 mph' or --set joints.*.damping=2; =null takes it away, such as --set
+    /// belts.torso=null; may be repeated; the title says it
+    #[cfg_attr(feature = "clap", arg(long = "set", value_name = "PATH.TO.KEY=VALUE"))]
+    pub overrides: Vec<String>,
+}
+
+/// A scenario that can be run.
+pub struct Opened {
+    /// The bytes of the file.
+    pub bytes: Vec<u8>,
+    /// The scenario, overrides included.
+    pub loaded: Loaded,
+    pub model: Model,
+    /// Warnings, with their places.
+    pub warnings: Diagnostics,
+    /// The deck that it was made of.
+    pub deck: Option<FromDeck>,
+}
+
+/// The text of a scenario, with the changes applied.
+pub struct Source {
+    bytes: Vec<u8>,
+    pub draft: Draft,
+    deck: Option<FromDeck>,
+}
+
+/// Reads the scenario, applies the changes and makes the model.
+///
+/// # Errors
+/// A file that cannot be read; everything that is wrong with the scenario, at once.
+pub fn open(args: &ScenarioArgs) -> Result<Opened, Failure> {
+    open_source(args, source(args)?)
+}
+
+/// Reads the scenario's text, or converts the deck in its place, and applies the changes.
+///
+/// # Errors
+/// A file that cannot be read; everything that is wrong with its words.
+pub fn source(args: &ScenarioArgs) -> Result<Source, Failure> {
+    let path = &args.scenario;
+    let bytes = input_file::bytes(path).map_err(|error| unreadable(path, &error))?;
+    let name = path.display().to_string();
+    let refuse = |problems: Diagnostics| refused(&name, &problems);
+    if ending(path) == "mcap" {
+        let found = format!("{name} is what a run has written, not a scenario");
+        return Err(Failure::with_help(
+            found,
+            &format!("occupant measures {0} and occupant report {0} tell of it", quoted(&name)),
+        ));
+    }
+    let deck = (format_of(path).is_none() && is_deck(&bytes)).then(|| from_deck(path, &bytes)).transpose()?;
+    let mut draft = match &deck {
+        Some(deck) => Draft::read(&deck.toml, Format::Toml, &name).map_err(refuse)?,
+        None => {
+            input_file::scenario_fits(&bytes).map_err(|error| unreadable(path, &error))?;
+            Draft::read_bytes(&bytes, format_of(path), &name).map_err(refuse)?
+        }
+    };
+    // a key of studies that no scenario has
+    if draft.get("base").is_ok() {
+        let help = format!("occupant sweep {} runs it; `base` names the scenario that it varies", quoted(&name));
+        return Err(Failure::with_help(format!("{name} is a study, not a scenario"), &help));
+    }
+    for assignment in &args.overrides {
+        draft.set(assignment).map_err(refuse)?;
+    }
+    retitle(&mut draft, &args.overrides);
+    Ok(Source { bytes, draft, deck })
+}
+
+/// Changes that are no change of what the title says.
+const UNTOLD: [&str; 3] = ["title", "notes", "time.end"];
+/// So many changes are named in a title.
+const MOST_TOLD: usize = 3;
+
+/// Lets the title say what was changed in the scenario.
+pub fn retitle(draft: &mut Draft, overrides: &[String]) {
+    let changes = || overrides.iter().filter_map(|assignment| assignment.split_once('='));
+    let told: Vec<String> = changes()
+        .filter(|(path, _)| !UNTOLD.contains(&path.trim()))
+        .map(|(path, value)| format!("{} = {}", path.trim(), value.trim()))
+        .collect();
+    if told.is_empty() || changes().any(|(path, _)| path.trim() == "title") {
+        return;
+    }
+    let Some((_, Value::String(title))) = draft.get("title").ok().and_then(|mut found| found.pop()) else {
+        return;
+    };
+    let more = told.len().saturating_sub(MOST_TOLD);
+    let mut words = told[..told.len() - more].join(" and ");
+    if more > 0 {
+        words += &format!(" and {more} more");
+    }
+    // a text of JSON is one of TOML; a title that cannot be told so stays
+    let _ = serde_json::to_string(&format!("{title}, with {words}")).map(|title| draft.set_value("title", &title));
+}
+
+/// Makes the model of a scenario.
+///
+/// # Errors
+/// Everything that is wrong with the scenario, at once.
+pub fn open_source(args: &ScenarioArgs, source: Source) -> Result<Opened, Failure> {
+    let Source { bytes, draft, deck } = source;
+    let name = args.scenario.display().to_string();
+    let refuse = |problems: Diagnostics| refused(&name, &problems);
+    let loaded = draft.load(&files_beside(&args.scenario)).map_err(refuse)?;
+    let (model, warnings) = loaded.model().map_err(refuse)?;
+    Ok(Opened { bytes, loaded, model, warnings, deck })
+}
+
+/// Reads the files that a scenario names, from the folder that it stands in.
+pub fn files_beside(scenario: &Path) -> impl Fn(&str) -> Result<Vec<u8>, String> {
+    // a file called `-` is not standard input
+    let folder = Path::new(".").join(scenario.parent().unwrap_or(Path::new("")));
+    move |file| input_file::bytes(&folder.join(file)).map_err(|error| error.to_string())
+}
+
+/// What is made from `of`, a scenario or its results, is not to take the place of: itself, and the tables beside it that the
+/// scenario names.
+pub fn inputs(of: &Path, loaded: &Loaded) -> Vec<PathBuf> {
+    let folder = of.parent().unwrap_or(Path::new(""));
+    let tables = loaded.tables();
+    std::iter::once(of.to_owned()).chain(tables.iter().map(|(table, _)| folder.join(table))).collect()
+}
+
+/// Files that scenarios name, as they were when the work began: names and bytes.
+#[derive(Default)]
+pub struct Tables(pub Vec<(String, Vec<u8>)>);
+
+impl Tables {
+    /// The bytes of a file, as resolvers of scenarios give them.
+    pub fn get(&self, name: &str) -> Result<Vec<u8>, String> {
+        let found = self.0.iter().find(|(table, _)| table == name);
+        found.map(|(_, bytes)| bytes.clone()).ok_or_else(|| "it was not there at the beginning".to_owned())
+    }
+
+    /// Scenario, model and warnings of a draft.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn open(&self, draft: Draft) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
+        let loaded = draft.load(&|name| self.get(name))?;
+        let (model, warnings) = loaded.model()?;
+        Ok((loaded, model, warnings))
+    }
+}
+
+/// The scenario that a results file was made from, all that was changed in it included, its model and warnings about it.
+///
+/// # Errors
+/// A file without it, or with one that this program cannot read.
+pub fn stored(file: &Path, run: &StoredRun) -> Result<(Loaded, Model, Diagnostics), Failure> {
+    let name = file.display();
+    let bytes = run.attachments.get(RESOLVED);
+    let bytes = bytes.ok_or_else(|| Failure::plain(format!("{name} holds no scenario{}", run.because())))?;
+    let unreadable = |why: String| Failure::plain(format!("the scenario in {name} cannot be read:{why}"));
+    input_file::scenario_fits(bytes).map_err(|error| unreadable(format!(" {error}")))?;
+    let resolver = |table: &str| {
+        let found = run.attachments.get(table).or_else(|| run.attachments.get(&file_name(Path::new(table))));
+        found.cloned().ok_or_else(|| format!("{name} does not hold it"))
+    };
+    let loaded = Draft::read_bytes(bytes, Some(Format::Toml), RESOLVED)
+        .and_then(|mut draft| {
+            // files of version 0.1.0 do not say it, and then it was false
+            if draft.get("posture.seat").is_ok() && draft.get("posture.settle").is_err() {
+                draft.set_value("posture.settle", "false")?;
+            }
+            draft.load(&resolver)
+        })
+        .map_err(|problems| unreadable(format!("\n{problems}")))?;
+    let model = loaded.model();
+    let (model, warnings) =
+        model.map_err(|problems| Failure::plain(format!("the scenario in {name} is refused:\n{problems}")))?;
+    Ok((loaded, model, warnings))
+}
+
+/// The format that the ending of the file name stands for, if any.
+pub fn format_of(path: &Path) -> Option<Format> {
+    by_ending(path, &[("toml", Format::Toml), ("json", Format::Json)])
+}
+
+fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
+    let found = format!("the scenario {} cannot be read: {error}", path.display());
+    match error.kind() {
+        std::io::ErrorKind::NotFound => {
+            Failure::with_help(found, "check the path, or write a starter scenario with `occupant new NAME.toml`")
+        }
+        _ => Failure::plain(found),
+    }
+}
+
+/// The end of a command that a text with problems does not let begin.
+pub fn refused(name: &str, problems: &Diagnostics) -> Failure {
+    Failure::CouldNotRun(nothing_was_run(&problems.to_string(), name, problems.count(Severity::Error)))
+}
+
+/// So many errors, in words.
+pub fn counted(errors: usize) -> String {
+    if errors == 1 { "1 error".to_owned() } else { format!("{errors} errors") }
+}
+
+/// Problems of a text and how many of them are errors.
+pub fn nothing_was_run(problems: &str, name: &str, errors: usize) -> String {
+    format!("{problems}\n\n{name}: {}, nothing was run", counted(errors))
+}

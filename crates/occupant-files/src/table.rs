@@ -1,0 +1,316 @@
+//! Tables of words and numbers as CSV (RFC 4180) or Parquet, row by row; of a Parquet file a group of rows is held at a time, a
+//! workbook or MAT file as a whole.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
+use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
+use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
+use parquet::schema::types::Type;
+use placed_text::plain;
+use serde::{Deserialize, Serialize};
+
+use super::book::{self, Sheet};
+use crate::base::{Existing, Failure, PartialFile, by_ending, program};
+
+/// So many values are held at a time, but never fewer or more rows than these.
+const CELLS: usize = 400_000;
+const ROWS: [usize; 2] = [1024, 16_384];
+
+/// What a column holds; only those that say so may lack values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Whole numbers.
+    Count,
+    Number,
+    MaybeNumber,
+    Text,
+    MaybeText,
+}
+
+/// Columns from lists of names that hold the same kind of thing.
+pub fn columns(lists: &[(Kind, &[&'static str])]) -> Vec<(&'static str, Kind)> {
+    lists.iter().flat_map(|(kind, names)| names.iter().map(|name| (*name, *kind))).collect()
+}
+
+/// A value; in JSON nothing, a number or a text.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Cell {
+    Absent,
+    Number(f64),
+    Text(Box<str>),
+}
+
+impl Cell {
+    pub fn text(text: &str) -> Self {
+        Cell::Text(text.into())
+    }
+
+    pub fn count(n: u64) -> Self {
+        Cell::Number(n as f64)
+    }
+
+    /// Absent if it is no finite number.
+    pub fn finite(x: f64) -> Self {
+        if x.is_finite() { Cell::Number(x) } else { Cell::Absent }
+    }
+
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Cell::Number(x) => Some(*x),
+            Cell::Absent | Cell::Text(_) => None,
+        }
+    }
+
+    /// Numbers as the shortest text that is read as the same number.
+    fn shown(&self) -> String {
+        match self {
+            Cell::Absent => String::new(),
+            Cell::Number(x) => x.to_string(),
+            Cell::Text(text) => harmless(text),
+        }
+    }
+
+    fn bytes(&self) -> Option<ByteArray> {
+        match self {
+            Cell::Text(text) => Some(ByteArray::from(text.as_bytes().to_vec())),
+            Cell::Absent | Cell::Number(_) => None,
+        }
+    }
+}
+
+/// A text that no spreadsheet takes for a formula: one that begins like it gets an apostrophe. Hidden characters are
+/// escaped.
+fn harmless(text: &str) -> String {
+    let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']) && text.parse::<f64>().is_err();
+    let mark = if is_formula { "'" } else { "" };
+    format!("{mark}{}", plain(text))
+}
+
+/// The form of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// Text, with a line of headings.
+    Csv,
+    Parquet,
+    /// A workbook of Excel.
+    Xlsx,
+    /// Variables of MATLAB.
+    Mat,
+}
+
+/// The forms by their endings.
+const FORMS: [(&str, Form); 4] =
+    [("csv", Form::Csv), ("parquet", Form::Parquet), ("xlsx", Form::Xlsx), ("mat", Form::Mat)];
+
+impl Form {
+    /// The form that the file's ending asks for.
+    pub fn of(path: &Path) -> Option<Form> {
+        by_ending(path, &FORMS)
+    }
+
+    /// The form of the table asked for.
+    ///
+    /// # Errors
+    /// Another ending.
+    pub fn of_output(path: &Path) -> Result<Form, Failure> {
+        Form::of(path).ok_or_else(|| Failure::ending(path, ".csv, .parquet, .xlsx or .mat"))
+    }
+}
+
+/// A table on its way to `W`.
+pub struct Table<W: Write + Send> {
+    kinds: Vec<Kind>,
+    waiting: Vec<Vec<Cell>>,
+    writer: Writer<W>,
+}
+
+enum Writer<W: Write + Send> {
+    Csv(Box<csv::Writer<W>>),
+    Parquet(Box<SerializedFileWriter<W>>),
+    Book(W, Form, Vec<Sheet>),
+}
+
+impl<W: Write + Send> Table<W> {
+    /// Begins a table; `about` stands in the metadata of a Parquet file.
+    pub fn new(to: W, form: Form, columns: &[(impl AsRef<str>, Kind)], about: &[(&str, String)]) -> io::Result<Self> {
+        let writer = match form {
+            Form::Csv => {
+                let mut writer = csv::Writer::from_writer(to);
+                writer.write_record(columns.iter().map(|(name, _)| harmless(name.as_ref())))?;
+                Writer::Csv(Box::new(writer))
+            }
+            Form::Parquet => Writer::Parquet(Box::new(begin(to, columns, about).map_err(reason)?)),
+            Form::Xlsx | Form::Mat => Writer::Book(to, form, vec![Sheet::new("table", columns)]),
+        };
+        Ok(Table { kinds: columns.iter().map(|(_, kind)| *kind).collect(), waiting: Vec::new(), writer })
+    }
+
+    /// Adds a row, a cell for each column.
+    pub fn row(&mut self, cells: Vec<Cell>) -> io::Result<()> {
+        match &mut self.writer {
+            Writer::Csv(writer) => writer.write_record(cells.iter().map(Cell::shown))?,
+            Writer::Parquet(_) => {
+                self.waiting.push(cells);
+                if self.waiting.len() >= (CELLS / self.kinds.len().max(1)).clamp(ROWS[0], ROWS[1]) {
+                    self.flush()?;
+                }
+            }
+            Writer::Book(.., sheets) => sheets[0].row(&cells),
+        }
+        Ok(())
+    }
+
+    /// Adds a table beside it, where there is room for one: a sheet of a workbook, a structure of a MAT file.
+    pub fn beside(&mut self, name: &'static str, columns: &[(&str, Kind)], rows: impl IntoIterator<Item = Vec<Cell>>) {
+        if let Writer::Book(.., sheets) = &mut self.writer {
+            let mut sheet = Sheet::new(name, columns);
+            rows.into_iter().for_each(|cells| sheet.row(&cells));
+            sheets.push(sheet);
+        }
+    }
+
+    /// Ends the table and gives back where it went.
+    pub fn finish(mut self) -> io::Result<W> {
+        self.flush()?;
+        match self.writer {
+            Writer::Csv(writer) => writer.into_inner().map_err(|e| e.into_error()),
+            Writer::Parquet(writer) => writer.into_inner().map_err(reason),
+            Writer::Book(mut to, form, sheets) => to.write_all(&book::bytes(form, &sheets)?).map(|()| to),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        let rows = std::mem::take(&mut self.waiting);
+        match &mut self.writer {
+            Writer::Parquet(writer) if !rows.is_empty() => write_group(writer, &self.kinds, &rows).map_err(reason),
+            _ => Ok(()),
+        }
+    }
+}
+
+fn begin<W: Write + Send, N: AsRef<str>>(
+    to: W,
+    columns: &[(N, Kind)],
+    about: &[(&str, String)],
+) -> Result<SerializedFileWriter<W>, ParquetError> {
+    let column = |(name, kind): &(N, Kind)| {
+        let (physical, logical) = match kind {
+            Kind::Count => (Physical::INT64, None),
+            Kind::Number | Kind::MaybeNumber => (Physical::DOUBLE, None),
+            Kind::Text | Kind::MaybeText => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
+        };
+        let repetition = match kind {
+            Kind::MaybeNumber | Kind::MaybeText => Repetition::OPTIONAL,
+            Kind::Count | Kind::Number | Kind::Text => Repetition::REQUIRED,
+        };
+        let column = Type::primitive_type_builder(name.as_ref(), physical);
+        column.with_repetition(repetition).with_logical_type(logical).build().map(Arc::new)
+    };
+    let fields = columns.iter().map(column).collect::<Result<Vec<_>, _>>()?;
+    let schema = Type::group_type_builder("occupant_table").with_fields(fields).build()?;
+    let about = about.iter().map(|(key, value)| KeyValue::new((*key).to_owned(), value.clone()));
+    let properties = WriterProperties::builder()
+        .set_compression(Compression::SNAPPY)
+        .set_created_by(program())
+        .set_key_value_metadata(Some(about.collect()))
+        .build();
+    SerializedFileWriter::new(to, Arc::new(schema), Arc::new(properties))
+}
+
+fn write_group<W: Write + Send>(
+    writer: &mut SerializedFileWriter<W>,
+    kinds: &[Kind],
+    rows: &[Vec<Cell>],
+) -> Result<(), ParquetError> {
+    let mut group = writer.next_row_group()?;
+    for (i, kind) in kinds.iter().enumerate() {
+        let no_column = || ParquetError::General("a column too many".to_owned());
+        let mut column = group.next_column()?.ok_or_else(no_column)?;
+        let cells = rows.iter().map(|row| row.get(i).unwrap_or(&Cell::Absent));
+        match kind {
+            Kind::Count => put::<Int64Type>(&mut column, cells.map(|c| c.number().map(|x| x as i64)), Some(0)),
+            Kind::Number => put::<DoubleType>(&mut column, cells.map(Cell::number), Some(f64::NAN)),
+            Kind::MaybeNumber => put::<DoubleType>(&mut column, cells.map(Cell::number), None),
+            Kind::Text => put::<ByteArrayType>(&mut column, cells.map(Cell::bytes), Some(ByteArray::from(Vec::new()))),
+            Kind::MaybeText => put::<ByteArrayType>(&mut column, cells.map(Cell::bytes), None),
+        }?;
+        column.close()?;
+    }
+    group.close().map(|_| ())
+}
+
+/// Writes values; what stands for one that is absent, in a column that may not lack any.
+fn put<T: DataType>(
+    column: &mut SerializedColumnWriter<'_>,
+    values: impl Iterator<Item = Option<T::T>>,
+    absent: Option<T::T>,
+) -> Result<usize, ParquetError> {
+    let all: Vec<Option<T::T>> = values.map(|value| value.or_else(|| absent.clone())).collect();
+    // 1 for each value that is there
+    let levels: Vec<i16> = all.iter().map(|value| value.is_some().into()).collect();
+    let there: Vec<T::T> = all.into_iter().flatten().collect();
+    column.typed::<T>().write_batch(&there, absent.is_none().then_some(&levels[..]), None)
+}
+
+fn reason(error: ParquetError) -> io::Error {
+    match error {
+        // the reason of the operating system, without the library's own words
+        ParquetError::External(source) => io::Error::other(source),
+        other => io::Error::other(other),
+    }
+}
+
+/// A table under its provisional name.
+pub struct TableFile {
+    path: PathBuf,
+    table: Table<PartialFile>,
+}
+
+impl TableFile {
+    /// Begins a file; `about` stands in the metadata of a Parquet file.
+    ///
+    /// # Errors
+    /// The file is there and may not be replaced; the operating system refuses.
+    pub fn create(
+        path: PathBuf,
+        form: Form,
+        existing: Existing,
+        columns: &[(impl AsRef<str>, Kind)],
+        about: &[(&str, String)],
+    ) -> Result<Self, Failure> {
+        let file = PartialFile::create(&path, existing).map_err(|e| broke_off(&e))?;
+        let table = Table::new(file, form, columns, about).map_err(|e| unwritten(&path, &e))?;
+        Ok(TableFile { path, table })
+    }
+
+    /// Adds a row, a cell for each column.
+    pub fn row(&mut self, cells: Vec<Cell>) -> Result<(), Failure> {
+        self.table.row(cells).map_err(|e| unwritten(&self.path, &e))
+    }
+
+    /// As [`Table::beside`].
+    pub fn beside(&mut self, name: &'static str, columns: &[(&str, Kind)], rows: impl IntoIterator<Item = Vec<Cell>>) {
+        self.table.beside(name, columns, rows);
+    }
+
+    /// Gives the complete file its name.
+    pub fn publish(self) -> Result<PathBuf, Failure> {
+        let file = self.table.finish().map_err(|e| unwritten(&self.path, &e))?;
+        file.publish().map_err(|e| broke_off(&e))
+    }
+}
+
+fn unwritten(path: &Path, error: &io::Error) -> Failure {
+    broke_off(&format!("{} cannot be written: {error}", path.display()))
+}
+
+fn broke_off(reason: &dyn std::fmt::Display) -> Failure {
+    Failure::BrokeOff(format!("error: {reason}"))
+}

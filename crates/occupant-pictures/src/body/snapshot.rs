@@ -1,0 +1,109 @@
+//! What there is to draw at one output, in vehicle axes.
+
+use nalgebra::{Isometry3, Point3, Translation3, Vector3};
+use occupant_core::forces::contact::flat_face::FlatFace;
+use occupant_core::forces::contact::surface::{Frame, Outline};
+use occupant_core::forces::shown::{Line, Section};
+use occupant_core::model::Model;
+use occupant_core::results::sample::{Contact, Sample};
+use occupant_core::vehicle::FrameMotion;
+
+use occupant_files::mcap::scene::compartment::{corners_m, square_m};
+
+/// Half side of the square that stands for an unbounded plane, m.
+pub const PATCH_M: f64 = 3.0;
+
+/// The body, the contacts and other force elements at one output.
+#[derive(Clone, Debug)]
+pub struct Snapshot {
+    pub time_s: f64,
+    /// By segment: turns and moves from segment axes at the centre of gravity to vehicle axes.
+    pub poses: Vec<Isometry3<f64>>,
+    /// Centres of the spheres, m.
+    pub spheres_m: Vec<Point3<f64>>,
+    /// Lines of force elements.
+    pub lines: Vec<Line>,
+    /// Plane figures of force elements.
+    pub sections: Vec<Section>,
+    /// Touching pairs.
+    pub contacts: Vec<Contact>,
+    /// Motion of the vehicle in space.
+    pub vehicle: FrameMotion,
+    /// Motions of the other frames that anything to touch is fixed to.
+    frames: Vec<(Frame, FrameMotion)>,
+}
+
+impl Snapshot {
+    pub fn of(sample: &Sample<'_>) -> Self {
+        let sample = &sample.seen_by_vehicle();
+        let pose = |segment| {
+            let at = Translation3::from(sample.cg_m(segment));
+            Isometry3::from_parts(at, sample.orientation(segment))
+        };
+        let body = sample.model.body();
+        Snapshot {
+            time_s: sample.time_s,
+            poses: body.tree.segments().map(pose).collect(),
+            spheres_m: (0..body.spheres.len()).map(|s| sample.sphere_centre_m(s)).collect(),
+            lines: sample.lines(),
+            sections: sample.sections(),
+            contacts: sample.contacts().collect(),
+            vehicle: *sample.vehicle,
+            frames: frames(sample),
+        }
+    }
+
+    /// What there is to touch, as polygons: the surfaces, then all sides of the solids, m.
+    pub fn polygons_m(&self, model: &Model) -> Vec<Vec<Point3<f64>>> {
+        let faces = model.faces().iter().map(|face| self.corners_m(face));
+        let solids = &model.setup().solids;
+        let sides = solids.iter().flat_map(|s| s.outline().into_iter().map(|side| self.placed(s.frame, side)));
+        faces.chain(sides).collect()
+    }
+
+    /// A surface's corners, an unbounded one's as a square below the vehicle's origin, m.
+    pub fn corners_m(&self, face: &FlatFace) -> Vec<Point3<f64>> {
+        let corners = match &face.outline {
+            Outline::Unbounded { .. } => self.patch_m(face),
+            _ => corners_m(face),
+        };
+        self.placed(face.frame, corners)
+    }
+
+    /// Points of a frame in vehicle axes.
+    fn placed(&self, frame: Frame, corners: Vec<Point3<f64>>) -> Vec<Point3<f64>> {
+        let to_space = |p: &Point3<f64>| match self.frames.iter().find(|(known, _)| *known == frame) {
+            Some((_, motion)) => motion.point_to_space(p.coords),
+            None => p.coords,
+        };
+        match frame {
+            Frame::Vehicle => corners,
+            _ => corners.iter().map(|p| self.vehicle.point_to_frame(to_space(p)).into()).collect(),
+        }
+    }
+
+    fn patch_m(&self, face: &FlatFace) -> Vec<Point3<f64>> {
+        let origin = match face.frame {
+            Frame::Vehicle => Vector3::zeros(),
+            frame => {
+                let motion = self.frames.iter().find(|(known, _)| *known == frame);
+                motion.map_or(self.vehicle.origin_m, |(_, motion)| motion.point_to_frame(self.vehicle.origin_m))
+            }
+        };
+        let height = face.normal.dot(&origin) - face.offset_m;
+        let foot = origin - face.normal * height;
+        square_m(face, foot.into(), PATCH_M)
+    }
+}
+
+/// Motions of the frames of surfaces and solids besides those of the vehicle and of space.
+fn frames(sample: &Sample<'_>) -> Vec<(Frame, FrameMotion)> {
+    let setup = sample.model.setup();
+    let mut all: Vec<(Frame, FrameMotion)> = Vec::new();
+    for frame in setup.surfaces.iter().map(|s| s.frame).chain(setup.solids.iter().map(|s| s.frame)) {
+        if !matches!(frame, Frame::Vehicle | Frame::Space) && all.iter().all(|(known, _)| *known != frame) {
+            all.push((frame, sample.frame(frame)));
+        }
+    }
+    all
+}

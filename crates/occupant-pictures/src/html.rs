@@ -1,0 +1,135 @@
+//! HTML element by element. Texts are escaped where they are put, so that nothing a user named can leave its place.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use super::svg::escape;
+use occupant_files::base::program;
+
+/// What a page says in its head: which program made it, and of what.
+pub fn about(subject: &str) -> String {
+    format!("<meta name=\"generator\" content=\"{}\">\n{}", escape(&program()), described(subject))
+}
+
+fn described(subject: &str) -> String {
+    format!("<meta name=\"description\" content=\"{}\">", escape(subject))
+}
+
+/// A head is no longer than so many bytes, up to its style.
+const HEAD: u64 = 4096;
+
+/// Whether a file is a page that this program, of whatever version, made of the same subject.
+pub fn is_page_of(path: &Path, subject: &str) -> bool {
+    let mut head = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+    let head = String::from_utf8_lossy(&head);
+    read.is_ok() && head.contains("<meta name=\"generator\" content=\"occupant ") && head.contains(&described(subject))
+}
+
+/// A part of a page.
+#[derive(Clone, Debug, Default)]
+pub struct Html(String);
+
+/// A cell of a table.
+#[derive(Clone, Debug)]
+pub enum Cell {
+    Words(String),
+    Number(String),
+    /// A number that a rule marks, and why.
+    Marked(String, String),
+}
+
+impl Html {
+    /// An element of one text; `tag` may carry attributes of ours.
+    pub fn text(&mut self, tag: &str, text: &str) {
+        let name = tag.split(' ').next().unwrap_or(tag);
+        self.0.push_str(&format!("<{tag}>{}</{name}>\n", escape(text)));
+    }
+
+    /// Something that is HTML already.
+    pub fn raw(&mut self, html: &str) {
+        self.0.push_str(html);
+    }
+
+    /// Two columns of words.
+    pub fn facts(&mut self, facts: &[(&str, String)]) {
+        self.raw("<div class=\"scroll\"><table>\n");
+        for (name, text) in facts {
+            let (name, text) = (escape(name), escape(text));
+            self.raw(&format!("<tr><th scope=\"row\">{name}</th><td class=\"wrap\">{text}</td></tr>\n"));
+        }
+        self.raw("</table></div>\n");
+    }
+
+    /// Begins what stands folded under a line.
+    pub fn fold(&mut self, line: &str) {
+        self.raw(&format!("<details>\n<summary>{}</summary>\n", escape(line)));
+    }
+
+    /// Ends it.
+    pub fn unfold(&mut self) {
+        self.raw("</details>\n");
+    }
+
+    pub fn table(&mut self, head: &[&str], rows: &[Vec<Cell>]) {
+        self.table_under(&head.iter().map(|name| escape(name)).collect::<Vec<_>>(), rows);
+    }
+
+    /// The same under heads that are HTML already.
+    pub fn table_under(&mut self, head: &[String], rows: &[Vec<Cell>]) {
+        self.raw("<div class=\"scroll\"><table>\n<tr>");
+        for (i, name) in head.iter().enumerate() {
+            let numbers = rows.first().and_then(|r| r.get(i)).is_some_and(|c| !matches!(c, Cell::Words(_)));
+            let class = if numbers { " class=\"number\"" } else { "" };
+            self.raw(&format!("<th{class}>{name}</th>"));
+        }
+        self.raw("</tr>\n");
+        for row in rows {
+            self.raw("<tr>");
+            row.iter().for_each(|cell| self.raw(&cell.html()));
+            self.raw("</tr>\n");
+        }
+        self.raw("</table></div>\n");
+    }
+
+    pub fn finish(self) -> String {
+        self.0
+    }
+}
+
+impl Cell {
+    fn html(&self) -> String {
+        match self {
+            Cell::Words(text) => format!("<td>{}</td>", escape(text)),
+            Cell::Number(text) => format!("<td class=\"number\">{}</td>", escape(text)),
+            Cell::Marked(text, why) => {
+                format!("<td class=\"number marked\" title=\"{}\">{}\u{a0}†</td>", escape(why), escape(text))
+            }
+        }
+    }
+
+    /// A number, marked or not.
+    pub fn of(text: String, mark: Option<String>) -> Cell {
+        match mark {
+            Some(why) => Cell::Marked(text, why),
+            None => Cell::Number(text),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_stays_a_text() {
+        let mut html = Html::default();
+        html.text("h2 id=\"r0\"", "</h2><script>");
+        html.facts(&[("<b>", "a & b".to_owned())]);
+        html.table(&["<i>"], &[vec![Cell::Marked("1".to_owned(), "\" onclick=\"".to_owned())]]);
+        let text = html.finish();
+        assert!(!text.contains("<script>") && !text.contains("<b>") && !text.contains("<i>"));
+        assert!(!text.contains("\" onclick"), "{text}");
+    }
+}

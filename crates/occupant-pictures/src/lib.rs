@@ -1,0 +1,19 @@
+//! Everything that is drawn: SVG and PNG, plots of time histories, views of the body, the elements of a page.
+//!
+//! Takes what files hold; writes no file, starts no run and knows no command. Films may go through an encoder of the machine. A drawing is written once, as SVG. Its PNG is
+//! that SVG rendered with the fonts of this program, so that it looks the same on every machine, fonts installed or not.
+
+#![allow(missing_docs, reason = "fields and variants say by their names and units what they hold")]
+
+pub mod body;
+pub mod film;
+pub mod font;
+pub mod format;
+pub mod gltf;
+pub mod html;
+pub mod plot;
+pub mod svg;
+pub mod view;
+
+pub use format::Format;
+pub use svg::{Anchor, Svg, Text};

@@ -1,0 +1,205 @@
+//! The hull on the ground: spheres of the body, and the edges of the wheels at faces that their treads do not meet.
+
+use crate::V3;
+use crate::body::Body;
+use crate::chassis::{Chassis, State};
+use crate::crush::touch::Pose;
+use crate::ground::Ground;
+
+/// Speed over which friction turns, m/s.
+const TURNS_M_S: f64 = 0.127;
+/// A hull this near the ground is looked at in every evaluation, m.
+const NEAR_M: f64 = 0.05;
+/// The edge of a wheel: radius of its sphere, way from the axle, way from the middle plane, m.
+const EDGE_M: [f64; 3] = [0.05, 0.08, 0.05];
+/// Stiffness of a wheel's edge against a curb, N/m, a guess: rim, bearing and links.
+const EDGE_N_PER_M: f64 = 2e6;
+/// Behind this depth an edge is twenty times as stiff, so that no wheel passes through a curb's face, m.
+const EDGE_BOTTOMS_M: f64 = 0.05;
+/// Faces whose normal is nearer to the axle than this (cosine) are met by the edges, not by the tread.
+const BESIDE: f64 = core::f64::consts::FRAC_1_SQRT_2;
+
+/// A vehicle that leans more (sine) may stand on the edges of its wheels.
+const LEANS: f64 = 0.6;
+
+#[derive(Clone, Copy, Debug)]
+struct Sphere {
+    place_m: V3,
+    radius_m: f64,
+    stiffness: f64,
+    is_roof: bool,
+}
+
+/// The hull of a vehicle.
+#[derive(Clone, Debug)]
+pub(crate) struct Hull {
+    spheres: Vec<Sphere>,
+    friction: f64,
+    returned: f64,
+    /// Free radius of the wheels, m.
+    wheel_m: f64,
+    /// Radius that holds all spheres, m.
+    reach_m: f64,
+}
+
+/// What is remembered of it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct HullMemory {
+    /// Greatest depth of each sphere, then of the two edges of each wheel, m.
+    most_m: Vec<f64>,
+    /// Whether it may touch within the next step.
+    pub is_near: bool,
+    /// Least height over the ground when it was last looked at, m.
+    pub clear_m: f64,
+}
+
+/// What the ground does to the hull: force and moment about the centre of gravity, vehicle-space, and the power taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Rub {
+    pub force_n: V3,
+    pub moment_n_m: V3,
+    pub power_w: f64,
+}
+
+/// A sphere in the ground.
+struct Dip {
+    number: usize,
+    centre_m: V3,
+    radius_m: f64,
+    depth_m: f64,
+    normal: V3,
+    stiffness: f64,
+    is_edge: bool,
+}
+
+impl Dip {
+    /// Force, N, and energy, J, at a depth on loading.
+    fn load(&self, depth_m: f64) -> [f64; 2] {
+        let beyond_m = if self.is_edge { (depth_m - EDGE_BOTTOMS_M).max(0.0) } else { 0.0 };
+        let k = self.stiffness;
+        [k * (depth_m + 19.0 * beyond_m), 0.5 * k * (depth_m * depth_m + 19.0 * beyond_m * beyond_m)]
+    }
+}
+
+impl Hull {
+    pub fn of(body: &Body, height_m: f64, wheel_m: f64) -> Self {
+        let spheres = body.hull.iter().map(|ball| Sphere {
+            place_m: V3::new(ball.place_m[0], ball.place_m[1], height_m - ball.place_m[2]),
+            radius_m: ball.radius_m,
+            stiffness: ball.stiffness_n_per_m,
+            is_roof: ball.is_roof,
+        });
+        let spheres: Vec<Sphere> = spheres.collect();
+        let reach_m = spheres.iter().map(|sphere| sphere.place_m.norm() + sphere.radius_m).fold(0.0, f64::max);
+        Hull { reach_m, spheres, friction: body.hull_friction, returned: body.hull_returned, wheel_m }
+    }
+
+    pub fn memory(&self) -> HullMemory {
+        HullMemory { most_m: vec![0.0; self.spheres.len() + 8], is_near: false, clear_m: 0.0 }
+    }
+
+    /// Least height of a sphere over the ground, m.
+    pub fn clear_m(&self, state: &State, ground: &Ground) -> f64 {
+        let (at, axes) = (state.position_m(), *state.attitude().to_rotation_matrix().matrix());
+        if let Some((normal, point)) = ground.lone(at.y, self.reach_m) {
+            let (height, down) = (normal.dot(&(at - point)), axes.tr_mul(&normal));
+            let over = |sphere: &Sphere| height + down.dot(&sphere.place_m) - sphere.radius_m;
+            return self.spheres.iter().map(over).fold(f64::INFINITY, f64::min);
+        }
+        let over = |sphere: &Sphere| ground.distance(&(at + axes * sphere.place_m)).0 - sphere.radius_m;
+        self.spheres.iter().map(over).fold(f64::INFINITY, f64::min)
+    }
+
+    fn dips(
+        &self,
+        pose: &Pose,
+        chassis: &Chassis,
+        state: &State,
+        steer: [f64; 4],
+        ground: &Ground,
+        meet: &mut dyn FnMut(Dip),
+    ) {
+        for (number, sphere) in self.spheres.iter().enumerate() {
+            let centre_m = pose.at_m + pose.axes * sphere.place_m;
+            let (distance, normal) = ground.distance(&centre_m);
+            let (radius_m, stiffness) = (sphere.radius_m, sphere.stiffness);
+            let depth_m = radius_m - distance;
+            meet(Dip { number, centre_m, radius_m, depth_m, normal, stiffness, is_edge: false });
+        }
+        // a face that only an edge meets, or wheels that lie nearly flat
+        if !(ground.has_steep() || pose.axes[(2, 1)].abs() > LEANS) {
+            return;
+        }
+        let [radius_m, inward_m, aside_m] = EDGE_M;
+        for (wheel, steer_rad) in steer.into_iter().enumerate() {
+            let (place, axle) = chassis.wheel_at(state, wheel, steer_rad);
+            let (centre, axle) = (pose.at_m + pose.axes * place, pose.axes * axle);
+            // the lowest part of the wheel, in its plane
+            let down = V3::z() - axle * axle.z;
+            let down = if down.norm() > 0.2 { down.normalize() } else { pose.axes.column(2).into_owned() };
+            for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
+                let centre_m = centre + axle * (sign * aside_m) + down * (self.wheel_m - inward_m);
+                let (depth_m, normal) = ground.beside(&centre_m, radius_m, &axle, BESIDE).unwrap_or((0.0, V3::zeros()));
+                let number = self.spheres.len() + 2 * wheel + side;
+                meet(Dip { number, centre_m, radius_m, depth_m, normal, stiffness: EDGE_N_PER_M, is_edge: true });
+            }
+        }
+    }
+
+    /// What the ground does.
+    pub fn rub(&self, state: &State, chassis: &Chassis, steer: [f64; 4], memory: &HullMemory, ground: &Ground) -> Rub {
+        let pose = state.pose();
+        let mut sum = Rub::default();
+        self.dips(&pose, chassis, state, steer, ground, &mut |dip| {
+            if dip.depth_m <= 0.0 {
+                return;
+            }
+            let most_m = memory.most_m[dip.number];
+            let load_n = if dip.depth_m >= most_m {
+                dip.load(dip.depth_m)[0]
+            } else {
+                // straight back, so that the returned share of the energy comes back
+                let [top_n, energy_j] = dip.load(most_m);
+                let way_m = 2.0 * self.returned * energy_j / top_n;
+                top_n * (1.0 - (most_m - dip.depth_m) / way_m).max(0.0)
+            };
+            let arm_m = dip.centre_m - dip.normal * (dip.radius_m - 0.5 * dip.depth_m) - pose.at_m;
+            let velocity = pose.velocity_m_s + pose.turning_rad_s.cross(&arm_m);
+            let along = velocity - dip.normal * velocity.dot(&dip.normal);
+            let zone = ground.zone((pose.at_m + arm_m).y).map_or(1.0, |zone| zone.friction);
+            let speed = (along.norm_squared() + TURNS_M_S * TURNS_M_S).sqrt();
+            let force = dip.normal * load_n - along * (self.friction * zone * load_n / speed);
+            sum.force_n += force;
+            sum.moment_n_m += arm_m.cross(&force);
+            sum.power_w -= force.dot(&velocity);
+        });
+        sum
+    }
+
+    /// Remembers depths; a sphere that is apart forgets, but the roof.
+    pub fn commit(
+        &self,
+        state: &State,
+        chassis: &Chassis,
+        steer: impl FnOnce() -> [f64; 4],
+        memory: &mut HullMemory,
+        ground: &Ground,
+    ) {
+        if memory.is_near {
+            let most_m = &mut memory.most_m;
+            self.dips(&state.pose(), chassis, state, steer(), ground, &mut |dip| {
+                let is_roof = self.spheres.get(dip.number).is_some_and(|sphere| sphere.is_roof);
+                let most = &mut most_m[dip.number];
+                *most = if dip.depth_m > 0.0 || is_roof { most.max(dip.depth_m) } else { 0.0 };
+            });
+        }
+        let leans = state.attitude() * V3::y();
+        memory.is_near = memory.clear_m < NEAR_M || ground.has_steep() || leans.z.abs() > LEANS;
+    }
+
+    /// Deepest crush of the roof, m.
+    pub fn roof_m(&self, memory: &HullMemory) -> f64 {
+        let of = self.spheres.iter().zip(&memory.most_m).filter(|(sphere, _)| sphere.is_roof);
+        of.map(|(_, most)| *most).fold(0.0, f64::max)
+    }
+}

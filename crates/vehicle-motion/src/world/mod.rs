@@ -1,0 +1,203 @@
+//! All that is driven together: vehicles, ground, barriers, impacts. One integrator takes all of it.
+
+mod contact;
+mod damage;
+mod evaluate;
+mod outcome;
+mod run;
+pub(crate) mod setup;
+
+pub use contact::{Contact, Partner, Struck};
+pub use damage::{Damage, Profile};
+
+use crate::V3;
+use crate::barrier::Barrier;
+use crate::car::{Car, CarError};
+use crate::chassis::State;
+use crate::driver::{Driver, Table};
+use crate::ground::Ground;
+use crate::integrate::Tolerance;
+use crate::run::{Ride, Start};
+
+/// Vehicles and what they meet.
+#[derive(Clone, Debug)]
+pub struct World {
+    /// Vehicles.
+    pub cars: Vec<Entry>,
+    /// The ground.
+    pub ground: Ground,
+    /// Barriers.
+    pub barriers: Vec<Barrier>,
+    /// Impacts by impulse and momentum. Pairs named here do not crush.
+    pub impulses: Vec<Impact>,
+    /// Friction between vehicles.
+    pub friction: f64,
+    /// What the error of a step is measured against.
+    pub tolerance: Tolerance,
+}
+
+impl Default for World {
+    fn default() -> Self {
+        World {
+            cars: Vec::new(),
+            ground: Ground::level(),
+            barriers: Vec::new(),
+            impulses: Vec::new(),
+            friction: 0.55,
+            tolerance: Tolerance::default(),
+        }
+    }
+}
+
+/// A vehicle of a world.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// The vehicle.
+    pub car: Car,
+    /// Who drives it.
+    pub driver: Driver,
+    /// How it starts.
+    pub begin: Begin,
+    /// What people exert on it.
+    pub push: Option<Wrench>,
+}
+
+impl Entry {
+    /// Of a vehicle without people who push it.
+    pub fn new(car: Car, driver: Driver, begin: Begin) -> Self {
+        Entry { car, driver, begin, push: None }
+    }
+}
+
+/// How a vehicle starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "one for each vehicle")]
+pub enum Begin {
+    /// As it stands on the ground at a place.
+    At(Start),
+    /// With a state.
+    State(State),
+}
+
+/// A force and a moment about a place of the vehicle over time, in its axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wrench {
+    /// Place from the centre of gravity, body axes, m.
+    pub about_m: V3,
+    /// Force x, y, z, N, then moment x, y, z, N·m.
+    pub components: [Table; 6],
+}
+
+/// An impact by impulse and momentum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact {
+    /// The vehicle that is counted first, and its partner.
+    pub between: (usize, Partner),
+    /// When, s; none: when their outlines first touch.
+    pub time_s: Option<f64>,
+    /// Where, X and Y, m; none: where they first touch.
+    pub at_m: Option<[f64; 2]>,
+    /// Direction of the line of contact's normal, clockwise from X, rad; either sense.
+    pub normal_rad: f64,
+    /// Restitution.
+    pub restitution: f64,
+    /// Greatest ratio of the impulse along the contact to that across it.
+    pub friction: f64,
+    /// How long it takes, s; 0: at once.
+    pub duration_s: f64,
+}
+
+/// What a run of a world leaves.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The motion of each vehicle.
+    pub rides: Vec<Ride>,
+    /// Contacts in the order of their first touches.
+    pub contacts: Vec<Contact>,
+    /// Damage of each vehicle.
+    pub damage: Vec<Damage>,
+    /// How far each barrier slid; 0 for those that stand.
+    pub slides: Vec<Slid>,
+    /// What happened to rails.
+    pub rails: Vec<Bent>,
+    /// Evaluations of the rates.
+    pub evaluations: u64,
+    /// Steps that were tried and rejected.
+    pub rejected: u64,
+    /// Error of the energy balance over the greatest kinetic energy.
+    pub balance: f64,
+}
+
+/// How far a barrier slid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slid {
+    /// Greatest way, m.
+    pub most_m: f64,
+    /// Direction, clockwise from X, rad.
+    pub direction_rad: f64,
+    /// Speed at the end, m/s.
+    pub speed_m_s: f64,
+}
+
+/// What happened to a rail.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bent {
+    /// Number of the barrier.
+    pub barrier: usize,
+    /// Greatest deflection while it lasted, m.
+    pub deflection_m: f64,
+    /// Greatest tension, N.
+    pub tension_n: f64,
+    /// Posts that let go.
+    pub released: usize,
+}
+
+/// Why a world could not be driven.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum WorldError {
+    /// What is wrong with a vehicle.
+    #[error("vehicle {}: {what}", car + 1)]
+    Car {
+        /// Its number.
+        car: usize,
+        /// What.
+        what: CarError,
+    },
+    /// A start that is no place or speed, or an end that is no time.
+    #[error("the start of the drive must be finite numbers, and its end a time above 0")]
+    Start,
+    /// Two vehicles that start within each other.
+    #[error("vehicles {} and {} overlap by {depth_m:.3} m at the start", between.0 + 1, between.1 + 1)]
+    Overlap {
+        /// Their numbers.
+        between: (usize, usize),
+        /// How deep, m.
+        depth_m: f64,
+    },
+    /// A vehicle that starts within a barrier.
+    #[error("vehicle {} overlaps barrier {} by {depth_m:.3} m at the start", car + 1, barrier + 1)]
+    InBarrier {
+        /// Number of the vehicle.
+        car: usize,
+        /// Number of the barrier.
+        barrier: usize,
+        /// How deep, m.
+        depth_m: f64,
+    },
+    /// A barrier that is none.
+    #[error("barrier {}: {what}", barrier + 1)]
+    Barrier {
+        /// Its number.
+        barrier: usize,
+        /// What is wrong, and what is expected.
+        what: &'static str,
+    },
+    /// Steps became too short.
+    #[error("at {time_s} s the step fell below {step_s} s: stiff parts or inputs beyond reason")]
+    Step {
+        /// When, s.
+        time_s: f64,
+        /// The step, s.
+        step_s: f64,
+    },
+}

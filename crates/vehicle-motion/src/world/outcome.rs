@@ -1,0 +1,77 @@
+//! What a run leaves: stations at every step, and the outcome at its end.
+
+use crate::V3;
+use crate::rail::BeamMemory;
+use crate::run::{Ride, Station};
+use crate::slider::SlideMemory;
+use crate::world::contact::Struck;
+use crate::world::damage::Damage;
+use crate::world::run::Runner;
+use crate::world::setup::{Pair, Rails};
+use crate::world::{Bent, Outcome, Partner, Slid};
+
+impl Runner<'_> {
+    pub fn note(&mut self) {
+        for (i, vehicle) in self.setup.vehicles.iter().enumerate() {
+            let (state, report) = (&self.stack.cars[i], &self.found.reports[i]);
+            let steer = vehicle.controls(self.time_s, &self.memories.vehicles[i]).steer_rad;
+            let struck = |(pair, (force, _)): (&Pair, &(V3, f64))| match pair.partner {
+                _ if pair.car == i => *force,
+                Partner::Car(other) if other == i => -force,
+                _ => V3::zeros(),
+            };
+            let rate = &self.rate.cars[i].0;
+            self.rides[i].push(Station {
+                time_s: self.time_s,
+                position_m: state.position_m(),
+                velocity_m_s: state.velocity_m_s(),
+                acceleration_m_s2: V3::new(rate[7], rate[8], rate[9]),
+                attitude: state.attitude(),
+                rotation_rad_s: state.rotation_rad_s(),
+                turning_rad_s2: report.turning_rad_s2,
+                felt_m_s2: report.felt_m_s2,
+                steer_rad: 0.5 * (steer[0] + steer[1]),
+                struck_n: self.setup.pairs.iter().zip(&self.found.forces).map(struck).sum(),
+                hull_n: self.found.rubs[i].force_n,
+                wheels: report.wheels,
+                state: *state,
+            });
+        }
+    }
+
+    pub fn outcome(self, balance: f64) -> Outcome {
+        let Runner { setup, mut contacts, rides, evaluations, rejected, memories, stack, .. } = self;
+        let damage = |i: usize| {
+            let (shape, taken_j) = (&setup.shapes[i], stack.cars[i].work().crush_j);
+            let mass_kg = setup.vehicles[i].mass_kg;
+            let crush = Damage::of(&shape.nodes, &memories.most[i], &setup.laws[i], &shape.outline, taken_j, mass_kg);
+            Damage { roof_m: setup.hulls[i].roof_m(&memories.hulls[i]), ..crush }
+        };
+        let damage = (0..rides.len()).map(damage).collect();
+        for contact in &mut contacts {
+            let span_s = [contact.from_s, contact.until_s];
+            let of = |car: usize, impulse| Struck::of(&rides[car], span_s, impulse, setup.vehicles[car].mass_kg);
+            contact.struck[0] = of(contact.car, contact.impulse_n_s);
+            if let Partner::Car(other) = contact.partner {
+                contact.struck[1] = of(other, -contact.impulse_n_s);
+            }
+        }
+        contacts.sort_by(|a, b| a.from_s.total_cmp(&b.from_s));
+        let ride = |stations| Ride { stations, evaluations, rejected, balance };
+        let rides = rides.into_iter().map(ride).collect();
+        let bent = |(rail, memory): (&Rails, &BeamMemory)| Bent {
+            barrier: rail.barrier,
+            deflection_m: memory.most_m,
+            tension_n: memory.most_n,
+            released: memory.released(),
+        };
+        let rails = setup.rails.iter().zip(&memories.rails).map(bent).collect();
+        let slid = |(i, memory): (usize, &SlideMemory)| Slid {
+            most_m: memory.most_m,
+            direction_rad: memory.direction_rad.unwrap_or(0.0),
+            speed_m_s: stack.more[2 * i + 1],
+        };
+        let slides = memories.slides.iter().enumerate().map(slid).collect();
+        Outcome { rides, contacts, damage, slides, rails, evaluations, rejected, balance }
+    }
+}
