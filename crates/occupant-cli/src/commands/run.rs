@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use occupant_core::diagnosis::{RK4_STABILITY_LIMIT, UnstableFriction, diagnose};
 use occupant_core::model::setup::Integrator;
-use occupant_core::results::summary::{Caveat, RunStatus, Summary};
+use occupant_core::results::summary::{Caveat, Degree, RunStatus, Summary};
 use occupant_scenario::Diagnostics;
 use occupant_scenario::ending::Balance;
 use serde::Serialize;
@@ -223,6 +223,7 @@ fn one(args: &Args) -> Result<(Done, Summary, Units), Failure> {
     }
     let balance = run.summary.energy.balance;
     let histories = std::mem::take(&mut run.histories);
+    let is_examined = args.estimate_error || ensemble.is_some();
     let ensemble = ensemble.filter(|_| run.completed && balance != Balance::Lost);
     let ensemble = ensemble.map(|wanted| wanted.run(&opened, &run.summary, histories, &interrupt, args.quiet));
     let estimate = (args.estimate_error && run.completed && !interrupt.is_asked())
@@ -239,6 +240,9 @@ fn one(args: &Args) -> Result<(Done, Summary, Units), Failure> {
     unmade.map_or(Ok(()), |failure| Err(failure.with_done(&run.written.left())))?;
     if !args.quiet || balance == Balance::Lost {
         say_balance(balance, &run.summary);
+    }
+    if !args.quiet && !is_examined {
+        say_chance(&run.summary);
     }
     if !run.completed {
         return Err(Failure::BrokeOff(broke_off(&run)));
@@ -288,6 +292,16 @@ fn say_balance(balance: Balance, summary: &Summary) {
     let help = "a smaller step or tolerance; `occupant check` shows the fastest time scale";
     for caveat in summary.caveats.iter().filter(|caveat| caveat.name.starts_with("energy_balance")) {
         say(&format!("{word}: {}\n = help: {help}", caveat.text));
+    }
+}
+
+/// Who has left his vehicle tumbles: a little at the start is much at the end, and the energy balance does not show it.
+fn say_chance(summary: &Summary) {
+    if summary.ejections.values().any(|ejection| ejection.degree == Degree::Complete) {
+        say(
+            "warning: who is thrown out tumbles, and what comes of it may be chance: this run does not say which figures are determined\n \
+             = help: --estimate-error marks those that are not, --ensemble says which are stable",
+        );
     }
 }
 

@@ -322,3 +322,15 @@ fn friction_is_too_stiff_where_the_energy_balance_says_so() {
         assert!(!said.contains("too stiff"), "{said}");
     }
 }
+
+/// What comes of a body that has left its vehicle is not determined by one run, and the energy balance does not show it.
+#[test]
+fn a_run_that_throws_someone_out_asks_for_a_second_one() {
+    let folder = folder_with_case();
+    let rider = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/thrown-rider.toml");
+    let said = |words: &[&str]| err(&answer(folder.path(), &[&["run", "--no-mcap"], words].concat()));
+    assert!(said(&[rider, "--until", "0.4"]).contains("may be chance"));
+    for known in [&[rider, "--until", "0.4", "--estimate-error"][..], &[rider, "--until", "0.2"], &["case.toml"]] {
+        assert!(!said(known).contains("may be chance"), "{known:?}");
+    }
+}
