@@ -96,7 +96,7 @@ impl Figurable {
             slip: greatest(&slip_rad),
             slope: greatest(&|station| {
                 let normal = drives.world.ground.normal(station.position_m.y);
-                -normal.y / normal.z
+                normal.y / normal.z
             }),
         }
     }
