@@ -66,7 +66,7 @@ pub fn attained(rule: Rule, judgements: &[Judgement]) -> Option<Attained> {
     // from the best to the last, as they are listed
     let grades = || own().map(|judgement| judgement.limit.grade).filter(|grade| *grade != Grade::Maximum);
     let best = grades().find(|grade| exceeded(*grade).is_none()).map(Attained::Grade);
-    best.or_else(|| Some(Attained::Beyond(exceeded(grades().last()?)?.limit)))
+    best.or_else(|| Some(Attained::Beyond(exceeded(grades().next_back()?)?.limit)))
 }
 
 /// Every limit of `rules`, in the order of the rules, with what it says of `risk`.
