@@ -246,7 +246,8 @@ fn tables_of_places_are_read_with_their_angles_and_filtered() {
     let ora = |flags: &[&str]| value(&measures(here, flags), "ora_y_m_s2") / G;
     let (raw, mended, fine) = (ora(&["p.csv"]), ora(&["p.csv", "--filter", "10 Hz"]), ora(&["fine.csv"]));
     assert!((raw - fine).abs() > 0.1 && (mended - fine).abs() < 0.08, "{raw} {mended} {fine}");
-    spoken(here, &["import", "p.csv", "-f", "--filter", "10 Hz"]);
+    let said = spoken(here, &["import", "p.csv", "-f", "--filter", "10 Hz"]);
+    assert!(said.contains("places are smoothed from 10 Hz on; from 15 Hz on, accelerations along"), "{said}");
     // a scenario's own table that is not filtered says so too
     let said = spoken(here, &["risk", "p.toml", "--set", "path.filter=null"]);
     assert!(said.contains("is rounded to 0.001 m every 10 ms") && said.contains("--set path.filter='"), "{said}");

@@ -132,13 +132,13 @@ fn keys_of_sensors(
 ) -> Result<(Vec<String>, Option<f64>), Failure> {
     let text = |words: &str| toml_edit::Value::from(words).to_string();
     let known = imported.record.speed_km_h.map(|speed| format!("{speed} km/h"));
-    let mut recorded = || {
+    let recorded = || {
         let (name, t_s, speed_m_s) = recorded_speed(&imported.recording)?;
         let speed = format!("{} km/h", placed_text::number((speed_m_s * 3.6e3).round() / 1e3));
         notes.push(format!("`speed` is {name} at {} s, {speed}; --speed says otherwise", placed_text::number(t_s)));
         Some(speed)
     };
-    let told = request.speed.map(str::to_owned).or(known).or_else(&mut recorded);
+    let told = request.speed.map(str::to_owned).or(known).or_else(recorded);
     let speed_m_s = told.as_deref().and_then(|speed| super::speed(speed).ok());
     let speed = told.unwrap_or_else(|| {
         notes.push("how fast the vehicle went is not told: `speed` is a guess of 50 km/h; --speed says it".to_owned());
@@ -178,8 +178,8 @@ fn recorded_speed(recording: &Recording) -> Option<(&str, f64, f64)> {
     let speed = Unit::MetrePerSecond.dimension();
     let is_speed = |signal: &&Signal| speed_named(&signal.name) && signal.scale.is_some_and(|s| s.dimension == speed);
     let signal = recording.signals.iter().find(is_speed)?;
-    let told = signal.time_s.iter().zip(&signal.values).filter(|(t, v)| **t <= 0.0 && v.is_finite());
-    let (t_s, value) = told.last()?;
+    let mut told = signal.time_s.iter().zip(&signal.values).filter(|(t, v)| **t <= 0.0 && v.is_finite());
+    let (t_s, value) = told.next_back()?;
     Some((&signal.name, *t_s, value * signal.scale?.factor))
 }
 

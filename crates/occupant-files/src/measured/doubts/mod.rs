@@ -1,0 +1,248 @@
+//! What speaks against a record: sensors at the end of their range, units and signs that cannot be, zero errors, drift, rounding. Each is said
+//! with the option that mends it; nothing is mended unasked.
+
+mod places;
+mod units;
+mod zero;
+
+use crash_measures::signal::{STANDARD_GRAVITY_MPS2 as G, plateau, usual_interval};
+use placed_text::number;
+
+use super::motion::{Column, Motion, MotionKind};
+pub use places::rounded_table;
+use places::{late, rounded, smoothed, turned};
+use units::{rough, slow, weak, wrong_unit};
+use zero::zero_errors;
+
+/// What else is known of the vehicle.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Known {
+    /// Time of first contact, s, if it was told.
+    pub contact_s: Option<f64>,
+    /// Speed at first contact, m/s, if it was told.
+    pub speed_m_s: Option<f64>,
+    /// Whether zero errors are taken away: at the beginning, at the end.
+    pub baseline: [bool; 2],
+    /// Frequency from which on places are smoothed, Hz.
+    pub smoothed_hz: Option<f64>,
+}
+
+/// A slip of accelerations that is said, m/s².
+const SLIP_M_S2: f64 = 5.0 * G;
+/// A gain of speed that is said, m/s.
+const GAIN_M_S: f64 = 3.0;
+/// Shortest rest whose mean says something, and the longest that is looked at, s.
+const REST_S: [f64; 2] = [0.01, 0.1];
+
+/// All that speaks against a record.
+pub fn doubts(motion: &Motion, known: Known) -> Vec<String> {
+    let mut said: Vec<String> = motion.columns.iter().filter_map(|column| slip(motion, column)).collect();
+    match motion.kind {
+        MotionKind::Accelerations => {
+            said.extend(motion.columns.iter().filter_map(|column| clipped(column, &motion.time_s)));
+            said.extend(motion.columns.iter().filter_map(|column| wrong_unit(column, &motion.time_s)));
+            said.extend(weak(motion));
+            said.extend(slow(motion));
+            said.extend(rough(motion));
+            zero_errors(motion, known, &mut said);
+            said.extend(motion.si("ax").and_then(|ax| struck_from_behind(&ax, &motion.time_s)));
+            said.extend(motion.si("ax").and_then(|ax| backwards(integral(&ax, &motion.time_s), known)));
+        }
+        MotionKind::Changes => {
+            let changes = motion.si("dvx").unwrap_or_default();
+            said.extend(gains_speed(&changes));
+            said.extend(changes.last().and_then(|change| backwards(*change, known)));
+        }
+        MotionKind::Places => {
+            if !["x", "y"].into_iter().any(|name| motion.has(name)) {
+                said.push(format!(
+                    "no column is x or y, the vehicle is taken to turn on the spot: --columns names them, such as 't[s],x[m],y[m]'; read were {}",
+                    motion.signals.join(", ")
+                ));
+            }
+            said.extend(late(motion));
+            said.extend(rounded(motion, known));
+            said.extend(smoothed(motion, known));
+            said.extend(turned(motion));
+        }
+    }
+    said
+}
+
+fn is_rate(column: &Column) -> bool {
+    column.name.starts_with('w')
+}
+
+fn clipped(column: &Column, time_s: &[f64]) -> Option<String> {
+    let found = plateau(&column.values)?;
+    Some(format!(
+        "{} stands on its extreme, {} {}, in {} samples, from {} s on {} in a row: a sensor at the end of its range? What is measured may be too low, \
+         and only another sensor mends that (--at, --columns)",
+        column.name,
+        number(found.value),
+        column.unit,
+        found.samples,
+        number(time_s[found.first]),
+        found.longest
+    ))
+}
+
+/// ∫ v dt.
+fn integral(values: &[f64], time_s: &[f64]) -> f64 {
+    time_s.windows(2).zip(values.windows(2)).map(|(t, v)| 0.5 * (t[1] - t[0]) * (v[0] + v[1])).sum()
+}
+
+/// A single value far from its neighbours, where no other is: a digit, a bit or a contact that slipped.
+fn slip(motion: &Motion, column: &Column) -> Option<String> {
+    let is_place = motion.kind == MotionKind::Places;
+    let apart = |v: &[f64]| match is_place {
+        // how far it lies from a cubic through its neighbours
+        true => ((v[0] + v[4] - 4.0 * (v[1] + v[3])) / 6.0 + v[2]).abs(),
+        // a step is no slip: it leaves one neighbour near
+        false if (v[2] - v[1]) * (v[2] - v[3]) > 0.0 => (v[2] - v[1]).abs().min((v[2] - v[3]).abs()),
+        false => 0.0,
+    };
+    let all: Vec<f64> = column.values.windows(5).map(apart).collect();
+    let at = (0..all.len()).max_by(|&a, &b| all[a].total_cmp(&all[b]))?;
+    let mut sorted = all.clone();
+    sorted.sort_unstable_by(|a, b| b.total_cmp(a));
+    // of places two neighbours to each side are bent with it
+    let usual = sorted.get(if is_place { 5 } else { 1 })?;
+    let least = match motion.kind {
+        MotionKind::Places => G * usual_interval(&motion.time_s).powi(2),
+        MotionKind::Changes => 1.0,
+        MotionKind::Accelerations if is_rate(column) => 1.0,
+        MotionKind::Accelerations => SLIP_M_S2,
+    };
+    (all[at] > 10.0 * usual && all[at] * column.factor > least).then(|| {
+        format!(
+            "{} jumps in one row, at {} s to {} {}: a slip? If so, take that value out, and --bridge bridges it",
+            column.name,
+            number(motion.time_s[at + 2]),
+            number(column.values[at + 2]),
+            column.unit
+        )
+    })
+}
+
+/// A vehicle that becomes faster.
+fn struck_from_behind(ax: &[f64], time_s: &[f64]) -> Option<String> {
+    let gain = integral(ax, time_s);
+    (gain > GAIN_M_S).then(|| {
+        format!(
+            "the vehicle becomes faster by {} km/h, as one that is struck from behind: if x points to the back, turn its sign by --columns, such as \
+             't[s],-ax[g]'",
+            number((gain * 36.0).round() / 10.0)
+        )
+    })
+}
+
+fn mean(part: &[f64]) -> f64 {
+    part.iter().sum::<f64>() / part.len() as f64
+}
+
+/// A velocity change whose values are all gains.
+fn gains_speed(changes: &[f64]) -> Option<String> {
+    let most = changes.iter().fold(0.0_f64, |most, v| if v.abs() > most.abs() { *v } else { most });
+    let least = changes.iter().copied().fold(0.0, f64::min);
+    (most > 1.5 && least > -0.1 * most).then(|| {
+        format!(
+            "the vehicle becomes faster by {} km/h, as one that is struck from behind: if the table gives the loss of speed as a positive number, turn \
+             its sign by --columns, such as 't[ms],-dvx[km/h]'",
+            number((most * 36.0).round() / 10.0)
+        )
+    })
+}
+
+fn backwards(change_m_s: f64, known: Known) -> Option<String> {
+    let end_m_s = known.speed_m_s? + change_m_s;
+    (end_m_s < -2.0 && known.speed_m_s? > 0.0).then(|| {
+        format!(
+            "the vehicle goes backwards at {} km/h at the end: is the speed too low, or the sign of the record wrong?",
+            number((-end_m_s * 36.0).round() / 10.0)
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Name, unit, factor and course of a column.
+    type Given<'a> = (&'static str, &'a str, f64, &'a dyn Fn(f64) -> f64);
+
+    fn motion(kind: MotionKind, dt_s: f64, columns: &[Given<'_>]) -> Motion {
+        let time_s: Vec<f64> = (-500..5000).map(|i| f64::from(i) * dt_s).collect();
+        let column = |(name, unit, factor, of): &Given<'_>| Column {
+            name,
+            unit: (*unit).to_owned(),
+            factor: *factor,
+            values: time_s.iter().map(|t| of(*t)).collect(),
+        };
+        let columns = columns.iter().map(column).collect();
+        Motion { kind, words: String::new(), time_s, columns, signals: Vec::new() }
+    }
+
+    fn pulse(t: f64) -> f64 {
+        if (0.0..0.1).contains(&t) { -10.0 * (std::f64::consts::PI * t / 0.1).sin() } else { 0.0 }
+    }
+
+    fn said(columns: &[Given<'_>]) -> String {
+        doubts(&motion(MotionKind::Accelerations, 1e-4, columns), Known::default()).join("\n")
+    }
+
+    #[test]
+    fn a_sound_record_raises_no_doubt_and_each_flaw_is_said_with_its_remedy() {
+        let noise = |t: f64| 0.2 * (t * 12_345.0).sin();
+        let sound = |t: f64| pulse(t) + noise(t);
+        assert_eq!(said(&[("ax", "g", G, &sound), ("wz", "deg/s", 0.01745, &|t| 20.0 * (9.0 * t).sin().max(0.0))]), "");
+        let lifted = said(&[("ax", "g", G, &|t| sound(t) + 0.15)]);
+        assert!(lifted.contains("reads ax 0.15") && lifted.contains("--baseline '50 ms'"), "{lifted}");
+        let cut = said(&[("ax", "g", G, &|t| sound(t).max(-8.0))]);
+        assert!(cut.contains("-8 g") && cut.contains("end of its range"), "{cut}");
+        let metric = said(&[("ax", "g", G, &|t| 9.81 * pulse(t))]);
+        assert!(metric.contains("is it in m/s^2? --columns"), "{metric}");
+        let upright = said(&[("az", "m/s^2", 1.0, &|t| -1.0 + 0.01 * noise(t))]);
+        assert!(upright.contains("az in m/s^2 begins at -1") && upright.contains("is it in g?"), "{upright}");
+        let spun = said(&[("wz", "rad/s", 1.0, &|_| 90.0)]);
+        assert!(spun.contains("turns the vehicle") && spun.contains("deg/s"), "{spun}");
+        let drifting = said(&[("az", "g", G, &|t| noise(t) + 0.3 * (t + 0.05).max(0.0))]);
+        let braking = said(&[("ax", "g", G, &|t| sound(t) - if t > 0.0 { 0.4 } else { 0.0 })]);
+        assert_eq!(braking, "");
+        assert!(drifting.contains("--baseline-end '50 ms'"), "{drifting}");
+    }
+
+    #[test]
+    fn signs_of_velocity_changes_and_rounded_places_are_doubted() {
+        let gain =
+            motion(MotionKind::Changes, 1e-3, &[("dvx", "km/h", 1.0 / 3.6, &|t| 40.0 * (t / 5.0).clamp(0.0, 1.0))]);
+        assert!(doubts(&gain, Known::default())[0].contains("'t[ms],-dvx[km/h]'"));
+        let loss =
+            motion(MotionKind::Changes, 1e-3, &[("dvx", "km/h", 1.0 / 3.6, &|t| -40.0 * (t / 5.0).clamp(0.0, 1.0))]);
+        assert!(doubts(&loss, Known { speed_m_s: Some(15.0), ..Known::default() }).is_empty());
+        assert!(
+            doubts(&loss, Known { speed_m_s: Some(5.0), ..Known::default() })[0].contains("goes backwards at 22 km/h")
+        );
+        let millimetres = |t: f64| ((22.0 * t - 3.0 * t * t) * 1e3).round() / 1e3;
+        let places = motion(MotionKind::Places, 0.01, &[("x", "m", 1.0, &millimetres)]);
+        let words = doubts(&places, Known::default()).join("\n");
+        assert!(
+            words.contains("x is rounded to 0.001 m every 10 ms")
+                && words.contains("1.77 g")
+                && words.contains("--filter '"),
+            "{words}"
+        );
+        let known = Known { smoothed_hz: Some(10.0), ..Known::default() };
+        let [words] = &doubts(&places, known)[..] else { panic!("one note") };
+        assert!(words.contains("from 10 Hz on; from 15 Hz on, accelerations along x would be up to 0."), "{words}");
+        let fine = motion(MotionKind::Places, 0.01, &[("x", "m", 1.0, &|t| 22.0 * t - 3.000_123_4 * t * t)]);
+        assert!(doubts(&fine, Known::default()).is_empty());
+        let turn: [Given<'_>; 3] = [
+            ("x", "m", 1.0, &|t| 20.000_001_3 * (t / 10.0).sin()),
+            ("y", "m", 1.0, &|t| 20.000_001_3 * (1.0 - (t / 10.0).cos())),
+            ("yaw", "rad", 1.0, &|t| -t / 10.000_001_3),
+        ];
+        let against = motion(MotionKind::Places, 4e-3, &turn);
+        assert!(against.time_s.len() == 5500 && turned(&against).is_none(), "slower than 3 m/s");
+    }
+}

@@ -1,0 +1,129 @@
+//! What speaks against places and angles: rounding, times out of step, axes.
+
+use crash_measures::signal::{STANDARD_GRAVITY_MPS2 as G, resolution, rounding_noise, smooth, usual_interval};
+use occupant_core::vehicle::{Interpolation, Station, VehiclePath};
+use placed_text::number;
+
+use super::super::motion::{Column, Motion, MotionKind};
+use super::Known;
+
+/// Noise of rounding that is said, m/s².
+const NOISE_M_S2: f64 = 0.1 * G;
+/// Frequencies that are proposed, Hz.
+const CUTOFFS_HZ: [f64; 12] = [100.0, 60.0, 50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.0, 10.0, 8.0, 5.0];
+
+/// One time that is out of step, where all others are in step.
+pub(super) fn late(motion: &Motion) -> Option<String> {
+    let usual_s = usual_interval(&motion.time_s);
+    let odd = |pair: &[f64]| (pair[1] - pair[0] - usual_s).abs() > 0.02 * usual_s;
+    let all: Vec<usize> = motion.time_s.windows(2).enumerate().filter(|(_, pair)| odd(pair)).map(|(i, _)| i).collect();
+    let [before, after] = all[..] else { return None };
+    (after == before + 1 && motion.time_s.len() > 10).then(|| {
+        format!(
+            "the time {} s is out of step with all others: a slip? If so, mend it, or take its row out",
+            number(motion.time_s[after])
+        )
+    })
+}
+
+/// Places and angles that are rounded so that their second derivatives are mostly that.
+pub(super) fn rounded(motion: &Motion, known: Known) -> Option<String> {
+    let dt_s = usual_interval(&motion.time_s);
+    let steps: Vec<Option<f64>> = motion.columns.iter().map(|c| Some(resolution(&c.values)? * c.factor)).collect();
+    let worst = |filter_hz: Option<f64>| {
+        // half a metre from the centre of gravity an angle moves so far
+        let arm = |i: usize| if ["x", "y", "z"].contains(&motion.columns[i].name) { 1.0 } else { 0.5 };
+        let noise = (0..steps.len()).filter_map(|i| Some((arm(i) * rounding_noise(steps[i]?, dt_s, filter_hz), i)));
+        noise.max_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    let (noise, i) = worst(known.smoothed_hz).filter(|(noise, _)| *noise > NOISE_M_S2)?;
+    let column = &motion.columns[i];
+    let fits = |hz: &&f64| **hz * dt_s < 0.25 && worst(Some(**hz)).is_some_and(|(noise, _)| noise < 0.6 * NOISE_M_S2);
+    let cutoff = CUTOFFS_HZ.iter().find(fits).copied().unwrap_or(CUTOFFS_HZ[CUTOFFS_HZ.len() - 1]);
+    let left = worst(Some(cutoff)).map_or(0.0, |(noise, _)| noise / G);
+    Some(format!(
+        "{} is rounded to {} {} every {} ms: that alone is {:.2} g of noise in accelerations; --filter '{cutoff} Hz' leaves {left:.2} g of it",
+        column.name,
+        number(steps[i]? / column.factor),
+        column.unit,
+        number((dt_s * 1e6).round() / 1e3),
+        noise / G
+    ))
+}
+
+/// What the choice of the frequency makes of accelerations: smoothing takes away from peaks, and rounding puts noise in.
+pub(super) fn smoothed(motion: &Motion, known: Known) -> Option<String> {
+    let hertz = known.smoothed_hz?;
+    let accelerations = |column: &Column, hertz: f64| -> Option<Vec<f64>> {
+        let z = smooth(&motion.time_s, &column.values, hertz).ok()?;
+        let second = |(t, z): (&[f64], &[f64])| {
+            let (h, g) = (t[1] - t[0], t[2] - t[1]);
+            2.0 * ((z[2] - z[1]) / g - (z[1] - z[0]) / h) / (h + g)
+        };
+        Some(motion.time_s.windows(3).zip(z.windows(3)).map(second).collect())
+    };
+    let apart = |column: &Column| -> Option<f64> {
+        let (own, other) = (accelerations(column, hertz)?, accelerations(column, 1.5 * hertz)?);
+        Some(own.iter().zip(&other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) * column.factor)
+    };
+    let places = motion.columns.iter().filter(|column| ["x", "y", "z"].contains(&column.name));
+    let all = places.filter_map(|column| Some((apart(column)?, column.name)));
+    let (most, name) = all.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(format!(
+        "places are smoothed from {} Hz on; from {} Hz on, accelerations along {name} would be up to {:.2} g more or less: so much they depend on the choice",
+        number(hertz),
+        number(1.5 * hertz),
+        most / G
+    ))
+}
+
+/// What speaks against the places of a scenario's own table that are rounded, in the first unit in which its places are round.
+pub fn rounded_table(path: &VehiclePath) -> Option<String> {
+    let VehiclePath::Table(table) = path else { return None };
+    let stations = table.stations();
+    if table.interpolation() != Interpolation::Spline || stations.len() < 3 {
+        return None;
+    }
+    let column = |axis: usize, (name, unit, factor): (&'static str, &str, f64)| {
+        let value = |station: &Station| {
+            let attitude = station.pose.attitude;
+            [attitude.roll_rad, attitude.pitch_rad, attitude.yaw_rad]
+                .get(axis.wrapping_sub(3))
+                .copied()
+                .unwrap_or_else(|| station.pose.position_m[axis])
+                / factor
+        };
+        Column { name, unit: unit.to_owned(), factor, values: stations.iter().map(value).collect() }
+    };
+    let motion = |unit: &str, metres: f64| {
+        let deg = std::f64::consts::PI / 180.0;
+        let lengths = ["x", "y", "z"].map(|name| (name, unit, metres));
+        let angles = ["roll", "pitch", "yaw"].map(|name| (name, "deg", deg));
+        let columns = [lengths, angles].concat().into_iter().enumerate().map(|(axis, of)| column(axis, of)).collect();
+        let time_s = stations.iter().map(|station| station.time_s).collect();
+        Motion { kind: MotionKind::Places, words: String::new(), time_s, columns, signals: Vec::new() }
+    };
+    let units = [("m", 1.0), ("ft", 0.3048), ("in", 0.0254)];
+    let found = units.iter().find_map(|(unit, metres)| rounded(&motion(unit, *metres), Known::default()));
+    found.map(|words| words.replace("--filter '", "--set path.filter='"))
+}
+
+/// A yaw that turns against the course.
+pub(super) fn turned(motion: &Motion) -> Option<String> {
+    let [x, y, yaw] = ["x", "y", "yaw"].map(|name| motion.si(name));
+    let (x, y, yaw) = (x?, y?, yaw?);
+    let last = x.len() - 1;
+    let course = |i: usize, j: usize| (y[j] - y[i]).atan2(x[j] - x[i]);
+    let part = (last / 10).max(1);
+    let (began, ended) = (course(0, part), course(last - part, last));
+    let moved = |i: usize, j: usize| (x[j] - x[i]).hypot(y[j] - y[i]) / (motion.time_s[j] - motion.time_s[i]);
+    let (turn, own) = (ended - began, yaw[last] - yaw[0]);
+    let least = 3_f64.to_radians();
+    let clear = turn.abs() > least
+        && own.abs() > least
+        && turn.abs() < 2.5
+        && moved(0, part).min(moved(last - part, last)) > 3.0;
+    (clear && turn * own < 0.0 && (turn + own).abs() < 0.5 * turn.abs()).then(|| {
+        "yaw turns against the course of the places: are their axes others? --columns turns a sign, such as '-yaw[deg]'".to_owned()
+    })
+}

@@ -1,0 +1,116 @@
+//! Units that cannot be, or hardly can.
+
+use crash_measures::signal::STANDARD_GRAVITY_MPS2 as G;
+use placed_text::number;
+
+use super::super::motion::{Column, Motion};
+use super::zero::rest;
+use super::{REST_S, integral, is_rate, mean};
+
+/// No crash of a road vehicle changes its velocity by more, m/s.
+const MOST_CHANGE_M_S: f64 = 45.0;
+/// More turns than a rolling car makes.
+const MOST_TURNS: f64 = 6.0;
+/// No vehicle turns faster, as the mean of 10 ms, rad/s.
+const FASTEST_RAD_S: f64 = 20.0;
+/// What tyres alone give, and what a crash goes beyond, m/s²: between them accelerations are doubted that are not in g.
+const WEAK_M_S2: [f64; 2] = [G, 2.5 * G];
+/// Turns slower than these, rad/s, are doubted beside a velocity change to the side of this, m/s.
+const SLOW: (f64, f64) = (0.1, 3.0);
+/// Rounding of accelerations that is said, m/s².
+const ROUGH_M_S2: f64 = 0.5 * G;
+
+pub(super) fn wrong_unit(column: &Column, time_s: &[f64]) -> Option<String> {
+    let whole = integral(&column.values, time_s) * column.factor;
+    let (name, unit) = (column.name, &column.unit);
+    if is_rate(column) {
+        let turns = whole / std::f64::consts::TAU;
+        let other = if unit.to_lowercase().contains("rad") { "deg/s" } else { "another unit" };
+        let fastest = column.factor * strongest(column, time_s);
+        let why = match () {
+            () if turns.abs() > MOST_TURNS => format!("turns the vehicle {} times", number(turns.round())),
+            () if fastest > FASTEST_RAD_S => {
+                format!("turns the vehicle {} times a second", number((fastest / std::f64::consts::TAU).round()))
+            }
+            () => return None,
+        };
+        return Some(format!("{name} in {unit} {why}: is it in {other}? --columns says so, such as '{name}[deg/s]'"));
+    }
+    let start = rest(time_s, None).map(|[from, to]| mean(&column.values[from..to]))?;
+    let stands_at = |value: f64| (start.abs() / value - 1.0).abs() < 0.03;
+    let other = if (column.factor - G).abs() < 1e-9 { "m/s^2" } else { "g" };
+    let gravity = name == "az" && column.factor * start.abs() > 0.5 && stands_at(if other == "g" { 1.0 } else { G });
+    let too_much = whole.abs() > MOST_CHANGE_M_S;
+    (gravity || too_much).then(|| {
+        let why = match gravity {
+            true => format!("begins at {} {unit}", number((start * 1e3).round() / 1e3)),
+            false => format!("changes the velocity by {} km/h", number((whole * 3.6).round())),
+        };
+        format!("{name} in {unit} {why}: is it in {other}? --columns says so, such as '{name}[{other}]'")
+    })
+}
+
+/// The greatest magnitude of a mean over 10 ms, in the column's unit.
+fn strongest(column: &Column, time_s: &[f64]) -> f64 {
+    let whole: Vec<f64> = std::iter::once(0.0)
+        .chain(time_s.windows(2).zip(column.values.windows(2)).scan(0.0, |sum, (t, v)| {
+            *sum += 0.5 * (t[1] - t[0]) * (v[0] + v[1]);
+            Some(*sum)
+        }))
+        .collect();
+    let mean = |i: usize| {
+        let j = time_s.partition_point(|t| *t < time_s[i] + REST_S[0] - 1e-9);
+        (j < time_s.len()).then(|| ((whole[j] - whole[i]) / (time_s[j] - time_s[i])).abs())
+    };
+    (0..time_s.len()).filter_map(mean).fold(0.0, f64::max)
+}
+
+/// Accelerations in m/s² that are those of tyres and hardly more: they may be in g.
+pub(super) fn weak(motion: &Motion) -> Option<String> {
+    let all: Vec<&Column> = motion.columns.iter().filter(|c| !is_rate(c) && (c.factor - 1.0).abs() < 1e-9).collect();
+    let most = all.iter().map(|column| strongest(column, &motion.time_s)).fold(0.0, f64::max);
+    (WEAK_M_S2[0]..WEAK_M_S2[1]).contains(&most).then(|| {
+        format!(
+            "no acceleration goes beyond {:.1} g (mean of 10 ms): are they in g? --columns says so, such as '{}[g]'",
+            most / G,
+            all[0].name
+        )
+    })
+}
+
+/// Rates in deg/s that hardly turn a vehicle that is thrown aside: they may be in rad/s.
+pub(super) fn slow(motion: &Motion) -> Option<String> {
+    let all: Vec<&Column> = motion.columns.iter().filter(|c| is_rate(c) && (c.factor - 1.0).abs() > 1e-9).collect();
+    let most = all.iter().map(|column| column.factor * strongest(column, &motion.time_s)).fold(0.0, f64::max);
+    let aside = integral(&motion.si("ay")?, &motion.time_s).abs();
+    (0.05 * SLOW.0 < most && most < SLOW.0 && aside > SLOW.1).then(|| {
+        format!(
+            "the velocity changes by {} km/h to the side, and no rate goes beyond {:.1} deg/s (mean of 10 ms): are they in rad/s? --columns says so, such as '{}[rad/s]'",
+            number((aside * 3.6).round()),
+            most.to_degrees(),
+            all[0].name
+        )
+    })
+}
+
+/// Accelerations that are rounded to whole g or so.
+pub(super) fn rough(motion: &Motion) -> Option<String> {
+    let step = |c: &Column| {
+        let is_round = |step: &f64| c.values.iter().all(|v| (v / step - (v / step).round()).abs() < 1e-6);
+        let steps = [10.0, 5.0, 2.0, 1.0, 0.5].into_iter().filter(|step| step * c.factor >= ROUGH_M_S2);
+        let (least, most) =
+            c.values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)));
+        // a few levels say nothing
+        steps.filter(|step| !is_rate(c) && most - least > 3.0 * step).find(is_round)
+    };
+    let all: Vec<(&Column, f64)> = motion.columns.iter().filter_map(|c| Some((c, step(c)?))).collect();
+    let (column, step) = all.first()?;
+    let names: Vec<&str> = all.iter().map(|(column, _)| column.name).collect();
+    let half = number(0.5 * step);
+    Some(format!(
+        "{} are rounded to {} {unit}: what stays below {half} {unit} is lost; `risk --sensor-error offset='{half} {unit}'` gives the measures with intervals",
+        names.join(", "),
+        number(*step),
+        unit = column.unit
+    ))
+}
