@@ -12,6 +12,7 @@ pub(crate) mod mme;
 pub mod results;
 pub(crate) mod scenario;
 pub(crate) mod signals;
+pub(crate) mod steps;
 pub(crate) mod study_folder;
 pub(crate) mod table;
 mod trouble;

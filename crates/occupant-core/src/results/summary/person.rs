@@ -46,7 +46,7 @@ impl Watched {
             (self.signals.start_s, self.signals.interval_s) = (fine.first_s(), fine.interval_s);
         }
         for sample in fine.of(place) {
-            self.signals.all_mut().zip(sample).for_each(|(values, number)| values.push(f64::from(*number)));
+            self.signals.all_mut().zip(sample).for_each(|(values, number)| values.push(*number));
         }
     }
 
