@@ -192,7 +192,10 @@ impl Results {
             }
             () if is_early => {
                 let end = self.given_end().unwrap_or_default();
-                Some(Part::Whole(format!("the run was ended at {} ms by {end}: all figures are those up to there", in_ms(to_s))))
+                Some(Part::Whole(format!(
+                    "the run was ended at {} ms by {end}: all figures are those up to there",
+                    in_ms(to_s)
+                )))
             }
             () if first.index > 0 => Some(Part::Rest(from_s)),
             () => None,
