@@ -212,7 +212,7 @@ fn how_far_a_column_went_beyond_its_force_does_not_depend_on_the_outputs() {
     fs::write(folder.path().join("c.toml"), include_str!("../../../scenarios/column-driver.toml")).expect("written");
     let beyond = |interval: &str| {
         let interval = format!("output.interval={interval}");
-        let words = ["run", "c.toml", "-q", "--no-mcap", "--set", "belts.driver=null", "--set", &interval];
+        let words = ["run", "c.toml", "--no-mcap", "--set", "belts.driver=null", "--set", &interval];
         let told = done(folder.path(), &words);
         told.lines().find(|line| line.contains("stroked")).expect("a caveat").to_owned()
     };
