@@ -525,7 +525,8 @@ fn after_contacts_the_derivative_is_what_small_finite_changes_do() {
 /// Figures of the run beside a parameter's value, on steps and at outputs like those of the run itself, made of these outputs alone.
 fn figures_beside(parameter: &Parameter<'_>, value: f64, wish: &Request) -> Vec<f64> {
     let model = (parameter.model_at)(value).unwrap();
-    let mut here = parameter.with_outputs_every(model.setup().time.output_s);
+    let interval_s = model.setup().time.output_s;
+    let mut here = parameter.of_models(move |model| model.with_outputs_every(interval_s));
     here.nominal = value;
     let trajectory = follow(&model, &mut [Built::new(&model, &here).unwrap()]).unwrap();
     plain_values(&model, &trajectory, wish).unwrap().figures
@@ -540,7 +541,7 @@ fn after_contacts_the_derivative_is_that_of_runs_on_the_same_steps() {
         let model = model_of(&draft).with_outputs_every(interval_s);
         let paths = ["joints.neck.damping", "materials.seat.k1", "path.duration"];
         let own = paths.map(|p| parameter(&draft, p, &no_files).unwrap());
-        let parameters = own.each_ref().map(|p| p.with_outputs_every(interval_s));
+        let parameters = own.each_ref().map(|p| p.of_models(move |model| model.with_outputs_every(interval_s)));
         let mut built = parameters.each_ref().map(|p| Built::new(&model, p).unwrap());
         let trajectory = follow(&model, &mut built).unwrap();
         // readings, which measures with windows are made of, have the precision of an f32: too little for so small a change
@@ -573,7 +574,7 @@ fn a_verdict_tells_a_smooth_measure_from_a_peak_at_a_corner() {
     let model = own_model.clone().with_outputs_every(interval_s);
     let paths = ["joints.neck.damping", "materials.seat.k1", "path.duration"];
     let own = paths.map(|p| parameter(&draft, p, &no_files).unwrap());
-    let parameters = own.each_ref().map(|p| p.with_outputs_every(interval_s));
+    let parameters = own.each_ref().map(|p| p.of_models(move |model| model.with_outputs_every(interval_s)));
     let mut built = parameters.each_ref().map(|p| Built::new(&model, p).unwrap());
     let trajectory = follow(&model, &mut built).unwrap();
     let wish = Request { figures: vec!["hic15".to_owned(), "head.peak".to_owned()], channels: Vec::new() };

@@ -21,7 +21,7 @@ pub(crate) fn answer(folder: &Path, words: &[&str]) -> Output {
 }
 
 /// The same, and it does its work: what it said on standard output and on standard error.
-fn both(folder: &Path, words: &[&str]) -> [String; 2] {
+pub(crate) fn both(folder: &Path, words: &[&str]) -> [String; 2] {
     let output = answer(folder, words);
     assert_eq!(output.status.code(), Some(0), "{words:?}: {}", err(&output));
     let said = err(&output);

@@ -138,3 +138,83 @@ fn a_file_beyond_the_limit_of_the_process_is_a_write_that_fails() {
     assert!(output.status.code().is_some_and(|code| code == 1 || code == 2), "{:?}", output.status);
     assert!(err(&output).contains("x.") && err(&output).contains("error: "), "{}", err(&output));
 }
+
+/// The caveats of `measures --json`, by name.
+fn caveats(folder: &std::path::Path, file: &str) -> (serde_json::Value, Vec<String>) {
+    let answer: serde_json::Value = serde_json::from_str(&done(folder, &["measures", file, "--json"])).expect("JSON");
+    let names = answer["caveats"].as_array().expect("a list").iter();
+    let names = names.map(|caveat| caveat["name"].as_str().expect("a name").to_owned()).collect();
+    (answer, names)
+}
+
+#[test]
+fn figures_of_a_part_of_a_run_are_marked_and_do_not_pass() {
+    let folder = folder();
+    let at = folder.path();
+    let run = |words: &[&str]| done(at, &[&["run", "case.toml", "-q"], words].concat());
+    run(&["--until", "60 ms", "-o", "first.mcap"]);
+    run(&["--resume", "first.mcap", "-o", "rest.mcap"]);
+    run(&["--set", "time.end=0.25", "-o", "longer.mcap"]);
+    let (first, names) = caveats(at, "first.mcap");
+    assert!(names.contains(&"part_of_a_run".to_owned()), "{names:?}");
+    assert_eq!(first["covers_s"], serde_json::json!([0.0, 0.06]));
+    let told = done(at, &["measures", "first.mcap"]);
+    assert!(told.contains("! the run was ended at 60 ms by time.end=60 ms"), "{told}");
+    done(at, &["report", "first.mcap", "-o", "first.html"]);
+    let page = fs::read_to_string(at.join("first.html")).expect("a page");
+    assert!(!page.contains(r#""verdict":"passed""#) && page.contains(r#""verdict":null"#));
+    // measures of the whole run pass, in a file that tells what it counts from where
+    let (rest, names) = caveats(at, "rest.mcap");
+    assert!(names.contains(&"part_of_a_run".to_owned()), "{names:?}");
+    assert_eq!(rest["covers_s"], serde_json::json!([0.06, 0.2]));
+    let told = done(at, &["measures", "rest.mcap"]);
+    assert!(told.contains("events, throws, ejections and the signs of other caveats"), "{told}");
+    done(at, &["report", "rest.mcap", "-o", "rest.html"]);
+    assert!(fs::read_to_string(at.join("rest.html")).expect("a page").contains(r#""verdict":"passed""#));
+    // a run beyond the scenario's own end is no part
+    assert!(!caveats(at, "longer.mcap").1.contains(&"part_of_a_run".to_owned()));
+}
+
+#[test]
+fn what_a_run_that_blew_up_has_left_can_be_read() {
+    let folder = folder();
+    fs::write(folder.path().join("cart.toml"), include_str!("../../../scenarios/cart-lap.toml")).expect("written");
+    let stiff = ["seat", "floor", "dash"].map(|name| format!("materials.{name}.k1=4e8"));
+    let sets: Vec<&str> = stiff.iter().flat_map(|set| ["--set", set.as_str()]).collect();
+    let run = ["run", "cart.toml", "-q", "-o", "x.mcap", "--set", r#"integrator={kind="rk4",step="1 ms"}"#];
+    let output = answer(folder.path(), &[&run[..], &sets].concat());
+    assert!(err(&output).contains("no longer a finite number"), "{}", err(&output));
+    let [told, said] = crate::common::both(folder.path(), &["measures", "x.partial.mcap"]);
+    assert!(said.contains("did not complete") && told.contains("! the run failed"), "{said}{told}");
+}
+
+#[test]
+fn readings_that_a_file_has_need_no_other_run() {
+    let folder = folder();
+    done(folder.path(), &["run", "case.toml", "-q", "-o", "x.mcap", "--until", "40 ms"]);
+    let said = |interval| spoken(folder.path(), &["measures", "x.mcap", "--interval", interval]);
+    assert!(!said("0.1 ms").contains("run again") && said("0.05 ms").contains("run again"));
+}
+
+#[test]
+fn friction_that_is_too_stiff_for_the_step_marks_every_figure() {
+    let folder = folder();
+    let words = ["run", "case.toml", "-o", "x.mcap", "--set", "materials.seat.friction_speed=\"0.2 mm/s\""];
+    let [told, said] = crate::common::both(folder.path(), &words);
+    assert!(said.contains("friction is too stiff for the step"), "{said}");
+    assert!(told.contains("! friction of") && told.contains("may chatter"), "{told}");
+    assert!(caveats(folder.path(), "x.mcap").1.contains(&"friction_chatters".to_owned()));
+}
+
+#[test]
+fn how_far_a_column_went_beyond_its_force_does_not_depend_on_the_outputs() {
+    let folder = folder();
+    fs::write(folder.path().join("c.toml"), include_str!("../../../scenarios/column-driver.toml")).expect("written");
+    let beyond = |interval: &str| {
+        let interval = format!("output.interval={interval}");
+        let words = ["run", "c.toml", "--no-mcap", "--set", "belts.driver=null", "--set", &interval];
+        let told = done(folder.path(), &words);
+        told.lines().find(|line| line.contains("stroked")).expect("a caveat").to_owned()
+    };
+    assert_eq!(beyond("0.5 ms"), beyond("20 ms"));
+}

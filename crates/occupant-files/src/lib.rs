@@ -16,5 +16,6 @@ pub mod mme;
 pub mod results;
 pub mod scenario;
 pub mod signals;
+pub mod steps;
 pub mod table;
 mod trouble;

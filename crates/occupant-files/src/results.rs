@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crash_measures::injury::Options;
+use occupant_core::diagnosis::FrictionWatch;
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, Series};
 use occupant_core::results::checkpoint::Checkpoint;
@@ -16,11 +17,12 @@ use occupant_core::results::recorder::{Recorder, Watch};
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{RunStatus, Summarizer, Summary};
 use occupant_core::run::simulate::{replay, simulate};
-use occupant_scenario::Loaded;
 use occupant_scenario::ending::{Balance, Ending};
+use occupant_scenario::{Draft, Format, Loaded};
 
 use super::mcap::StoredRun;
-use super::scenario::stored;
+use super::scenario::{format_of, stored};
+use super::steps;
 use crate::base::{Failure, input_file, program, sha256};
 
 /// A run that was recorded.
@@ -44,6 +46,8 @@ pub struct Results {
     pub model: Model,
     /// The scenario as its author wrote it, without overrides.
     pub scenario_text: Option<String>,
+    /// Its format.
+    format: Option<Format>,
     /// One an output, at least one, without gaps.
     pub checkpoints: Vec<Checkpoint>,
 }
@@ -60,21 +64,30 @@ impl Results {
             return Err(no_results(path, &format!("it holds no outputs of a run{}", run.because())));
         }
         let (loaded, model, _) = stored(path, &run)?;
-        for checkpoint in &run.checkpoints {
-            checkpoint.check(&model).map_err(|e| no_results(path, &e.to_string()))?;
+        let (lost, mut flaw, (status, reason)) = (run.lost(), run.flaw(), run.ending());
+        let wrong = run.checkpoints.iter().enumerate().find_map(|(i, c)| Some((i, c.check(&model).err()?)));
+        match wrong {
+            Some((i, e)) if i > 0 && e.is_blown_up() => {
+                let at_ms = in_ms(run.checkpoints[i].time_s);
+                flaw = flaw.or(Some(format!("of a run that blew up: its numbers at {at_ms} ms are beyond all bounds")));
+                run.checkpoints.truncate(i);
+            }
+            Some((_, e)) => return Err(no_results(path, &e.to_string())),
+            None => {}
         }
-        let (lost, flaw, (status, reason)) = (run.lost(), run.flaw(), run.ending());
         // nothing is computed over a gap
         let next_is_there = |pair: &&[Checkpoint]| pair[1].index == pair[0].index + 1;
         let whole = run.checkpoints.windows(2).take_while(next_is_there).count() + 1;
         run.checkpoints.truncate(whole);
-        let text = run.run.get("scenario").and_then(|n| run.attachments.get(n));
+        let name = run.run.get("scenario");
+        let text = name.and_then(|n| run.attachments.get(n));
         Ok(Results {
             path: path.to_owned(),
             sha256: sha256(&bytes),
             lost,
             flaw,
             scenario_text: text.map(|t| String::from_utf8_lossy(t).into_owned()),
+            format: name.and_then(|n| format_of(Path::new(n))),
             run: run.run,
             status,
             reason,
@@ -140,25 +153,53 @@ impl Results {
     fn span(&self) -> Option<String> {
         let (first, last) = (&self.checkpoints[0], &self.checkpoints[self.checkpoints.len() - 1]);
         let name = self.path.display();
-        let [from_ms, to_ms] = [first.time_s, last.time_s].map(|t_s| (1e7 * t_s).round() / 1e4);
+        let [from_ms, to_ms] = [first.time_s, last.time_s].map(in_ms);
         if first.index > 0 {
             let whole = if first.peaks.is_empty() {
                 "nothing that is told of it counts what was before"
             } else {
-                "peaks and measures count from the start of the run; events, throws and caveats from there"
+                "peaks and measures count from the start of the run; events, throws, ejections and caveats from there"
             };
             return Some(format!("{name} resumes a run and covers {from_ms} to {to_ms} ms: {whole}"));
         }
-        let overrides = self.run.get("overrides").map_or("", String::as_str);
-        let end = overrides.lines().rev().find(|line| line.starts_with("time.end="))?;
-        Some(format!("{name} covers {from_ms} to {to_ms} ms: it was run with {end}"))
+        Some(format!("{name} covers {from_ms} to {to_ms} ms: it was run with {}", self.given_end()?))
     }
 
-    /// Why nothing is to be judged by a file, if it holds a part of a run alone and not what its measures need.
-    fn part(&self) -> Option<String> {
+    /// The time that the outputs cover, s.
+    pub fn covers_s(&self) -> [f64; 2] {
+        [0, self.checkpoints.len() - 1].map(|i| self.checkpoints[i].time_s)
+    }
+
+    /// The end that the command line gave the run, as it was written.
+    fn given_end(&self) -> Option<&str> {
+        self.run.get("overrides")?.lines().rev().find(|line| line.starts_with("time.end="))
+    }
+
+    /// The end that the scenario's author gave it, s, where it tells one.
+    fn own_end_s(&self) -> Option<f64> {
+        let draft = Draft::read(self.scenario_text.as_deref()?, self.format?, "scenario").ok()?;
+        draft.places("time.end").ok()?.first()?.si
+    }
+
+    /// Which figures of a file that holds a part of a run are not those of the run.
+    fn part(&self) -> Option<Part> {
+        let [from_s, to_s] = self.covers_s();
         let first = &self.checkpoints[0];
-        let is_part = first.index > 0 && first.peaks.is_empty();
-        is_part.then(|| format!("the file begins at {:.1} ms: nothing counts what was before", 1e3 * first.time_s))
+        let is_early = self.given_end().is_some() && self.own_end_s().is_none_or(|own_s| to_s < own_s);
+        match () {
+            () if first.index > 0 && first.peaks.is_empty() => {
+                Some(Part::Whole(format!("the file begins at {} ms: nothing counts what was before", in_ms(from_s))))
+            }
+            () if is_early => {
+                let end = self.given_end().unwrap_or_default();
+                Some(Part::Whole(format!(
+                    "the run was ended at {} ms by {end}: all figures are those up to there",
+                    in_ms(to_s)
+                )))
+            }
+            () if first.index > 0 => Some(Part::Rest(from_s)),
+            () => None,
+        }
     }
 
     /// Shows every output to `recorder`, which learns of the begin of the run but not of its end.
@@ -206,10 +247,10 @@ impl Results {
     /// # Errors
     /// None for a file that was opened.
     pub fn summary_judged(&self, options: Options) -> Result<Summary, Failure> {
-        let mut summarizer = Summarizer::judging(options);
-        self.replay(&mut summarizer)?;
-        summarizer.end(&self.outcome()).map_err(|e| self.refused(&e.to_string()))?;
-        self.told(&summarizer)
+        let mut seen = (Summarizer::judging(options), FrictionWatch::new());
+        self.replay(&mut seen)?;
+        seen.end(&self.outcome()).map_err(|e| self.refused(&e.to_string()))?;
+        self.told(&self.model, &seen)
     }
 
     /// The same of the case run again, up to the last output, with readings every `interval_s`.
@@ -222,12 +263,12 @@ impl Results {
         setup.output.readings_s = Some(interval_s);
         let again = |what: String| self.refused(&format!("it cannot be run again: {what}"));
         let model = Model::new(setup).map_err(|problems| again(self.loaded.diagnose(&problems).to_string()))?;
-        let mut summarizer = Summarizer::judging(options);
-        let outcome = simulate(&model, &mut summarizer).map_err(|e| again(e.to_string()))?;
+        let mut seen = (Summarizer::judging(options), FrictionWatch::new());
+        let outcome = simulate(&model, &mut seen).map_err(|e| again(e.to_string()))?;
         if let Status::Failed(error) = outcome.status {
             return Err(again(error.to_string()));
         }
-        self.told(&summarizer)
+        self.told(&model, &seen)
     }
 
     fn refused(&self, what: &str) -> Failure {
@@ -235,11 +276,16 @@ impl Results {
     }
 
     /// The summary that was made, of this run however it ended.
-    fn told(&self, summarizer: &Summarizer) -> Result<Summary, Failure> {
-        let summary = summarizer.summary(None).ok_or_else(|| self.refused("the run left no summary"))?;
+    fn told(&self, model: &Model, (summarizer, friction): &(Summarizer, FrictionWatch)) -> Result<Summary, Failure> {
+        let mut summary = summarizer.summary(None).ok_or_else(|| self.refused("the run left no summary"))?;
+        if self.is_complete() {
+            let caveats = steps::caveats(model, friction, &summary);
+            summary.caveats.extend(caveats);
+        }
         let summary = summary.ended(self.status, self.reason.clone());
         Ok(match self.part() {
-            Some(part) => summary.of_part(part),
+            Some(Part::Whole(text)) => summary.of_part(text),
+            Some(Part::Rest(from_s)) => summary.of_rest(from_s),
             None => summary,
         })
     }
@@ -248,6 +294,18 @@ impl Results {
     fn outcome(&self) -> Outcome {
         self.checkpoints[self.checkpoints.len() - 1].outcome(&self.model)
     }
+}
+
+/// What is missing of a run.
+enum Part {
+    /// For all figures, in words.
+    Whole(String),
+    /// What was before this time, s, for those that do not count from the start.
+    Rest(f64),
+}
+
+fn in_ms(time_s: f64) -> f64 {
+    (1e7 * time_s).round() / 1e4
 }
 
 fn no_results(path: &Path, reason: &str) -> Failure {

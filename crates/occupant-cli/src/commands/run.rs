@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use occupant_core::diagnosis::{RK4_STABILITY_LIMIT, UnstableFriction, diagnose};
+use occupant_core::diagnosis::{UnstableFriction, diagnose};
 use occupant_core::model::setup::Integrator;
-use occupant_core::results::summary::{Caveat, Degree, RunStatus, Summary};
+use occupant_core::results::summary::{Degree, RunStatus, Summary};
 use occupant_scenario::Diagnostics;
 use occupant_scenario::ending::Balance;
 use serde::Serialize;
@@ -19,6 +19,7 @@ use crate::base::{
     Done, Existing, Failure, Interrupt, Units, UnitsArg, ending, is_page, json, print, program, say, with_word,
 };
 use crate::files::scenario::{self, Opened, ScenarioArgs, warn_of};
+use crate::files::steps;
 use crate::jobs::ensemble::report::Report;
 use crate::jobs::ensemble::text::text as ensemble_text;
 use crate::jobs::report::MOST_RUNS;
@@ -215,11 +216,9 @@ fn one(args: &Args) -> Result<(Done, Summary, Units), Failure> {
         say(&format!("warning: {message}"));
     }
     let mut run = simulate(&opened, from.as_ref(), recording, channels, &interrupt, args.quiet)?;
-    if let Some((diagnosis, step_s)) =
-        diagnosis.as_ref().filter(|_| run.completed).and_then(|d| Some((d, d.run.step_s?)))
-    {
-        let caveat = Caveat::step_too_long(step_s, RK4_STABILITY_LIMIT, &diagnosis.too_fast(), &run.summary);
-        run.summary.caveats.extend(caveat);
+    if run.completed {
+        let caveats = steps::caveats(&opened.model, &run.friction, &run.summary);
+        run.summary.caveats.extend(caveats);
     }
     let balance = run.summary.energy.balance;
     let histories = std::mem::take(&mut run.histories);

@@ -4,4 +4,4 @@ pub(crate) mod history;
 pub(crate) mod scenario;
 pub(crate) mod study_folder;
 
-pub(crate) use occupant_files::{export, mcap, measured, mme, results, signals, table};
+pub(crate) use occupant_files::{export, mcap, measured, mme, results, signals, steps, table};

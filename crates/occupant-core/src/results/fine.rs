@@ -1,7 +1,8 @@
 //! Readings of the instruments at equal times, however seldom a run is recorded: what measures with windows are made of.
 //!
 //! Steps are read at their ends, 10 to 20 thousand times a second where a body touches anything, and lie on straight lines
-//! between. Numbers have the precision of an `f32`, in a run as in its file.
+//! between. Numbers of steps have the precision of an `f32`, in a run as in its file; those of outputs alone, from which
+//! derivatives are made, are whole.
 
 use crate::kernel::instruments::{PLACE, Reading};
 use crate::model::Model;
@@ -29,9 +30,11 @@ pub struct Fine {
     before_s: f64,
     before: Vec<f64>,
     /// The samples since the last output, one behind the other.
-    pub(crate) samples: Vec<f32>,
+    samples: Vec<f64>,
     /// Room for a reading.
     now: Vec<f64>,
+    /// Whether outputs are seen, not steps.
+    is_of_outputs: bool,
 }
 
 impl Fine {
@@ -55,6 +58,7 @@ impl Fine {
             before: vec![f64::NAN; count],
             samples: Vec::with_capacity(room.min(1 << 20)),
             now: vec![f64::NAN; count],
+            is_of_outputs: false,
         }
     }
 
@@ -75,7 +79,8 @@ impl Fine {
             to.copy_from_slice(&readings[of][..SIGNALS]);
         }
         if self.next == 0 {
-            self.samples.extend(self.now.iter().map(|x| *x as f32));
+            let is_of_outputs = self.is_of_outputs;
+            self.samples.extend(self.now.iter().map(|x| kept(*x, is_of_outputs)));
             self.next = 1;
         } else if time_s > self.before_s {
             self.fill(time_s);
@@ -94,7 +99,8 @@ impl Fine {
                 return;
             }
             let s = (due_s - self.before_s) / (time_s - self.before_s);
-            let lines = self.before.iter().zip(&self.now).map(|(a, b)| (a + s * (b - a)) as f32);
+            let is_of_outputs = self.is_of_outputs;
+            let lines = self.before.iter().zip(&self.now).map(|(a, b)| kept(a + s * (b - a), is_of_outputs));
             self.samples.extend(lines);
             self.next += 1;
         }
@@ -116,12 +122,13 @@ impl Fine {
     pub(crate) fn see_output(&mut self, sample: &Sample<'_>) {
         if self.is_unknown() {
             (self.interval_s, self.start_s) = (sample.model.setup().time.output_s, sample.time_s);
+            self.is_of_outputs = true;
         }
         self.see(sample.time_s, sample.readings);
     }
 
     /// Number and readings of the samples since the last output, of a body among those that are read.
-    pub(crate) fn of(&self, place: usize) -> impl Iterator<Item = &[f32]> {
+    pub(crate) fn of(&self, place: usize) -> impl Iterator<Item = &[f64]> {
         self.samples.chunks_exact(SIGNALS * self.bodies.len()).map(move |all| &all[SIGNALS * place..][..SIGNALS])
     }
 
@@ -129,6 +136,11 @@ impl Fine {
     pub(crate) fn first_s(&self) -> f64 {
         let count = self.samples.len() / (SIGNALS * self.bodies.len());
         self.start_s + (self.next - count) as f64 * self.interval_s
+    }
+
+    /// The samples since the last output, one behind the other, as a file has them.
+    pub(crate) fn singles(&self) -> Vec<f32> {
+        self.samples.iter().map(|x| *x as f32).collect()
     }
 
     /// The step before as plain numbers: the number of the next sample, its time, its readings.
@@ -147,10 +159,16 @@ impl Fine {
             (self.next, self.before_s) = (*next as usize, *before_s);
             self.before.copy_from_slice(before);
             self.samples.clear();
-            self.samples.extend_from_slice(samples);
+            self.samples.extend(samples.iter().map(|x| f64::from(*x)));
         }
         fits && *next >= 1.0
     }
+}
+
+/// A number as it is kept.
+#[inline(always)]
+fn kept(number: f64, is_whole: bool) -> f64 {
+    if is_whole { number } else { f64::from(number as f32) }
 }
 
 /// The interval of readings of a run of `model`, s: no shorter than its fixed steps.

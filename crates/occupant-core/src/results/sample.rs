@@ -172,7 +172,7 @@ impl<'a> Sample<'a> {
             first_touches: self.first_touches.to_vec(),
             peaks: self.step_peaks.numbers(),
             readings_before: self.fine.numbers(),
-            readings: self.fine.samples.clone(),
+            readings: self.fine.singles(),
             progress: self.progress,
             under_way: self.under_way.map(|step| step.to_start()),
         }

@@ -96,11 +96,17 @@ pub fn neighbours(model: &Model, parameters: &[Parameter<'_>], step_s: f64, figu
     all
 }
 
+/// The same case at tolerances that leave no steps to be seen, recorded as often as figures to be differentiated ask for.
+pub fn tightly(model: Model) -> Model {
+    let integrator = tight(&model.setup().integrator);
+    let model = model.with_integrator(integrator);
+    let interval_s = fine_interval_s(&model);
+    model.with_outputs_every(interval_s)
+}
+
 /// A run at tight tolerances.
 fn job<T>(tag: T, model: Model) -> Job<T, Summarizer> {
-    let model = model.clone().with_integrator(tight(&model.setup().integrator));
-    let interval_s = fine_interval_s(&model);
-    Job { tag, model: model.with_outputs_every(interval_s), recorder: Summarizer::new() }
+    Job { tag, model: tightly(model), recorder: Summarizer::new() }
 }
 
 fn tight(own: &Integrator) -> Integrator {

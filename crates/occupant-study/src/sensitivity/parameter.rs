@@ -31,10 +31,10 @@ impl fmt::Debug for Parameter<'_> {
 }
 
 impl<'a> Parameter<'a> {
-    /// The same number of the same models, recorded at other times.
+    /// The same number of models that are `made` of these, integrated or recorded in another way.
     #[must_use]
-    pub fn with_outputs_every(&'a self, interval_s: f64) -> Parameter<'a> {
-        let model_at = move |value: f64| (self.model_at)(value).map(|model| model.with_outputs_every(interval_s));
+    pub fn of_models(&'a self, made: impl Fn(Model) -> Model + 'a) -> Parameter<'a> {
+        let model_at = move |value: f64| (self.model_at)(value).map(&made);
         let (name, unit) = (self.name.clone(), self.unit.clone());
         Parameter { name, unit, model_at: Box::new(model_at), ..*self }
     }

@@ -41,8 +41,11 @@ impl Measure {
 
     /// With the caveats on it.
     fn judged(self, caveats: &[Caveat]) -> Self {
-        let touching = caveats.iter().enumerate().filter(|(_, caveat)| caveat.touches(&self.figure));
-        Measure { caveats: touching.map(|(place, _)| place).collect(), ..self }
+        let touching = || caveats.iter().enumerate().filter(|(_, caveat)| caveat.touches(&self.figure));
+        // a part of a run fails, but does not pass
+        let is_part = touching().any(|(_, caveat)| caveat.name == Caveat::PART);
+        let verdict = self.verdict.filter(|verdict| !is_part || *verdict == "failed");
+        Measure { caveats: touching().map(|(place, _)| place).collect(), verdict, ..self }
     }
 }
 

@@ -8,10 +8,10 @@ use occupant_core::results::outcome::Status;
 use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::run::simulate::simulate;
 use occupant_scenario::{Draft, Resolver};
-use occupant_study::sensitivity::finite::{Neighbours, neighbours};
+use occupant_study::sensitivity::finite::{Neighbours, neighbours, tightly};
 use occupant_study::sensitivity::measures::{Derivatives, Request, Values, chosen, derivatives, pick, plain_values};
 use occupant_study::sensitivity::verdict::{Comparison, compare};
-use occupant_study::sensitivity::{Built, Parameter, Trajectory, fine_interval_s, follow, parameter};
+use occupant_study::sensitivity::{Built, Parameter, Trajectory, follow, parameter};
 use placed_text::Problem;
 
 use crate::base::Failure;
@@ -154,10 +154,9 @@ pub(crate) fn analyse(model: &Model, asked: &Asked<'_>) -> Result<Analysis, Fail
     let (mut all, mut cost_s) = (vec![Derivatives::default(); asked.parameters.len()], [plain_s, 0.0]);
     let mut trajectory = None;
     if !names.is_empty() {
-        let interval_s = fine_interval_s(model);
-        let finely: Vec<Parameter<'_>> = asked.parameters.iter().map(|p| p.with_outputs_every(interval_s)).collect();
+        let finely: Vec<Parameter<'_>> = asked.parameters.iter().map(|p| p.of_models(tightly)).collect();
         let request = Request { figures: names.clone(), channels: Vec::new() };
-        let model = model.clone().with_outputs_every(interval_s);
+        let model = tightly(model.clone());
         let (found, of) = derive(&model, &finely, &mut built, &request, &mut cost_s[1])?;
         all.iter_mut().zip(of).for_each(|(all, of)| all.figures = of.figures);
         trajectory = Some(found);

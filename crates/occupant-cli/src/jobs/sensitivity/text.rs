@@ -65,6 +65,7 @@ fn heading(model: &Model, asked: &Asked<'_>, analysis: &Analysis) -> String {
         accuracy.push_str(&format!(", measures to {figures:.0e}"));
     }
     let [plain, dual] = analysis.cost_s;
+    let tightly = if asked.request.channels.is_empty() { " at a hundredth of the tolerances" } else { "" };
     let count = match asked.parameters.len() {
         1 => "1 parameter".to_owned(),
         n => format!("{n} parameters"),
@@ -74,7 +75,7 @@ fn heading(model: &Model, asked: &Asked<'_>, analysis: &Analysis) -> String {
         (
             "run",
             format!(
-                "{} steps to {:.1} ms; every value of the run in dual numbers is that of the plain run to the bit",
+                "{} steps to {:.1} ms{tightly}; every value of the run in dual numbers is that of the plain run to the bit",
                 outcome.effort.steps,
                 outcome.time_s * 1e3
             ),

@@ -31,6 +31,8 @@ pub struct Caveat {
 impl Caveat {
     /// Name of the one on a run whose results mean nothing.
     pub const BALANCE_LOST: &str = "energy_balance_lost";
+    /// Name of the one on figures of a part of a run.
+    pub const PART: &str = "part_of_a_run";
 
     fn new(name: impl Into<String>, text: String, figures: Vec<String>) -> Self {
         Caveat { name: name.into(), text, figures }
@@ -76,7 +78,19 @@ impl Caveat {
 
     /// A part of a run alone.
     pub(super) fn of_part(text: String) -> Self {
-        Caveat::new("part_of_a_run", text, owned(&["*"]))
+        Caveat::new(Self::PART, text, owned(&["*"]))
+    }
+
+    /// What a resumed run counts from its own start, `from_s`, on.
+    pub(super) fn of_rest(from_s: f64, summary: &Summary) -> Self {
+        let text = format!(
+            "the file resumes a run at {:.1} ms: peaks and measures are those of the whole run; events, throws, ejections and the signs of \
+             other caveats are those from there on",
+            1e3 * from_s
+        );
+        let prefix = |name: &&str| if name.is_empty() { String::new() } else { format!("{name}.") };
+        let figures = summary.throws.keys().map(|name| format!("{}throw.*", prefix(name)));
+        Caveat::new(Self::PART, text, figures.collect())
     }
 
     /// A run that did not keep its energy; none for one that did.
@@ -118,6 +132,17 @@ impl Caveat {
             worst.by
         );
         Some(Caveat::new("step_too_long", text, owned(&["*"])))
+    }
+
+    /// A sphere that friction on a surface may have made chatter, at a fixed step that is too long for it.
+    pub fn chatters(sphere: &str, surface: &str, step_s: f64, time_s: f64) -> Self {
+        let text = format!(
+            "friction of {sphere} on {surface} is too stiff for the step of {:.4} ms at {:.1} ms: the sphere may chatter, and what follows is that of \
+             the step; a shorter step, error control or --estimate-error shows which figures hold",
+            1e3 * step_s,
+            1e3 * time_s
+        );
+        Caveat::new("friction_chatters", text, owned(&["*"]))
     }
 
     /// Figures that a finer integration changes, by their names with the part by which each does; none if there are none.

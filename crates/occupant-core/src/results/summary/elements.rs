@@ -33,6 +33,14 @@ impl Elements {
         self.0.iter().map(|kind| kind.names.len() * kind.each).sum()
     }
 
+    /// Those of `peaks`, of all of them, that are of a kind, by element.
+    pub(super) fn of<'p>(&self, kind: &str, peaks: &'p [Peak]) -> impl Iterator<Item = &'p [Peak]> + use<'p> {
+        let before = self.0.iter().take_while(|own| own.of != kind).map(|own| own.names.len() * own.each).sum();
+        let own = self.0.iter().find(|own| own.of == kind);
+        let (count, each) = own.map_or((0, 1), |own| (own.names.len() * own.each, own.each));
+        peaks.get(before..before + count).unwrap_or_default().chunks(each)
+    }
+
     /// Tables of `peaks`, of all of them.
     pub(super) fn tables(&self, peaks: &[Peak]) -> Tables {
         let mut rest = peaks;

@@ -104,6 +104,12 @@ impl Summary {
         self.caveats.insert(0, Caveat::of_part(text));
         self
     }
+
+    /// The same of a file that resumes a run at `from_s`.
+    pub fn of_rest(mut self, from_s: f64) -> Self {
+        self.caveats.insert(0, Caveat::of_rest(from_s, &self));
+        self
+    }
 }
 
 /// What the instruments of one of several occupants say.

@@ -50,7 +50,7 @@ impl Watched {
         for sample in fine.of(place) {
             for ((n, values), number) in self.signals.all_mut().enumerate().zip(sample) {
                 let is_read = self.has.get(n / 3).is_none_or(|has| *has);
-                values.push(if is_read { f64::from(*number) } else { f64::NAN });
+                values.push(if is_read { *number } else { f64::NAN });
             }
         }
     }

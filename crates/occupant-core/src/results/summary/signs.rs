@@ -1,6 +1,7 @@
 //! What the outputs of a run show that no body does: the signs from which caveats are made.
 
 use super::caveat::{Caveat, Turned};
+use super::elements::Elements;
 use super::peak::Peak;
 use super::strokes::Strokes;
 use crate::body::{Body, Segment};
@@ -34,6 +35,8 @@ const CUSHION_M: f64 = 0.15;
 pub(super) struct Signs {
     /// By joint.
     joints: Vec<Turned>,
+    /// By joint with elastic limits: its place among all, and how far it gives way at most, rad.
+    limits: Vec<(usize, f64)>,
     /// By sphere: overlap without force, depth, and the surfaces where.
     passed: Vec<Sunk>,
     deep: Vec<Sunk>,
@@ -103,6 +106,7 @@ impl Signs {
         let spheres = vec![Sunk::NONE; body.spheres.len()];
         Signs {
             joints: vec![turned; body.tree.joints().len()],
+            limits: limits(model),
             passed: spheres.clone(),
             bottomed: spheres.iter().map(|none| (*none, 0.0)).collect(),
             through: spheres.clone(),
@@ -130,9 +134,8 @@ impl Signs {
         for (turned, joint) in self.joints.iter_mut().zip(model.body().tree.joints()) {
             turned.see(&model.setup().joints[joint], sample.joint_angle_rad(joint), time_s);
         }
-        for (limited, law) in sample.actions.limits.iter().zip(&model.system().forces.limits) {
-            let most_rad = MOST_EXCESS_RAD.min(law.last_point_rad());
-            self.joints[limited.joint.index()].see_limit(limited.excess, most_rad, time_s);
+        for (limited, (_, most_rad)) in sample.actions.limits.iter().zip(&self.limits) {
+            self.joints[limited.joint.index()].see_limit(limited.excess, *most_rad, time_s);
         }
         for contact in sample.contacts() {
             if contact.surface < model.faces().len() {
@@ -154,6 +157,16 @@ impl Signs {
             }
             (self.is_begun, self.seen_s) = (true, time_s);
         }
+    }
+
+    /// The same with the greatest values of steps, which elements track.
+    pub(super) fn with_steps(&self, elements: &Elements, peaks: &[Peak]) -> Self {
+        let mut signs = self.clone();
+        for ((joint, most_rad), own) in self.limits.iter().zip(elements.of("joints", peaks)) {
+            signs.joints[*joint].see_limit(own[0].value, *most_rad, own[0].time_s);
+        }
+        signs.strokes.see_steps(elements.of("columns", peaks));
+        signs
     }
 
     /// A sphere in a solid.
@@ -348,6 +361,12 @@ fn worst_of_parts<'s>(body: &Body, list: impl Iterator<Item = (usize, &'s Sunk)>
         }
     }
     worst
+}
+
+/// By joint with elastic limits: its place among all, and how far it gives way at most, rad.
+fn limits(model: &Model) -> Vec<(usize, f64)> {
+    let laws = model.system().forces.limits.iter();
+    laws.map(|law| (law.joint().index(), MOST_EXCESS_RAD.min(law.last_point_rad()))).collect()
 }
 
 impl Turned {

@@ -21,6 +21,13 @@ impl Strokes {
         }
     }
 
+    /// Takes over the greatest strokes of steps.
+    pub(super) fn see_steps<'p>(&mut self, peaks: impl Iterator<Item = &'p [Peak]>) {
+        for ((_, last_m, beyond), own) in self.0.iter_mut().zip(peaks) {
+            beyond.see(own[0].value - *last_m, own[0].time_s);
+        }
+    }
+
     /// What to know of columns.
     pub(super) fn caveats(&self) -> impl Iterator<Item = Caveat> {
         let beyond = self.0.iter().filter(|(.., beyond)| beyond.value > 0.0);

@@ -112,7 +112,8 @@ impl Summarizer {
         let mut peaks = self.seen.clone();
         peaks.merge(&self.now);
         let people = self.persons(&peaks);
-        let caveats = self.caveats(case, &people, outcome.time_s);
+        let signs = self.signs.with_steps(&self.elements, &peaks.elements);
+        let caveats = self.caveats(case, &signs, &people, outcome.time_s);
         let sphere_forces = sphere_forces(case, &peaks);
         let unbalanced = case.caveats_of_start(&people, &sphere_forces);
         let mut people = people.into_iter().map(|(name, person, _)| (name, person));
@@ -198,8 +199,14 @@ impl Summarizer {
     }
 
     /// What the outputs show of the bodies, then what is to know of necks and of measures alone.
-    fn caveats(&self, case: &Case, people: &[(&'static str, Person, Signals)], reached_s: f64) -> Vec<Caveat> {
-        let mut caveats = self.signs.caveats(&case.body, &case.surfaces, &case.chains, &case.bags);
+    fn caveats(
+        &self,
+        case: &Case,
+        signs: &Signs,
+        people: &[(&'static str, Person, Signals)],
+        reached_s: f64,
+    ) -> Vec<Caveat> {
+        let mut caveats = signs.caveats(&case.body, &case.surfaces, &case.chains, &case.bags);
         caveats.extend(case.is_half_a_neck.then(Caveat::half_a_neck));
         for (one, (name, person, signals)) in self.people.iter().zip(people) {
             let measures = &person.measures;

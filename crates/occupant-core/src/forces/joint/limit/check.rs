@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{Centre, Curve, Joints, LimitHistory, LimitLaw, Limits, Stop};
+use crate::body::Joint;
 use crate::forces::element::Instant;
 use crate::forces::joint::JointLaw;
 use placed_text::Problems;
@@ -92,6 +93,11 @@ impl LimitLaw<f64> {
         let of = format!("the joint {joint} beyond its limit");
         let both = self.stops().into_iter().zip(&past.stops);
         both.filter_map(|(stop, past)| stop?.overrun(&of, past.greatest, words)).next()
+    }
+
+    /// The joint.
+    pub(crate) fn joint(&self) -> Joint {
+        self.joint
     }
 
     /// The least last point of the torques of its stops, rad.
