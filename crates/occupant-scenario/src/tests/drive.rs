@@ -45,7 +45,7 @@ fn the_load_is_that_of_the_people() {
     let drives = ditch().drives().unwrap().0.unwrap();
     let own = &drives.vehicles[0];
     let load_kg = own.car.mass_kg - own.unladen.mass_kg;
-    // measured 74.2 kg of male50
+    // measured 79 kg of male50
     assert!((60.0..90.0).contains(&load_kg), "{load_kg}");
     // he sits a little behind and above the car's own centre of gravity
     assert!(own.origin_m.norm() > 1e-3 && own.origin_m.norm() < 0.05, "{:?}", own.origin_m);
@@ -78,9 +78,9 @@ fn the_same_drive_has_the_same_bits_in_threads() {
 fn an_occupant_feels_the_drive_as_the_same_motion_told_otherwise() {
     let drives = driven(&short(BRAKES));
     let path = drives.path(0);
-    let rows: Vec<String> = (0..=300)
+    let rows: Vec<String> = (0..=1000)
         .map(|i| {
-            let t = f64::from(i) * 1e-3;
+            let t = f64::from(i) * 2e-4;
             let pose = path.attitude(t, &mut PathCursor::default());
             let (p, a) = (pose.position_m, pose.attitude);
             format!("[{t}, {}, {}, {}, {}, {}, {}]", p.x, p.y, p.z, a.roll_rad, a.pitch_rad, a.yaw_rad)
@@ -97,7 +97,7 @@ fn an_occupant_feels_the_drive_as_the_same_motion_told_otherwise() {
     });
     let gap = ends[0] - ends[1];
     let gap = (gap.x * gap.x + gap.y * gap.y + gap.z * gap.z).sqrt();
-    // measured: see the message; splines through places every millisecond
+    // measured 5e-7; it falls with the interval, as the spline has no acceleration at its first time: 2.5e-6 m at 1 ms
     assert!(gap < 1e-6, "{gap}");
 }
 
