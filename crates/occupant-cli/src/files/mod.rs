@@ -9,6 +9,7 @@ pub(crate) mod history;
 pub mod mcap;
 pub(crate) mod measured;
 pub(crate) mod mme;
+mod part;
 pub mod results;
 pub(crate) mod scenario;
 pub(crate) mod signals;
