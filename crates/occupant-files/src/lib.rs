@@ -13,6 +13,7 @@ pub mod history;
 pub mod mcap;
 pub mod measured;
 pub mod mme;
+mod part;
 pub mod results;
 pub mod scenario;
 pub mod signals;

@@ -1,0 +1,72 @@
+//! What time a result file covers, and which figures of one that holds a part of a run are not those of the run.
+
+use occupant_scenario::Draft;
+
+use super::results::Results;
+
+/// What is missing of a run.
+pub(super) enum Part {
+    /// For all figures, in words.
+    Whole(String),
+    /// What was before this time, s, for those that do not count from the start.
+    Rest(f64),
+}
+
+pub(super) fn in_ms(time_s: f64) -> f64 {
+    (1e7 * time_s).round() / 1e4
+}
+
+impl Results {
+    /// What time a file covers that is not all of its scenario's, in words.
+    pub(super) fn span(&self) -> Option<String> {
+        let (first, last) = (&self.checkpoints[0], &self.checkpoints[self.checkpoints.len() - 1]);
+        let name = self.path.display();
+        let [from_ms, to_ms] = [first.time_s, last.time_s].map(in_ms);
+        if first.index > 0 {
+            let whole = if first.peaks.is_empty() {
+                "nothing that is told of it counts what was before"
+            } else {
+                "peaks and measures count from the start of the run; events, throws, ejections and caveats from there"
+            };
+            return Some(format!("{name} resumes a run and covers {from_ms} to {to_ms} ms: {whole}"));
+        }
+        Some(format!("{name} covers {from_ms} to {to_ms} ms: it was run with {}", self.given_end()?))
+    }
+
+    /// The time that the outputs cover, s.
+    pub fn covers_s(&self) -> [f64; 2] {
+        [0, self.checkpoints.len() - 1].map(|i| self.checkpoints[i].time_s)
+    }
+
+    /// The end that the command line gave the run, as it was written.
+    fn given_end(&self) -> Option<&str> {
+        self.run.get("overrides")?.lines().rev().find(|line| line.starts_with("time.end="))
+    }
+
+    /// The end that the scenario's author gave it, s, where it tells one.
+    fn own_end_s(&self) -> Option<f64> {
+        let draft = Draft::read(self.scenario_text.as_deref()?, self.format?, "scenario").ok()?;
+        draft.places("time.end").ok()?.first()?.si
+    }
+
+    /// Which figures of a file that holds a part of a run are not those of the run.
+    pub(super) fn part(&self) -> Option<Part> {
+        let [from_s, to_s] = self.covers_s();
+        let first = &self.checkpoints[0];
+        let is_early = self.given_end().is_some() && self.own_end_s().is_none_or(|own_s| to_s < own_s);
+        match () {
+            () if first.index > 0 && first.peaks.is_empty() => {
+                Some(Part::Whole(format!("the file begins at {} ms: nothing counts what was before", in_ms(from_s))))
+            }
+            () if is_early => {
+                let end = self.given_end().unwrap_or_default();
+                Some(Part::Whole(format!(
+                    "the run was ended at {} ms by {end}: all figures are those up to there",
+                    in_ms(to_s)
+                )))
+            }
+            () if first.index > 0 => Some(Part::Rest(from_s)),
+            () => None,
+        }
+    }
+}
