@@ -169,12 +169,12 @@ fn a_person_on_a_sled_moves_as_the_dead_did() {
         rated(&format!("marker.{}.displacement.{axis}", markers[which]), &time_ms, &measured, true)
     };
     let found = [way(0, "x"), way(0, "z"), way(1, "x"), way(2, "x"), way(6, "x"), way(7, "x")];
-    for (rating, least) in found.iter().zip([0.95, 0.81, 0.93, 0.94, 0.88, 0.87]) {
+    for (rating, least) in found.iter().zip([0.95, 0.82, 0.94, 0.95, 0.89, 0.86]) {
         assert!(*rating > least, "{found:.3?}");
     }
     let [upper, lower] =
         [belt("upper", "strap.torso.d_ring_shoulder.force"), belt("lower", "strap.torso.shoulder_buckle.force")];
-    assert!(upper > 0.88 && lower > 0.84, "{upper:.3} {lower:.3}");
+    assert!(upper > 0.88 && lower > 0.85, "{upper:.3} {lower:.3}");
     // peaks within the range of the tests
     for (channel, low, high) in [
         ("marker.head.displacement.x", 0.320, 0.452),
@@ -188,5 +188,5 @@ fn a_person_on_a_sled_moves_as_the_dead_did() {
     let all: Vec<f64> = (0..8).flat_map(|which| ["x", "y", "z"].map(|axis| way(which, axis))).collect();
     let mean = all.iter().sum::<f64>() / 24.0;
     // the finite-element model of the same test has 0.65
-    assert!(mean > 0.69, "{mean:.3} {all:.2?}");
+    assert!(mean > 0.70, "{mean:.3} {all:.2?}");
 }

@@ -53,7 +53,8 @@ impl Results {
     pub(super) fn part(&self) -> Option<Part> {
         let [from_s, to_s] = self.covers_s();
         let first = &self.checkpoints[0];
-        let is_early = self.given_end().is_some() && self.own_end_s().is_none_or(|own_s| to_s < own_s);
+        let is_early =
+            self.is_complete() && self.given_end().is_some() && self.own_end_s().is_none_or(|own_s| to_s < own_s);
         match () {
             () if first.index > 0 && first.peaks.is_empty() => {
                 Some(Part::Whole(format!("the file begins at {} ms: nothing counts what was before", in_ms(from_s))))

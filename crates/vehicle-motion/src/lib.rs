@@ -69,6 +69,7 @@ pub mod marks;
 pub mod path;
 pub mod presets;
 mod rail;
+pub mod ride;
 pub mod run;
 mod slider;
 pub mod tyre;

@@ -2,7 +2,7 @@
 
 use crate::WHEELS;
 use crate::ground::Ground;
-use crate::run::{Ride, Station};
+use crate::ride::{Ride, Station};
 
 /// A tyre leaves a mark where it uses more than this share of its friction and bears more than this, N.
 const USED: f64 = 0.8;

@@ -5,7 +5,7 @@
 //! those of the force laws, not differences of places.
 
 use crate::V3;
-use crate::run::{Ride, Station};
+use crate::ride::{Ride, Station};
 use nalgebra::{Matrix3, UnitQuaternion};
 
 /// Steps closer than this to the one before give no station of their own, s: in so short a time the last digit of a place counts

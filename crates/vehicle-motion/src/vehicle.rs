@@ -5,7 +5,7 @@ use crate::car::{Car, CarError};
 use crate::chassis::{Chassis, Controls, Report, State};
 use crate::driver::{Driver, LOOK_S, OnImpact, Steering, ackermann_rad};
 use crate::ground::Ground;
-use crate::run::Start;
+use crate::ride::Start;
 use crate::{V3, WHEELS};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 

@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 use super::{answer, code, err, folder_with_case, out};
 
 /// What each command can do in the folder, in an order in which one has what another has made, and what it cannot.
-const COMMANDS: [[&str; 2]; 22] = [
+const COMMANDS: [[&str; 2]; 23] = [
     ["run case.toml -f -o run.mcap --set time.end=0.02", "run none.toml"],
     [
         "export run.mcap -f -o test.csv --channels lower_torso.acceleration.x",
@@ -19,6 +19,7 @@ const COMMANDS: [[&str; 2]; 22] = [
     ["fit study.toml --to test.csv -o fit", "fit study.toml --to none.csv -o none"],
     ["import test.csv -f -o import.toml", "import none.csv"],
     ["check case.toml", "check none.toml"],
+    ["drive driven.toml -f -o drive.csv", "drive case.toml"],
     ["new new.toml -f", "new none/new.toml"],
     ["explain path", "explain nowhere"],
     ["schema", "schema --of none"],
@@ -91,6 +92,8 @@ fn files(folder: &Path, found: &mut BTreeMap<String, Vec<u8>>) {
 fn every_command_ends_with_0_when_done_1_when_it_broke_off_and_2_when_it_could_not_run() {
     let folder = folder_with_case();
     fs::write(folder.path().join("study.toml"), STUDY).expect("a study");
+    fs::write(folder.path().join("driven.toml"), include_str!("../../../../scenarios/templates/drive.toml"))
+        .expect("a scenario");
     fs::write(folder.path().join("deck.dat"), DECK).expect("a deck");
     for [good, bad] in COMMANDS {
         let output = answer(folder.path(), &words(good));

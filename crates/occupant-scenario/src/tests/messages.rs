@@ -94,7 +94,7 @@ error: the scenario has no key `title`
 6 | kind = \"puls\"
   |        ^^^^^^
   = in: path.kind
-  = expected: \"fixed\", \"pulse\", \"table\" or \"sensors\"
+  = expected: \"fixed\", \"pulse\", \"table\", \"sensors\" or \"drive\"
   = help: did you mean \"pulse\"?",
         ),
         (
@@ -106,7 +106,7 @@ error: the scenario has no key `title`
 5 | [path]
   | ^^^^^^
   = in: path
-  = expected: kind = \"fixed\", \"pulse\", \"table\" or \"sensors\"",
+  = expected: kind = \"fixed\", \"pulse\", \"table\", \"sensors\" or \"drive\"",
         ),
         (
             "half_width = 0.4",

@@ -1,7 +1,7 @@
 //! A contact between two bodies from its first touch to its end, and what it did to each vehicle.
 
 use crate::V3;
-use crate::run::Station;
+use crate::ride::Station;
 
 /// A contact ends this long after its last force, s.
 pub(crate) const ENDS_AFTER_S: f64 = 0.025;

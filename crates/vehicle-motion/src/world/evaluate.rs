@@ -4,9 +4,9 @@ use crate::V3;
 use crate::chassis::{Outside, Report, State, Work};
 use crate::crush::touch::{Marks, Pose, Push};
 use crate::hull::Rub;
-use crate::impulse::Pulse;
 use crate::integrate::Stack;
 use crate::world::Wrench;
+use crate::world::pulse::Pulse;
 use crate::world::setup::{Memories, Pair, Rails, Setup};
 
 /// Gap of a pair within which steps are short, m.

@@ -4,6 +4,7 @@ mod contact;
 mod damage;
 mod evaluate;
 mod outcome;
+mod pulse;
 mod run;
 pub(crate) mod setup;
 
@@ -17,7 +18,7 @@ use crate::chassis::State;
 use crate::driver::{Driver, Table};
 use crate::ground::Ground;
 use crate::integrate::Tolerance;
-use crate::run::{Ride, Start};
+use crate::ride::{Ride, Start};
 
 /// Vehicles and what they meet.
 #[derive(Clone, Debug)]

@@ -2,7 +2,7 @@
 
 use crate::V3;
 use crate::rail::BeamMemory;
-use crate::run::{Ride, Station};
+use crate::ride::{Ride, Station};
 use crate::slider::SlideMemory;
 use crate::world::contact::Struck;
 use crate::world::damage::Damage;

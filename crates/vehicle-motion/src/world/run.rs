@@ -3,12 +3,12 @@
 use crate::chassis::{NUMBERS, Report, State};
 use crate::crush::touch::Pose;
 use crate::hull::Rub;
-use crate::impulse::Pulse;
 use crate::integrate::{Pair as Method, Stack, next_step};
-use crate::run::Station;
+use crate::ride::Station;
 use crate::vehicle::Memory;
 use crate::world::contact::{Contact, ENDS_AFTER_S};
 use crate::world::evaluate::{Findings, NEAR_M};
+use crate::world::pulse::Pulse;
 use crate::world::setup::{Memories, Pair, Setup};
 use crate::world::{Outcome, Partner, World, WorldError, Wrench};
 
