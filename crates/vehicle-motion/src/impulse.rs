@@ -39,7 +39,7 @@ fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
 }
 
 impl Planar {
-    fn arm_m(&self, place_m: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn arm_m(&self, place_m: [f64; 2]) -> [f64; 2] {
         [place_m[0] - self.at_m[0], place_m[1] - self.at_m[1]]
     }
 
