@@ -1,6 +1,6 @@
 //! X-Y plots of time histories as SVG.
 //!
-//! A [`Figure`] holds curves in the units shown; [`draw`] sets it into a rectangle so that nothing overlaps: its margins are
+//! A [`Figure`] holds curves in the units shown; `draw` sets it into a rectangle so that nothing overlaps: its margins are
 //! measured from its labels, the legend stands below the axes, names that are too long lose their middle.
 
 mod assemble;
