@@ -22,6 +22,7 @@ const ROOMS: [(&str, &[&str]); 10] = [
             "presets",
             "driver",
             "crush",
+            "state",
             "chassis",
             "slider",
             "rail",

@@ -20,7 +20,7 @@ fn one(drives: &Drives, driven: &Driven, units: Units) -> String {
     let say = |value: f64, unit: &str, decimals: usize| units.say(value, unit, decimals);
     let angle = |(rad, time_s): (f64, f64)| format!("{:.1} deg at {time_s:.2} s", rad.to_degrees());
     let place = |at: vehicle_motion::V3| format!("x {}, y {}", say(at.x, "m", 2), say(at.y, "m", 2));
-    let yaw = |state: &vehicle_motion::chassis::State| state.yaw_pitch_roll_rad()[0].to_degrees();
+    let yaw = |state: &vehicle_motion::state::State| state.yaw_pitch_roll_rad()[0].to_degrees();
     let end = match motion.rest_s {
         Some(rest_s) => format!("at rest from {rest_s:.2} s"),
         None => format!("still moving at {}", say(last.velocity_m_s.norm(), "m/s", 2)),
