@@ -39,6 +39,9 @@ fn check_frames(setup: &Setup, problems: &mut Problems) {
         problems.error("frames", found, format!("at most {MOST_OTHERS}"));
     }
     problems.check_unique("frames", "frame", frames.iter().map(|frame| frame.name.as_str()));
+    for frame in frames.iter().filter(|frame| frame.path.is_live()) {
+        problems.error(with_key("frames", &frame.name), "a path that is told on the way", "one that is known beforehand: only that of the vehicle is told");
+    }
     for (i, frame) in frames.iter().enumerate() {
         let Some((parent, origin_m)) = frame.parent else { continue };
         let path = format!("{}.parent", with_key("frames", &frame.name));
