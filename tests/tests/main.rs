@@ -14,6 +14,7 @@ mod driver;
 mod edges;
 mod free_motion;
 mod friction;
+mod hostile;
 mod impactors;
 mod integration;
 mod joint_torques;

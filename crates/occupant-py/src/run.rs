@@ -7,7 +7,7 @@ use occupant_core::results::checkpoint::Checkpoint;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{Summarizer, Summary};
-use occupant_core::run::simulate::{replay, simulate};
+use occupant_core::run::simulate::{replay, attempt};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -36,7 +36,7 @@ impl Recorder for Keeper {
 impl Run {
     pub(crate) fn of(model: Model) -> PyResult<Self> {
         let mut recorders = (Summarizer::new(), Keeper(Vec::with_capacity(model.output_count())));
-        simulate(&model, &mut recorders).map_err(plain)?;
+        attempt(&model, &mut recorders).map_err(plain)?;
         let (summarizer, Keeper(checkpoints)) = recorders;
         let summary = summarizer.summary(None).ok_or_else(|| plain("the run ended before its first output"))?;
         Ok(Run { model, checkpoints, summary })

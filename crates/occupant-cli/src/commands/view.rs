@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
-use occupant_core::run::simulate::simulate;
+use occupant_core::run::simulate::attempt;
 use rayon::prelude::*;
 
 use super::flags::history::seconds;
@@ -186,7 +186,7 @@ fn seated(args: &Args, output: &Path, kind: Kind) -> Result<(), Failure> {
     let opened = scenario::open(&scenario)?;
     warn_of(&opened);
     let mut first = First(None);
-    let run = simulate(&opened.model, &mut first);
+    let run = attempt(&opened.model, &mut first);
     let moments: Vec<Snapshot> = first.0.into_iter().collect();
     if let (true, Err(error)) = (moments.is_empty(), run) {
         return Err(Failure::BrokeOff(format!("error: {error}")));

@@ -217,6 +217,7 @@ fn vehicle(model: &Model) -> VehicleFigures {
             VehiclePath::Sensors(_) => "sensors",
             VehiclePath::Fixed(_) => "fixed",
             VehiclePath::Driven(_) => "drive",
+            VehiclePath::Live(_) => "live",
             VehiclePath::Own(_) => "own",
         },
         start_speed_m_s: first.norm(),

@@ -18,7 +18,7 @@ use crate::motion::mobility::Mobility;
 use crate::motion::vector::V3;
 use crate::results::recorder::Watch;
 use crate::results::sample::{Contact, Sample};
-use crate::run::Run;
+use crate::run::Course;
 
 /// Figures of the seating, vehicle axes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -129,7 +129,7 @@ pub(super) fn look(model: &Model, mobility: &Mobility<'_>) -> Look {
         };
     });
     // a closure that watches never fails, so neither does the record
-    let _recorded = Run::new(model).record(model, &mut first);
+    let _recorded = Course::new(model).record(model, &mut first);
     look
 }
 

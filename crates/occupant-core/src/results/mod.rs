@@ -12,3 +12,6 @@ pub mod reaction;
 pub mod recorder;
 pub mod sample;
 pub mod summary;
+mod unknown;
+
+pub use unknown::Unknown;

@@ -27,6 +27,7 @@ pub(super) struct Asks<'a> {
 }
 
 /// The latest step of the integration, and where it stands.
+#[derive(Clone)]
 pub(super) struct Front {
     pub step: Step,
     from: State<f64>,

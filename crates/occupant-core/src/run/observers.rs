@@ -80,6 +80,7 @@ impl Tracker<f64> for Count<'_> {
 }
 
 /// Remembers which sphere has touched which surface, the greatest values and the readings.
+#[derive(Clone)]
 pub(super) struct Seen {
     surfaces: usize,
     /// By sphere and surface.
@@ -91,6 +92,7 @@ pub(super) struct Seen {
 }
 
 /// What greatest values are found with.
+#[derive(Clone)]
 struct Look {
     /// By sphere.
     part_of: Vec<usize>,

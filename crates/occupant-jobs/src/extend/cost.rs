@@ -5,7 +5,7 @@ use crash_measures::signal::STANDARD_GRAVITY_MPS2;
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Series, channels, star};
 use occupant_core::results::checkpoint::Checkpoint;
-use occupant_core::run::simulate::{resume, simulate};
+use occupant_core::run::simulate::{resume, attempt};
 use occupant_scenario::{Draft, Format};
 
 /// Files that a scenario names.
@@ -46,7 +46,7 @@ pub(super) fn histories(model: &Model, from: Option<&Checkpoint>) -> Result<Seri
     let mut series = Series::new(channels(model).into_iter().filter(|c| is_asked(&c.name)).collect());
     let ended = match from {
         Some(from) => resume(model, from, &mut series).map_err(|error| error.to_string()),
-        None => simulate(model, &mut series).map_err(|error| error.to_string()),
+        None => attempt(model, &mut series).map_err(|error| error.to_string()),
     };
     ended.map(|_| series)
 }

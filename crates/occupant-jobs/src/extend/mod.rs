@@ -11,7 +11,7 @@ use occupant_core::model::Model;
 use occupant_core::results::outcome::Status;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
-use occupant_core::run::simulate::{replay, simulate};
+use occupant_core::run::simulate::{replay, attempt};
 use occupant_core::vehicle::VehiclePath;
 use occupant_scenario::{Draft, Format};
 
@@ -78,7 +78,7 @@ pub fn extend_run(
     let layout = layout_or_ours(layout)?;
     let broke = |error: &dyn std::error::Error| Failure::broke_off(format!("{name}: {error}"));
     let (mut rest, mut end) = ([0.0; 2], None);
-    simulate(&model, (Watch(|s: &Sample<'_>| rest = spine_rest(s)), FirstOutput)).map_err(|e| broke(&e))?;
+    attempt(&model, (Watch(|s: &Sample<'_>| rest = spine_rest(s)), FirstOutput)).map_err(|e| broke(&e))?;
     let mut watch = Watch(|s: &Sample<'_>| end = RunEnd::after(rest, s, &layout));
     replay(&model, last, &mut watch).map_err(|e| broke(&e))?;
     let end = end.ok_or_else(|| Failure::plain(format!("{name} holds no checkpoint")))?;
@@ -129,7 +129,7 @@ fn run_end(model: &Model, layout: &CompartmentLayout) -> Result<RunEnd, Failure>
         let rest = *rest.get_or_insert_with(|| spine_rest(sample));
         end = RunEnd::after(rest, sample, layout);
     });
-    let outcome = simulate(model, watch).map_err(Failure::broke_off)?;
+    let outcome = attempt(model, watch).map_err(Failure::broke_off)?;
     match (outcome.status, end) {
         (Status::Completed, Some(end)) => Ok(end),
         (status, _) => Err(Failure::broke_off(format!("the run did not reach its end: {status:?}"))),

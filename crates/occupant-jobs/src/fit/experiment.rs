@@ -6,7 +6,7 @@ use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
 use occupant_core::results::channel::{Channel, Series};
 use occupant_core::results::recorder::Recorder;
-use occupant_core::run::simulate::simulate;
+use occupant_core::run::simulate::attempt;
 use occupant_scenario::ending::Ending;
 use occupant_scenario::{Diagnostics, Loaded};
 use occupant_study::{Misfit, Study};
@@ -173,7 +173,7 @@ impl Experiment {
     /// An integration that fails; a run whose results mean nothing.
     pub fn run(&self, model: &Model, also: impl Recorder) -> Result<Series, String> {
         let mut series = Series::new(self.recorded.clone());
-        let outcome = simulate(model, (&mut series, also)).map_err(|e| e.to_string())?;
+        let outcome = attempt(model, (&mut series, also)).map_err(|e| e.to_string())?;
         match Ending::of(&outcome).and_then(|ending| ending.reason()) {
             None => Ok(series),
             Some(reason) => Err(reason),

@@ -279,7 +279,7 @@ impl<'a> Opening<'a> {
                 Ok(found) => wanted.push((found, channel.clone())),
                 Err(near) => {
                     let found = format!("there is no channel `{}`", channel.name);
-                    let hint = near.map(|n| format!("did you mean `{n}`?"));
+                    let hint = near.nearest.map(|n| format!("did you mean `{n}`?"));
                     let at = format!("fit.channels[{i}].channel");
                     let expected = "a channel of the scenario";
                     self.complain(&at, found, expected, hint.as_deref());

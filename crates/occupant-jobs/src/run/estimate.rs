@@ -7,7 +7,7 @@ use occupant_core::results::outcome::Status;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{Caveat, Figure, Summarizer, Summary};
-use occupant_core::run::simulate::simulate;
+use occupant_core::run::simulate::attempt;
 use serde::Serialize;
 
 use crate::base::text_table::{facts, number};
@@ -85,7 +85,7 @@ pub fn estimate(
         .map_err(|problems| unfinished(opened.loaded.diagnose(&problems).to_string()))?;
     let (mut summarizer, mut finer_path) = (Summarizer::new(), Vec::new());
     let head = Watch(|sample: &Sample<'_>| finer_path.push(head_m(sample)));
-    let outcome = simulate(&model, (interrupt.clone(), (&mut summarizer, head)));
+    let outcome = attempt(&model, (interrupt.clone(), (&mut summarizer, head)));
     let outcome = outcome.map_err(|error| unfinished(error.to_string()))?;
     match (outcome.status, summarizer.summary(None)) {
         (Status::Completed, Some(finer)) => Ok(ErrorEstimate {

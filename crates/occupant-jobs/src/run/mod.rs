@@ -17,7 +17,7 @@ use occupant_core::results::outcome::{ResumeError, Status};
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError, Watch};
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{Summarizer, Summary};
-use occupant_core::run::simulate::{resume, simulate};
+use occupant_core::run::simulate::{resume, attempt};
 
 use crate::base::Failure;
 use crate::files::scenario::Opened;
@@ -68,7 +68,7 @@ pub fn run(
     let began = Instant::now();
     let ended = match from {
         Some(from) => resume(&opened.model, &from.checkpoint, recorders),
-        None => simulate(&opened.model, recorders).map_err(ResumeError::Recording),
+        None => attempt(&opened.model, recorders).map_err(ResumeError::Recording),
     };
     let outcome = ended.map_err(|error| Failure::broke_off(format!("{error}{}", recording.left())))?;
     let wall_time_s = began.elapsed().as_secs_f64();

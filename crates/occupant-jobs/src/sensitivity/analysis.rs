@@ -6,7 +6,7 @@ use std::time::Instant;
 use occupant_core::model::Model;
 use occupant_core::results::outcome::Status;
 use occupant_core::results::summary::{Figure, Summarizer};
-use occupant_core::run::simulate::simulate;
+use occupant_core::run::simulate::attempt;
 use occupant_scenario::{Draft, Resolver};
 use occupant_study::sensitivity::finite::{Neighbours, neighbours, tightly};
 use occupant_study::sensitivity::measures::{Derivatives, Request, Values, chosen, derivatives, pick, plain_values};
@@ -123,7 +123,7 @@ fn described(flag: &str, problem: &Problem) -> String {
 fn figures(model: &Model) -> Result<Vec<Figure>, Failure> {
     let mut summarizer = Summarizer::new();
     let broken = |e| Failure::broke_off(format!("the run broke off: {e}"));
-    let outcome = simulate(model, &mut summarizer).map_err(broken)?;
+    let outcome = attempt(model, &mut summarizer).map_err(broken)?;
     if let Status::Failed(reason) = outcome.status {
         return Err(Failure::broke_off(format!("the run was not completed, so it has no derivative: {reason}")));
     }

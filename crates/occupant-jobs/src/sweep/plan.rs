@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use occupant_core::model::Model;
 use occupant_core::results::summary::{Figure, Summarizer};
-use occupant_core::run::simulate::simulate;
+use occupant_core::run::simulate::attempt;
 use occupant_scenario::{Diagnostics, Draft, Loaded, names_file};
 use occupant_study::{Design, Law, Parameter, Setting, Study, StudyText, Value};
 use placed_text::Value as Written;
@@ -216,7 +216,7 @@ impl Plan {
                 Ok((_, model, _)) => {
                     let mut summarizer = Summarizer::new();
                     // one output is enough to know them
-                    let stopped = simulate(&model, (&mut summarizer, FirstOutput));
+                    let stopped = attempt(&model, (&mut summarizer, FirstOutput));
                     if let (Ok(_), Some(summary)) = (stopped, summarizer.summary(None)) {
                         return Ok([summary.figures(&model), vehicle_columns(model.setup())].concat());
                     }

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use occupant_core::results::summary::Summarizer;
-use occupant_core::run::simulate::simulate;
+use occupant_core::run::simulate::attempt;
 use occupant_study::Value;
 use placed_text::Severity;
 
@@ -85,7 +85,7 @@ impl Sweep {
         let began = Instant::now();
         let opened = self.plan.open_sample(index);
         let opened = opened.map_err(|problems| Failure::plain(format!("sample {index} is refused:\n{problems}")))?;
-        let ended = simulate(&opened.model, Summarizer::new());
+        let ended = attempt(&opened.model, Summarizer::new());
         ended.map_err(|error| Failure::broke_off(format!("sample {index} does not run: {error}")))?;
         Ok(began.elapsed().as_secs_f64())
     }

@@ -138,12 +138,13 @@ struct Place<'a> {
 #[derive(Default)]
 pub(super) struct Catalogue {
     pub(super) channels: Vec<Channel>,
+    of: u64,
     messages: Vec<Message>,
 }
 
 impl Catalogue {
     pub(super) fn of(model: &Model) -> Self {
-        let mut all = Catalogue::default();
+        let mut all = Catalogue { of: model.names_hash(), ..Catalogue::default() };
         all.vehicles(model);
         let tree = model.body().tree;
         for segment in tree.segments() {
@@ -298,10 +299,10 @@ impl Catalogue {
         };
         let name = [place.name, words.name].into_iter().filter(|w| !w.is_empty()).collect::<Vec<_>>().join(".");
         let meaning = words.meaning.replace("{}", place.words);
-        let (unit, axes) = (quantity.unit, quantity.axes);
+        let (unit, axes, of) = (quantity.unit, quantity.axes, self.of);
         let channel = |name, axes, component| {
             let (meaning, source) = (meaning.clone(), source.clone());
-            Channel { name, unit, axes, meaning, source, component }
+            Channel { name, unit, axes, meaning, source, component, of }
         };
         if quantity.kind() == Kind::Vector {
             let components = Component::ALL.into_iter();

@@ -73,6 +73,7 @@ struct Case {
     unbalanced: Vec<(&'static str, Settled)>,
     integrator: &'static str,
     time: TimeSpan,
+    names_hash: u64,
 }
 
 impl Case {
@@ -273,6 +274,7 @@ impl Recorder for Summarizer {
             unbalanced: unbalanced(model),
             integrator: setup.integrator.name(),
             time: setup.time,
+            names_hash: model.names_hash(),
         };
         let (elements, fine) = (Elements::new(model), Fine::new(model));
         let bodies = model.system().instruments.len();
@@ -296,6 +298,9 @@ impl Recorder for Summarizer {
     }
 
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        if self.case.as_ref().is_none_or(|case| case.names_hash != sample.model.names_hash()) {
+            return Err("a summarizer begins with the run that it sums up: `Recorder::begin`".into());
+        }
         self.outputs += 1;
         self.see_steps(sample);
         self.events.see(sample);
