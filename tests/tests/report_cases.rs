@@ -154,3 +154,26 @@ fn at_10_mph_all_is_gentler_and_nothing_fails() {
         assert!(slow.chest.peak_g < 0.6 * fast.chest.peak_g, "{name}: {} {}", slow.chest.peak_g, fast.chest.peak_g);
     }
 }
+
+/// With the report's 17 spheres and a wheel without thickness a scenario is its deck: the same numbers, to what series 12 rounds.
+#[test]
+fn the_scenarios_with_the_spheres_of_the_report_are_the_decks() {
+    let wheel = "surfaces.steering_wheel={material=\"steering_wheel\", \
+                 disc={centre=[9.424,-14,-9.874], diameter=11.4, tilt=14.53}}";
+    let replica = ["body.sphere_set=report", "solids.steering_wheel=null", wheel];
+    for case in ["unbelted", "lap", "lap-torso"] {
+        let (own, deck) =
+            (seen(&format!("cart-{case}.toml"), &replica), seen(&format!("decks/report/{case}.toml"), &[]));
+        for (part, a, b) in [("head", &own.head, &deck.head), ("chest", &own.chest, &deck.chest)] {
+            let words = format!("{case}: {part}");
+            // measured: within 0.1 g and 1 ms
+            assert_within(&format!("{words}, g"), a.peak_g, [0.99 * b.peak_g, 1.01 * b.peak_g]);
+            assert_within(&format!("{words}, ms above half"), a.half_ms, [b.half_ms - 1.0, b.half_ms + 1.0]);
+            assert_within(
+                &format!("{words}, ms above a quarter"),
+                a.quarter_ms,
+                [b.quarter_ms - 1.0, b.quarter_ms + 1.0],
+            );
+        }
+    }
+}

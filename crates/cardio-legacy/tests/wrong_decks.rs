@@ -235,6 +235,8 @@ fn a_decimal_point_that_slipped_is_doubted() {
         ("5", 0, 11, "      33.5", "XLH"),
         ("5", 1, 11, "      92.0", "XLE(1)"),
         ("8", 1, 1, "      400.", "XV(1)"),
+        ("8", 0, 1, "      290.", "VCW"),
+        ("8", 0, 31, "      150.", "DSW"),
     ] {
         let found = warnings(&punched(ncard, behind, column, text));
         assert!(found.iter().any(|(rule, _, v)| *rule == Rule::Unlikely && v == variable), "{variable}: {found:?}");

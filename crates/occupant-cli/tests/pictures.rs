@@ -319,6 +319,28 @@ fn solids_are_drawn_in_views_and_on_the_page() {
     assert_eq!((&sides[surfaces.len()]["name"], &sides[surfaces.len()]["bounded"]), (&"block".into(), &true.into()));
 }
 
+/// The greatest of −∫F dx over the outputs of a run, J: of a belt's force on the body, and of the sphere in it in the vehicle.
+fn work_on_belt(folder: &Path, run: &str, belt: &str, sphere: &str) -> f64 {
+    let channels = format!("belt.{belt}.body_force.*,sphere.{sphere}.position.*");
+    let output = answer(folder, &["export", run, "-f", "-o", "belt.csv", "--channel", &channels]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let csv = read(folder, "belt.csv");
+    let mut lines = csv.lines();
+    let headings: Vec<&str> = lines.next().expect("headings").split(',').collect();
+    let place = |name: &str| headings.iter().position(|h| h.split('[').next() == Some(name)).expect("a column");
+    let axes = |stem: &str| ["x", "y", "z"].map(|axis| place(&format!("{stem}.{axis}")));
+    let (force, way) = (axes(&format!("belt.{belt}.body_force")), axes(&format!("sphere.{sphere}.position")));
+    let rows: Vec<Vec<f64>> =
+        lines.map(|line| line.split(',').map(|cell| cell.parse().expect("a number")).collect()).collect();
+    let (mut work_j, mut greatest_j) = (0.0_f64, 0.0);
+    for pair in rows.windows(2) {
+        let along = |(f, x): (&usize, &usize)| 0.5 * (pair[0][*f] + pair[1][*f]) * (pair[1][*x] - pair[0][*x]);
+        work_j -= force.iter().zip(&way).map(along).sum::<f64>();
+        greatest_j = work_j.max(greatest_j);
+    }
+    greatest_j
+}
+
 #[test]
 fn three_runs_stand_abreast_with_ride_down_and_work() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -351,6 +373,14 @@ fn three_runs_stand_abreast_with_ride_down_and_work() {
     assert!(value(1, "Work taken up by belt lap").expect("work") > 0.0);
     assert!(value(2, "Work taken up by belt torso").expect("work") > 0.0);
     assert!(value(0, "Work taken up by panel_lower_face").expect("work") > 0.0);
+    // by themselves: what the body does on a belt is its force along the way of the sphere that it goes round
+    for (belt, sphere) in [("lap", "pelvis"), ("torso", "chest")] {
+        let own = value(2, &format!("Work taken up by belt {belt}")).expect("work");
+        let j_per_in_lbf = 0.112_984_829;
+        let work = work_on_belt(folder.path(), "cart-lap-torso.mcap", belt, sphere) / j_per_in_lbf;
+        // measured: 371.3 for 371.9, 6706.9 for 6707.6 in·lbf
+        assert!((own - work).abs() < 0.005 * work, "{belt}: {own} for {work}");
+    }
     // the same of results, and not of five
     let all = ["report", "cart-unbelted.mcap", "cart-lap.mcap", "cart-lap-torso.mcap", "-o", "again.html"];
     assert_eq!(code(&answer(folder.path(), &all)), 0);

@@ -34,7 +34,7 @@ pub(crate) struct Args {
     study: PathBuf,
 
     /// A test: a text table (CSV) or an ISO-MME test; may be repeated. Not needed where the study names its tests
-    #[arg(long, value_name = "TEST")]
+    #[arg(long = "test", alias = "to", value_name = "FILE")]
     to: Vec<PathBuf>,
 
     /// The folder of the results, made if it is not there; that of the study's name in the present folder if absent

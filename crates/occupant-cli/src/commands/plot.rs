@@ -77,7 +77,7 @@ pub(crate) struct Args {
     title: Option<String>,
 
     /// Plots beside each other on a sheet
-    #[arg(long, value_name = "N", default_value = "3", value_parser = clap::value_parser!(u8).range(1..=10))]
+    #[arg(long = "across", alias = "columns", value_name = "N", default_value = "3", value_parser = clap::value_parser!(u8).range(1..=10))]
     columns: u8,
 
     /// Pixels of a PNG for each unit of the drawing (1/96 inch)

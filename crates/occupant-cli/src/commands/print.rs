@@ -27,7 +27,7 @@ pub(crate) struct Args {
     force: bool,
 
     /// Print interval (DTPRNT), such as "10 ms" or 0.01; every recorded output if absent
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = interval)]
+    #[arg(long = "interval", alias = "every", value_name = "TIME", allow_hyphen_values = true, value_parser = interval)]
     every: Option<f64>,
 
     #[command(flatten)]

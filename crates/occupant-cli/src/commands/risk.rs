@@ -63,7 +63,7 @@ pub(crate) struct Args {
     filter: Option<PathFilter>,
 
     /// Filter coefficients
-    #[arg(long, value_name = "FAMILY", default_value = "iso6487", value_parser = one_of(&FAMILIES))]
+    #[arg(long, value_name = "STANDARD", default_value = "iso6487", value_parser = one_of(&FAMILIES))]
     coefficients: CfcFamily,
 
     /// Sample interval: recorded data are resampled by straight lines, paths are sampled (0.1 ms if absent)
@@ -75,7 +75,7 @@ pub(crate) struct Args {
     start: Option<String>,
 
     /// Time up to which the record is looked at; its end if absent
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    #[arg(long = "to", alias = "end", value_name = "TIME", allow_hyphen_values = true)]
     end: Option<String>,
 
     /// Names and units of the file's columns in place of its own headings, `-` for one that is left out and a minus before one whose

@@ -224,14 +224,16 @@ fn one(args: &Args) -> Result<(Done, Summary, Units), Failure> {
     }
     let balance = run.summary.energy.balance;
     let histories = std::mem::take(&mut run.histories);
-    let is_examined = args.estimate_error || ensemble.is_some();
     let ensemble = ensemble.filter(|_| run.completed && balance != Balance::Lost);
     let ensemble =
         ensemble.map(|wanted| wanted.run(&opened, &run.summary, histories, &interrupt, progress::show(args.quiet)));
     let estimate = (args.estimate_error && run.completed && !interrupt.is_asked())
         .then(|| estimate(&opened, &run.summary, &run.head, &interrupt));
-    let caveat = estimate.as_ref().and_then(told).and_then(|estimate| estimate.caveat(&run.summary));
-    run.summary.caveats.extend(caveat);
+    if let Some(estimate) = estimate.as_ref().and_then(told) {
+        // what may be chance is now known
+        run.summary.caveats.retain(|caveat| caveat.name != Caveat::CHANCE);
+        run.summary.caveats.extend(estimate.caveat(&run.summary));
+    }
     if !args.is_one_of_several {
         // the run itself is told also where what was to come after it has failed
         let more = (ensemble.as_ref().and_then(told), estimate.as_ref().and_then(told));
@@ -242,9 +244,6 @@ fn one(args: &Args) -> Result<(Done, Summary, Units), Failure> {
     unmade.map_or(Ok(()), |failure| Err(failure.with_done(&run.written.left())))?;
     if !args.quiet || balance == Balance::Lost {
         say_balance(balance, &run.summary);
-    }
-    if !args.quiet && !is_examined {
-        say_chance(&run.summary);
     }
     if !run.completed {
         return Err(Failure::BrokeOff(broke_off(&run)));
@@ -294,16 +293,6 @@ fn say_balance(balance: Balance, summary: &Summary) {
     let help = "a smaller step or tolerance; `occupant check` shows the fastest time scale";
     for caveat in summary.caveats.iter().filter(|caveat| caveat.name.starts_with("energy_balance")) {
         say(&format!("{word}: {}\n = help: {help}", caveat.text));
-    }
-}
-
-/// Who has left his vehicle tumbles: a little at the start is much at the end, and the energy balance does not show it.
-fn say_chance(summary: &Summary) {
-    if summary.ejections.values().any(|ejection| ejection.degree == Degree::Complete) {
-        say(
-            "warning: who is thrown out tumbles, and what comes of it may be chance: this run does not say which figures are determined\n \
-             = help: --estimate-error marks those that are not, --ensemble says which are stable",
-        );
     }
 }
 

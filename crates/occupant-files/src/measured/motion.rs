@@ -86,7 +86,8 @@ impl Motion {
                 found => found,
             },
         };
-        let Some((_, first)) = found.first() else { return Ok(None) };
+        // of signals that end at other times the longest, so that what the others lack is told
+        let Some(time_s) = found.iter().map(|(_, signal)| &signal.time_s).reduce(longer) else { return Ok(None) };
         if placed.at.is_none() && kind == MotionKind::Accelerations {
             say_if_places_differ(recording, notes);
         }
@@ -98,12 +99,12 @@ impl Motion {
                     "write the unit that it has, such as ax[g], wz[deg/s] or x[m]",
                 ));
             }
-            Ok(Column { name, unit, factor: scale.factor, values: at_times(signal, &first.time_s) })
+            Ok(Column { name, unit, factor: scale.factor, values: at_times(signal, time_s) })
         };
         let mut motion = Motion {
             kind,
             words,
-            time_s: first.time_s.clone(),
+            time_s: time_s.clone(),
             columns: found.iter().map(column).collect::<Result<_, Failure>>()?,
             signals: found.iter().map(|(_, signal)| signal.name.clone()).collect(),
         };
@@ -234,6 +235,12 @@ impl Motion {
             notes.push(format!("{} jumped by more than half a turn: turns were added", names.join(", ")));
         }
     }
+}
+
+/// The times that span more; the first of two that span the same.
+fn longer<'a>(first: &'a Vec<f64>, other: &'a Vec<f64>) -> &'a Vec<f64> {
+    let span_s = |time_s: &[f64]| time_s.last().zip(time_s.first()).map_or(0.0, |(last, first)| last - first);
+    if span_s(other) > span_s(first) { other } else { first }
 }
 
 fn without_unit(signal: &Signal) -> Failure {
@@ -400,4 +407,34 @@ fn velocity_changes(recording: &Recording) -> Vec<(String, f64)> {
         found.push((place, sum * scale.factor));
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use super::*;
+    use crate::signals::scale_of;
+
+    /// The whole of what is recorded counts, whichever signal stands first.
+    #[test]
+    fn what_a_shorter_signal_lacks_is_told() {
+        let signal = |name: &str, count: usize| Signal {
+            name: name.to_owned(),
+            code: None,
+            unit: Some("g".to_owned()),
+            scale: scale_of("g"),
+            time_s: (0..count).map(|i| 1e-3 * i as f64).collect(),
+            values: vec![1.0; count],
+            place: String::new(),
+        };
+        for (ax, ay) in [(80, 100), (100, 80)] {
+            let signals = vec![signal("ax", ax), signal("ay", ay)];
+            let recording = Recording { path: PathBuf::from("r"), sha256: String::new(), signals, notes: Vec::new() };
+            let mut notes = Vec::new();
+            let motion = Motion::of(&recording, Placed::default(), &mut notes).ok().flatten().expect("a motion");
+            assert_eq!(motion.time_s.len(), 80);
+            assert!(notes.iter().any(|note| note.contains("80 of 100 times")), "{notes:?}");
+        }
+    }
 }

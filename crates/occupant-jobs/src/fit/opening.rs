@@ -65,16 +65,16 @@ impl<'a> Opening<'a> {
         let of_study = !fit.tests.is_empty();
         let tests = if of_study { fit.tests.clone() } else { vec![FitTest::default(); files.len()] };
         if tests.is_empty() {
-            let hint = "--to test.csv, or [[fit.tests]] with `file`";
+            let hint = "--test test.csv, or [[fit.tests]] with `file`";
             self.complain("", "no test to fit to".to_owned(), "a test", Some(hint));
         }
         let open = tests.iter().filter(|t| t.file.is_none()).count();
         if open != files.len() {
             let found = match files.len() {
                 0 => format!("{open} of the study's tests have no file"),
-                n => format!("--to gives {n} of the {open} files that the study leaves to it"),
+                n => format!("--test gives {n} of the {open} files that the study leaves to it"),
             };
-            let hint = "--to gives the files of the tests without `file`, in their order";
+            let hint = "--test gives the files of the tests without `file`, in their order";
             self.complain("fit.tests", found, "a file for each test", Some(hint));
             return Vec::new();
         }

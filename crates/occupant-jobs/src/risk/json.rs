@@ -59,6 +59,7 @@ pub fn json(report: &Report) -> Value {
                 "relative_margin": j.verdict.map(|v| v.relative_margin),
                 "verdict": verdict_name(j),
                 "read_in": basis_name(j.limit.basis),
+                "document": j.limit.rule.document(),
             }))
             .collect::<Vec<Value>>(),
     })

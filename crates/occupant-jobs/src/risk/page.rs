@@ -3,7 +3,7 @@
 use occupant_scenario::kind::UnitSystem;
 
 use super::figures::Figures;
-use super::table::{about, basis_name, head, shown, told, unit_of, verdict_name};
+use super::table::{about, basis_name, documents, head, shown, told, unit_of, verdict_name};
 use super::{Report, plots};
 use crate::base::program;
 use occupant_pictures::html::{Cell, Html, about as about_page};
@@ -122,6 +122,9 @@ fn limits(html: &mut Html, report: &Report, units: Option<UnitSystem>) {
     };
     let heads = ["rule", "measure", "limit", "at most", "value", "margin", "unit", "verdict", "limit read in"];
     html.table(&heads, &report.judgements.iter().map(row).collect::<Vec<_>>());
+    let sources: Vec<String> =
+        documents(&report.judgements).into_iter().map(|(rules, document)| format!("{rules}: {document}.")).collect();
+    html.text("p class=\"remark\"", &format!("Where the limits stand. {}", sources.join(" ")));
     html.text(
         "p class=\"remark\"",
         "The rules themselves were not at hand: for a legal statement, check the rule. An intermediate class or level that is exceeded breaks no rule.",

@@ -184,7 +184,21 @@ fn limits(judgements: &[Judgement], units: Option<UnitSystem>) -> String {
         ]);
     }
     let notes = read_in.iter().zip(MARKS).map(|(words, mark)| format!("{mark} limit read in {words}\n"));
-    table.text() + &notes.collect::<String>()
+    let sources = documents(judgements).into_iter().map(|(rules, document)| format!("{rules}: {document}\n"));
+    table.text() + &notes.chain(sources).collect::<String>()
+}
+
+/// The document of each rule, rules of the same together.
+pub(super) fn documents(judgements: &[Judgement]) -> Vec<(String, &'static str)> {
+    let mut all: Vec<(Vec<&str>, &str)> = Vec::new();
+    for rule in judgements.iter().map(|judgement| judgement.limit.rule) {
+        match all.iter_mut().find(|(_, document)| *document == rule.document()) {
+            None => all.push((vec![rule.name()], rule.document())),
+            Some((names, _)) if !names.contains(&rule.name()) => names.push(rule.name()),
+            Some(_) => {}
+        }
+    }
+    all.into_iter().map(|(names, document)| (names.join(", "), document)).collect()
 }
 
 /// The class or level of each rule that has any.

@@ -276,7 +276,7 @@ fn unprepared(name: &str, error: &Unprepared) -> Failure {
             "add the columns (zeros, if the vehicle did not turn), or leave --offset out"
         }
         Unprepared::Baseline(_) => "give the length of the rest, such as --baseline '50 ms'",
-        Unprepared::Window { .. } => "give --start and --end inside the record",
+        Unprepared::Window { .. } => "give --start and --to inside the record",
     };
     Failure::with_help(format!("{name} cannot be measured: {error}"), help)
 }
