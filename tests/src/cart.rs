@@ -26,6 +26,7 @@ pub fn lap(integrator: Integrator) -> Setup {
         frames: Vec::new(),
         members: Vec::new(),
         scenery: Vec::new(),
+        facts: Vec::new(),
         title: "cart, lap belt".into(),
         body: male50(),
         joints: joints(),

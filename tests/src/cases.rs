@@ -96,6 +96,7 @@ pub fn afloat(body: Body, end_s: f64, step_s: f64) -> Setup {
         frames: Vec::new(),
         members: Vec::new(),
         scenery: Vec::new(),
+        facts: Vec::new(),
         title: "afloat".into(),
         body,
         joints: Joints::free(&TTI12),

@@ -9,7 +9,7 @@ use crate::ground::Ground;
 use crate::state::{MOTION, Outside, State, Work};
 use crate::tyre::{Tyre, saturation, shear_n};
 use crate::{GRAVITY_M_S2, V3, WHEELS};
-use nalgebra::{Matrix3, Matrix6, Vector6};
+use nalgebra::{Matrix3, Matrix6, Quaternion, Vector6};
 
 /// Spin below which a wheel counts as standing, rad/s.
 const STANDING_RAD_S: f64 = 0.5;

@@ -74,7 +74,6 @@ pub mod ride;
 pub mod run;
 mod slider;
 pub mod state;
-pub mod state;
 pub mod tyre;
 mod vehicle;
 pub mod world;

@@ -89,6 +89,15 @@ impl Beam {
         V3::new(x, y, 0.0)
     }
 
+    /// Its line in plan with both ends, m.
+    pub fn line_m(&self, y: &[f64]) -> Vec<[f64; 2]> {
+        let place = |j: isize| {
+            let at = self.start_m() + self.along * (self.step_m * (j + 1) as f64) + self.away * self.way_m(y, j);
+            [at.x, at.y]
+        };
+        (-1..=self.count as isize).map(place).collect()
+    }
+
     fn has_post(j: usize) -> bool {
         j.is_multiple_of(PER_POST)
     }

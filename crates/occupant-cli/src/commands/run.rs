@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use occupant_core::diagnosis::{UnstableFriction, diagnose};
 use occupant_core::model::setup::Integrator;
-use occupant_core::results::summary::{Degree, RunStatus, Summary};
+use occupant_core::results::summary::{Caveat, RunStatus, Summary};
 use occupant_scenario::Diagnostics;
 use occupant_scenario::ending::Balance;
 use serde::Serialize;

@@ -184,6 +184,17 @@ impl OtherFrame {
     }
 }
 
+/// A figure of what was computed before the run, such as where a vehicle came to rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fact {
+    /// Name, such as `drive.car.delta_v`.
+    pub name: String,
+    /// Its SI unit.
+    pub unit: &'static str,
+    /// Value, SI.
+    pub value: f64,
+}
+
 /// Something that is drawn and touches nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenery {
@@ -259,6 +270,8 @@ pub struct Setup {
     pub path: VehiclePath,
     /// What is drawn and touches nothing: the road, the outside of vehicles.
     pub scenery: Vec<Scenery>,
+    /// Figures of what was computed before the run, for tables.
+    pub facts: Vec<Fact>,
     /// Frames besides the vehicle's and space.
     pub frames: Vec<OtherFrame>,
     /// The bodies, where there are several.
@@ -412,6 +425,7 @@ impl SetupBuilder {
             columns: Vec::new(),
             path: VehiclePath::parked(),
             scenery: Vec::new(),
+            facts: Vec::new(),
             frames: Vec::new(),
             members: Vec::new(),
             posture: InitialPosture::Coordinates(Box::new(ReportCoordinates { q: [0.0; DOF], rates: [0.0; DOF] })),

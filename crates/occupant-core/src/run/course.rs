@@ -3,8 +3,8 @@
 //! The model stands beside it, unchanged: every call gets the one that the course was made for. [`super::Run`] keeps both
 //! together; runs side by side keep models of their own.
 
-use super::{Front, Rear, Step, Stretch, Switches};
 use super::adaptive::{Control, Memory as Wanted};
+use super::{Front, Rear, Step, Stretch, Switches};
 
 use crate::forces::{Actions, History, Memory};
 use crate::kernel::carried::Carried;

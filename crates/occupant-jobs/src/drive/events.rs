@@ -1,10 +1,13 @@
 //! What happened when.
 
+use std::f64::consts::FRAC_PI_2;
+
 use serde::Serialize;
 use vehicle_motion::ground::Ground;
 use vehicle_motion::run::{Ride, Station};
 
-use super::{WHEELS, slip_rad};
+use super::collisions::Collision;
+use super::{WHEELS, slips_rad};
 
 /// Something that happened.
 #[derive(Clone, Debug, Serialize)]
@@ -14,24 +17,32 @@ pub struct Event {
     pub what: String,
 }
 
+const SPINS: &str = "spins out: it slides sideways, slip angle 90 deg";
 /// A wheel is in the air when it bears nothing for so long, s.
 const AIR_S: f64 = 0.03;
 
 /// Events of a ride in the order of time.
-pub(super) fn of(ride: &Ride, ground: &Ground) -> Vec<Event> {
+pub(super) fn of(ride: &Ride, ground: &Ground, collisions: &[Collision]) -> Vec<Event> {
     let stations = ride.stations();
     let mut events = Vec::new();
     for (wheel, [_, name]) in WHEELS.iter().enumerate() {
         zones(stations, ground, wheel, name, &mut events);
         flights(stations, wheel, name, &mut events);
     }
+    for collision in collisions {
+        events.push(Event { time_s: collision.from_s, what: format!("touches {}", collision.with) });
+        events.push(Event { time_s: collision.until_s, what: format!("parts from {}", collision.with) });
+    }
+    let slips = slips_rad(stations);
+    let spins = slips.windows(2).position(|pair| pair[0].abs() <= FRAC_PI_2 && pair[1].abs() > FRAC_PI_2);
+    let spins = spins.map(|before| stations[before + 1].time_s);
+    events.extend(spins.map(|time_s| Event { time_s, what: SPINS.to_owned() }));
     let mut first = |what: &str, is_so: &dyn Fn(&Station) -> bool| {
         let found = stations.iter().find(|station| is_so(station));
         events.extend(found.map(|station| Event { time_s: station.time_s, what: what.to_owned() }));
     };
     let roll = |station: &Station| station.state.yaw_pitch_roll_rad()[2].abs();
-    first("spins out: it slides sideways, slip angle 90 deg", &|station| slip_rad(station).abs() > 90f64.to_radians());
-    first("on its side: a quarter turn", &|station| roll(station) > 90f64.to_radians());
+    first("on its side: a quarter turn", &|station| roll(station) > FRAC_PI_2);
     first("on its roof", &|station| roll(station) > 170f64.to_radians());
     events.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
     events

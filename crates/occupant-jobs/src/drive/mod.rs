@@ -1,16 +1,21 @@
 //! What a drive comes to: events, tyre marks, figures, tables.
 
+mod barriers;
+mod collisions;
 mod events;
+mod slip;
 mod table;
 mod text;
 
 use occupant_scenario::Drives;
-use occupant_study::risk::{Flight, Preparation, VehicleRisk, prepare};
 use vehicle_motion::marks::{Mark, marks};
 use vehicle_motion::run::{Ride, Station};
 
-use crate::risk::{Figure, Figures, PATH_INTERVAL_S, Subject};
+use crate::risk::{Figure, Figures, PATH_INTERVAL_S, Report, Subject};
+use barriers::Met;
+use collisions::Collision;
 use events::Event;
+use slip::{slip_rad, slips_rad};
 
 pub use table::{columns, path_columns, write};
 pub use text::{json, text};
@@ -25,6 +30,10 @@ pub struct Driven {
     pub events: Vec<Event>,
     pub marks: Vec<Mark>,
     pub motion: Figurable,
+    /// What it met, in the order of first touches.
+    pub collisions: Vec<Collision>,
+    /// Barriers that it met.
+    pub barriers: Vec<Met>,
     /// Measures of the risk to occupants.
     pub risk: Vec<Figure>,
 }
@@ -49,12 +58,15 @@ impl Driven {
     /// The drive of a vehicle.
     pub fn of(drives: &Drives, number: usize) -> Self {
         let ride = &drives.outcome.rides[number];
+        let collisions = collisions::of(drives, number);
         Driven {
             number,
-            events: events::of(ride, &drives.world.ground),
+            events: events::of(ride, &drives.world.ground, &collisions),
             marks: marks(ride, &drives.world.ground),
             motion: Figurable::of(ride, drives),
             risk: risk(drives, number),
+            collisions,
+            barriers: barriers::of(drives, number),
         }
     }
 }
@@ -64,26 +76,18 @@ fn risk(drives: &Drives, number: usize) -> Vec<Figure> {
     let ride = &drives.outcome.rides[number];
     let end_s = ride.last().time_s;
     let subject = Subject::path("", drives.path(number), [0.0, end_s], PATH_INTERVAL_S);
-    let class = crash_measures::signal::ChannelClass::from_number(180);
-    let filter = class.map(|class| (class, crash_measures::signal::CfcFamily::Iso6487));
-    let signals = subject.and_then(|subject| {
-        let signals = prepare(&subject.record, &Preparation { filter, ..Preparation::default() }).ok()?;
-        Some(occupant_study::risk::VehicleSignals { initial: subject.initial, ..signals })
-    });
-    let figures = signals.map(|s| Figures::of_risk(&VehicleRisk::of(&s, &Flight::default()), &s).figures);
-    figures.unwrap_or_default()
+    let report = subject.and_then(Report::of_path);
+    report.map(|report| Figures::of(&report).figures).unwrap_or_default()
 }
 
 impl Figurable {
     fn of(ride: &Ride, drives: &Drives) -> Self {
         let stations = ride.stations();
+        let most = |most: (f64, f64), x: (f64, f64)| if x.0.abs() > most.0.abs() { x } else { most };
         let greatest = |of: &dyn Fn(&Station) -> f64| {
-            let one = |station: &Station| (of(station), station.time_s);
-            stations
-                .iter()
-                .map(one)
-                .fold((0.0, 0.0), |most: (f64, f64), x| if x.0.abs() > most.0.abs() { x } else { most })
+            stations.iter().map(|station| (of(station), station.time_s)).fold((0.0, 0.0), most)
         };
+        let slips = slips_rad(stations).into_iter().zip(stations);
         let moving = stations.iter().rev().find(|station| station.velocity_m_s.norm() > REST_M_S);
         let last_s = ride.last().time_s;
         let after_s = moving.map_or(0.0, |station| station.time_s);
@@ -93,7 +97,7 @@ impl Figurable {
             turned_rad: turned(stations),
             roll: greatest(&|station| station.state.yaw_pitch_roll_rad()[2]),
             pitch: greatest(&|station| station.state.yaw_pitch_roll_rad()[1]),
-            slip: greatest(&slip_rad),
+            slip: slips.map(|(slip, station)| (slip, station.time_s)).fold((0.0, 0.0), most),
             slope: greatest(&|station| {
                 let normal = drives.world.ground.normal(station.position_m.y);
                 normal.y / normal.z
@@ -109,12 +113,6 @@ fn turned(stations: &[Station]) -> f64 {
         turn - std::f64::consts::TAU * (turn / std::f64::consts::TAU).round()
     };
     stations.windows(2).map(step).sum()
-}
-
-/// Direction of travel to the right of the heading, rad; 0 at rest.
-pub fn slip_rad(station: &Station) -> f64 {
-    let velocity = station.attitude.inverse() * station.velocity_m_s;
-    if velocity.norm() < 0.5 { 0.0 } else { occupant_units::trig::atan2(velocity.y, velocity.x) }
 }
 
 /// Names of wheels in channels, and in words.

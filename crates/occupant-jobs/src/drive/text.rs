@@ -1,10 +1,10 @@
 //! The report of a drive as text and as JSON.
 
-use occupant_scenario::Drives;
+use occupant_scenario::{DrivenVehicle, Drives};
 use serde_json::{Value, json as value};
 use vehicle_motion::presets::Evidence;
 
-use super::{Driven, WHEELS};
+use super::{Driven, WHEELS, barriers, collisions};
 use crate::base::Units;
 use crate::base::text_table::{Align, Table, facts};
 
@@ -16,6 +16,7 @@ pub fn text(drives: &Drives, all: &[Driven], units: Units) -> String {
 fn one(drives: &Drives, driven: &Driven, units: Units) -> String {
     let own = &drives.vehicles[driven.number];
     let ride = &drives.outcome.rides[driven.number];
+    let damage = &drives.outcome.damage[driven.number];
     let (first, last, motion) = (&ride.stations()[0], ride.last(), &driven.motion);
     let say = |value: f64, unit: &str, decimals: usize| units.say(value, unit, decimals);
     let angle = |(rad, time_s): (f64, f64)| format!("{:.1} deg at {time_s:.2} s", rad.to_degrees());
@@ -45,12 +46,23 @@ fn one(drives: &Drives, driven: &Driven, units: Units) -> String {
         ("largest pitch", angle(motion.pitch)),
         ("largest slip angle", angle(motion.slip)),
         ("steepest ground", format!("{:.0} % at {:.2} s", 100.0 * motion.slope.0, motion.slope.1)),
+        ("crush", collisions::crush_words(damage, units)),
         ("energy balance", format!("off by {:.1e} of the greatest kinetic energy", ride.balance().abs())),
         ("steps", format!("{} of {} evaluations", ride.stations().len() - 1, ride.evaluations)),
     ];
-    head.retain(|(name, words)| !(*name == "steepest ground" && words.starts_with("0 %")));
+    let is_hit = !driven.collisions.is_empty() || damage.roof_m > 0.0;
+    head.retain(|(name, words)| {
+        !(*name == "steepest ground" && words.starts_with("0 %") || *name == "crush" && !is_hit)
+    });
     let mut parts = vec![facts(&head)];
     parts.push(events(driven));
+    if !driven.collisions.is_empty() {
+        parts.push(collisions::text(&driven.collisions, units));
+        if !driven.barriers.is_empty() {
+            parts.push(barriers::text(&driven.barriers, units));
+        }
+        parts.push(collisions::damage_text(damage, units));
+    }
     if !driven.marks.is_empty() {
         parts.push(marks(driven, units));
     }
@@ -115,13 +127,15 @@ fn risk(driven: &Driven, units: Units) -> String {
 fn evidence(drives: &Drives, driven: &Driven) -> String {
     let own = &drives.vehicles[driven.number];
     let mut table = Table::new(&[(Align::Left, &["number", "trust", "where it is from"])]);
-    for (number, trust, source) in own.preset.evidence() {
-        table.row([number.to_owned(), trust.words().to_owned(), source.to_owned()]);
-    }
-    for (number, trust, source) in COMMON {
+    for (number, trust, source) in evidence_of(own, driven) {
         table.row([number.to_owned(), trust.words().to_owned(), source.to_owned()]);
     }
     table.text()
+}
+
+/// Preset, what all presets share, barriers.
+fn evidence_of(own: &DrivenVehicle, driven: &Driven) -> Vec<(&'static str, Evidence, &'static str)> {
+    own.preset.evidence().into_iter().chain(COMMON).chain(barriers::evidence(&driven.barriers)).collect()
 }
 
 fn mark(mark: &vehicle_motion::marks::Mark) -> Value {
@@ -132,6 +146,16 @@ fn mark(mark: &vehicle_motion::marks::Mark) -> Value {
         "until_s": mark.until_s,
         "length_m": mark.length_m,
         "points_m": mark.points_m,
+    })
+}
+
+fn profile(own: &vehicle_motion::world::Profile) -> Value {
+    value!({
+        "side": collisions::side_name(own.side),
+        "span_m": own.span_m,
+        "depths_m": own.depths_m,
+        "mean_m": own.mean_m,
+        "energy_j": own.energy_j,
     })
 }
 
@@ -147,10 +171,12 @@ pub fn json(drives: &Drives, all: &[Driven]) -> Value {
     let one = |driven: &Driven| {
         let own = &drives.vehicles[driven.number];
         let ride = &drives.outcome.rides[driven.number];
-        let (last, motion) = (ride.last(), &driven.motion);
+        let (last, motion, damage) = (ride.last(), &driven.motion, &drives.outcome.damage[driven.number]);
         let risk: serde_json::Map<String, Value> =
             driven.risk.iter().map(|figure| (figure.key.clone(), value!(figure.value))).collect();
-        let evidence = own.preset.evidence().map(|(number, trust, source)| value!([number, trust.words(), source]));
+        let evidence = evidence_of(own, driven);
+        let evidence: Vec<Value> =
+            evidence.iter().map(|(number, trust, source)| value!([number, trust.words(), source])).collect();
         value!({
             "vehicle": own.name,
             "preset": own.preset.name,
@@ -169,6 +195,13 @@ pub fn json(drives: &Drives, all: &[Driven]) -> Value {
             "steepest_ground": motion.slope.0,
             "energy_balance": ride.balance(),
             "events": driven.events,
+            "collisions": driven.collisions,
+            "barriers": driven.barriers,
+            "crush_dynamic_m": damage.dynamic_m,
+            "crush_residual_m": damage.residual_m,
+            "crush_roof_m": damage.roof_m,
+            "ees_m_s": damage.ees_m_s,
+            "damage": damage.profiles.iter().map(profile).collect::<Vec<_>>(),
             "tyre_marks": driven.marks.iter().map(mark).collect::<Vec<_>>(),
             "risk": risk,
             "evidence": evidence,

@@ -13,8 +13,13 @@ use super::{Figures, Report};
 type Last = Option<(VehiclePath, [f64; 2], Vec<Figure>)>;
 static LAST: Mutex<Last> = Mutex::new(None);
 
-/// `vehicle.oiv_x`, `vehicle.asi_2010` and so on, of a path that is a table, a record or a drive; none of others.
+/// `vehicle.oiv_x`, `vehicle.asi_2010` and so on, of a path that is a table, a record or a drive, and figures of what was driven; none of others.
 pub fn columns(setup: &Setup) -> Vec<Figure> {
+    let facts = setup.facts.iter().map(|own| Figure { name: own.name.clone(), unit: own.unit, value: Some(own.value) });
+    of_path(setup).into_iter().chain(facts).collect()
+}
+
+fn of_path(setup: &Setup) -> Vec<Figure> {
     if !matches!(setup.path, VehiclePath::Table(_) | VehiclePath::Sensors(_) | VehiclePath::Driven(_)) {
         return Vec::new();
     }

@@ -14,6 +14,7 @@ mod matrix;
 mod matters;
 mod numbers;
 mod page;
+mod panels;
 mod pictures;
 mod plots;
 mod responses;

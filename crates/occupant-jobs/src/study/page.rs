@@ -1,6 +1,6 @@
 //! The page: one HTML file that needs no network and no script.
 
-use super::{Report, caution, matrix, matters, sections};
+use super::{Report, caution, matrix, matters, panels, sections};
 use crate::base::program;
 use occupant_pictures::html::{Html, about as about_page};
 
@@ -42,6 +42,9 @@ pub fn page(report: &Report) -> String {
     html.raw("</div><div>\n");
     sections::ends(&mut html, report);
     html.raw("</div></div>\n");
+    if ends.finished() > 0 {
+        panels::section(&mut html, report);
+    }
     sections::varied(&mut html, report);
     if ends.finished() == 0 {
         html.text("p class=\"note\"", "No run has finished yet: there is nothing to say.");

@@ -83,6 +83,7 @@ pub(crate) fn setup(
         columns,
         path,
         scenery: drives.map_or_else(Vec::new, |drives| drive::scenery(explicit, drives)),
+        facts: drives.map_or_else(Vec::new, drive::facts),
         frames,
         members: Vec::new(),
         posture,

@@ -1,6 +1,8 @@
 //! Damage of a vehicle at the end of a run.
 
+use crate::V3;
 use crate::body::Side;
+use crate::car::Car;
 use crate::crush::law::Law;
 use crate::crush::outline::{Node, Outline, SIDES};
 
@@ -13,11 +15,30 @@ pub struct Damage {
     pub residual_m: f64,
     /// Deepest crush of the roof by the ground, m.
     pub roof_m: f64,
+    /// Places that were pressed in.
+    pub dents: Vec<Dent>,
     /// Damaged sides.
     pub profiles: Vec<Profile>,
     /// Speed of a barrier that absorbs as much as its structure did: √(2E/M), m/s.
     pub ees_m_s: f64,
 }
+
+/// A place of the outline that was pressed in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dent {
+    /// Of which side.
+    pub side: Side,
+    /// Place before the crush, and outward normal, body axes, m.
+    pub place_m: V3,
+    /// Normal.
+    pub normal: V3,
+    /// Greatest crush while it lasted, m.
+    pub depth_m: f64,
+}
+
+/// Thickness of what lies between the outline and the compartment and does not crush away, m: a door, an engine. Guesses.
+const DOOR_M: f64 = 0.2;
+const ENGINE_M: f64 = 0.4;
 
 /// Crush of a side.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,11 +75,44 @@ impl Damage {
         });
         Damage {
             dynamic_m: deepest(&Law::crush_m),
+            dents: hit().map(|(node, most)| Dent::of(node, laws[node.law].crush_m(*most))).collect(),
             residual_m: deepest(&Law::residual_m),
             roof_m: 0.0,
             profiles: profiles.collect(),
             ees_m_s: (2.0 * taken_j.max(0.0) / mass_kg).sqrt(),
         }
+    }
+}
+
+impl Damage {
+    /// Greatest crush of the front while it lasted, m.
+    pub fn front_m(&self) -> f64 {
+        self.dents.iter().filter(|dent| dent.side == Side::Front).map(|dent| dent.depth_m).fold(0.0, f64::max)
+    }
+
+    /// How deep the crush, with what lies behind the sheet, reaches into a sphere at a place of the compartment, body axes, m;
+    /// negative if it stays away. None above, below and beside all that was pressed in.
+    pub fn reaches_m(&self, place_m: &V3, radius_m: f64, car: &Car) -> Option<f64> {
+        let up_m = car.height_m - place_m.z;
+        let [low_m, high_m] = car.body.band_m;
+        if up_m + radius_m < low_m || up_m - radius_m > high_m {
+            return None;
+        }
+        let reach = |dent: &Dent| {
+            let way = place_m - dent.place_m;
+            let aside_m = (way.x * dent.normal.y - way.y * dent.normal.x).abs();
+            let is_end = matches!(dent.side, Side::Front | Side::Rear);
+            let behind_m = if is_end { ENGINE_M } else { DOOR_M };
+            let is_beside = aside_m <= 0.5 * car.body.crush.spacing_m + radius_m;
+            is_beside.then_some(dent.depth_m + behind_m + way.dot(&dent.normal) + radius_m)
+        };
+        self.dents.iter().filter_map(reach).max_by(f64::total_cmp)
+    }
+}
+
+impl Dent {
+    fn of(node: &Node, depth_m: f64) -> Self {
+        Dent { side: SIDES[node.face], place_m: node.place_m, normal: node.normal, depth_m }
     }
 }
 

@@ -64,6 +64,7 @@ impl Runner<'_> {
             deflection_m: memory.most_m,
             tension_n: memory.most_n,
             released: memory.released(),
+            line_m: rail.beam.line_m(&stack.more[rail.at.clone()]),
         };
         let rails = setup.rails.iter().zip(&memories.rails).map(bent).collect();
         let slid = |(i, memory): (usize, &SlideMemory)| Slid {
