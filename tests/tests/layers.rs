@@ -103,7 +103,7 @@ const ROOMS: [(&str, &[&str]); 9] = [
 ];
 
 /// Crates that a crate of the workspace may depend on, outside its tests.
-const CRATES: [(&str, &[&str]); 11] = [
+const CRATES: [(&str, &[&str]); 12] = [
     ("placed-text", &[]),
     ("occupant-units", &["placed-text"]),
     ("crash-measures", &["occupant-units"]),
@@ -115,6 +115,10 @@ const CRATES: [(&str, &[&str]); 11] = [
     (
         "occupant-files",
         &["placed-text", "occupant-units", "crash-measures", "occupant-core", "occupant-scenario", "cardio-legacy"],
+    ),
+    (
+        "occupant",
+        &["placed-text", "occupant-units", "crash-measures", "occupant-core", "occupant-scenario", "occupant-files"],
     ),
     ("occupant-pictures", &["placed-text", "occupant-units", "occupant-core", "occupant-files"]),
     (
