@@ -110,6 +110,7 @@ pub fn afloat(body: Body, end_s: f64, step_s: f64) -> Setup {
         chains: Vec::new(),
         bags: Vec::new(),
         columns: Vec::new(),
+        own_forces: Vec::new(),
         path: parked(),
         posture: straight(Vector3::zeros(), Vector3::zeros()),
         velocity: InitialVelocity::WithVehicle,

@@ -139,6 +139,10 @@ const CRATES: [(&str, &[&str]); 12] = [
         "occupant-files",
         &["placed-text", "occupant-units", "crash-measures", "occupant-core", "occupant-scenario", "cardio-legacy"],
     ),
+    (
+        "occupant",
+        &["placed-text", "occupant-units", "crash-measures", "occupant-core", "occupant-scenario", "occupant-files"],
+    ),
     ("occupant-pictures", &["placed-text", "occupant-units", "occupant-core", "occupant-files"]),
     (
         "occupant-jobs",

@@ -28,6 +28,8 @@ mod manual;
 mod many;
 mod obstacles;
 mod outputs;
+mod own_forces;
+mod own_runs;
 mod reactions;
 mod reference;
 mod report_cases;

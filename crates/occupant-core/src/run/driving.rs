@@ -1,18 +1,20 @@
 //! A run in one's own hands.
 
 use std::fmt;
+use std::ops::Deref;
+use std::sync::Arc;
 
 use super::{Course, RunError, Step};
 use crate::forces::History;
 use crate::model::Model;
 use crate::motion::state::State;
 use crate::results::checkpoint::Checkpoint;
-use crate::results::outcome::{Outcome, RecordingFailed, Status};
+use crate::results::outcome::{Outcome, RecordingFailed, SimulationError, Status};
 use crate::results::recorder::{Flow, Recorder, Watch};
 use crate::results::sample::Sample;
 use crate::run::simulate::go_on;
 use crate::vehicle::live::{LiveFrame, LiveFrames};
-use crate::vehicle::{FrameMotion, PathCursor, VehicleInput};
+use crate::vehicle::{FrameMotion, VehicleInput, VehiclePose};
 
 /// A run of a model that one steps oneself: to a time, from frame to frame, with looks, kicks and pauses between.
 ///
@@ -41,10 +43,28 @@ use crate::vehicle::{FrameMotion, PathCursor, VehicleInput};
 /// ```
 #[derive(Clone)]
 pub struct Run<'m> {
-    pub(super) model: &'m Model,
+    pub(super) model: Held<'m>,
     pub(super) course: Course,
     /// Whether a recorder was told of the run.
     pub(super) is_recorded: bool,
+}
+
+/// A model that is lent, or shared.
+#[derive(Clone)]
+pub(super) enum Held<'m> {
+    Lent(&'m Model),
+    Shared(Arc<Model>),
+}
+
+impl Deref for Held<'_> {
+    type Target = Model;
+
+    fn deref(&self) -> &Model {
+        match self {
+            Held::Lent(model) => model,
+            Held::Shared(model) => model,
+        }
+    }
 }
 
 impl fmt::Debug for Run<'_> {
@@ -56,7 +76,12 @@ impl fmt::Debug for Run<'_> {
 impl<'m> Run<'m> {
     /// A run of `model` at its start.
     pub fn new(model: &'m Model) -> Self {
-        Run { model, course: Course::new(model), is_recorded: false }
+        Run { model: Held::Lent(model), course: Course::new(model), is_recorded: false }
+    }
+
+    /// The same of a model that it shares, and so keeps: it may go anywhere.
+    pub fn shared(model: Arc<Model>) -> Run<'static> {
+        Run { course: Course::new(&model), model: Held::Shared(model), is_recorded: false }
     }
 
     /// The run of which [`Run::checkpoint`] or an output gave a checkpoint. Of a vehicle that is told on the way it has no
@@ -66,12 +91,12 @@ impl<'m> Run<'m> {
     /// A checkpoint that does not fit the model.
     pub fn from_checkpoint(model: &'m Model, checkpoint: &Checkpoint) -> Result<Self, RunError> {
         let course = Course::from_checkpoint(model, checkpoint, false)?;
-        Ok(Run { model, course, is_recorded: false })
+        Ok(Run { model: Held::Lent(model), course, is_recorded: false })
     }
 
     /// What is run.
-    pub fn model(&self) -> &'m Model {
-        self.model
+    pub fn model(&self) -> &Model {
+        &self.model
     }
 
     /// Time reached, s.
@@ -120,7 +145,7 @@ impl<'m> Run<'m> {
             return Err(RunError::Time { now_s, end_s, target_s });
         }
         if target_s > now_s {
-            self.course.advance_to(self.model, target_s)?;
+            self.course.advance_to(&self.model, target_s)?;
         }
         if !self.is_recorded {
             // nobody will ask for what was read since the last output
@@ -143,7 +168,7 @@ impl<'m> Run<'m> {
     /// None of today's; forces that cannot be worked out may become one.
     pub fn look<T>(&mut self, look: impl FnOnce(&Sample<'_>) -> T) -> Result<T, RunError> {
         let (mut look, mut seen) = (Some(look), None);
-        self.course.look(self.model, &mut Watch(|sample: &Sample<'_>| seen = look.take().map(|look| look(sample))))?;
+        self.course.look(&self.model, &mut Watch(|sample: &Sample<'_>| seen = look.take().map(|look| look(sample))))?;
         seen.ok_or_else(|| RunError::input("a look that saw nothing", "a sample"))
     }
 
@@ -153,21 +178,21 @@ impl<'m> Run<'m> {
     /// What the recorder reports.
     pub fn record(&mut self, recorder: &mut dyn Recorder) -> Result<Flow, RecordingFailed> {
         if !self.is_recorded {
-            self.course.begin(self.model, recorder)?;
+            self.course.begin(&self.model, recorder)?;
             self.is_recorded = true;
         }
-        self.course.record(self.model, recorder)
+        self.course.record(&self.model, recorder)
     }
 
     /// Goes on to the model's end and records every output on the way, the present one first.
     ///
     /// # Errors
     /// A step that fails, what the recorder reports.
-    pub fn finish(mut self, recorder: &mut dyn Recorder) -> Result<Outcome, crate::results::outcome::SimulationError> {
+    pub fn finish(mut self, recorder: &mut dyn Recorder) -> Result<Outcome, SimulationError> {
         if !self.is_recorded {
-            self.course.begin(self.model, recorder)?;
+            self.course.begin(&self.model, recorder)?;
         }
-        let status = go_on(self.model, &mut self.course, recorder)?;
+        let status = go_on(&self.model, &mut self.course, recorder)?;
         self.course.end(status, recorder)?.succeeded()
     }
 
@@ -189,7 +214,7 @@ impl<'m> Run<'m> {
 
     /// Up to when the motion of the vehicle is known, s; without end but for a vehicle that is told on the way.
     pub fn known_until_s(&self) -> f64 {
-        self.course.known_s(self.model)
+        self.course.known_s(&self.model)
     }
 
     /// Tells how the vehicle moves from [`Run::known_until_s`] to `until_s`, the end of a frame. The model's path is
@@ -225,7 +250,7 @@ impl<'m> Run<'m> {
     }
 
     /// How the vehicle moves at a time, as far as it is known.
-    fn vehicle_at(&mut self, t_s: f64) -> (FrameMotion, crate::vehicle::VehiclePose) {
+    fn vehicle_at(&mut self, t_s: f64) -> (FrameMotion, VehiclePose) {
         let (path, cursor) = (&self.model.setup().path, &mut self.course.cursor);
         (path.motion(t_s, t_s, cursor), path.attitude(t_s, cursor))
     }
@@ -233,8 +258,7 @@ impl<'m> Run<'m> {
     /// How the vehicle moves now, space axes.
     pub fn vehicle(&mut self) -> FrameMotion {
         let now_s = self.time_s();
-        let cursor: &mut PathCursor = &mut self.course.cursor;
-        self.model.setup().path.motion(now_s, now_s, cursor)
+        self.model.setup().path.motion(now_s, now_s, &mut self.course.cursor)
     }
 
     /// Follows the accepted steps from now on: [`Run::take_steps`].

@@ -24,7 +24,7 @@ impl Run<'_> {
         from_lower_end_m: Point3<f64>,
         impulse_n_s: Vector3<f64>,
     ) -> Result<(), RunError> {
-        let (model, n) = (self.model, segment.index());
+        let (model, n) = (&*self.model, segment.index());
         if n >= model.body().segments.len() {
             return Err(RunError::input(format!("segment {n}"), "a segment of the model's body"));
         }
@@ -66,7 +66,7 @@ impl Run<'_> {
             return Err(RunError::input("a state with numbers that are not finite", "finite numbers"));
         }
         let before = self.look(|sample| sample.ledgers.iter().map(|ledger| ledger.balance_j).collect::<Vec<f64>>())?;
-        self.course.restart(self.model, state);
+        self.course.restart(&self.model, state);
         let after = self.look(|sample| sample.ledgers.iter().map(|ledger| ledger.balance_j).collect::<Vec<f64>>())?;
         for (start, (before, after)) in self.course.energy_starts.iter_mut().zip(before.into_iter().zip(after)) {
             start.mechanical_j += after - before;

@@ -1,5 +1,8 @@
 //! A run as bytes: to be put away and taken up again, in another process or on another machine.
 
+use std::sync::Arc;
+
+use super::driving::Held;
 use super::{Course, Run, RunError};
 use crate::forces::stored::Archive;
 use crate::model::Model;
@@ -27,10 +30,24 @@ impl Run<'_> {
             .flat_map(|start| start.stored_j.into_iter().chain([start.mechanical_j]))
             .collect();
         let frames = course.cursor.live.as_ref().map_or_else(Vec::new, |frames| frames.numbers());
-        for list in [energies, course.breaks_s.clone(), frames, vec![f64::from(u8::from(self.is_recorded))]] {
+        let own = course.history.memory.own.iter().flatten().copied().collect();
+        let step = checkpoint.under_way.iter().flat_map(|step| step.memory.own.iter().flatten().copied()).collect();
+        for list in [own, step, energies, course.breaks_s.clone(), frames, vec![f64::from(u8::from(self.is_recorded))]]
+        {
             (&mut file as &mut dyn Archive).numbers(EXTRA, list);
         }
         Ok(file.0)
+    }
+}
+
+impl Run<'static> {
+    /// [`Run::load`] of a model that the run shares.
+    ///
+    /// # Errors
+    /// As of [`Run::load`].
+    pub fn load_shared(model: Arc<Model>, bytes: &[u8]) -> Result<Self, RunError> {
+        let Run { course, is_recorded, .. } = Run::load(&model, bytes)?;
+        Ok(Run { course, is_recorded, model: Held::Shared(model) })
     }
 }
 
@@ -47,15 +64,19 @@ impl<'m> Run<'m> {
             return Err(wrong("a run of another model"));
         }
         let mut file = Reader { rest, is_sound: true };
-        let checkpoint = Checkpoint::stored(&mut file);
-        let mut lists = [const { Vec::new() }; 4];
+        let mut checkpoint = Checkpoint::stored(&mut file);
+        let mut lists = [const { Vec::new() }; 6];
         for list in &mut lists {
             *list = (&mut file as &mut dyn Archive).numbers(EXTRA, Vec::new());
         }
         if !file.is_sound || !file.rest.is_empty() {
             return Err(wrong("a saved run that breaks off or goes on"));
         }
-        let [energies, breaks_s, frames, is_recorded] = lists;
+        let [own, step, energies, breaks_s, frames, is_recorded] = lists;
+        checkpoint.memory.own = own.as_chunks().0.to_vec();
+        if let Some(under_way) = &mut checkpoint.under_way {
+            under_way.memory.own = step.as_chunks().0.to_vec();
+        }
         let mut course = Course::from_checkpoint(model, &checkpoint, false)?;
         take_energies(&mut course, &energies);
         if !breaks_s.is_sorted() {
@@ -66,7 +87,7 @@ impl<'m> Run<'m> {
             [] => None,
             numbers => Some(Box::new(LiveFrames::from_numbers(numbers).ok_or_else(|| wrong("other frames"))?)),
         };
-        Ok(Run { model, course, is_recorded: is_recorded.first().is_some_and(|x| *x == 1.0) })
+        Ok(Run { model: Held::Lent(model), course, is_recorded: is_recorded.first().is_some_and(|x| *x == 1.0) })
     }
 }
 

@@ -14,7 +14,7 @@ const OFFSET_M: Vector3<f64> = Vector3::new(-0.35, 0.10, 0.05);
 const RATE: f64 = 200.0;
 
 fn folder() -> String {
-    format!("{}/../../scenarios", env!("CARGO_MANIFEST_DIR"))
+    format!("{}/scenarios", env!("CARGO_MANIFEST_DIR"))
 }
 
 fn scenario(name: &str) -> Loaded {

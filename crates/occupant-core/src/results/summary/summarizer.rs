@@ -1,6 +1,6 @@
 //! The recorder that makes a [`Summary`].
 
-use indexmap::IndexMap;
+use crate::forces::table::InOrder;
 
 use super::compartment::Compartment;
 use super::elements::Elements;
@@ -122,7 +122,7 @@ impl Summarizer {
         let mut people = people.into_iter().map(|(name, person, _)| (name, person));
         let (occupant, Person { accelerations, head_excursion, measures }) = people.next()?;
         let contacts = contacts(outcome, case);
-        let throws: IndexMap<_, _> =
+        let throws: InOrder<_, _> =
             self.flights.iter().filter_map(|flight| Some((flight.name, flight.throw(&case.body.spheres)?))).collect();
         let on_the_way = throws.iter().filter_map(|(name, throw)| Caveat::not_at_rest(name, throw));
         let (status, reason) = ending(&outcome.status);
@@ -183,7 +183,7 @@ impl Summarizer {
     }
 
     /// By body, what left the compartment that it started in.
-    fn ejections(&self, case: &Case) -> IndexMap<&'static str, Ejection> {
+    fn ejections(&self, case: &Case) -> InOrder<&'static str, Ejection> {
         let all = self.compartments.iter();
         all.filter_map(|of| Some((of.name, of.ejection(&case.body.spheres, &case.surfaces)?))).collect()
     }
@@ -203,7 +203,7 @@ impl Summarizer {
     }
 
     /// Parts that left a compartment where there is nothing outside.
-    fn unmet(case: &Case, ejections: &IndexMap<&'static str, Ejection>) -> Vec<Caveat> {
+    fn unmet(case: &Case, ejections: &InOrder<&'static str, Ejection>) -> Vec<Caveat> {
         let all = ejections.values().filter(|_| !case.has_ground).flat_map(|ejection| &ejection.parts);
         let tree = &case.body.tree;
         let is_measured = |sphere: &ContactSphere| {
