@@ -12,3 +12,4 @@ pub mod reaction;
 pub mod recorder;
 pub mod sample;
 pub mod summary;
+mod told;
