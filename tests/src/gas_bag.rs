@@ -157,7 +157,8 @@ impl GasBag {
     pub fn expected(&self) -> ([f64; 4], Option<f64>) {
         let [p_a, t_a] = AMBIENT;
         let folded = p_a * self.envelope(0.0)[0];
-        let mut y = [0.0, self.speed_m_s, folded / (AIR[0] * t_a), 0.0, (AIR[1] + 0.5 * AIR[2] * t_a) * folded / AIR[0]];
+        let mut y =
+            [0.0, self.speed_m_s, folded / (AIR[0] * t_a), 0.0, (AIR[1] + 0.5 * AIR[2] * t_a) * folded / AIR[0]];
         let (mut opened_s, mut most) = (None, [0.0_f64; 2]);
         for i in 0..(self.end_s / STEP_S).round() as u64 {
             let (mut t, end_s) = (STEP_S * i as f64, STEP_S * (i + 1) as f64);

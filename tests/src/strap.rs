@@ -284,7 +284,11 @@ impl Course {
         };
         Course {
             case: *case,
-            unstretched_m: if case.is_fixed { case.place_m } else { case.place_m / (1.0 + case.spool_n / case.webbing_n) },
+            unstretched_m: if case.is_fixed {
+                case.place_m
+            } else {
+                case.place_m / (1.0 + case.spool_n / case.webbing_n)
+            },
             strained: if case.is_fixed { 0.0 } else { case.spool_n / case.webbing_n },
             t: 0.0,
             z: case.place_m,

@@ -280,12 +280,14 @@ fn limits_stops_and_locks_of_joints_close_open_and_close_again() {
 fn webbing_that_keeps_a_part_of_its_work_turns_round_within_a_step() {
     let returned = |r: &mut Random| 10_f64.powf(r.between(-1.5, 0.0));
     check("anchor", |r| {
-        let case = Strap { is_fixed: true, webbing_returned: returned(r), gravity_m_s2: r.between(3.0, 300.0), ..any(r) };
+        let case =
+            Strap { is_fixed: true, webbing_returned: returned(r), gravity_m_s2: r.between(3.0, 300.0), ..any(r) };
         Strap { webbing_n: r.between(10e3, 100e3), end_s: 0.3, ..case }
     });
     check("spool", |r| Strap { lock: Some((cue(r), 0.0)), webbing_returned: returned(r), ..any(r) });
     check("pretensioner", |r| {
-        let case = Strap { gravity_m_s2: 0.0, speed_m_s: r.between(-0.5, 2.0), webbing_returned: returned(r), ..any(r) };
+        let case =
+            Strap { gravity_m_s2: 0.0, speed_m_s: r.between(-0.5, 2.0), webbing_returned: returned(r), ..any(r) };
         let fires = cue(r);
         Strap { pull: Some(pull(r, fires, case.knee[1])), ..case }
     });

@@ -11,7 +11,7 @@ use crate::quantity::FieldWords;
 use crate::results::energy::{EnergyStart, Greatest, Rest};
 use crate::results::outcome::{FirstTouch, Outcome, Status};
 use crate::results::sample::{Effort, Switched};
-use crate::results::told::{from_indices, to_indices};
+use crate::results::told::{self, from_indices, to_indices};
 
 /// A run at one of its outputs.
 #[derive(Clone, Debug)]
@@ -157,8 +157,8 @@ pub enum CheckpointError {
         /// Time of the output, s.
         time_s: f64,
     },
-    /// Readings and greatest values of other elements, instruments or parts than the model has.
-    #[error("the checkpoint has greatest values or readings that are not those of the scenario")]
+    /// Readings, events and greatest values of other elements, instruments or parts than the model has.
+    #[error("the checkpoint has greatest values, readings or events that are not those of the scenario")]
     Readings,
     /// A first touch of a sphere or surface that the model does not have.
     #[error("the checkpoint knows a touch of sphere {sphere} and surface {surface}, which the scenario does not have")]
@@ -255,7 +255,8 @@ impl Checkpoint {
     fn keep_events(&mut self, file: &mut dyn Archive) {
         let times_s = self.events.iter().map(|event| event.time_s).collect();
         let times_s = file.numbers(words(65, "event_times_s", EVENTS), times_s);
-        let meaning = "of each event three numbers: place of its kind, of its element, of its words among those of the kind";
+        let meaning =
+            "of each event three numbers: place of its kind, of its element, of its words among those of the kind";
         let indices = file.indices(words(66, "events", meaning), to_indices(&self.events));
         match from_indices(&times_s, &indices) {
             Some(events) => self.events = events,
@@ -334,6 +335,9 @@ impl Checkpoint {
             return Err(CheckpointError::Time { index: self.index, found_s: self.time_s, expected_s });
         }
         self.check_touches(model)?;
+        if !told::fit(&self.events, forces) {
+            return Err(CheckpointError::Readings);
+        }
         if let Some(step) = &self.under_way {
             step.memory.check_count(forces)?;
             Self::state_of(model, &step.state)?;

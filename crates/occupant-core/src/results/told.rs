@@ -1,7 +1,7 @@
 //! What happened to force elements in a run, as plain numbers: words are told by their places.
 
 use super::sample::Switched;
-use crate::forces::{Listed, Visitor, visit_kinds};
+use crate::forces::{Forces, Listed, Visitor, visit_kinds};
 
 /// Of each event three numbers: the place of its kind, that of its element, and that of its words.
 pub(crate) fn to_indices(list: &[Switched]) -> Vec<u32> {
@@ -25,6 +25,22 @@ pub(crate) fn from_indices(times_s: &[f64], indices: &[u32]) -> Option<Vec<Switc
     };
     let fits = rest.is_empty() && rows.len() == times_s.len() && times_s.iter().all(|time_s| time_s.is_finite());
     rows.iter().zip(times_s).map(event).collect::<Option<_>>().filter(|_| fits)
+}
+
+/// Whether all are of elements that `forces` has.
+pub(crate) fn fit(list: &[Switched], forces: &Forces<f64>) -> bool {
+    let mut counts = Counts(forces, Vec::new());
+    visit_kinds(&mut counts);
+    list.iter().all(|one| counts.1.contains(&(one.of, one.element)))
+}
+
+struct Counts<'a>(&'a Forces<f64>, Vec<(&'static str, usize)>);
+
+impl Visitor for Counts<'_> {
+    fn visit<E: Listed>(&mut self) {
+        let count = if E::BY_STEPS.is_empty() { 0 } else { E::most_actions(E::law(self.0)) };
+        self.1.extend((0..count).map(|element| (E::NAMES[0], element)));
+    }
 }
 
 /// What elements of each kind are called, and what can happen to them at steps.

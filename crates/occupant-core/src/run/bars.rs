@@ -26,7 +26,8 @@ impl Bars {
     /// Of a run of `model` that has seen nothing.
     pub(super) fn new(model: &Model) -> Self {
         let shapes = &model.system().forces.contacts.solids.shapes;
-        let count = if shapes.iter().any(|shape| shape.is_bar()) { model.start().history.memory.contacts.len() } else { 0 };
+        let count =
+            if shapes.iter().any(|shape| shape.is_bar()) { model.start().history.memory.contacts.len() } else { 0 };
         Bars { last: vec![None; count], steps: 0 }
     }
 

@@ -132,8 +132,11 @@ impl Element for JointMoments {
 
 impl Reported for JointMoments {
     const SHOWS_PEAKS: bool = false;
-    const PEAKS: &'static [Tracked] =
-        &[Tracked { column: Column::number("beyond_stop_rad", "beyond stop, rad", 3), time: None, at_least_zero: true }; 2];
+    const PEAKS: &'static [Tracked] = &[Tracked {
+        column: Column::number("beyond_stop_rad", "beyond stop, rad", 3),
+        time: None,
+        at_least_zero: true,
+    }; 2];
 
     #[inline(always)]
     fn track<S: Scalar>(joint: &JointAction<S>, tracker: &mut impl Tracker<S>) {

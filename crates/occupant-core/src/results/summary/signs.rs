@@ -98,7 +98,13 @@ impl Signs {
         let spheres = vec![Sunk::NONE; body.spheres.len()];
         Signs {
             joints: vec![turned; body.tree.joints().len()],
-            stops: model.system().forces.joints.joints().map(|of| (of.index(), stops(&model.setup().joints[of]))).collect(),
+            stops: model
+                .system()
+                .forces
+                .joints
+                .joints()
+                .map(|of| (of.index(), stops(&model.setup().joints[of])))
+                .collect(),
             limits: limits(model),
             passed: spheres.clone(),
             bottomed: spheres.iter().map(|none| (*none, 0.0)).collect(),
