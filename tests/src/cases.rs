@@ -105,7 +105,7 @@ pub fn afloat(body: Body, end_s: f64, step_s: f64) -> Setup {
         surfaces: Vec::new(),
         solids: Vec::new(),
         self_contact: None,
-        edge_force: EdgeForce::default(),
+        edge_force: EdgeForce::AtContactPoint,
         belts: Vec::new(),
         chains: Vec::new(),
         bags: Vec::new(),

@@ -62,9 +62,9 @@ pub fn run(
     let watch_head = Watch(|sample: &Sample<'_>| head.push(head_m(sample)));
     let whole = WithEarlier {
         earlier: from.map(|f| f.earlier.clone()).unwrap_or_default(),
-        recorder: (&mut summarizer, &mut friction),
+        recorder: ((&mut summarizer, &mut friction), (&mut histories, (watch_head, &mut recording))),
     };
-    let recorders = (watcher, (whole, (&mut histories, (watch_head, &mut recording))));
+    let recorders = (watcher, whole);
     let began = Instant::now();
     let ended = match from {
         Some(from) => resume(&opened.model, &from.checkpoint, recorders),

@@ -65,11 +65,7 @@ impl Resumption {
             ));
         }
         let sha256 = sha256(&bytes);
-        let (mut checkpoint, mut earlier) = last_fitting(file, stored.checkpoints, &opened.model)?;
-        // measures are of the whole run, also in the new file: its first output brings all readings before it
-        let mut readings: Vec<f32> = earlier.iter_mut().flat_map(|one| std::mem::take(&mut one.readings)).collect();
-        readings.append(&mut checkpoint.readings);
-        checkpoint.readings = readings;
+        let (checkpoint, earlier) = last_fitting(file, stored.checkpoints, &opened.model)?;
         Ok(Resumption { checkpoint, earlier, file: file.to_owned(), sha256 })
     }
 

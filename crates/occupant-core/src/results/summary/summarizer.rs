@@ -113,7 +113,7 @@ impl Summarizer {
         let mut peaks = self.seen.clone();
         peaks.merge(&self.now);
         let people = self.persons(&peaks);
-        let signs = self.signs.with_steps(&self.elements, &peaks.elements);
+        let signs = self.signs.with_steps(&self.elements, &peaks, &case.body);
         let caveats = self.caveats(case, &signs, &people, outcome.time_s);
         let sphere_forces = sphere_forces(case, &peaks);
         let unbalanced = case.caveats_of_start(&people, &sphere_forces);
