@@ -34,13 +34,13 @@ pub(crate) struct Collision {
     pub(crate) peak_m_s2: f64,
 }
 
-/// A touch that changes the speed by less is none, m/s: cars that lean on each other at rest.
-const LEAST_M_S: f64 = 0.1;
+/// A touch that changes the speed by less, by itself or with the tyres, is none, m/s: cars that lean on each other.
+const LEAST_M_S: f64 = 0.5;
 
 /// Collisions of a vehicle in the order of first touches.
 pub(super) fn of(drives: &Drives, number: usize) -> Vec<Collision> {
     let all = drives.outcome.contacts.iter().filter_map(|contact| one(drives, contact, number));
-    all.filter(|own| own.delta_v_m_s >= LEAST_M_S).collect()
+    all.filter(|own| own.delta_v_m_s.min(own.delta_v_contact_m_s) >= LEAST_M_S).collect()
 }
 
 fn one(drives: &Drives, contact: &Contact, number: usize) -> Option<Collision> {

@@ -97,9 +97,11 @@ pub(crate) fn plan(drives: &Drives, all: &[Driven], title: &str) -> String {
     for number in 0..drives.barriers.len() {
         barrier(&mut svg, &sheet, drives, number);
     }
+    let mut labels = Vec::new();
     for driven in all {
-        vehicle(&mut svg, &sheet, drives, driven);
+        vehicle(&mut svg, &sheet, drives, driven, &mut labels);
     }
+    tell_times(&mut svg, labels);
     svg.end();
     svg.rect(SIDE, HEAD, width, height, "fill=\"none\" stroke=\"#9a9a9a\"");
     foot(&mut svg, &sheet, drives);
@@ -179,7 +181,7 @@ fn barrier(svg: &mut Svg, sheet: &Sheet, drives: &Drives, number: usize) {
 }
 
 /// The way of a vehicle's centre of gravity, and its outline at times, the later the darker.
-fn vehicle(svg: &mut Svg, sheet: &Sheet, drives: &Drives, driven: &Driven) {
+fn vehicle(svg: &mut Svg, sheet: &Sheet, drives: &Drives, driven: &Driven, labels: &mut Vec<([f64; 2], f64)>) {
     let (own, ride) = (&drives.vehicles[driven.number], &drives.outcome.rides[driven.number]);
     let colour = COLOURS[driven.number % COLOURS.len()];
     let stations = ride.stations();
@@ -209,9 +211,21 @@ fn vehicle(svg: &mut Svg, sheet: &Sheet, drives: &Drives, driven: &Driven) {
         let (front, half) = (own.car.body.front_m, 0.38 * own.car.body.width_m);
         let bar = [place(station, front - 0.12, -half), place(station, front - 0.12, half)];
         svg.polyline(&sheet.all(&bar), &format!("stroke=\"{colour}\" stroke-width=\"3\""));
-        let style = Text { size: 11.0, anchor: Anchor::Middle, halo: Some("#ffffff"), ..Text::default() };
-        let [x, y] = sheet.at(centre);
-        svg.text([x, y + 4.0], &format!("{time_s:.2} s"), &style);
+        labels.push((sheet.at(centre), *time_s));
+    }
+}
+
+/// The times beside the outlines, the latest first; one that would cover another is left out.
+fn tell_times(svg: &mut Svg, mut labels: Vec<([f64; 2], f64)>) {
+    labels.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut told: Vec<[f64; 2]> = Vec::new();
+    for ([x, y], time_s) in labels {
+        let covers = |[left, up]: &[f64; 2]| (x - left).abs() < 42.0 && (y - up).abs() < 14.0;
+        if !told.iter().any(covers) {
+            let style = Text { size: 11.0, anchor: Anchor::Middle, halo: Some("#ffffff"), ..Text::default() };
+            svg.text([x, y + 4.0], &format!("{time_s:.2} s"), &style);
+            told.push([x, y]);
+        }
     }
 }
 
