@@ -27,6 +27,7 @@ pub fn lap(integrator: Integrator) -> Setup {
         members: Vec::new(),
         scenery: Vec::new(),
         facts: Vec::new(),
+        logs: Vec::new(),
         title: "cart, lap belt".into(),
         body: male50(),
         joints: joints(),

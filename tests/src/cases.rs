@@ -97,6 +97,7 @@ pub fn afloat(body: Body, end_s: f64, step_s: f64) -> Setup {
         members: Vec::new(),
         scenery: Vec::new(),
         facts: Vec::new(),
+        logs: Vec::new(),
         title: "afloat".into(),
         body,
         joints: Joints::free(&TTI12),

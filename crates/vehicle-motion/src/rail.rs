@@ -3,7 +3,7 @@
 use crate::V3;
 use crate::barrier::Rail;
 use crate::crush::law::Series;
-use crate::crush::touch::{Marks, Pose, Push, Shape};
+use crate::crush::touch::{Marks, Pose, Push, SQUARE, Shape};
 
 /// Masses for each post spacing.
 const PER_POST: usize = 4;
@@ -279,8 +279,10 @@ impl Beam {
 
     /// Remembers the greatest forces of a vehicle's nodes.
     pub fn press(&self, y: &[f64], series: &[Series], most: &mut [f64], shape: &Shape, pose: &Pose) {
-        self.each(y, shape, pose, &mut |i, _, depth_m, _, _| {
-            most[i] = most[i].max(series[shape.nodes[i].law].load(depth_m));
+        self.each(y, shape, pose, &mut |i, _, depth_m, _, facing| {
+            if facing > SQUARE {
+                most[i] = most[i].max(series[shape.nodes[i].law].load(depth_m));
+            }
         });
     }
 

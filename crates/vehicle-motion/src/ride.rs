@@ -48,6 +48,8 @@ pub struct Station {
     pub steer_rad: f64,
     /// Force of other vehicles and barriers, vehicle-space, N.
     pub struck_n: V3,
+    /// Deepest crush so far, m.
+    pub crush_m: f64,
     /// Force of the ground on hull and rims, vehicle-space, N.
     pub hull_n: V3,
     /// Wheels.

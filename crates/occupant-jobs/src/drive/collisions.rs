@@ -23,6 +23,8 @@ pub struct Collision {
     /// Greatest change of velocity, and that change along the vehicle's axes at first touch, m/s.
     pub delta_v_m_s: f64,
     pub delta_v_axes_m_s: [f64; 3],
+    /// Change of velocity by the impulse of the contact alone, without the tyres' share: what models of impact call Δv, m/s.
+    pub delta_v_contact_m_s: f64,
     /// Where the impulse comes from, clockwise from ahead, -π to π, rad, and as the hour of a clock.
     pub pdof_rad: f64,
     pub clock: u8,
@@ -32,9 +34,13 @@ pub struct Collision {
     pub peak_m_s2: f64,
 }
 
+/// A touch that changes the speed by less, by itself or with the tyres, is none, m/s: cars that lean on each other.
+const LEAST_M_S: f64 = 0.5;
+
 /// Collisions of a vehicle in the order of first touches.
 pub(super) fn of(drives: &Drives, number: usize) -> Vec<Collision> {
-    drives.outcome.contacts.iter().filter_map(|contact| one(drives, contact, number)).collect()
+    let all = drives.outcome.contacts.iter().filter_map(|contact| one(drives, contact, number));
+    all.filter(|own| own.delta_v_m_s.min(own.delta_v_contact_m_s) >= LEAST_M_S).collect()
 }
 
 fn one(drives: &Drives, contact: &Contact, number: usize) -> Option<Collision> {
@@ -56,6 +62,7 @@ fn one(drives: &Drives, contact: &Contact, number: usize) -> Option<Collision> {
         closing_m_s: closing.norm(),
         delta_v_m_s: struck.delta_v_m_s.norm(),
         delta_v_axes_m_s: struck.delta_v_m_s.into(),
+        delta_v_contact_m_s: struck.by_contact_m_s.norm(),
         pdof_rad: turn,
         clock: struck.clock,
         ees_m_s: struck.ees_m_s,
@@ -77,8 +84,8 @@ fn side_of(contact: &Contact, number: usize) -> Option<(Struck, Partner)> {
 pub(super) fn text(collisions: &[Collision], units: Units) -> String {
     let mut table = Table::new(&[
         (Align::Left, &["collision with"]),
-        (Align::Right, &["from, s", "until, s", "closing speed", "Δv", "ahead", "to the right", "PDOF, deg"]),
-        (Align::Right, &["clock", "EES", "peak, g"]),
+        (Align::Right, &["from, s", "until, s", "closing speed", "Δv", "ahead", "to the right", "without tyres"]),
+        (Align::Right, &["PDOF, deg", "clock", "EES", "peak, g"]),
     ]);
     for own in collisions {
         let speed = |m_s: f64| units.say(m_s, "m/s", 2);
@@ -90,6 +97,7 @@ pub(super) fn text(collisions: &[Collision], units: Units) -> String {
             speed(own.delta_v_m_s),
             speed(own.delta_v_axes_m_s[0]),
             speed(own.delta_v_axes_m_s[1]),
+            speed(own.delta_v_contact_m_s),
             format!("{:.0}", own.pdof_rad.to_degrees()),
             own.clock.to_string(),
             speed(own.ees_m_s),

@@ -31,7 +31,9 @@ pub(super) fn of(ride: &Ride, ground: &Ground, collisions: &[Collision]) -> Vec<
     }
     for collision in collisions {
         events.push(Event { time_s: collision.from_s, what: format!("touches {}", collision.with) });
-        events.push(Event { time_s: collision.until_s, what: format!("parts from {}", collision.with) });
+        if collision.until_s < stations[stations.len() - 1].time_s {
+            events.push(Event { time_s: collision.until_s, what: format!("parts from {}", collision.with) });
+        }
     }
     let slips = slips_rad(stations);
     let spins = slips.windows(2).position(|pair| pair[0].abs() <= FRAC_PI_2 && pair[1].abs() > FRAC_PI_2);

@@ -3,6 +3,7 @@
 mod barriers;
 mod collisions;
 mod events;
+mod plan;
 mod slip;
 mod table;
 mod text;
@@ -17,6 +18,7 @@ use collisions::Collision;
 use events::Event;
 use slip::{slip_rad, slips_rad};
 
+pub use plan::plan;
 pub use table::{columns, path_columns, write};
 pub use text::{json, text};
 
@@ -64,18 +66,18 @@ impl Driven {
             events: events::of(ride, &drives.world.ground, &collisions),
             marks: marks(ride, &drives.world.ground),
             motion: Figurable::of(ride, drives),
-            risk: risk(drives, number),
+            risk: risk(drives, number, collisions.first().map_or(0.0, |first| first.from_s)),
             collisions,
             barriers: barriers::of(drives, number),
         }
     }
 }
 
-/// Measures of the risk to occupants by the motion of the compartment's origin.
-fn risk(drives: &Drives, number: usize) -> Vec<Figure> {
+/// Measures of the risk to occupants by the motion of the compartment's origin, from a time on.
+fn risk(drives: &Drives, number: usize, from_s: f64) -> Vec<Figure> {
     let ride = &drives.outcome.rides[number];
     let end_s = ride.last().time_s;
-    let subject = Subject::path("", drives.path(number), [0.0, end_s], PATH_INTERVAL_S);
+    let subject = Subject::path("", drives.path(number), [from_s, end_s], PATH_INTERVAL_S);
     let report = subject.and_then(Report::of_path);
     report.map(|report| Figures::of(&report).figures).unwrap_or_default()
 }

@@ -3,8 +3,9 @@
 use vehicle_motion::V3;
 use vehicle_motion::run::Station;
 
-/// Below this speed a direction of travel says nothing, m/s.
+/// Below these speeds a direction of travel says nothing, and is no slide, m/s.
 const SLOW_M_S: f64 = 0.5;
+const SLIDES_M_S: f64 = 2.0;
 /// A vehicle whose way ahead turns into a way back has been pushed back, if it goes sideways no faster than this, m/s.
 const ASIDE_M_S: f64 = 2.0;
 
@@ -19,7 +20,7 @@ pub(super) fn slip_rad(station: &Station) -> f64 {
     if velocity.norm() < SLOW_M_S { 0.0 } else { occupant_units::trig::atan2(velocity.y, velocity.x) }
 }
 
-/// The same at all stations, but from its tail while it goes back, as after a rebound.
+/// The same at all stations, but from its tail while it goes back, as after a rebound; 0 below 2 m/s.
 pub(super) fn slips_rad(stations: &[Station]) -> Vec<f64> {
     let mut backs = stations.first().is_some_and(|first| own(first).x < 0.0 && own(first).y.abs() <= ASIDE_M_S);
     let slip = |station: &Station| {
@@ -28,7 +29,8 @@ pub(super) fn slips_rad(stations: &[Station]) -> Vec<f64> {
             backs = !backs;
         }
         let sign = if backs { -1.0 } else { 1.0 };
-        if velocity.norm() < SLOW_M_S { 0.0 } else { occupant_units::trig::atan2(sign * velocity.y, sign * velocity.x) }
+        let is_slow = velocity.norm() < SLIDES_M_S;
+        if is_slow { 0.0 } else { occupant_units::trig::atan2(sign * velocity.y, sign * velocity.x) }
     };
     stations.iter().map(slip).collect()
 }

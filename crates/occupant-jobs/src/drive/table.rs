@@ -70,11 +70,14 @@ pub fn columns() -> Vec<Column> {
         all.push(column(&format!("w{name}[deg/s]"), move |m| m.along(m.motion.turning_rad_s)[i].to_degrees()));
     }
     all.push(column("steer[deg]", |m| m.between(|station| station.steer_rad).to_degrees()));
+    all.push(column("crush[m]", |m| m.between(|station| station.crush_m)));
+    all.push(column("struck[N]", |m| m.between(|station| station.struck_n.norm())));
     for (i, [name, _]) in WHEELS.iter().enumerate() {
         let heading = |of: &str| format!("wheel.{name}.{of}");
         all.push(column(&heading("load[N]"), move |m| m.between(|s| s.wheels[i].load_n)));
         all.push(column(&heading("travel[m]"), move |m| m.between(|s| s.state.jounce_m()[i])));
         all.push(column(&heading("spin[rad/s]"), move |m| m.between(|s| s.state.spin_rad_s()[i])));
+        all.push(column(&heading("brake[N*m]"), move |m| m.between(|s| s.wheels[i].brake_n_m)));
         all.push(column(&heading("slide_x[m/s]"), move |m| m.between(|s| s.wheels[i].slide_m_s[0])));
         all.push(column(&heading("slide_y[m/s]"), move |m| m.between(|s| s.wheels[i].slide_m_s[1])));
         all.push(column(&heading("force_x[N]"), move |m| m.between(|s| s.wheels[i].shear_n[0])));

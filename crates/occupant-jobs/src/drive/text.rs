@@ -106,7 +106,7 @@ fn marks(driven: &Driven, units: Units) -> String {
 fn risk(driven: &Driven, units: Units) -> String {
     let us = units.symbol("m") != "m";
     let mut table = Table::new(&[
-        (Align::Left, &["risk by the vehicle's motion"]),
+        (Align::Left, &[if driven.collisions.is_empty() { "risk by the vehicle's motion" } else { RISK_OF_COLLISION }]),
         (Align::Right, &["value"]),
         (Align::Left, &["unit", "time, s"]),
     ]);
@@ -158,6 +158,8 @@ fn profile(own: &vehicle_motion::world::Profile) -> Value {
         "energy_j": own.energy_j,
     })
 }
+
+const RISK_OF_COLLISION: &str = "risk by the vehicle's motion, from its first collision on";
 
 /// What all presets share.
 const COMMON: [(&str, Evidence, &str); 3] = [

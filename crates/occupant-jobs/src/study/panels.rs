@@ -238,3 +238,52 @@ fn shade(share: f64) -> String {
     let [red, green, blue] = mixed.map(|x| x.round() as u8);
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::Units;
+
+    fn input(name: &str, values: Vec<f64>) -> Input {
+        Input { name: name.to_owned(), unit: Units::default().told("m/s"), values, ..Input::default() }
+    }
+
+    /// Two by three by three: two panels of nine cells, each with its own value.
+    #[test]
+    fn each_run_has_its_cell() {
+        let all: Vec<[f64; 3]> = (0..18).map(|i| [i / 9, i / 3 % 3, i % 3].map(f64::from)).collect();
+        let column = |at: usize| all.iter().map(|row| row[at]).collect::<Vec<f64>>();
+        let values: Vec<f64> = (0..18).map(|i| 100.0 + f64::from(i)).collect();
+        let response = Response { name: "hic15".to_owned(), values, ..Response::default() };
+        let samples = Samples {
+            numbers: (0..18).collect(),
+            inputs: vec![input("belt", column(0)), input("speed", column(1)), input("angle", column(2))],
+            responses: vec![response],
+            ..Samples::default()
+        };
+        let grid = Grid::of(&samples).unwrap();
+        assert_eq!((grid.across.0.name.as_str(), grid.up.0.name.as_str()), ("speed", "angle"));
+        let panels = grid.panels();
+        assert_eq!(panels, [[0.0], [1.0]]);
+        let drawn = quantities(&samples.responses[0]);
+        assert_eq!(drawn.len(), 2);
+        assert_eq!(grid.value(&samples, &panels[1], [2.0, 1.0], &drawn[1]), 100.0 + 9.0 + 6.0 + 1.0);
+        let svg = grid.draw(&samples, &panels[1], &drawn[1]);
+        assert_eq!(svg.matches("<rect").count(), 9);
+        assert!(svg.contains(">117<") && !svg.contains(">108<"), "{svg}");
+        // HIC15 of 700: 11 % of AIS3+ by the curve, Φ((ln 700 − 7.45231)/0.73998)
+        let risk = curve("driver.hic15").unwrap().1(700.0);
+        assert!((risk - 0.111).abs() < 1e-3, "{risk}");
+        assert!(curve("vehicle.asi_2010").is_none() && curve("belts.lap.peak").is_none());
+        // a run that is missing is an empty cell, and words are no axis
+        assert!(grid.value(&samples, &panels[0], [5.0, 1.0], &drawn[1]).is_nan());
+        let words = Samples { inputs: vec![input("speed", column(1)), input("belt", column(0))], ..samples };
+        assert!(Grid::of(&words).is_none());
+    }
+
+    #[test]
+    fn shades_go_from_pale_to_dark() {
+        assert_eq!((shade(0.0), shade(1.0)), ("#fff7dc".to_owned(), "#66160a".to_owned()));
+        assert_eq!(shade(0.5), "#fb9a3c");
+    }
+}

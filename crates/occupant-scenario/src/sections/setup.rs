@@ -85,6 +85,7 @@ pub(crate) fn setup(
         path,
         scenery: drives.map_or_else(Vec::new, |drives| drive::scenery(explicit, drives)),
         facts: drives.map_or_else(Vec::new, drive::facts),
+        logs: drives.map_or_else(Vec::new, drive::logs),
         frames,
         members: Vec::new(),
         posture,

@@ -4,7 +4,7 @@ use crate::V3;
 use crate::body::Side;
 use crate::car::Car;
 use crate::crush::law::Law;
-use crate::crush::outline::{Node, Outline, SIDES};
+use crate::crush::outline::{Face, Node, Outline, SIDES};
 
 /// Damage of a vehicle.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -67,7 +67,7 @@ impl Damage {
         taken_j: f64,
         mass_kg: f64,
     ) -> Self {
-        let hit = || nodes.iter().zip(most).filter(|(_, most)| **most > 0.0);
+        let hit = || nodes.iter().zip(most).filter(|(node, most)| **most > 0.0 && is_of_its_side(node, outline));
         let deepest = |of: &dyn Fn(&Law, f64) -> f64| hit().map(|(n, p)| of(&laws[n.law], *p)).fold(0.0, f64::max);
         let profiles = SIDES.iter().enumerate().filter_map(|(face, side)| {
             let depths = along(outline, face, nodes.iter().zip(most).map(|(n, p)| (n, laws[n.law].residual_m(*p))));
@@ -116,11 +116,20 @@ impl Dent {
     }
 }
 
+/// Whether what a node was pressed in is damage of its face: a cut corner also pushes for the side, by its length along, but what a head-on
+/// wall pressed in there is damage of the end.
+fn is_of_its_side(node: &Node, outline: &Outline) -> bool {
+    let Face { normal: [x, y], .. } = outline.faces[node.face];
+    let over_m = |place: &[f64]| place[0] * x + place[1] * y;
+    let farthest_m = outline.edges.iter().map(|edge| over_m(&edge.corner_m)).fold(f64::NEG_INFINITY, f64::max);
+    x != 0.0 || over_m(node.place_m.as_slice()) > farthest_m - 1e-6
+}
+
 /// Mean residual crush over the rows, by place along a face, from its less end to its greater.
 fn along<'a>(outline: &Outline, face: usize, nodes: impl Iterator<Item = (&'a Node, f64)>) -> Depths {
     let is_end = outline.faces[face].normal[0] != 0.0;
     let place = |node: &Node| if is_end { node.place_m.y } else { node.place_m.x };
-    let own = nodes.filter(|(node, _)| node.face == face);
+    let own = nodes.filter(|(node, _)| node.face == face && is_of_its_side(node, outline));
     let mut depths: Depths = own.map(|(node, depth)| [place(node), depth * node.width_m, node.width_m]).collect();
     depths.sort_by(|a, b| a[0].total_cmp(&b[0]));
     depths.dedup_by(|next, kept| {

@@ -281,6 +281,12 @@ impl<'a> Setup<'a> {
         nearest.min_by(|a, b| a.0.total_cmp(&b.0)).map_or([0.0; 2], |(_, place)| [place.x, place.y])
     }
 
+    /// Deepest crush of a vehicle so far, m.
+    pub fn deepest_m(&self, car: usize, memories: &Memories) -> f64 {
+        let hit = self.shapes[car].nodes.iter().zip(&memories.most[car]).filter(|(_, most)| **most > 0.0);
+        hit.map(|(node, most)| self.laws[car][node.law].crush_m(*most)).fold(0.0, f64::max)
+    }
+
     pub fn memories(&self) -> Memories {
         Memories {
             vehicles: self.vehicles.iter().map(|_| Memory::new()).collect(),

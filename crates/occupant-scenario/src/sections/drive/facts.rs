@@ -4,7 +4,7 @@ use vehicle_motion::run::Station;
 use vehicle_motion::world::{Contact, Partner, Struck};
 
 use super::Drives;
-use occupant_core::model::setup::Fact;
+use occupant_core::model::setup::{DRIVE_NUMBERS, DriveLog, Fact};
 
 /// Figures of each vehicle over the whole drive.
 pub(crate) fn facts(drives: &Drives) -> Vec<Fact> {
@@ -38,4 +38,38 @@ fn of(drives: &Drives, number: usize) -> Vec<Fact> {
 fn side(contact: &Contact, number: usize) -> Option<Struck> {
     let [first, second] = contact.struck;
     if contact.car == number { first } else { second.filter(|_| contact.partner == Partner::Car(number)) }
+}
+
+/// Histories of all vehicles.
+pub(crate) fn logs(drives: &Drives) -> Vec<DriveLog> {
+    let log = |(number, ride): (usize, &vehicle_motion::run::Ride)| DriveLog {
+        name: drives.vehicles[number].name.clone(),
+        times_s: ride.stations().iter().map(|station| station.time_s).collect(),
+        rows: ride.stations().iter().map(row).collect(),
+    };
+    drives.outcome.rides.iter().enumerate().map(log).collect()
+}
+
+fn row(station: &Station) -> [f64; DRIVE_NUMBERS] {
+    let own = station.attitude.inverse() * station.velocity_m_s;
+    let slip_rad = if own.norm() < 0.5 { 0.0 } else { occupant_units::trig::atan2(own.y, own.x) };
+    let (speed, struck, hull) = (own.norm(), station.struck_n.norm(), station.hull_n.norm());
+    let mut row = [0.0; DRIVE_NUMBERS];
+    row[..6].copy_from_slice(&[speed, slip_rad, station.steer_rad, station.crush_m, struck, hull]);
+    let (jounce, spin) = (station.state.jounce_m(), station.state.spin_rad_s());
+    for (i, wheel) in station.wheels.iter().enumerate() {
+        let [slide, shear] = [wheel.slide_m_s, wheel.shear_n];
+        row[6 + 9 * i..15 + 9 * i].copy_from_slice(&[
+            wheel.load_n,
+            jounce[i],
+            spin[i],
+            wheel.brake_n_m,
+            slide[0],
+            slide[1],
+            shear[0],
+            shear[1],
+            wheel.saturation,
+        ]);
+    }
+    row
 }

@@ -24,7 +24,7 @@ use vehicle_motion::world::{Begin, Entry, Outcome, World, WorldError};
 
 use self::barriers::BarrierSection;
 use self::crush::ImpactSection;
-pub(super) use self::facts::facts;
+pub(super) use self::facts::{facts, logs};
 use self::ground::RoadSection;
 pub(crate) use self::people::{People, asks_for_people};
 pub(super) use self::scenery::scenery;
