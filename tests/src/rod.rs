@@ -18,11 +18,32 @@ const CALM_S: f64 = 5e-3;
 #[derive(Clone, Copy, Debug)]
 pub enum Pin {
     /// Beyond an angle either way, rad, a torque over what is beyond, N·m/rad, of whose work unloading returns a part.
-    Limit { from_rad: f64, per_rad: f64, returned: f64 },
+    Limit {
+        /// Where it begins, rad.
+        from_rad: f64,
+        /// N·m/rad.
+        per_rad: f64,
+        /// Part of the work that unloading returns.
+        returned: f64,
+    },
     /// Damping while it moves into this, which begins at an angle either way and is full at another, rad, N·m·s.
-    Stop { begin_rad: f64, full_rad: f64, damping: f64 },
+    Stop {
+        /// Where it begins, rad.
+        begin_rad: f64,
+        /// Where it is full, rad.
+        full_rad: f64,
+        /// N·m·s/rad there.
+        damping: f64,
+    },
     /// Held with N·m/rad until a moment, N·m, and again where it has been slower than a speed, rad/s.
-    Lock { until: f64, per_rad: f64, below: f64 },
+    Lock {
+        /// Moment at which it opens, N·m.
+        until: f64,
+        /// N·m/rad.
+        per_rad: f64,
+        /// Below which it closes, rad/s.
+        below: f64,
+    },
 }
 
 /// A rod that begins level, at rest.

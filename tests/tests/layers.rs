@@ -126,7 +126,7 @@ const ROOMS: [(&str, &[&str]); 10] = [
 ];
 
 /// Crates that a crate of the workspace may depend on, outside its tests.
-const CRATES: [(&str, &[&str]); 12] = [
+const CRATES: [(&str, &[&str]); 13] = [
     ("placed-text", &[]),
     ("occupant-units", &["placed-text"]),
     ("crash-measures", &["occupant-units"]),

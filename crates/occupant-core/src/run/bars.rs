@@ -6,6 +6,7 @@ use crate::model::Model;
 use crate::motion::vector::V3;
 
 /// What spheres touched of bars and rims.
+#[derive(Clone)]
 pub(super) struct Bars {
     /// By what pairs remember; empty where there is no bar.
     last: Vec<Option<Touched>>,

@@ -8,6 +8,7 @@ use crate::model::Model;
 use crate::results::sample::Switched;
 
 /// Compares the numbers of each accepted step with those of the step before.
+#[derive(Clone)]
 pub(super) struct Changes {
     kinds: Vec<OfKind>,
     /// Of the step before; none before the first.
@@ -15,6 +16,9 @@ pub(super) struct Changes {
     /// What has happened since it was last emptied.
     pub told: Vec<Switched>,
 }
+
+/// Tells what happened between the numbers of two steps.
+type Told = fn(&[f64], &[f64], &mut dyn FnMut(&'static str));
 
 /// The elements of a kind that tells what happens to them.
 #[derive(Clone, Copy)]
@@ -24,7 +28,7 @@ struct OfKind {
     first: usize,
     each: usize,
     count: usize,
-    told: fn(&[f64], &[f64], &mut dyn FnMut(&'static str)),
+    told: Told,
 }
 
 impl Changes {

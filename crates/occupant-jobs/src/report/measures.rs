@@ -1,7 +1,7 @@
 //! The table of measures: injury measures against limits, then the run's summary.
 
 use crash_measures::injury;
-use occupant_core::forces::table::{Holds, Table};
+use occupant_core::forces::table::{Cell, Holds, Table};
 use occupant_core::results::summary::{Caveat, Peak, Person, Summary, word};
 use occupant_scenario::kind::UnitSystem;
 use occupant_units::unit::{Shown, Unit};
@@ -136,7 +136,7 @@ fn element_rows(list: &str, table: &Table, units: Units) -> impl Iterator<Item =
     all.filter_map(move |(peak, time, row)| {
         let time_s = row[time.key].number()?;
         let (what, unit) = peak.heading.rsplit_once(", ").unwrap_or((peak.heading, ""));
-        let element = row[0].text().unwrap_or_default();
+        let element = row.values().next().and_then(Cell::text).unwrap_or_default();
         let name = format!("{of} {element}, {what}");
         let figure = format!("{list}.{}.{}", word(element), peak.measure.map_or(peak.key, |(measure, _)| measure));
         let value = row[peak.key].number();

@@ -22,7 +22,7 @@ use crate::quantity::{Axes, FieldWords, Quantity};
 #[derive(Clone, Copy, Debug)]
 pub struct BagAction<S> {
     /// p − p_a, Pa.
-    pub(crate) pressure: S,
+    pub pressure: S,
     /// T, K.
     pub(crate) temperature: S,
     /// Of the gas, m³ and kg.

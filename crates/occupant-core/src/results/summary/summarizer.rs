@@ -191,7 +191,7 @@ impl Summarizer {
     /// What is to know of those who were ejected: their verdict, throw, and figures of later times.
     fn by_chance(
         people: &[(&'static str, Person, Signals)],
-        ejections: &IndexMap<&'static str, Ejection>,
+        ejections: &InOrder<&'static str, Ejection>,
     ) -> Vec<Caveat> {
         let one = |(name, ejection): (&&'static str, &Ejection)| {
             let from_s = ejection.parts.first()?.time_s;
