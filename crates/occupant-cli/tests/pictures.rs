@@ -319,6 +319,60 @@ fn solids_are_drawn_in_views_and_on_the_page() {
     assert_eq!((&sides[surfaces.len()]["name"], &sides[surfaces.len()]["bounded"]), (&"block".into(), &true.into()));
 }
 
+/// A sphere that no limb reaches looks like a thing of its own: toes did, of legs without feet.
+#[test]
+fn no_sphere_of_a_body_floats_beside_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cart = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/cart-unbelted.toml");
+    for view in ["side", "top", "front"] {
+        let output = answer(folder.path(), &["view", cart, "-f", "-o", "sits.svg", "--views", view]);
+        assert_eq!(code(&output), 0, "{}", err(&output));
+        let svg = read(folder.path(), "sits.svg");
+        let groups = |opening: &str| -> Vec<String> {
+            let parts = svg.split(opening).skip(1).map(|rest| rest.split("</g>").next().unwrap_or_default().to_owned());
+            parts.collect()
+        };
+        let body = &groups("<g stroke=\"#2b2f36\" stroke-width=\"0.7\" stroke-linejoin=\"round\">")[0];
+        let spheres = &groups("<g fill=\"none\" stroke=\"#2b2f36\" stroke-opacity=\"0.45\"")[0];
+        let number = |text: &str| text.parse::<f64>().expect("a number");
+        let attribute = |element: &str, name: &str| {
+            element.split_once(&format!(" {name}=\"")).and_then(|(_, rest)| rest.split('"').next()).map(str::to_owned)
+        };
+        let polygons: Vec<Vec<[f64; 2]>> = body
+            .split("<polygon")
+            .filter_map(|element| attribute(element, "points"))
+            .map(|points| {
+                points.split(' ').filter_map(|p| p.split_once(',')).map(|(x, y)| [number(x), number(y)]).collect()
+            })
+            .collect();
+        let circles: Vec<[f64; 3]> = spheres
+            .split("<circle")
+            .filter_map(|element| {
+                Some(["cx", "cy", "r"].map(|name| attribute(element, name)).map(|v| number(&v.unwrap_or("0".into()))))
+            })
+            .filter(|[.., radius]| *radius > 0.0)
+            .collect();
+        assert!(circles.len() > 30 && polygons.len() > 20, "{} and {}", circles.len(), polygons.len());
+        // polygons are convex: inside is always on the same side
+        let holds = |polygon: &Vec<[f64; 2]>, c: &[f64; 2]| {
+            let sides = (0..polygon.len()).map(|i| {
+                let (a, b) = (polygon[i], polygon[(i + 1) % polygon.len()]);
+                (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+            });
+            let sides: Vec<f64> = sides.collect();
+            sides.iter().all(|s| *s > -0.5) || sides.iter().all(|s| *s < 0.5)
+        };
+        // its middle or a place of its edge
+        let meets = |[x, y, r]: &[f64; 3]| {
+            let edge = (0..16).map(|i| (f64::from(i) * std::f64::consts::TAU / 16.0).sin_cos());
+            let mut places = edge.map(|(sin, cos)| [x + r * cos, y + r * sin]).chain([[*x, *y]]);
+            places.any(|place| polygons.iter().any(|polygon| holds(polygon, &place)))
+        };
+        let alone: Vec<_> = circles.iter().filter(|circle| !meets(circle)).collect();
+        assert!(alone.is_empty(), "{view}: {alone:?}");
+    }
+}
+
 /// The greatest of −∫F dx over the outputs of a run, J: of a belt's force on the body, and of the sphere in it in the vehicle.
 fn work_on_belt(folder: &Path, run: &str, belt: &str, sphere: &str) -> f64 {
     let channels = format!("belt.{belt}.body_force.*,sphere.{sphere}.position.*");

@@ -62,6 +62,7 @@ pub fn measures(summary: &Summary, ride: &RideDown, units: Units) -> Vec<Measure
     let mut rows: Vec<_> = summary.people().into_iter().flat_map(own).collect();
     add_loads(&mut rows, summary, units);
     add_excursion(&mut rows, summary, units);
+    add_ejections(&mut rows, summary);
     add_ride_down(&mut rows, ride, units);
     let energy = &summary.energy;
     let group = "Energy";
@@ -175,6 +176,31 @@ fn add_ride_down(rows: &mut Vec<Measure>, ride: &RideDown, units: Units) {
     }
     for (name, work_j) in ride.works_j() {
         add(format!("Work taken up by {name}"), format!("work.{}", word(&name)), work_j, joule, None);
+    }
+}
+
+/// The verdict on each who left his compartment, and what left it, where and when.
+fn add_ejections(rows: &mut Vec<Measure>, summary: &Summary) {
+    let group = "Ejection";
+    for (name, ejection) in &summary.ejections {
+        let prefix = if name.is_empty() { String::new() } else { format!("{name}.") };
+        let (verdict, at_s) = match ejection.complete_s {
+            Some(complete_s) => ("complete: all outside at one time", Some(complete_s)),
+            None => ("partial", ejection.parts.first().map(|exit| exit.time_s)),
+        };
+        let (figure, unit) = (format!("{prefix}ejection.parts"), Unit::One.shown());
+        let row = |name: String| Measure::new(group, name, figure.clone(), unit);
+        let count = Some(ejection.parts.len() as f64);
+        rows.push(Measure {
+            value: count,
+            time_s: at_s,
+            ..row(format!("{prefix}ejection, {verdict}; parts that left"))
+        });
+        rows.extend(ejection.parts.iter().map(|exit| {
+            let past = exit.past.as_ref().map_or(String::new(), |past| format!(", past {past}"));
+            let words = format!("{prefix}{} leaves {}{past}", exit.part.replace('_', " "), exit.side.words());
+            Measure { time_s: Some(exit.time_s), ..row(words) }
+        }));
     }
 }
 
