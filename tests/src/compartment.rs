@@ -114,6 +114,7 @@ impl Compartment {
             belts: Vec::new(),
             chains: Vec::new(),
             bags: Vec::new(),
+            own: Default::default(),
             columns: Vec::new(),
             joints: JointSystem::new(&system.joints, &skeleton, |_| f64::NAN),
             limits: Vec::new(),

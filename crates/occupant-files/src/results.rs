@@ -16,7 +16,7 @@ use occupant_core::results::outcome::{Outcome, Status};
 use occupant_core::results::recorder::{Recorder, Watch};
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{RunStatus, Summarizer, Summary};
-use occupant_core::run::simulate::{replay, attempt};
+use occupant_core::run::simulate::{attempt, replay};
 use occupant_scenario::ending::{Balance, Ending};
 use occupant_scenario::{Format, Loaded};
 

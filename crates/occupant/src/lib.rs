@@ -70,8 +70,6 @@ pub mod prelude {
     pub use occupant_core::model::setup::Integrator;
     pub use occupant_core::results::outcome::Status;
     pub use occupant_core::results::recorder::Recorder;
-    pub use occupant_core::vehicle::{
-        PulseShape, Strength, VehicleInput, VehicleMotion, VehiclePath, VehicleState,
-    };
+    pub use occupant_core::vehicle::{PulseShape, Strength, VehicleInput, VehicleMotion, VehiclePath, VehicleState};
     pub use occupant_units::unit::Unit;
 }

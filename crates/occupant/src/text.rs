@@ -66,8 +66,9 @@ impl Scenario {
     pub fn get(&self, path: &str) -> Result<String, Error> {
         let mut found = self.draft.clone().get(path)?;
         match (found.pop(), found.is_empty()) {
-            (Some((_, value)), true) => written(&value)
-                .ok_or_else(|| Error::new(ErrorKind::Name, format!("`{path}` is {}; expected a single value", value.kind()))),
+            (Some((_, value)), true) => written(&value).ok_or_else(|| {
+                Error::new(ErrorKind::Name, format!("`{path}` is {}; expected a single value", value.kind()))
+            }),
             _ => Err(Error::new(ErrorKind::Name, format!("`{path}` leads to several places; expected one"))),
         }
     }

@@ -52,7 +52,14 @@ mod tests {
 
     #[test]
     fn letters_are_counted() {
-        let all = [("", "", 0), ("ab", "", 2), ("abc", "abc", 0), ("firction", "friction", 1), ("ca", "abc", 3), ("äb", "bä", 1)];
+        let all = [
+            ("", "", 0),
+            ("ab", "", 2),
+            ("abc", "abc", 0),
+            ("firction", "friction", 1),
+            ("ca", "abc", 3),
+            ("äb", "bä", 1),
+        ];
         for (one, other, count) in all {
             assert_eq!([distance(one, other), distance(other, one)], [count; 2], "{one} {other}");
         }

@@ -200,7 +200,11 @@ fn a_setup_that_points_nowhere_is_refused_with_words() {
 fn so_is_one_of_other_elements() {
     let chain: &[Row] = &[
         ("node on no sphere", |s| s.chains[0].nodes[1].site = Site::Sphere(999), "no such sphere"),
-        ("node on no segment", |s| s.chains[0].nodes[0].site = Site::Segment(999, Point3::origin(), None), "segment 999"),
+        (
+            "node on no segment",
+            |s| s.chains[0].nodes[0].site = Site::Segment(999, Point3::origin(), None),
+            "segment 999",
+        ),
         ("no nodes", |s| s.chains[0].nodes.clear(), "0 nodes"),
         ("no names of straps", |s| s.chains[0].straps.clear(), "names of straps"),
         ("on a segment", |s| s.chains[0].frame = Frame::Segment(99), "segment 99"),
@@ -211,12 +215,19 @@ fn so_is_one_of_other_elements() {
         ("bag on no frame", |s| s.bags[0].frame = Frame::Other(8), "frame"),
         ("bag on a segment", |s| s.bags[0].frame = Frame::Segment(1), "frame"),
         ("bag of no sphere", |s| s.bags[0].spheres = vec![(999, 1.0)], "sphere"),
-        ("bag without inflators", |s| s.bags[0].inflators.clear(), "inflator"),
+        ("bag of an inflator without a table", |s| s.bags[0].inflators[0].rows.clear(), "table"),
     ];
     let column: &[Row] = &[
         ("column of no frame", |s| s.frames.clear(), "frame"),
         ("column of another frame", |s| s.columns[0].frame = 77, "column"),
-        ("two columns of one frame", |s| { let one = s.columns[0].clone(); s.columns.push(one); }, "second"),
+        (
+            "two columns of one frame",
+            |s| {
+                let one = s.columns[0].clone();
+                s.columns.push(one);
+            },
+            "second",
+        ),
     ];
     let solids: &[Row] = &[
         ("solid of no material", |s| s.solids[0].material = 99, "no such material"),
@@ -227,7 +238,13 @@ fn so_is_one_of_other_elements() {
     let several: &[Row] = &[
         ("one of several without a name of its own", |s| s.members[1].name = s.members[0].name.clone(), "second"),
         ("one of several in no frame", |s| s.members[0].home = Frame::Other(77), "frame 77"),
-        ("one of several left out", |s| { s.members.pop(); }, "`Setup::together`"),
+        (
+            "one of several left out",
+            |s| {
+                s.members.pop();
+            },
+            "`Setup::together`",
+        ),
         ("surfaces of no material among several", |s| s.surfaces[0].material = 99, "no such material"),
         ("spheres of nobody among several", |s| s.surfaces[0].spheres = Some(vec![9999]), "no such sphere"),
         ("gravity that is none among several", |s| s.gravity_m_s2 = f64::NAN, "gravity"),
@@ -244,7 +261,10 @@ fn so_is_one_of_other_elements() {
         let whole = setup(text);
         for (name, change, words) in rows {
             let mut broken = whole.clone();
-            match came(name, || { change(&mut broken); model(broken) }) {
+            match came(name, || {
+                change(&mut broken);
+                model(broken)
+            }) {
                 Ok(Came::Refused(said)) if said.contains(words) => {}
                 Ok(came) => failures.push(format!("{name}: {words:?} is not in {came:?}")),
                 Err(words) => failures.push(words),

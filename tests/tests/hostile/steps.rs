@@ -158,7 +158,10 @@ fn recorders_know_their_model() {
     for name in ["", "hed.acceleration.resultant", "belt.lop.force", "*"] {
         assert!(find(&ours, name).is_err(), "{name}");
     }
-    assert_eq!(find(&ours, "hed.acceleration.resultant").unwrap_err().nearest.as_deref(), Some("head.acceleration.resultant"));
+    assert_eq!(
+        find(&ours, "hed.acceleration.resultant").unwrap_err().nearest.as_deref(),
+        Some("head.acceleration.resultant")
+    );
 }
 
 /// A vehicle that is told on the way is never guessed.

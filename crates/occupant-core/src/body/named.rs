@@ -101,7 +101,11 @@ fn landmarks(
 ) -> Result<Landmarks, TreeProblem> {
     let usual = |own: Option<&str>, names: [&str; 2], key: &'static str| {
         let found = own.map_or_else(|| names.into_iter().find_map(named), named);
-        if found.is_none() && (own.is_some() || !marks.is_part) { Err(TreeProblem::MissingLandmark(key)) } else { Ok(found) }
+        if found.is_none() && (own.is_some() || !marks.is_part) {
+            Err(TreeProblem::MissingLandmark(key))
+        } else {
+            Ok(found)
+        }
     };
     let head = usual(marks.head, ["head", "head"], "head")?;
     let pelvis = usual(marks.pelvis, ["lower_torso", "pelvis"], "pelvis")?;
@@ -159,7 +163,10 @@ mod tests {
         let neck = String::from("neck");
         assert!(std::ptr::eq(first, tree(&[arm(&neck)], &marks).expect("a tree")));
         assert!(!std::ptr::eq(first, tree(&[arm("other")], &marks).expect("a tree")));
-        assert_eq!(tree(&[arm("neck")], &NamedLandmarks::default()).map(|_| ()), Err(TreeProblem::MissingLandmark("pelvis")));
+        assert_eq!(
+            tree(&[arm("neck")], &NamedLandmarks::default()).map(|_| ()),
+            Err(TreeProblem::MissingLandmark("pelvis"))
+        );
         assert_eq!(first.sphere_names(), ["head", "chest", "right_shoulder", "left_shoulder"]);
         assert_eq!(
             (first.landmarks().neck.map(|neck| first[neck].name), first.landmarks().legs().count()),

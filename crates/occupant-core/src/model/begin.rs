@@ -77,8 +77,9 @@ pub(super) fn begin(
     let own = forces.own();
     if own.len() > MOST_OWN {
         let found = format!("bags, columns and own forces with {} numbers of a state", own.len());
-        let expected =
-            format!("at most {MOST_OWN}: five for each bag, one more for each inflator, three for each column, one for each own force");
+        let expected = format!(
+            "at most {MOST_OWN}: five for each bag, one more for each inflator, three for each column, one for each own force"
+        );
         problems.error("bags", found, expected);
         return None;
     }

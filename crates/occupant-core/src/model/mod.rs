@@ -271,7 +271,12 @@ fn names_hash(setup: &Setup) -> u64 {
     let things = setup.surfaces.iter().map(|one| &one.name).chain(setup.solids.iter().map(|one| &one.name));
     let straps = chains.iter().flat_map(|chain| [&chain.belt].into_iter().chain(&chain.straps));
     let elements = belts.iter().map(|one| &one.name).chain(straps).chain(bags.iter().map(|one| &one.name));
-    let more = setup.own_forces.iter().map(|one| &one.name).chain(columns.iter().map(|one| &one.name)).chain(frames.iter().map(|one| &one.name));
+    let more = setup
+        .own_forces
+        .iter()
+        .map(|one| &one.name)
+        .chain(columns.iter().map(|one| &one.name))
+        .chain(frames.iter().map(|one| &one.name));
     let told = members.iter().map(|one| &one.name).chain(output.markers.iter().map(|one| &one.name));
     spheres.chain(things).chain(elements).chain(more).chain(told).for_each(|name| name.hash(&mut hasher));
     let counts = [setup.surfaces.len(), joints.limits.len(), joints.muscles.len()];

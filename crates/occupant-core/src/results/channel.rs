@@ -151,7 +151,9 @@ impl Series {
 impl Recorder for Series {
     fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
         if let Some(channel) = self.channels.iter().find(|channel| channel.of != model.names_hash()) {
-            return Err(format!("the channel {} was listed for another model; list those of this one", channel.name).into());
+            return Err(
+                format!("the channel {} was listed for another model; list those of this one", channel.name).into()
+            );
         }
         let outputs = model.output_count();
         self.time_s.clear();

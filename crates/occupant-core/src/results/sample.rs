@@ -164,9 +164,7 @@ impl<'a> Sample<'a> {
             Frame::Vehicle => *self.vehicle,
             Frame::Space => FrameMotion::space(),
             Frame::Other(i) if i < self.model.setup().frames.len() => self.frames[frame.index(&[])].motion(),
-            Frame::Segment(n) if n < self.model.body().segments.len() => {
-                self.evaluation.kinematics.moving(n).motion()
-            }
+            Frame::Segment(n) if n < self.model.body().segments.len() => self.evaluation.kinematics.moving(n).motion(),
             Frame::Other(_) | Frame::Segment(_) => FrameMotion::nowhere(),
         }
     }

@@ -1,7 +1,7 @@
 //! Steps with error control.
 
 use super::front::Asks;
-use super::{Front, Course, Step};
+use super::{Course, Front, Step};
 use crate::model::Model;
 use crate::motion::integrate::bogacki_shampine::{ERROR_ORDER, EVALUATIONS, Tolerance};
 use crate::results::outcome::StepError;

@@ -3,8 +3,8 @@
 //! The model stands beside it, unchanged: every call gets the one that the course was made for. [`super::Run`] keeps both
 //! together; runs side by side keep models of their own.
 
-use super::{Front, Rear, Step, Stretch, Switches};
 use super::adaptive::{Control, Memory as Wanted};
+use super::{Front, Rear, Step, Stretch, Switches};
 
 use crate::forces::{Actions, History, Memory};
 use crate::kernel::carried::Carried;
@@ -248,6 +248,14 @@ impl Course {
         (self.index, self.seen.fine, self.switches.told) = (index, fine, told);
         (self.greatest, self.rest) = (greatest, rest);
         seen.map(|_| ())
+    }
+
+    /// One at its start, from whose energies balances count whenever it is looked at.
+    pub(super) fn looked_at(model: &Model) -> Self {
+        let mut course = Course::new(model);
+        // what only watches never fails
+        let _seen = course.look(model, &mut Watch(|_: &Sample<'_>| ()));
+        course
     }
 
     /// Forgets what was read and what has switched since the latest output.

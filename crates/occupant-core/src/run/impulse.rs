@@ -18,7 +18,12 @@ impl Run<'_> {
     ///
     /// # Errors
     /// A segment that the body has not; numbers that are not finite.
-    pub fn kick(&mut self, segment: Segment, from_lower_end_m: Point3<f64>, impulse_n_s: Vector3<f64>) -> Result<(), RunError> {
+    pub fn kick(
+        &mut self,
+        segment: Segment,
+        from_lower_end_m: Point3<f64>,
+        impulse_n_s: Vector3<f64>,
+    ) -> Result<(), RunError> {
         let (model, n) = (&*self.model, segment.index());
         if n >= model.body().segments.len() {
             return Err(RunError::input(format!("segment {n}"), "a segment of the model's body"));

@@ -32,7 +32,8 @@ impl Run<'_> {
         let frames = course.cursor.live.as_ref().map_or_else(Vec::new, |frames| frames.numbers());
         let own = course.history.memory.own.iter().flatten().copied().collect();
         let step = checkpoint.under_way.iter().flat_map(|step| step.memory.own.iter().flatten().copied()).collect();
-        for list in [own, step, energies, course.breaks_s.clone(), frames, vec![f64::from(u8::from(self.is_recorded))]] {
+        for list in [own, step, energies, course.breaks_s.clone(), frames, vec![f64::from(u8::from(self.is_recorded))]]
+        {
             (&mut file as &mut dyn Archive).numbers(EXTRA, list);
         }
         Ok(file.0)

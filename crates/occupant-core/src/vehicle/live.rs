@@ -109,7 +109,8 @@ impl LiveFrame {
         if !end.is_finite() {
             return Err(("numbers that are not finite".to_owned(), "finite numbers"));
         }
-        let fastest = |cubic: &[Vector3<f64>; 3]| (cubic[1] * 2.0).norm().max((cubic[1] * 2.0 + cubic[2] * 6.0 * t).norm());
+        let fastest =
+            |cubic: &[Vector3<f64>; 3]| (cubic[1] * 2.0).norm().max((cubic[1] * 2.0 + cubic[2] * 6.0 * t).norm());
         if fastest(&frame.place) > MOST_M_S2 {
             let found = format!("an acceleration of {:.1e} m/s² within a frame of {t} s", fastest(&frame.place));
             return Err((found, "a place that changes as the velocity says"));
@@ -148,7 +149,8 @@ impl LiveFrame {
         let start = &self.start;
         let vectors = [&near, &start.origin_m, &start.velocity_m_s, &start.angular_velocity_rad_s];
         let all = vectors.into_iter().chain(&self.place).chain(&self.turn).flat_map(|v| v.iter());
-        let mut list = [self.from_s, self.until_s].into_iter().chain(all.copied()).chain(start.rotation.iter().copied());
+        let mut list =
+            [self.from_s, self.until_s].into_iter().chain(all.copied()).chain(start.rotation.iter().copied());
         std::array::from_fn(|_| list.next().unwrap_or_default())
     }
 
@@ -232,11 +234,8 @@ fn unturned(phi: Vector3<f64>, omega: Vector3<f64>) -> Vector3<f64> {
 
 /// The rotation vector of a turn by less than π.
 fn rotation_vector(turn: &Matrix3<f64>) -> Vector3<f64> {
-    let by_sine = Vector3::new(
-        turn[(2, 1)] - turn[(1, 2)],
-        turn[(0, 2)] - turn[(2, 0)],
-        turn[(1, 0)] - turn[(0, 1)],
-    ) * 0.5;
+    let by_sine =
+        Vector3::new(turn[(2, 1)] - turn[(1, 2)], turn[(0, 2)] - turn[(2, 0)], turn[(1, 0)] - turn[(0, 1)]) * 0.5;
     let sine = by_sine.norm();
     let angle = trig::atan2(sine, 0.5 * (turn.trace() - 1.0));
     // sin x = x (1 − x²/6) where x is small
@@ -326,7 +325,11 @@ mod tests {
                 assert!((slope(|m| m.velocity_m_s) - m.acceleration_m_s2).norm() < 1e-6);
                 let omega = (b.rotation - a.rotation) / (2.0 * h) * m.rotation.transpose();
                 let omega = Vector3::new(omega[(2, 1)], omega[(0, 2)], omega[(1, 0)]);
-                assert!((omega - m.angular_velocity_rad_s).norm() < 1e-8, "{}", (omega - m.angular_velocity_rad_s).norm());
+                assert!(
+                    (omega - m.angular_velocity_rad_s).norm() < 1e-8,
+                    "{}",
+                    (omega - m.angular_velocity_rad_s).norm()
+                );
                 let alpha = slope(|m| m.angular_velocity_rad_s) - m.angular_acceleration_rad_s2;
                 assert!(alpha.norm() < 1e-7, "{}", alpha.norm());
             }

@@ -5,7 +5,7 @@ use crash_measures::signal::STANDARD_GRAVITY_MPS2;
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Series, channels, star};
 use occupant_core::results::checkpoint::Checkpoint;
-use occupant_core::run::simulate::{resume, attempt};
+use occupant_core::run::simulate::{attempt, resume};
 use occupant_scenario::{Draft, Format};
 
 /// Files that a scenario names.

@@ -11,7 +11,7 @@ use occupant_core::model::Model;
 use occupant_core::results::outcome::Status;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
-use occupant_core::run::simulate::{replay, attempt};
+use occupant_core::run::simulate::{attempt, replay};
 use occupant_core::vehicle::VehiclePath;
 use occupant_scenario::{Draft, Format};
 

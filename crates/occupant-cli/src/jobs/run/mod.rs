@@ -17,7 +17,7 @@ use occupant_core::results::outcome::{ResumeError, Status};
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError, Watch};
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{Summarizer, Summary};
-use occupant_core::run::simulate::{resume, attempt};
+use occupant_core::run::simulate::{attempt, resume};
 
 use crate::base::progress::Progress;
 use crate::base::{Failure, Interrupt};

@@ -160,7 +160,8 @@ impl Joints {
     #[must_use]
     pub fn with(mut self, joint: Joint, law: impl Into<JointLaw>) -> Self {
         let law = law.into();
-        if let Some(own) = self.laws.get_mut(joint.index()).filter(|own| own.hinge().is_some() == law.hinge().is_some()) {
+        if let Some(own) = self.laws.get_mut(joint.index()).filter(|own| own.hinge().is_some() == law.hinge().is_some())
+        {
             *own = law;
         }
         self

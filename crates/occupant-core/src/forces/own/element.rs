@@ -21,8 +21,9 @@ use crate::quantity::{Quantity, energy};
 use placed_text::Problems;
 
 /// Why a model with an own force has no place beside others and no derivatives.
-pub(crate) const PLAIN: Unlike =
-    Unlike("a program's own forces are computed in plain numbers: side by side with other runs, or with derivatives, there are none");
+pub(crate) const PLAIN: Unlike = Unlike(
+    "a program's own forces are computed in plain numbers: side by side with other runs, or with derivatives, there are none",
+);
 
 /// The number of the state that says what a force has taken is so many J.
 const SCALE_J: f64 = 100.0;
@@ -254,17 +255,24 @@ type Of = Quantity<OneOf<OwnForces>>;
 impl Reported for OwnForces {
     const MESSAGE: &'static str = "OwnForceState";
 
-    const QUANTITIES: &'static [Of] = &[
-        Of::number(Newton, |own| own.force)
-            .channel("force", "greatest of the forces of the {}")
-            .field(2, "force", "greatest of its forces"),
-        Of::number(Joule, |own| own.taken)
-            .channel("taken", "energy that the {} has taken from the bodies, stored or lost")
-            .field(3, "taken", "energy that it has taken from the bodies since the start, stored or lost; below 0 what it gave"),
-        Of::number(Joule, |own| own.stored)
-            .channel("stored", "energy that the {} could give back, as it says")
-            .field(4, "stored", "energy that it could give back, as it says"),
-    ];
+    const QUANTITIES: &'static [Of] =
+        &[
+            Of::number(Newton, |own| own.force).channel("force", "greatest of the forces of the {}").field(
+                2,
+                "force",
+                "greatest of its forces",
+            ),
+            Of::number(Joule, |own| own.taken)
+                .channel("taken", "energy that the {} has taken from the bodies, stored or lost")
+                .field(
+                    3,
+                    "taken",
+                    "energy that it has taken from the bodies since the start, stored or lost; below 0 what it gave",
+                ),
+            Of::number(Joule, |own| own.stored)
+                .channel("stored", "energy that the {} could give back, as it says")
+                .field(4, "stored", "energy that it could give back, as it says"),
+        ];
 
     fn named<'a>(data: Self::Data<'a>) -> Vec<Named<'a>> {
         data.forces.iter().map(|own| Named { name: &own.name, sphere: None }).collect()

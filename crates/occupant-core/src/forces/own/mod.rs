@@ -60,7 +60,8 @@ pub trait Force: Debug + Send + Sync {
         Vec::new()
     }
 
-    /// Takes over the place at an accepted step: what it remembers may change here, and nowhere else.
+    /// Takes over the place at an accepted step: what it remembers may change here, and nowhere else. One place may be taken over
+    /// more than once, at an output as well: the second time must change nothing. So it may keep a greatest value, not a count.
     fn accept(&self, _scene: &Scene<'_>, _memory: &mut [f64]) {}
 
     /// Numbers that it shows with [`Pushes::show`]: at most [`MOST_CHANNELS`].
@@ -130,7 +131,11 @@ fn check(forces: &[OwnForce], problems: &mut Problems) {
         }
         let known = ["force", "taken", "stored"];
         for channel in channels.iter().filter(|one| !is_plain(&one.name) || known.contains(&one.name.as_str())) {
-            problems.error(&path, format!("a channel named {:?}", channel.name), format!("{expected}; a name of its own"));
+            problems.error(
+                &path,
+                format!("a channel named {:?}", channel.name),
+                format!("{expected}; a name of its own"),
+            );
         }
     }
 }

@@ -106,7 +106,11 @@ fn check_segment(p: &SegmentProperties, path: &str, problems: &mut Problems) {
         problems.error(format!("{path}.cg_beside"), found, "a centre of gravity that is near its segment");
     }
     if !p.principal.coords.sum().is_finite() {
-        problems.error(format!("{path}.inertia"), "principal axes that are not finite", "a turn into the segment's axes");
+        problems.error(
+            format!("{path}.inertia"),
+            "principal axes that are not finite",
+            "a turn into the segment's axes",
+        );
     }
     let inertia = p.inertia_kg_m2;
     let mut sound = true;

@@ -40,7 +40,11 @@ fn check_frames(setup: &Setup, problems: &mut Problems) {
     }
     problems.check_unique("frames", "frame", frames.iter().map(|frame| frame.name.as_str()));
     for frame in frames.iter().filter(|frame| frame.path.is_live()) {
-        problems.error(with_key("frames", &frame.name), "a path that is told on the way", "one that is known beforehand: only that of the vehicle is told");
+        problems.error(
+            with_key("frames", &frame.name),
+            "a path that is told on the way",
+            "one that is known beforehand: only that of the vehicle is told",
+        );
     }
     for (i, frame) in frames.iter().enumerate() {
         let Some((parent, origin_m)) = frame.parent else { continue };
@@ -152,7 +156,11 @@ fn check_members(setup: &Setup, problems: &mut Problems) {
             problems.error(with_key("occupants", name), found, "space, the vehicle, or one of `frames` for a home");
         }
         if meets.iter().flatten().flatten().any(|sphere| *sphere >= alone.body.spheres.len()) {
-            problems.error(with_key("occupants", name), "no such sphere", "spheres of the body that it meets things with");
+            problems.error(
+                with_key("occupants", name),
+                "no such sphere",
+                "spheres of the body that it meets things with",
+            );
         }
     }
 }

@@ -52,7 +52,11 @@ pub(super) fn check_time(time: &TimeSpan, integrator: &Integrator, problems: &mu
 fn at_least(problems: &mut Problems, (path, value, unit): (&str, f64, &str), least: f64) {
     if problems.check_positive(path, value, unit) && !(value >= least && value.is_finite()) {
         let found = format!("{} {unit}", number(value));
-        problems.error(path, found.trim_end(), format!("at least {least:.0e} {unit}, which numbers of 16 digits can tell"));
+        problems.error(
+            path,
+            found.trim_end(),
+            format!("at least {least:.0e} {unit}, which numbers of 16 digits can tell"),
+        );
     }
 }
 
