@@ -215,7 +215,7 @@ fn so_is_one_of_other_elements() {
         ("bag on no frame", |s| s.bags[0].frame = Frame::Other(8), "frame"),
         ("bag on a segment", |s| s.bags[0].frame = Frame::Segment(1), "frame"),
         ("bag of no sphere", |s| s.bags[0].spheres = vec![(999, 1.0)], "sphere"),
-        ("bag without inflators", |s| s.bags[0].inflators.clear(), "inflator"),
+        ("bag of an inflator without a table", |s| s.bags[0].inflators[0].rows.clear(), "table"),
     ];
     let column: &[Row] = &[
         ("column of no frame", |s| s.frames.clear(), "frame"),

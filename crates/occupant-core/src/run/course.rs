@@ -258,6 +258,14 @@ impl Course {
         seen.map(|_| ())
     }
 
+    /// One at its start, from whose energies balances count whenever it is looked at.
+    pub(super) fn looked_at(model: &Model) -> Self {
+        let mut course = Course::new(model);
+        // what only watches never fails
+        let _seen = course.look(model, &mut Watch(|_: &Sample<'_>| ()));
+        course
+    }
+
     /// Forgets what was read and what has switched since the latest output.
     pub(super) fn forget_readings(&mut self) {
         self.seen.fine.clear();

@@ -76,12 +76,12 @@ impl fmt::Debug for Run<'_> {
 impl<'m> Run<'m> {
     /// A run of `model` at its start.
     pub fn new(model: &'m Model) -> Self {
-        Run { model: Held::Lent(model), course: Course::new(model), is_recorded: false }
+        Run { model: Held::Lent(model), course: Course::looked_at(model), is_recorded: false }
     }
 
     /// The same of a model that it shares, and so keeps: it may go anywhere.
     pub fn shared(model: Arc<Model>) -> Run<'static> {
-        Run { course: Course::new(&model), model: Held::Shared(model), is_recorded: false }
+        Run { course: Course::looked_at(&model), model: Held::Shared(model), is_recorded: false }
     }
 
     /// The run of which [`Run::checkpoint`] or an output gave a checkpoint. Of a vehicle that is told on the way it has no

@@ -59,6 +59,12 @@ pub(in crate::model) fn check_path(setup: &Setup, problems: &mut Problems) {
     let mut cursor = PathCursor::default();
     let motions: Vec<(f64, FrameMotion)> =
         instants(setup).into_iter().map(|t_s| (t_s, path.motion(t_s, t_s, &mut cursor))).collect();
+    if let Some((t_s, motion)) = motions.iter().find(|(_, motion)| !motion.is_finite()) {
+        let found = format!("the vehicle's distance from the origin is {} m", motion.origin_m.norm());
+        let found =
+            if motion.origin_m.norm().is_finite() { "a motion with numbers that are not".to_owned() } else { found };
+        return problems.error("path", format!("{found} at t = {t_s} s"), "finite numbers all along the run");
+    }
     check_leaps(setup, &motions, problems);
     for Pace { of, what, unit: (unit, si), usual, most, slip } in PACES {
         let greatest = motions.iter().map(|(t_s, motion)| (*t_s, of(motion))).max_by(|a, b| a.1.total_cmp(&b.1));
