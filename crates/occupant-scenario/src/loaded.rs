@@ -66,6 +66,12 @@ impl Loaded {
         let (drives, mut problems) = self.drives()?;
         let (setup, found) = self.built(drives.as_ref())?;
         problems.extend(found);
+        if let Some(drives) = &drives {
+            problems.extend(self.explicit.check_crush(&self.document, drives));
+        }
+        if problems.has_errors() {
+            return Err(problems);
+        }
         Ok((setup, problems))
     }
 
@@ -78,6 +84,12 @@ impl Loaded {
         }
         let build = if self.explicit.has_several() { together } else { setup };
         build(&self.scenario, &self.explicit, &self.document, drives)
+    }
+
+    /// Names of the triggers that look ahead along the path of the vehicle: none of a motion that is told on the way can be.
+    pub fn triggers_of_path(&self) -> Vec<String> {
+        let looks_ahead = self.explicit.triggers.iter().filter(|(_, trigger)| trigger.is_of_path());
+        looks_ahead.map(|(name, _)| name.clone()).collect()
     }
 
     /// What is driven before people are looked at, with warnings; none in a scenario without `drive`.

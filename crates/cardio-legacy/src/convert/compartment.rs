@@ -18,6 +18,8 @@ struct Written {
 pub(super) fn write(w: &mut Writer<'_>, layout: &CompartmentLayout) {
     let surfaces = surfaces(w, layout);
     let groups = materials(w, &surfaces);
+    w.table("contact", "The report lets all of a contact force act at the point of contact");
+    w.set("edge_force", "\"contact_point\"");
     w.table(
         "materials",
         "Series 9: surfaces with the same six numbers share a material, named after the first of them",

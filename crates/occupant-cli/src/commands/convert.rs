@@ -12,8 +12,8 @@ use occupant_scenario::{Draft, Format, Loaded};
 
 use crate::base::input_file::{deck, read};
 use crate::base::{Failure, ending, file_name, print_file, publish, refuse_input, say, with_word};
-use crate::files::scenario::{files_beside, format_of};
-use crate::jobs::extend::{extend, extend_run};
+use occupant_jobs::extend::{extend, extend_run};
+use occupant_jobs::files::scenario::{files_beside, format_of};
 
 /// Convert a card deck of 1970 to a scenario, or a scenario to a card deck
 ///

@@ -6,7 +6,7 @@ use cardio_legacy::print::{printout, uneven};
 
 use super::flags::history::interval;
 use crate::base::{Failure, UnitsArg, deliver, note, print, refuse_input, say};
-use crate::jobs::print::read;
+use occupant_jobs::print::read;
 
 /// Print a run as paged text, as the report's program did
 ///

@@ -12,12 +12,12 @@ use occupant_study::risk::{Preparation, VehicleSignals};
 
 use super::flags::history::interval;
 use crate::base::{
-    Done, Failure, SYSTEMS, input_file, is_page, note, one_of, print, publish, refuse_input, say, sha256, talk,
+    Done, Failure, SYSTEMS, input_file, is_page, note, one_of, print, publish, refuse_input, say, sha256,
 };
-use crate::files::measured::{AXES, Axes};
-use crate::jobs::import::PathFilter;
-use crate::jobs::risk::{Report, json, page, text};
 use input::measured;
+use occupant_files::measured::{AXES, Axes};
+use occupant_jobs::import::PathFilter;
+use occupant_jobs::risk::{Report, json, page, text};
 use options::{errors, flight, preparation};
 
 /// Measure the risk to occupants from the vehicle's motion alone
@@ -171,7 +171,7 @@ pub(crate) fn risk(args: &Args) -> Result<Done, Failure> {
     report.notes = [notes, report.notes].concat();
     report.notes.iter().for_each(note);
     if args.json {
-        print(&talk::json(&json(&report))?)?
+        print(&crate::base::json(&json(&report))?)?
     } else {
         print(&text(&report, args.units))?
     }

@@ -2,6 +2,8 @@
 //!
 //! [`SetupBuilder`] puts one together in code. A `Setup` may still be wrong; [`crate::model::Model::new`] checks it and reports every problem at once.
 
+use std::sync::Arc;
+
 use nalgebra::Point3;
 use placed_text::with_key;
 use serde::{Deserialize, Serialize};
@@ -19,6 +21,7 @@ use crate::forces::contact::solid::Solid;
 use crate::forces::contact::surface::{Frame, Surface};
 use crate::forces::contact::{ContactData, EdgeForce};
 use crate::forces::joint::Joints;
+use crate::forces::own::{Force, OwnData, OwnForce};
 use crate::forces::sphere::Site;
 use crate::model::seating::{InitialPosture, InitialVelocity, Mounting, upright};
 use crate::motion::frame::{Frames, MOST_FRAMES, Moving, VEHICLE};
@@ -184,6 +187,32 @@ impl OtherFrame {
     }
 }
 
+/// What was driven, told at the stations of the drive; clones share it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DriveLog {
+    /// Name of the vehicle.
+    pub name: String,
+    /// Times of the stations, s, rising.
+    pub times_s: Arc<[f64]>,
+    /// Numbers at each, SI, in the order of the catalogue's: speed, slip angle, steering, crush, force of what it hits, force of the ground
+    /// on its hull, then of each wheel load, travel, spin, brake torque, sliding ahead and aside, force ahead and aside, saturation.
+    pub rows: Arc<[[f64; DRIVE_NUMBERS]]>,
+}
+
+/// Numbers of a station of a drive: of the vehicle, and of each of four wheels.
+pub const DRIVE_NUMBERS: usize = 6 + 4 * 9;
+
+/// A figure of what was computed before the run, such as where a vehicle came to rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fact {
+    /// Name, such as `drive.car.delta_v`.
+    pub name: String,
+    /// Its SI unit.
+    pub unit: &'static str,
+    /// Value, SI.
+    pub value: f64,
+}
+
 /// Something that is drawn and touches nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenery {
@@ -255,10 +284,16 @@ pub struct Setup {
     pub bags: Vec<Bag>,
     /// Steering columns that give way, each of which carries one of `frames`.
     pub columns: Vec<Column>,
+    /// Forces that the program brings itself.
+    pub own_forces: Vec<OwnForce>,
     /// Motion of the vehicle.
     pub path: VehiclePath,
     /// What is drawn and touches nothing: the road, the outside of vehicles.
     pub scenery: Vec<Scenery>,
+    /// Figures of what was computed before the run, for tables.
+    pub facts: Vec<Fact>,
+    /// Histories of vehicles that were driven before the run.
+    pub logs: Vec<DriveLog>,
     /// Frames besides the vehicle's and space.
     pub frames: Vec<OtherFrame>,
     /// The bodies, where there are several.
@@ -378,6 +413,7 @@ impl Setup {
             belts: &self.belts,
             chains: &self.chains,
             bags: &self.bags,
+            own: OwnData { forces: &self.own_forces, others: self.frames.len() },
             columns: ColumnData { columns: &self.columns, gravity_m_s2: self.gravity_m_s2 },
             joints: &self.joints,
             limits: &self.joints,
@@ -410,8 +446,11 @@ impl SetupBuilder {
             chains: Vec::new(),
             bags: Vec::new(),
             columns: Vec::new(),
+            own_forces: Vec::new(),
             path: VehiclePath::parked(),
             scenery: Vec::new(),
+            facts: Vec::new(),
+            logs: Vec::new(),
             frames: Vec::new(),
             members: Vec::new(),
             posture: InitialPosture::Coordinates(Box::new(ReportCoordinates { q: [0.0; DOF], rates: [0.0; DOF] })),
@@ -438,6 +477,11 @@ impl SetupBuilder {
     /// Adds a belt.
     pub fn belt(&mut self, belt: Belt) {
         self.setup.belts.push(belt);
+    }
+
+    /// Adds a force of the program's own under a name: its channels are `own_force.NAME.*`.
+    pub fn force(&mut self, name: impl Into<String>, force: impl Force + 'static) {
+        self.setup.own_forces.push(OwnForce::new(name, force));
     }
 
     /// The setup: this occupant in a vehicle that moves along `path`, from `posture` until `end_s`.

@@ -10,11 +10,11 @@ use occupant_study::risk::{Preparation, Unprepared, VehicleSignals, prepare};
 
 use super::Args;
 use crate::base::{Failure, ending, input_file, note};
-use crate::files::mcap::StoredRun;
-use crate::files::measured::{self, Axes, Known, Motion, MotionKind, Placed, Reading, doubts, rounded_table};
-use crate::files::scenario::{self, ScenarioArgs, warn_of};
-use crate::jobs::import::PathFilter;
-use crate::jobs::risk::{PATH_INTERVAL_S, Subject};
+use occupant_files::mcap::StoredRun;
+use occupant_files::measured::{self, Axes, Known, Motion, MotionKind, Placed, Reading, doubts, rounded_table};
+use occupant_jobs::files::scenario::{self, ScenarioArgs, warn_of};
+use occupant_jobs::import::PathFilter;
+use occupant_jobs::risk::{PATH_INTERVAL_S, Subject};
 
 /// Length of the beginning of a record that says whether gravity is in it, s.
 const BEFORE_S: f64 = 0.01;

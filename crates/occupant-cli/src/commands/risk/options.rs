@@ -6,7 +6,7 @@ use occupant_study::risk::{Flight, Preparation, SensorErrors, VerticalGravity};
 
 use super::Args;
 use crate::base::Failure;
-use crate::jobs::import::PathFilter;
+use occupant_jobs::import::PathFilter;
 
 /// What is done with the record.
 pub(crate) fn preparation(args: &Args) -> Result<Preparation, Failure> {

@@ -1,6 +1,6 @@
 //! The recorder that makes a [`Summary`].
 
-use indexmap::IndexMap;
+use crate::forces::table::InOrder;
 
 use super::compartment::Compartment;
 use super::elements::Elements;
@@ -73,6 +73,7 @@ struct Case {
     unbalanced: Vec<(&'static str, Settled)>,
     integrator: &'static str,
     time: TimeSpan,
+    names_hash: u64,
 }
 
 impl Case {
@@ -112,7 +113,7 @@ impl Summarizer {
         let mut peaks = self.seen.clone();
         peaks.merge(&self.now);
         let people = self.persons(&peaks);
-        let signs = self.signs.with_steps(&self.elements, &peaks.elements);
+        let signs = self.signs.with_steps(&self.elements, &peaks, &case.body);
         let caveats = self.caveats(case, &signs, &people, outcome.time_s);
         let sphere_forces = sphere_forces(case, &peaks);
         let unbalanced = case.caveats_of_start(&people, &sphere_forces);
@@ -121,7 +122,7 @@ impl Summarizer {
         let mut people = people.into_iter().map(|(name, person, _)| (name, person));
         let (occupant, Person { accelerations, head_excursion, measures }) = people.next()?;
         let contacts = contacts(outcome, case);
-        let throws: IndexMap<_, _> =
+        let throws: InOrder<_, _> =
             self.flights.iter().filter_map(|flight| Some((flight.name, flight.throw(&case.body.spheres)?))).collect();
         let on_the_way = throws.iter().filter_map(|(name, throw)| Caveat::not_at_rest(name, throw));
         let (status, reason) = ending(&outcome.status);
@@ -182,7 +183,7 @@ impl Summarizer {
     }
 
     /// By body, what left the compartment that it started in.
-    fn ejections(&self, case: &Case) -> IndexMap<&'static str, Ejection> {
+    fn ejections(&self, case: &Case) -> InOrder<&'static str, Ejection> {
         let all = self.compartments.iter();
         all.filter_map(|of| Some((of.name, of.ejection(&case.body.spheres, &case.surfaces)?))).collect()
     }
@@ -190,7 +191,7 @@ impl Summarizer {
     /// What is to know of those who were ejected: their verdict, throw, and figures of later times.
     fn by_chance(
         people: &[(&'static str, Person, Signals)],
-        ejections: &IndexMap<&'static str, Ejection>,
+        ejections: &InOrder<&'static str, Ejection>,
     ) -> Vec<Caveat> {
         let one = |(name, ejection): (&&'static str, &Ejection)| {
             let from_s = ejection.parts.first()?.time_s;
@@ -202,7 +203,7 @@ impl Summarizer {
     }
 
     /// Parts that left a compartment where there is nothing outside.
-    fn unmet(case: &Case, ejections: &IndexMap<&'static str, Ejection>) -> Vec<Caveat> {
+    fn unmet(case: &Case, ejections: &InOrder<&'static str, Ejection>) -> Vec<Caveat> {
         let all = ejections.values().filter(|_| !case.has_ground).flat_map(|ejection| &ejection.parts);
         let tree = &case.body.tree;
         let is_measured = |sphere: &ContactSphere| {
@@ -289,6 +290,7 @@ impl Recorder for Summarizer {
             unbalanced: unbalanced(model),
             integrator: setup.integrator.name(),
             time: setup.time,
+            names_hash: model.names_hash(),
         };
         let (elements, fine) = (Elements::new(model), Fine::new(model));
         let bodies = model.system().instruments.len();
@@ -312,6 +314,9 @@ impl Recorder for Summarizer {
     }
 
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        if self.case.as_ref().is_none_or(|case| case.names_hash != sample.model.names_hash()) {
+            return Err("a summarizer begins with the run that it sums up: `Recorder::begin`".into());
+        }
         self.outputs += 1;
         self.see_steps(sample);
         self.events.see(sample);
