@@ -26,6 +26,8 @@ pub fn lap(integrator: Integrator) -> Setup {
         frames: Vec::new(),
         members: Vec::new(),
         scenery: Vec::new(),
+        facts: Vec::new(),
+        logs: Vec::new(),
         title: "cart, lap belt".into(),
         body: male50(),
         joints: joints(),

@@ -105,7 +105,7 @@ impl Compartment {
             solids: &[],
             self_contact: None,
             materials: &self.materials,
-            edge_force: EdgeForce::default(),
+            edge_force: EdgeForce::AtContactPoint,
             longest_step_s: 1e-3,
         };
         let skeleton = Skeleton::new(&system.body, -system.gravity.z);

@@ -4,6 +4,7 @@
 mod command_line;
 mod common;
 mod convert;
+mod drive;
 mod ensembles;
 mod everyday;
 mod examined;

@@ -92,10 +92,8 @@ fn the_yawing_vectors_of_thiv() {
 fn distances_first_contact_and_gravity_are_options() {
     let folder = folder();
     steady(folder.path(), "ax[g],ay[g],az[g]", "-10,0,-1", 10_000);
-    let report = json(
-        folder.path(),
-        &["a.csv", "--flail-x", "0.3 m", "--start", "50 ms", "--end", "0.19", "--gravity-included"],
-    );
+    let report =
+        json(folder.path(), &["a.csv", "--flail-x", "0.3 m", "--start", "50 ms", "--to", "0.19", "--gravity-included"]);
     let met_s = (0.6 / (10.0 * G)).sqrt();
     assert_near(value(&report, "oiv_x_m_s"), 10.0 * G * met_s, 1e-6);
     let when = report["measures"]["oiv_x_m_s"]["when_s"][0].as_f64().unwrap();

@@ -66,6 +66,12 @@ impl Loaded {
         let (drives, mut problems) = self.drives()?;
         let (setup, found) = self.built(drives.as_ref())?;
         problems.extend(found);
+        if let Some(drives) = &drives {
+            problems.extend(self.explicit.check_crush(&self.document, drives));
+        }
+        if problems.has_errors() {
+            return Err(problems);
+        }
         Ok((setup, problems))
     }
 

@@ -3,7 +3,7 @@
 use crate::V3;
 use crate::barrier::Rail;
 use crate::crush::law::Series;
-use crate::crush::touch::{Marks, Pose, Push, Shape};
+use crate::crush::touch::{Marks, Pose, Push, SQUARE, Shape};
 
 /// Masses for each post spacing.
 const PER_POST: usize = 4;
@@ -87,6 +87,15 @@ impl Beam {
     fn start_m(&self) -> V3 {
         let [x, y] = self.rail.line_m[0];
         V3::new(x, y, 0.0)
+    }
+
+    /// Its line in plan with both ends, m.
+    pub fn line_m(&self, y: &[f64]) -> Vec<[f64; 2]> {
+        let place = |j: isize| {
+            let at = self.start_m() + self.along * (self.step_m * (j + 1) as f64) + self.away * self.way_m(y, j);
+            [at.x, at.y]
+        };
+        (-1..=self.count as isize).map(place).collect()
     }
 
     fn has_post(j: usize) -> bool {
@@ -270,8 +279,10 @@ impl Beam {
 
     /// Remembers the greatest forces of a vehicle's nodes.
     pub fn press(&self, y: &[f64], series: &[Series], most: &mut [f64], shape: &Shape, pose: &Pose) {
-        self.each(y, shape, pose, &mut |i, _, depth_m, _, _| {
-            most[i] = most[i].max(series[shape.nodes[i].law].load(depth_m));
+        self.each(y, shape, pose, &mut |i, _, depth_m, _, facing| {
+            if facing > SQUARE {
+                most[i] = most[i].max(series[shape.nodes[i].law].load(depth_m));
+            }
         });
     }
 

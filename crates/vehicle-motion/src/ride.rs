@@ -2,7 +2,8 @@
 
 use nalgebra::{Quaternion, UnitQuaternion};
 
-use crate::chassis::{State, WheelReport};
+use crate::chassis::WheelReport;
+use crate::state::State;
 use crate::{V3, WHEELS};
 
 /// Where a vehicle starts, as it stands on the ground there.
@@ -47,6 +48,8 @@ pub struct Station {
     pub steer_rad: f64,
     /// Force of other vehicles and barriers, vehicle-space, N.
     pub struck_n: V3,
+    /// Deepest crush so far, m.
+    pub crush_m: f64,
     /// Force of the ground on hull and rims, vehicle-space, N.
     pub hull_n: V3,
     /// Wheels.

@@ -40,8 +40,8 @@ impl Vehicle {
     }
 }
 
-/// Published: a planar model with restitution fitted to each test. Measured Δv: +0.3 and +0.7, −3.7 and −2.8, +0.4 and +0.9,
-/// −6.1 and −5.4 %. The last was fitted with a restitution of 0.15, the others with 0.09 to 0.13; one class law gives about 0.1.
+/// Published: a planar model of impact without tyres, its restitution fitted to each test; so the impulse of the contact is compared. Measured Δv:
+/// +2.6 and +2.3, −1.4 and −1.2, +2.4 and +2.3, −3.8 and −3.6 %. With what tyres do meanwhile it is +0.3, +0.7, −3.7, −2.8, +0.4, +0.9, −6.2, −5.4 %.
 #[test]
 fn four_oblique_offset_tests_come_out_blind() {
     struct Case {
@@ -55,8 +55,6 @@ fn four_oblique_offset_tests_come_out_blind() {
         expected: [f64; 4],
         size_m: [f64; 3],
         front_m: f64,
-        /// Bound of the error of Δv.
-        within: f64,
     }
     let cases = [
         Case {
@@ -70,7 +68,6 @@ fn four_oblique_offset_tests_come_out_blind() {
             expected: [39.5, 31.0, 29.1, 182.0],
             size_m: [4.655, 1.722, 1.63],
             front_m: 2.09,
-            within: 0.04,
         },
         Case {
             name: "4364",
@@ -83,7 +80,6 @@ fn four_oblique_offset_tests_come_out_blind() {
             expected: [40.1, 108.0, 26.6, 148.0],
             size_m: [4.87, 1.895, 1.74],
             front_m: 2.25,
-            within: 0.04,
         },
         Case {
             name: "4438",
@@ -96,7 +92,6 @@ fn four_oblique_offset_tests_come_out_blind() {
             expected: [39.7, 68.0, 27.8, 166.0],
             size_m: [4.53, 1.775, 1.74],
             front_m: 2.0,
-            within: 0.04,
         },
         Case {
             name: "4474",
@@ -109,7 +104,6 @@ fn four_oblique_offset_tests_come_out_blind() {
             expected: [40.5, 40.0, 28.7, 194.0],
             size_m: [4.53, 1.775, 1.74],
             front_m: 2.0,
-            within: 0.065,
         },
     ];
     for case in cases {
@@ -138,11 +132,11 @@ fn four_oblique_offset_tests_come_out_blind() {
         let cars = (0..2).map(|i| Entry::new(vehicle(i).car(), Driver::coasting(), Begin::At(start(i)))).collect();
         let world = World { cars, ..World::default() };
         let outcome = world.run(0.4).unwrap();
-        let of = |i: usize| outcome.contacts[0].struck[i].unwrap().delta_v_m_s.norm() / MPH;
+        let of = |i: usize| outcome.contacts[0].struck[i].unwrap().by_contact_m_s.norm() / MPH;
         let turns = |i: usize| outcome.contacts[0].struck[i].unwrap().yaw_rates_rad_s[1].to_degrees().abs();
-        for (i, most) in [(0, case.within), (1, case.within)] {
+        for i in 0..2 {
             let off = of(i) / case.expected[2 * i] - 1.0;
-            assert!(off.abs() < most, "{} {i}: {off}", case.name);
+            assert!(off.abs() < 0.04, "{} {i}: {off}", case.name);
         }
         // after a nearly central hit the turn is ill-conditioned: friction 0.3 to 0.8 moves it by 100 °/s
         assert!((turns(0) - case.expected[1]).abs() < 60.0 && (turns(1) - case.expected[3]).abs() < 60.0);

@@ -2,10 +2,14 @@
 
 use std::path::PathBuf;
 
-use crate::base::{Done, Failure, UnitsArg, note, print, refuse_input, say, talk};
-use crate::files::scenario::{self, ScenarioArgs};
-use crate::files::table::Form;
-use crate::jobs::drive::{Driven, columns, json, path_columns, text, write};
+use crate::base::{Done, Failure, UnitsArg, note, print, publish, refuse_input, say};
+use occupant_files::table::Form;
+use occupant_jobs::drive::{Driven, columns, json, path_columns, plan, text, write};
+use occupant_jobs::files::scenario::{self, ScenarioArgs};
+use occupant_pictures::Format;
+
+/// Pixels of a user unit of a plan.
+const PIXELS: f64 = 2.0;
 
 /// Drive the vehicles of a scenario alone, without people
 ///
@@ -23,6 +27,10 @@ pub(crate) struct Args {
     /// Write places and angles alone, as `path.kind = "table"` reads them
     #[arg(long, value_name = "FILE.csv", conflicts_with = "output")]
     path: Option<PathBuf>,
+
+    /// Draw road, barriers, tyre marks and vehicles at times from above: .svg or .png
+    #[arg(long, value_name = "FILE")]
+    plan: Option<PathBuf>,
 
     /// Replace a file that exists
     #[arg(short, long)]
@@ -48,9 +56,16 @@ pub(crate) fn drive(args: &Args) -> Result<Done, Failure> {
     let (loaded, drives) = scenario::drives(&args.scenario)?;
     let all: Vec<Driven> = (0..drives.vehicles.len()).map(|i| Driven::of(&drives, i)).collect();
     if args.json {
-        print(&talk::json(&json(&drives, &all))?)?;
+        print(&crate::base::json(&json(&drives, &all))?)?;
     } else {
         print(&text(&drives, &all, args.units.or(loaded.scenario.units)))?;
+    }
+    if let Some(file) = &args.plan {
+        refuse_input(file, &args.scenario.scenario)?;
+        let drawing = plan(&drives, &all, &loaded.scenario.title);
+        let bytes = Format::of_output(file)?.encode(&drawing, PIXELS).map_err(Failure::plain)?;
+        publish(file, args.force, &bytes)?;
+        say(&format!("wrote {}", file.display()));
     }
     let Some(output) = args.output.as_ref().or(args.path.as_ref()) else { return Ok(Done::Well) };
     refuse_input(output, &args.scenario.scenario)?;

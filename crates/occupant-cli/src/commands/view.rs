@@ -12,12 +12,12 @@ use rayon::prelude::*;
 use super::flags::history::seconds;
 use crate::base::progress::{bar, counted};
 use crate::base::{Failure, deliver_and, ending, file_name, note, publish, refuse_input, say, with_word};
-use crate::files::results::Results;
-use crate::files::scenario::{self, ScenarioArgs, warn_of};
-use crate::pictures::Format;
-use crate::pictures::body::Snapshot;
-use crate::pictures::film::{Draw, FRAMES_A_SECOND, Film};
-use crate::pictures::view::{Strip, View, draw, frames};
+use occupant_files::results::Results;
+use occupant_jobs::files::scenario::{self, ScenarioArgs, warn_of};
+use occupant_pictures::Format;
+use occupant_pictures::body::Snapshot;
+use occupant_pictures::film::{Draw, FRAMES_A_SECOND, Film};
+use occupant_pictures::view::{Strip, View, draw, frames};
 
 /// Pixels of a PNG for each unit of the drawing.
 const PIXELS: f64 = 2.0;

@@ -119,6 +119,12 @@ impl Model {
         (mass_kg, moment / mass_kg)
     }
 
+    /// Centres of the contact spheres at the start in the body's order, space axes, m.
+    pub fn spheres_at_start(&self) -> impl Iterator<Item = Vector3<f64>> {
+        let k = Kinematics::new(&self.system.skeleton, &self.start.state);
+        (0..self.setup.body.spheres.len()).map(move |i| self.system.sphere(&k, i).1.to_vector())
+    }
+
     /// Planes and outlines of the surfaces, in the setup's order.
     pub fn faces(&self) -> &[FlatFace] {
         &self.faces

@@ -2,6 +2,8 @@
 //!
 //! [`SetupBuilder`] puts one together in code. A `Setup` may still be wrong; [`crate::model::Model::new`] checks it and reports every problem at once.
 
+use std::sync::Arc;
+
 use nalgebra::Point3;
 use placed_text::with_key;
 use serde::{Deserialize, Serialize};
@@ -185,6 +187,32 @@ impl OtherFrame {
     }
 }
 
+/// What was driven, told at the stations of the drive; clones share it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DriveLog {
+    /// Name of the vehicle.
+    pub name: String,
+    /// Times of the stations, s, rising.
+    pub times_s: Arc<[f64]>,
+    /// Numbers at each, SI, in the order of the catalogue's: speed, slip angle, steering, crush, force of what it hits, force of the ground
+    /// on its hull, then of each wheel load, travel, spin, brake torque, sliding ahead and aside, force ahead and aside, saturation.
+    pub rows: Arc<[[f64; DRIVE_NUMBERS]]>,
+}
+
+/// Numbers of a station of a drive: of the vehicle, and of each of four wheels.
+pub const DRIVE_NUMBERS: usize = 6 + 4 * 9;
+
+/// A figure of what was computed before the run, such as where a vehicle came to rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fact {
+    /// Name, such as `drive.car.delta_v`.
+    pub name: String,
+    /// Its SI unit.
+    pub unit: &'static str,
+    /// Value, SI.
+    pub value: f64,
+}
+
 /// Something that is drawn and touches nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenery {
@@ -262,6 +290,10 @@ pub struct Setup {
     pub path: VehiclePath,
     /// What is drawn and touches nothing: the road, the outside of vehicles.
     pub scenery: Vec<Scenery>,
+    /// Figures of what was computed before the run, for tables.
+    pub facts: Vec<Fact>,
+    /// Histories of vehicles that were driven before the run.
+    pub logs: Vec<DriveLog>,
     /// Frames besides the vehicle's and space.
     pub frames: Vec<OtherFrame>,
     /// The bodies, where there are several.
@@ -417,6 +449,8 @@ impl SetupBuilder {
             own_forces: Vec::new(),
             path: VehiclePath::parked(),
             scenery: Vec::new(),
+            facts: Vec::new(),
+            logs: Vec::new(),
             frames: Vec::new(),
             members: Vec::new(),
             posture: InitialPosture::Coordinates(Box::new(ReportCoordinates { q: [0.0; DOF], rates: [0.0; DOF] })),

@@ -186,6 +186,7 @@ impl<'a> Sample<'a> {
             peaks: self.step_peaks.numbers(),
             readings_before: self.fine.numbers(),
             readings: self.fine.singles(),
+            events: self.switched.to_vec(),
             progress: self.progress,
             under_way: self.under_way.map(|step| step.to_start()),
         }

@@ -62,8 +62,7 @@ impl Course {
         let Some(mut front) = self.front.take() else {
             return Ok(());
         };
-        let (breaks_s, cursor) = (&self.breaks_s, &mut self.cursor);
-        front.complete(model, &control.tolerance, breaks_s, cursor);
+        front.complete(model, &control.tolerance, &self.breaks_s, (&mut self.cursor, &mut self.seen));
         let mut failed = Ok(());
         while failed.is_ok() && front.step.end_s < target_s {
             front.note(model, &mut self.seen, &mut self.switches);

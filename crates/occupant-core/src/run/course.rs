@@ -141,6 +141,7 @@ impl Course {
         if !run.seen.know(from) {
             return Err(CheckpointError::Readings);
         }
+        run.switches.told.extend_from_slice(&from.events);
         Ok(run)
     }
 
@@ -170,6 +171,10 @@ impl Course {
             self.seen.see(model, t, &self.met, &self.felt, |pair| past[pair].phase);
         }
         self.seen.look_at(model, t, (&self.met, &self.felt), past, &mut self.now);
+        if self.front.as_ref().is_none_or(|front| front.under_way(t).is_none()) {
+            // the state is that of an accepted step
+            self.seen.compare(model, t, &self.met, &self.felt);
+        }
         let bodies = 0..system.skeleton.layout.trunks().len();
         let mut ledgers = [EnergyLedger::default(); MOST_BODIES];
         for body in bodies.clone() {
@@ -199,7 +204,10 @@ impl Course {
         }
         let index = self.index;
         self.index += 1;
-        let switches = std::mem::take(&mut self.switches.told);
+        let told = &mut self.switches.told;
+        told.append(self.seen.told());
+        told.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+        let switches = std::mem::take(told);
         let recorded = recorder.record(&Sample {
             time_s: t,
             index,

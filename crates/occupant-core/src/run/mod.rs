@@ -5,7 +5,9 @@
 //! frame ([`Run::push`]).
 
 mod adaptive;
+mod bars;
 pub mod batch;
+mod changes;
 mod corner;
 mod course;
 mod driving;

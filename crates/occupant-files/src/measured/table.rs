@@ -256,14 +256,19 @@ impl Reader<'_> {
         if time_s.is_empty() {
             self.wrong(table.first, "headings without numbers", "a line for each time");
         }
-        for (i, (t, line)) in time_s.iter().zip(&table.lines).enumerate() {
-            let found = match i.checked_sub(1).map(|before| time_s[before]) {
-                _ if t.is_nan() => "a line without its time".to_owned(),
-                Some(before) if *t <= before => format!("time {t} s after {before} s"),
-                _ => continue,
-            };
-            self.wrong(*line, found, "times that increase");
+        let late = |i: usize| i > 0 && time_s[i] <= time_s[i - 1];
+        let timeless = (0..time_s.len()).find(|&i| time_s[i].is_nan());
+        if let Some(i) = timeless {
+            self.wrong(table.lines[i], "a line without its time", "times that increase");
         }
+        let all: Vec<usize> = (0..time_s.len()).filter(|&i| late(i)).collect();
+        let Some(&i) = all.first() else { return };
+        let more = if all.len() > 1 { format!(" (and so in {} more)", all.len() - 1) } else { String::new() };
+        let hint =
+            (all.len() == time_s.len() - 1).then_some("the table runs from its end to its beginning: turn it round");
+        let problem =
+            Problem::error("", format!("time {} s after {} s{more}", time_s[i], time_s[i - 1]), "times that increase");
+        self.report(table.lines[i], problem.with_hint(hint));
     }
 
     fn signals(&self, columns: Vec<Vec<f64>>, time: usize, time_s: &[f64]) -> Vec<Signal> {

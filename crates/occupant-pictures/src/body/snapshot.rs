@@ -98,11 +98,12 @@ impl Snapshot {
     }
 }
 
-/// Motions of the frames of surfaces and solids besides those of the vehicle and of space.
+/// Motions of the frames of surfaces, solids and scenery besides those of the vehicle and of space.
 fn frames(sample: &Sample<'_>) -> Vec<(Frame, FrameMotion)> {
     let setup = sample.model.setup();
     let mut all: Vec<(Frame, FrameMotion)> = Vec::new();
-    for frame in setup.surfaces.iter().map(|s| s.frame).chain(setup.solids.iter().map(|s| s.frame)) {
+    let touched = setup.surfaces.iter().map(|s| s.frame).chain(setup.solids.iter().map(|s| s.frame));
+    for frame in touched.chain(setup.scenery.iter().map(|own| own.frame)) {
         if !matches!(frame, Frame::Vehicle | Frame::Space) && all.iter().all(|(known, _)| *known != frame) {
             all.push((frame, sample.frame(frame)));
         }

@@ -23,6 +23,8 @@ use placed_text::with_key;
     "x-together" = [["k2", "delta_b"], ["anchors", "sphere"], ["anchors", "k1"]],
 ))]
 pub(crate) struct BeltSection {
+    /// Whether it is worn: false leaves it out. True if absent.
+    pub(crate) worn: Option<bool>,
     /// Name of the sphere of a loop, such as "pelvis" or "chest".
     pub(crate) sphere: Option<String>,
     /// The two anchor points [x, y, z] of a loop, vehicle axes.
@@ -63,6 +65,12 @@ pub(crate) struct BeltSection {
     pub(crate) pretensioner: Option<StrokeSection>,
 }
 
+impl BeltSection {
+    pub(super) fn is_worn(&self) -> bool {
+        self.worn != Some(false)
+    }
+}
+
 /// More belts than this are a slip; a body that settles tries them in hundreds of postures.
 pub(super) const MOST: usize = 100;
 
@@ -72,7 +80,8 @@ pub(super) fn belts(b: &mut Builder, scenario: &Scenario, body: &Body) -> Vec<Be
         b.error("belts", format!("{} belts", scenario.belts.len()), format!("at most {MOST}"));
         return Vec::new();
     }
-    scenario.belts.iter().filter_map(|(name, section)| belt(b, body, name, section)).collect()
+    let worn = scenario.belts.iter().filter(|(_, section)| section.is_worn());
+    worn.filter_map(|(name, section)| belt(b, body, name, section)).collect()
 }
 
 fn belt(b: &mut Builder, body: &Body, name: &str, s: &BeltSection) -> Option<Belt> {

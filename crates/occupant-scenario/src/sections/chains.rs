@@ -23,7 +23,8 @@ pub(super) struct Parts<'a> {
 pub(super) fn chains(b: &mut Builder, scenario: &Scenario, body: &Body, triggers: &Triggers<'_>) -> Vec<Chain> {
     let parts = Parts { scenario, body, triggers };
     let mut list = Vec::new();
-    for (name, section) in scenario.belts.iter().filter(|_| scenario.belts.len() <= belts::MOST) {
+    let is_told = scenario.belts.len() <= belts::MOST;
+    for (name, section) in scenario.belts.iter().filter(|(_, own)| is_told && own.is_worn()) {
         let path = with_key("belts", name);
         let nodes = match (&section.nodes, &section.preset) {
             (Some(nodes), _) => {

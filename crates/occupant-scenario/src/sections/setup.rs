@@ -84,6 +84,8 @@ pub(crate) fn setup(
         own_forces: Vec::new(),
         path,
         scenery: drives.map_or_else(Vec::new, |drives| drive::scenery(explicit, drives)),
+        facts: drives.map_or_else(Vec::new, drive::facts),
+        logs: drives.map_or_else(Vec::new, drive::logs),
         frames,
         members: Vec::new(),
         posture,

@@ -272,3 +272,18 @@ fn a_summary_tells_what_happens_to_a_belt() {
     assert!(0.0 < pulled && pulled < locked && locked < 0.03, "{events:?}");
     assert!(events.is_sorted_by_key(|event| event.time_s));
 }
+
+/// A belt that nobody wears is left out, a loop and a belt over nodes alike.
+#[test]
+fn a_belt_that_is_not_worn_is_not_there() {
+    assert_eq!(build(SHORT).belts.len(), 1);
+    let off = SHORT.replace("[belts.lap]\n", "[belts.lap]\nworn = false\n");
+    assert!(build(&off).belts.is_empty());
+    let worn = SHORT.replace("[belts.lap]\n", "[belts.lap]\nworn = true\n");
+    assert_eq!(build(&worn).belts.len(), 1);
+    let draft = include_str!("../../../../scenarios/three-point.toml");
+    let name = draft.lines().find_map(|line| line.strip_prefix("[belts.")?.strip_suffix(']')).unwrap();
+    assert!(!build(draft).chains.is_empty());
+    let off = draft.replacen(&format!("[belts.{name}]\n"), &format!("[belts.{name}]\nworn = false\n"), 1);
+    assert!(build(&off).chains.is_empty(), "{name}");
+}

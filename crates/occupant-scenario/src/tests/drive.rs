@@ -128,6 +128,24 @@ fn speeds_are_followed() {
     assert!((slowed - 12.0).abs() < 0.3, "{slowed}");
 }
 
+/// A ditch by its slopes is the section of its corners: 3 m of shoulder, 1:4 down by 2 m, 3 m of bottom, 1:3 up by 3 m, level behind.
+#[test]
+fn a_ditch_is_the_section_of_its_slopes() {
+    let ground = |keys: &str| driven(&short(&BRAKES.replace("friction = 0.8", keys))).world.ground.clone();
+    let ditch = ground("ditch = { edge = 3, foreslope = 4, depth = 2, bottom = 3, backslope = 3, rise = 3 }");
+    let section = ground("section = { right = [-2, 3, 11, 14, 23, 28], height = [0, 0, -2, -2, 1, 1] }");
+    let bare = ground("ditch = { edge = 3, foreslope = 2, depth = 1 }");
+    for right in [-50.0, 0.0, 4.0, 10.9, 12.0, 20.0, 60.0] {
+        assert_eq!(ditch.height_m(0.0, right), section.height_m(0.0, right), "{right}");
+        let expected = -((right - 3.0) / 2.0).clamp(0.0, 1.0);
+        assert!((bare.height_m(0.0, right) - expected).abs() < 1e-12, "{right}");
+    }
+    let refused = short(&BRAKES.replace("friction = 0.8", "ditch = { edge = 3, foreslope = 0, depth = 2 }"));
+    assert!(complaint(&refused).contains("out of range"));
+    let both = "ditch = { edge = 3, foreslope = 4, depth = 2 }\nsection = { right = [0, 1], height = [0, 0] }";
+    assert!(!complaint(&short(&BRAKES.replace("friction = 0.8", both))).is_empty());
+}
+
 #[test]
 fn mistakes_are_told_with_their_places() {
     let cases = [

@@ -5,6 +5,7 @@ mod belts;
 mod bodies;
 mod carts;
 mod caveats;
+mod collide;
 mod columns;
 mod crowds;
 mod devices;

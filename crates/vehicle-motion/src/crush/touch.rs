@@ -10,6 +10,8 @@ use nalgebra::Matrix3;
 
 /// A node of a narrow body marks the nodes of the other within this way, m.
 const NEXT_M: f64 = 0.05;
+/// A node that faces what it meets by less than this is not damaged by it: those of a side that a wall ahead has passed.
+pub(crate) const SQUARE: f64 = 0.2;
 /// Speed over which friction turns, m/s.
 const TURNS_M_S: f64 = 0.127;
 
@@ -193,7 +195,9 @@ impl Pass {
         for (i, node) in shapes[a].nodes.iter().enumerate() {
             let Some(met) = self.met(node, faces[i], outline, &now, &past) else { continue };
             faces[i] = met.face as u8;
-            most[i] = most[i].max(self.series(node, outline, &met).load(met.depth_m));
+            if met.facing > SQUARE {
+                most[i] = most[i].max(self.series(node, outline, &met).load(met.depth_m));
+            }
         }
     }
 

@@ -1,8 +1,10 @@
 //! Damage of a vehicle at the end of a run.
 
+use crate::V3;
 use crate::body::Side;
+use crate::car::Car;
 use crate::crush::law::Law;
-use crate::crush::outline::{Node, Outline, SIDES};
+use crate::crush::outline::{Face, Node, Outline, SIDES};
 
 /// Damage of a vehicle.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -13,11 +15,30 @@ pub struct Damage {
     pub residual_m: f64,
     /// Deepest crush of the roof by the ground, m.
     pub roof_m: f64,
+    /// Places that were pressed in.
+    pub dents: Vec<Dent>,
     /// Damaged sides.
     pub profiles: Vec<Profile>,
     /// Speed of a barrier that absorbs as much as its structure did: √(2E/M), m/s.
     pub ees_m_s: f64,
 }
+
+/// A place of the outline that was pressed in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dent {
+    /// Of which side.
+    pub side: Side,
+    /// Place before the crush, and outward normal, body axes, m.
+    pub place_m: V3,
+    /// Normal.
+    pub normal: V3,
+    /// Greatest crush while it lasted, m.
+    pub depth_m: f64,
+}
+
+/// Thickness of what lies between the outline and the compartment and does not crush away, m: a door, an engine. Guesses.
+const DOOR_M: f64 = 0.2;
+const ENGINE_M: f64 = 0.4;
 
 /// Crush of a side.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,7 +67,7 @@ impl Damage {
         taken_j: f64,
         mass_kg: f64,
     ) -> Self {
-        let hit = || nodes.iter().zip(most).filter(|(_, most)| **most > 0.0);
+        let hit = || nodes.iter().zip(most).filter(|(node, most)| **most > 0.0 && is_of_its_side(node, outline));
         let deepest = |of: &dyn Fn(&Law, f64) -> f64| hit().map(|(n, p)| of(&laws[n.law], *p)).fold(0.0, f64::max);
         let profiles = SIDES.iter().enumerate().filter_map(|(face, side)| {
             let depths = along(outline, face, nodes.iter().zip(most).map(|(n, p)| (n, laws[n.law].residual_m(*p))));
@@ -54,6 +75,7 @@ impl Damage {
         });
         Damage {
             dynamic_m: deepest(&Law::crush_m),
+            dents: hit().map(|(node, most)| Dent::of(node, laws[node.law].crush_m(*most))).collect(),
             residual_m: deepest(&Law::residual_m),
             roof_m: 0.0,
             profiles: profiles.collect(),
@@ -62,11 +84,52 @@ impl Damage {
     }
 }
 
+impl Damage {
+    /// Greatest crush of the front while it lasted, m.
+    pub fn front_m(&self) -> f64 {
+        self.dents.iter().filter(|dent| dent.side == Side::Front).map(|dent| dent.depth_m).fold(0.0, f64::max)
+    }
+
+    /// How deep the crush, with what lies behind the sheet, reaches into a sphere at a place of the compartment, body axes, m;
+    /// negative if it stays away. None above, below and beside all that was pressed in.
+    pub fn reaches_m(&self, place_m: &V3, radius_m: f64, car: &Car) -> Option<f64> {
+        let up_m = car.height_m - place_m.z;
+        let [low_m, high_m] = car.body.band_m;
+        if up_m + radius_m < low_m || up_m - radius_m > high_m {
+            return None;
+        }
+        let reach = |dent: &Dent| {
+            let way = place_m - dent.place_m;
+            let aside_m = (way.x * dent.normal.y - way.y * dent.normal.x).abs();
+            let is_end = matches!(dent.side, Side::Front | Side::Rear);
+            let behind_m = if is_end { ENGINE_M } else { DOOR_M };
+            let is_beside = aside_m <= 0.5 * car.body.crush.spacing_m + radius_m;
+            is_beside.then_some(dent.depth_m + behind_m + way.dot(&dent.normal) + radius_m)
+        };
+        self.dents.iter().filter_map(reach).max_by(f64::total_cmp)
+    }
+}
+
+impl Dent {
+    fn of(node: &Node, depth_m: f64) -> Self {
+        Dent { side: SIDES[node.face], place_m: node.place_m, normal: node.normal, depth_m }
+    }
+}
+
+/// Whether what a node was pressed in is damage of its face: a cut corner also pushes for the side, by its length along, but what a head-on
+/// wall pressed in there is damage of the end.
+fn is_of_its_side(node: &Node, outline: &Outline) -> bool {
+    let Face { normal: [x, y], .. } = outline.faces[node.face];
+    let over_m = |place: &[f64]| place[0] * x + place[1] * y;
+    let farthest_m = outline.edges.iter().map(|edge| over_m(&edge.corner_m)).fold(f64::NEG_INFINITY, f64::max);
+    x != 0.0 || over_m(node.place_m.as_slice()) > farthest_m - 1e-6
+}
+
 /// Mean residual crush over the rows, by place along a face, from its less end to its greater.
 fn along<'a>(outline: &Outline, face: usize, nodes: impl Iterator<Item = (&'a Node, f64)>) -> Depths {
     let is_end = outline.faces[face].normal[0] != 0.0;
     let place = |node: &Node| if is_end { node.place_m.y } else { node.place_m.x };
-    let own = nodes.filter(|(node, _)| node.face == face);
+    let own = nodes.filter(|(node, _)| node.face == face && is_of_its_side(node, outline));
     let mut depths: Depths = own.map(|(node, depth)| [place(node), depth * node.width_m, node.width_m]).collect();
     depths.sort_by(|a, b| a[0].total_cmp(&b[0]));
     depths.dedup_by(|next, kept| {

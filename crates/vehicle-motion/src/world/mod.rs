@@ -9,16 +9,16 @@ mod run;
 pub(crate) mod setup;
 
 pub use contact::{Contact, Partner, Struck};
-pub use damage::{Damage, Profile};
+pub use damage::{Damage, Dent, Profile};
 
 use crate::V3;
 use crate::barrier::Barrier;
 use crate::car::{Car, CarError};
-use crate::chassis::State;
 use crate::driver::{Driver, Table};
 use crate::ground::Ground;
 use crate::integrate::Tolerance;
 use crate::ride::{Ride, Start};
+use crate::state::State;
 
 /// Vehicles and what they meet.
 #[derive(Clone, Debug)]
@@ -141,7 +141,7 @@ pub struct Slid {
 }
 
 /// What happened to a rail.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Bent {
     /// Number of the barrier.
     pub barrier: usize,
@@ -151,6 +151,8 @@ pub struct Bent {
     pub tension_n: f64,
     /// Posts that let go.
     pub released: usize,
+    /// Its line at the end, X and Y, m.
+    pub line_m: Vec<[f64; 2]>,
 }
 
 /// Why a world could not be driven.

@@ -21,6 +21,9 @@ impl Runner<'_> {
                 _ => V3::zeros(),
             };
             let rate = &self.rate.cars[i].0;
+            let struck_n: V3 = self.setup.pairs.iter().zip(&self.found.forces).map(struck).sum();
+            let before_m = self.rides[i].last().map_or(0.0, |station| station.crush_m);
+            let crush_m = if struck_n == V3::zeros() { before_m } else { self.setup.deepest_m(i, &self.memories) };
             self.rides[i].push(Station {
                 time_s: self.time_s,
                 position_m: state.position_m(),
@@ -31,7 +34,8 @@ impl Runner<'_> {
                 turning_rad_s2: report.turning_rad_s2,
                 felt_m_s2: report.felt_m_s2,
                 steer_rad: 0.5 * (steer[0] + steer[1]),
-                struck_n: self.setup.pairs.iter().zip(&self.found.forces).map(struck).sum(),
+                struck_n,
+                crush_m,
                 hull_n: self.found.rubs[i].force_n,
                 wheels: report.wheels,
                 state: *state,
@@ -64,6 +68,7 @@ impl Runner<'_> {
             deflection_m: memory.most_m,
             tension_n: memory.most_n,
             released: memory.released(),
+            line_m: rail.beam.line_m(&stack.more[rail.at.clone()]),
         };
         let rails = setup.rails.iter().zip(&memories.rails).map(bent).collect();
         let slid = |(i, memory): (usize, &SlideMemory)| Slid {

@@ -2,13 +2,13 @@
 
 use crate::V3;
 use crate::barrier::Barrier;
-use crate::chassis::State;
 use crate::crush::law::{Law, Series};
 use crate::crush::outline::{Node, Outline, of_body};
 use crate::crush::touch::{NO_FACE, Pass, Pose, Shape};
 use crate::hull::{Hull, HullMemory};
 use crate::rail::{Beam, BeamMemory};
 use crate::slider::Slide;
+use crate::state::State;
 use crate::vehicle::{Memory, Vehicle};
 use crate::world::{Begin, Partner, World, WorldError};
 
@@ -279,6 +279,12 @@ impl<'a> Setup<'a> {
             .flat_map(|pair| &self.passes[pair.passes.clone()])
             .filter_map(|pass| pass.nearest(&self.shapes, poses));
         nearest.min_by(|a, b| a.0.total_cmp(&b.0)).map_or([0.0; 2], |(_, place)| [place.x, place.y])
+    }
+
+    /// Deepest crush of a vehicle so far, m.
+    pub fn deepest_m(&self, car: usize, memories: &Memories) -> f64 {
+        let hit = self.shapes[car].nodes.iter().zip(&memories.most[car]).filter(|(_, most)| **most > 0.0);
+        hit.map(|(node, most)| self.laws[car][node.law].crush_m(*most)).fold(0.0, f64::max)
     }
 
     pub fn memories(&self) -> Memories {

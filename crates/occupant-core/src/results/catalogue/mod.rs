@@ -4,6 +4,7 @@
 //! Summaries, plots, exports, prints and studies take names, units, axes and values from here. It writes nothing.
 
 mod body;
+mod drive;
 mod energy;
 mod joint;
 mod marker;
@@ -78,8 +79,9 @@ pub struct Field {
 const ELEMENTS: &str = "";
 
 /// Message types in the order in which a file has them.
-const ORDER: [&str; 13] = [
+const ORDER: [&str; 14] = [
     "VehicleMotion",
+    "DriveState",
     "SegmentState",
     "SphereLoad",
     ELEMENTS,
@@ -210,6 +212,12 @@ impl Catalogue {
             let (channel, words) = (format!("vehicle.{name}"), format!("vehicle {name}"));
             let place = Place { message: "VehicleMotion", topic, name: &channel, words: &words };
             self.add(&place, &vehicle::quantities(&frame.path), move |s| vehicle::other(s, i));
+        }
+        let names = named("/drive", setup.logs.iter().map(|log| log.name.as_str()));
+        for (i, (name, topic)) in names.into_iter().enumerate() {
+            let (channel, words) = (format!("drive.{name}"), format!("driven vehicle {name}"));
+            let place = Place { message: "DriveState", topic, name: &channel, words: &words };
+            self.add(&place, &drive::QUANTITIES, move |s| drive::at(s, i));
         }
     }
 

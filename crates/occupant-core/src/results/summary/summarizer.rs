@@ -113,17 +113,18 @@ impl Summarizer {
         let mut peaks = self.seen.clone();
         peaks.merge(&self.now);
         let people = self.persons(&peaks);
-        let signs = self.signs.with_steps(&self.elements, &peaks.elements);
+        let signs = self.signs.with_steps(&self.elements, &peaks, &case.body);
         let caveats = self.caveats(case, &signs, &people, outcome.time_s);
         let sphere_forces = sphere_forces(case, &peaks);
         let unbalanced = case.caveats_of_start(&people, &sphere_forces);
+        let ejections = self.ejections(case);
+        let by_chance = Self::by_chance(&people, &ejections);
         let mut people = people.into_iter().map(|(name, person, _)| (name, person));
         let (occupant, Person { accelerations, head_excursion, measures }) = people.next()?;
         let contacts = contacts(outcome, case);
         let throws: InOrder<_, _> =
             self.flights.iter().filter_map(|flight| Some((flight.name, flight.throw(&case.body.spheres)?))).collect();
         let on_the_way = throws.iter().filter_map(|(name, throw)| Caveat::not_at_rest(name, throw));
-        let ejections = self.ejections(case);
         let (status, reason) = ending(&outcome.status);
         let summary = Summary {
             title: case.title.clone(),
@@ -149,6 +150,7 @@ impl Summarizer {
                 .chain(caveats)
                 .chain(unbalanced)
                 .chain(Self::unmet(case, &ejections))
+                .chain(by_chance)
                 .chain(on_the_way)
                 .collect(),
             throws,
@@ -184,6 +186,20 @@ impl Summarizer {
     fn ejections(&self, case: &Case) -> InOrder<&'static str, Ejection> {
         let all = self.compartments.iter();
         all.filter_map(|of| Some((of.name, of.ejection(&case.body.spheres, &case.surfaces)?))).collect()
+    }
+
+    /// What is to know of those who were ejected: their verdict, throw, and figures of later times.
+    fn by_chance(
+        people: &[(&'static str, Person, Signals)],
+        ejections: &InOrder<&'static str, Ejection>,
+    ) -> Vec<Caveat> {
+        let one = |(name, ejection): (&&'static str, &Ejection)| {
+            let from_s = ejection.parts.first()?.time_s;
+            let own = people.iter().filter(|(person, ..)| person == name);
+            let later = own.flat_map(|(_, person, _)| person.figures_when(|time_s| time_s >= from_s)).collect();
+            Some(Caveat::by_chance(ejection, later)?.of_occupant(name))
+        };
+        ejections.iter().filter_map(one).collect()
     }
 
     /// Parts that left a compartment where there is nothing outside.

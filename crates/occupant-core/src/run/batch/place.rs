@@ -177,6 +177,7 @@ impl<L: Lanes> Tracker<L> for &mut Witness<'_> {
                     velocity_m_s: vector(touch.velocity, i),
                     depth_m: touch.depth.lane(i),
                     force_n: vector(touch.force, i),
+                    normal: vector(touch.normal, i),
                 };
                 place.run.met.push(Touching { meeting });
             }

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vehicle_motion::GRAVITY_M_S2;
 use vehicle_motion::car::Car;
-use vehicle_motion::driver::{Driver, Follower, Steering, Table, TableError};
+use vehicle_motion::driver::{Driver, Follower, OnImpact, Steering, Table, TableError};
 
 use super::super::builder::Builder;
 use super::super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, Quantity, si_or};
@@ -90,6 +90,22 @@ pub(crate) struct WheelsSection {
 pub(crate) struct WheelSection {
     /// Time from which on it is locked.
     pub(crate) locked_from: Option<Time<NOT_NEGATIVE>>,
+    /// True: it is locked from the first collision on.
+    pub(crate) locked_on_impact: Option<bool>,
+}
+
+/// What a driver does from his first collision on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum AfterImpact {
+    /// Feet off.
+    Release,
+    /// His feet stay as they were.
+    Hold,
+    /// He brakes with a full pedal.
+    Brake,
+    /// He goes on as if nothing had happened.
+    Continue,
 }
 
 /// Brake torque of a full pedal brakes so much, g.
@@ -123,10 +139,16 @@ pub(super) fn driver(b: &mut Builder, at: &str, s: &DrivenSection, car: &Car) ->
             }
         }
     }
+    let full = s.brakes.as_ref().and_then(|brakes| brakes.max_torque.as_ref());
+    let full_n_m = full.map_or(FULL_PEDAL_G * car.mass_kg * GRAVITY_M_S2 * car.tyre.radius_m, |torque| torque.si());
+    driver.on_impact = match s.on_impact {
+        None | Some(AfterImpact::Release) => OnImpact::Release,
+        Some(AfterImpact::Hold) => OnImpact::Hold,
+        Some(AfterImpact::Brake) => OnImpact::Brake(full_n_m),
+        Some(AfterImpact::Continue) => OnImpact::Continue,
+    };
     if let Some(brake) = &s.brake {
         let at = with_key(at, "brake");
-        let full = s.brakes.as_ref().and_then(|brakes| brakes.max_torque.as_ref());
-        let full_n_m = full.map_or(FULL_PEDAL_G * car.mass_kg * GRAVITY_M_S2 * car.tyre.radius_m, |torque| torque.si());
         driver.brake_n_m = match (&brake.pedal, &brake.torque) {
             (Some(pedal), _) => table(b, &at, "pedal", &brake.time, pedal, full_n_m),
             (None, torque) => table(b, &at, "torque", &brake.time, torque.as_deref().unwrap_or_default(), 1.0),
@@ -144,6 +166,8 @@ pub(super) fn driver(b: &mut Builder, at: &str, s: &DrivenSection, car: &Car) ->
     if let Some(w) = &s.wheels {
         let locked = [&w.left_front, &w.right_front, &w.left_rear, &w.right_rear];
         driver.locked_from_s = locked.map(|wheel| Some(wheel.as_ref()?.locked_from.as_ref()?.si()));
+        driver.locked_on_impact =
+            locked.map(|wheel| wheel.as_ref().is_some_and(|own| own.locked_on_impact == Some(true)));
     }
     Some(driver)
 }

@@ -12,7 +12,7 @@ use placed_text::with_key;
 /// What vehicles drive on.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("x-at-most-one" = [["section", "cross_slope"]]))]
+#[schemars(extend("x-at-most-one" = [["section", "ditch", "cross_slope"]]))]
 pub(crate) struct RoadSection {
     /// Friction of tyres of grip 1; 0.76 if absent, dry asphalt (0.64 to 0.88 in 95 % of tests).
     pub(crate) friction: Option<Ratio<POSITIVE>>,
@@ -22,6 +22,8 @@ pub(crate) struct RoadSection {
     pub(crate) cross_slope: Option<Ratio>,
     /// A cross-section that runs along x: shoulder, slopes, ditch.
     pub(crate) section: Option<CrossSection>,
+    /// The same of a ditch beside the road, by its slopes.
+    pub(crate) ditch: Option<DitchSection>,
     /// Curbs along x, each of which lifts all that lies right of it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) curbs: Vec<CurbSection>,
@@ -38,6 +40,24 @@ pub(crate) struct CrossSection {
     pub(crate) right: Vec<Length>,
     /// Height at each.
     pub(crate) height: Vec<Length>,
+}
+
+/// A level road with a ditch to its right: foreslope, bottom, backslope.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DitchSection {
+    /// Where the foreslope begins, right of the x axis.
+    pub(crate) edge: Length,
+    /// Level length for each length of fall: 4 is a slope of 1:4.
+    pub(crate) foreslope: Ratio<POSITIVE>,
+    /// Depth of the bottom below the road.
+    pub(crate) depth: Length<POSITIVE>,
+    /// Width of the bottom; 0 if absent: a V.
+    pub(crate) bottom: Option<Length<NOT_NEGATIVE>>,
+    /// Level length for each length of rise; no backslope if absent.
+    pub(crate) backslope: Option<Ratio<POSITIVE>>,
+    /// Rise of the backslope; the depth if absent. Its top is level.
+    pub(crate) rise: Option<Length<POSITIVE>>,
 }
 
 /// A curb along x.
@@ -72,6 +92,33 @@ pub(crate) struct ZoneSection {
 const DRY_ASPHALT: f64 = 0.76;
 const AT: &str = "drive.ground";
 
+impl DitchSection {
+    /// Corners of the cross-section from left to right: right, up, m. The road is level to its left, the land behind to its right.
+    fn corners_m(&self) -> Vec<[f64; 2]> {
+        let (edge_m, depth_m) = (self.edge.si(), self.depth.si());
+        let foot_m = edge_m + self.foreslope.si() * depth_m;
+        let mut corners = vec![[edge_m - LEVEL_M, 0.0], [edge_m, 0.0], [foot_m, -depth_m]];
+        let bottom_m = foot_m + si_or(&self.bottom, 0.0);
+        if bottom_m > foot_m {
+            corners.push([bottom_m, -depth_m]);
+        }
+        let top_m = match &self.backslope {
+            Some(slope) => {
+                let rise_m = si_or(&self.rise, depth_m);
+                corners.push([bottom_m + slope.si() * rise_m, rise_m - depth_m]);
+                bottom_m + slope.si() * rise_m
+            }
+            None => bottom_m,
+        };
+        let last_m = corners[corners.len() - 1][1];
+        corners.push([top_m + LEVEL_M, last_m]);
+        corners
+    }
+}
+
+/// A level corner stands so far beside a slope, m; it goes on beyond.
+const LEVEL_M: f64 = 5.0;
+
 /// The ground and its friction outside of zones.
 pub(super) fn ground(b: &mut Builder, section: Option<&RoadSection>) -> (Ground, f64) {
     let none = RoadSection::default();
@@ -95,6 +142,12 @@ pub(super) fn ground(b: &mut Builder, section: Option<&RoadSection>) -> (Ground,
                 b.error(&last, found, "distances that rise from left to right");
             }
             Err(error) => refused.push((at, error)),
+        }
+    }
+    if let Some(ditch) = &s.ditch {
+        match Ground::section(ditch.corners_m(), grade) {
+            Ok(own) => ground = own,
+            Err(error) => refused.push((with_key(AT, "ditch"), error)),
         }
     }
     let curb = |c: &CurbSection| Curb {

@@ -1,8 +1,14 @@
 //! `[drive]`: vehicles that move by themselves before people are looked at, and what they come to: the drives of all.
 
+mod barriers;
+mod crush;
 mod driver;
+mod facts;
 mod ground;
+mod parts;
+mod people;
 mod scenery;
+mod standing;
 mod vehicle;
 
 use std::sync::Arc;
@@ -12,18 +18,21 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vehicle_motion::V3;
 use vehicle_motion::car::Car;
+use vehicle_motion::integrate::Tolerance;
 use vehicle_motion::path::DrivenPath as Motion;
 use vehicle_motion::world::{Begin, Entry, Outcome, World, WorldError};
 
+use self::barriers::BarrierSection;
+use self::crush::ImpactSection;
+pub(super) use self::facts::{facts, logs};
 use self::ground::RoadSection;
+pub(crate) use self::people::{People, asks_for_people};
 pub(super) use self::scenery::scenery;
 use self::vehicle::DrivenSection;
 use super::builder::Builder;
-use super::frames::VEHICLE;
 use super::path::PathSection;
-use super::quantity::{POSITIVE, si_or};
-use super::{Length, Scenario, Time};
-use occupant_core::model::Model;
+use super::quantity::{NOT_NEGATIVE, POSITIVE, si_or};
+use super::{Length, Ratio, Scenario, Time};
 use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
 use occupant_core::vehicle::{DrivenPath, VehiclePath};
 use placed_text::{Diagnostics, Document, Problem, with_key};
@@ -41,6 +50,14 @@ pub(crate) struct DriveSection {
     pub(crate) vehicles: IndexMap<String, DrivenSection>,
     /// What they drive on; a level road of friction 0.76 if absent.
     pub(crate) ground: Option<RoadSection>,
+    /// What stands beside it, by name.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) barriers: IndexMap<String, BarrierSection>,
+    /// Friction between vehicles that crush each other; 0.55 if absent.
+    pub(crate) friction: Option<Ratio<NOT_NEGATIVE>>,
+    /// Impacts by impulse and momentum in the place of crush.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) impacts: Vec<ImpactSection>,
 }
 
 /// The motion of a vehicle of `drive`.
@@ -49,13 +66,6 @@ pub(crate) struct DriveSection {
 pub(crate) struct DrivenPathSection {
     /// Name of the vehicle in `drive.vehicles`; may be left out where there is one.
     pub(crate) vehicle: Option<String>,
-}
-
-/// Mass of the people in a vehicle and their centre of gravity in its axes, from its own without load.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct People {
-    pub(crate) mass_kg: f64,
-    pub(crate) centre_m: V3,
 }
 
 /// What was driven. Clones share it.
@@ -71,6 +81,9 @@ pub struct Solved {
     pub outcome: Outcome,
     /// Vehicles, ground, barriers and drivers.
     pub world: World,
+    /// Name and kind of each barrier, in the order of the world's.
+    pub barriers: Vec<(String, &'static str)>,
+    people: Vec<Option<People>>,
     paths: Vec<VehiclePath>,
 }
 
@@ -111,53 +124,48 @@ impl Solved {
 }
 
 impl DriveSection {
+    /// Vehicles, ground and barriers; what is wrong is reported.
+    fn world(&self, b: &mut Builder, s: &Scenario, people: &[Option<People>]) -> (World, Vec<DrivenVehicle>) {
+        let (ground, friction) = ground::ground(b, self.ground.as_ref());
+        let usual = World::default();
+        let mut world = World { ground, friction: si_or(&self.friction, usual.friction), ..usual };
+        if let Some(tolerance) = &self.tolerance {
+            // speeds go by ten times the places per second
+            let place_m = tolerance.si();
+            let speed_m_s = 10.0 * place_m;
+            world.tolerance = Tolerance { place_m, speed_m_s, relative: place_m, ..world.tolerance };
+        }
+        world.tolerance.longest_s = LONGEST_S;
+        let mut vehicles = Vec::new();
+        for (i, (name, own)) in self.vehicles.iter().enumerate() {
+            let at = with_key("drive.vehicles", name);
+            let people = people.get(i).and_then(Option::as_ref);
+            let carries = s.carries(i);
+            let Some(vehicle) = own.vehicle(b, &at, name, friction, people, carries) else { continue };
+            let driver = driver::driver(b, &at, own, &vehicle.car);
+            let begin = Begin::At(own.start.start());
+            world.cars.extend(driver.map(|driver| Entry::new(vehicle.car.clone(), driver, begin)));
+            vehicles.push(vehicle);
+        }
+        if self.vehicles.is_empty() {
+            b.error("drive.vehicles", "no vehicle", "a table for each vehicle, such as [drive.vehicles.car]");
+        }
+        let first = self.vehicles.values().next().map(|own| own.start.start()).unwrap_or_default();
+        for (name, own) in &self.barriers {
+            world.barriers.extend(own.barrier(b, &with_key("drive.barriers", name), [first.x_m, first.y_m]));
+        }
+        for (i, own) in self.impacts.iter().enumerate() {
+            world.impulses.extend(own.impact(b, &format!("drive.impacts[{i}]"), self));
+        }
+        (world, vehicles)
+    }
+
     /// The number of the vehicle that a path means.
     fn named(&self, path: &DrivenPathSection) -> Option<usize> {
         match &path.vehicle {
             Some(name) => self.vehicles.get_index_of(name),
             None => (self.vehicles.len() == 1).then_some(0),
         }
-    }
-}
-
-/// Whether a load depends on who sits in a vehicle.
-pub(crate) fn asks_for_people(s: &Scenario) -> bool {
-    s.drive.iter().flat_map(|drive| drive.vehicles.values()).any(DrivenSection::takes_people)
-}
-
-impl Scenario {
-    /// The vehicle of `drive` that a vehicle of the scenario is.
-    fn driven(&self, vehicle: &str) -> Option<usize> {
-        let own = self.vehicles.get(vehicle).map(|own| &own.path);
-        let path = own.or_else(|| (vehicle == VEHICLE).then(|| self.first_path().map(|(_, path)| path)).flatten())?;
-        match path {
-            PathSection::Drive(own) => self.drive.as_ref()?.named(own),
-            _ => None,
-        }
-    }
-
-    /// Mass and centre of those who begin in each vehicle of `drive`; `model` has them in vehicles that stand at the origin.
-    pub(crate) fn weighed(&self, model: &Model) -> Vec<Option<People>> {
-        let mut people = vec![None; self.drive.as_ref().map_or(0, |drive| drive.vehicles.len())];
-        let first = self.body.is_some().then_some(Some(VEHICLE));
-        let others = self.occupants.values().map(|own| own.vehicle.as_deref());
-        let homes = first.into_iter().chain(others).chain(self.loose.values().map(|own| own.vehicle.as_deref()));
-        let bodies = if model.alone().is_empty() { std::slice::from_ref(model) } else { model.alone() };
-        for (home, body) in homes.zip(bodies) {
-            let Some(vehicle) = home.and_then(|home| self.driven(home)) else { continue };
-            let (mass_kg, centre) = body.centre_at_start();
-            let one = People { mass_kg, centre_m: V3::new(centre.x, -centre.y, -centre.z) };
-            people[vehicle] = Some(people[vehicle].map_or(one, |before: People| before.and(one)));
-        }
-        people
-    }
-}
-
-impl People {
-    fn and(self, other: Self) -> Self {
-        let mass_kg = self.mass_kg + other.mass_kg;
-        let centre_m = (self.centre_m * self.mass_kg + other.centre_m * other.mass_kg) / mass_kg;
-        People { mass_kg, centre_m }
     }
 }
 
@@ -180,31 +188,7 @@ pub(crate) fn solve(
             "standard gravity: leave the key out",
         );
     }
-    let (ground, friction) = ground::ground(b, section.ground.as_ref());
-    let mut vehicles = Vec::new();
-    let mut world = World { ground, ..World::default() };
-    if let Some(tolerance) = &section.tolerance {
-        // speeds go by ten times the places per second
-        let place_m = tolerance.si();
-        world.tolerance = vehicle_motion::integrate::Tolerance {
-            place_m,
-            speed_m_s: 10.0 * place_m,
-            relative: place_m,
-            ..world.tolerance
-        };
-    }
-    world.tolerance.longest_s = LONGEST_S;
-    for (i, (name, own)) in section.vehicles.iter().enumerate() {
-        let at = with_key("drive.vehicles", name);
-        let Some(vehicle) = own.vehicle(b, &at, name, friction, people.get(i).copied().flatten()) else { continue };
-        let driver = driver::driver(b, &at, own, &vehicle.car);
-        let begin = Begin::At(own.start.start());
-        world.cars.extend(driver.map(|driver| Entry::new(vehicle.car.clone(), driver, begin)));
-        vehicles.push(vehicle);
-    }
-    if section.vehicles.is_empty() {
-        b.error("drive.vehicles", "no vehicle", "a table for each vehicle, such as [drive.vehicles.car]");
-    }
+    let (world, vehicles) = section.world(b, s, people);
     if b.problems.has_errors() {
         return Err(std::mem::take(&mut b.problems));
     }
@@ -217,7 +201,9 @@ pub(crate) fn solve(
     };
     let paths = outcome.rides.iter().zip(&vehicles);
     let paths = paths.map(|(ride, own)| VehiclePath::Driven(DrivenPath::new(Motion::of(ride, own.origin_m)))).collect();
-    let solved = Solved { vehicles, outcome, world, paths };
+    let barriers = section.barriers.iter().map(|(name, own)| (name.clone(), own.kind())).collect();
+    let solved = Solved { vehicles, outcome, world, barriers, people: people.to_vec(), paths };
+    solved.warn_of_crush(b);
     Ok((Some(Drives(Arc::new(solved))), std::mem::take(&mut b.problems)))
 }
 
@@ -235,6 +221,15 @@ fn refuse(b: &mut Builder, section: &DriveSection, error: &WorldError) {
             let name = |car: usize| section.vehicles.get_index(car).map_or("", |(name, _)| name.as_str());
             let found = format!("{} and {} overlap by {depth_m:.3} m at the start", name(*one), name(*other));
             b.error(&with_key(&at(*other), "start"), found, "vehicles that start apart");
+        }
+        WorldError::InBarrier { car, barrier, depth_m } => {
+            let name = section.barriers.get_index(*barrier).map_or("", |(name, _)| name.as_str());
+            let found = format!("it is {depth_m:.3} m within {name}");
+            b.error(&with_key(&at(*car), "start"), found, "a start before the barrier");
+        }
+        WorldError::Barrier { barrier, what } => {
+            let name = section.barriers.get_index(*barrier).map_or("", |(name, _)| name.as_str());
+            b.error(&with_key("drive.barriers", name), *what, "a barrier that stands");
         }
         other => b.error("drive", other.to_string(), "inputs that a vehicle can follow"),
     }

@@ -11,7 +11,7 @@ use super::{DrivenVehicle, Drives};
 use occupant_core::forces::contact::surface::Frame;
 use occupant_core::model::setup::Scenery;
 
-type Polygons = Vec<Vec<Point3<f64>>>;
+pub(super) type Polygons = Vec<Vec<Point3<f64>>>;
 
 /// The road reaches as far beyond what was driven, m.
 const BEYOND_M: f64 = 12.0;
@@ -24,6 +24,10 @@ const OVER_M: f64 = 0.01;
 /// All of it.
 pub(crate) fn scenery(s: &Scenario, drives: &Drives) -> Vec<Scenery> {
     let mut all = vec![Scenery { name: "road".to_owned(), frame: Frame::Space, polygons_m: road(drives) }];
+    for (i, (name, _)) in drives.barriers.iter().enumerate() {
+        let polygons_m = super::standing::polygons(drives, i);
+        all.push(Scenery { name: format!("barrier {name}"), frame: Frame::Space, polygons_m });
+    }
     for (i, vehicle) in drives.vehicles.iter().enumerate() {
         let name = |what: &str| format!("{} {what}", vehicle.name);
         all.push(Scenery { name: name("marks"), frame: Frame::Space, polygons_m: strips(drives, i) });
@@ -37,7 +41,7 @@ pub(crate) fn scenery(s: &Scenario, drives: &Drives) -> Vec<Scenery> {
 }
 
 /// A place on the ground in space axes.
-fn on_ground(drives: &Drives, x_m: f64, right_m: f64, over_m: f64) -> Point3<f64> {
+pub(super) fn on_ground(drives: &Drives, x_m: f64, right_m: f64, over_m: f64) -> Point3<f64> {
     Point3::new(x_m, -right_m, drives.world.ground.height_m(x_m, right_m) + over_m)
 }
 

@@ -1,0 +1,180 @@
+//! The barriers that `[drive.barriers]` comes to.
+
+use std::f64::consts::PI;
+
+use vehicle_motion::barrier::{Barrier, Block, End, Pole, Rail, Slider, Wall};
+
+use super::super::super::builder::Builder;
+use super::super::super::quantity::{NOT_NEGATIVE, all_si, si_or};
+use super::super::super::{Force, Length};
+use super::super::parts::put;
+use super::{BarrierSection, BlockSection, CushionSection, Hand, RailSection, SignSection, WallSection};
+use placed_text::with_key;
+
+/// Friction of a car's end on what is rigid, and along smooth concrete.
+const ROUGH: f64 = 0.55;
+const CONCRETE: f64 = 0.2;
+/// Diameter of the pole of 49 CFR 571.214, m.
+const POLE_M: f64 = 0.254;
+
+impl BarrierSection {
+    /// Its name in reports.
+    pub(in super::super) fn kind(&self) -> &'static str {
+        match self {
+            BarrierSection::Wall(_) => "wall",
+            BarrierSection::Pole(_) => "pole",
+            BarrierSection::Block(_) => "block",
+            BarrierSection::Rail(_) => "rail",
+            BarrierSection::Cushion(_) => "cushion",
+            BarrierSection::Sign(_) => "sign",
+        }
+    }
+
+    /// The barrier, where the first vehicle starts at a place; what is wrong is reported.
+    pub(in super::super) fn barrier(&self, b: &mut Builder, at: &str, first_m: [f64; 2]) -> Option<Barrier> {
+        Some(match self {
+            BarrierSection::Wall(s) => Barrier::Wall(s.wall()),
+            BarrierSection::Pole(s) => {
+                let radius_m = 0.5 * si_or(&s.diameter, POLE_M);
+                Barrier::Pole(Pole { at_m: all_si(&s.at), radius_m, friction: si_or(&s.friction, ROUGH) })
+            }
+            BarrierSection::Block(s) => {
+                Barrier::Block(Block { corners_m: s.corners_m(), friction: si_or(&s.friction, ROUGH) })
+            }
+            BarrierSection::Rail(s) => Barrier::Rail(s.rail(b, at, first_m)?),
+            BarrierSection::Cushion(s) => Barrier::Slider(s.slider(b, at)?),
+            BarrierSection::Sign(s) => Barrier::Slider(s.slider(b, at)?),
+        })
+    }
+}
+
+impl WallSection {
+    fn wall(&self) -> Wall {
+        let usual = if self.preset.is_some() { CONCRETE } else { ROUGH };
+        Wall { point_m: all_si(&self.at), normal_rad: si_or(&self.facing, PI), friction: si_or(&self.friction, usual) }
+    }
+}
+
+impl BlockSection {
+    /// Its corners, clockwise from above.
+    fn corners_m(&self) -> Vec<[f64; 2]> {
+        let given = self.corners.iter().flatten().map(all_si).collect();
+        let mut corners: Vec<[f64; 2]> = match (&self.centre, &self.lengths) {
+            (Some(centre), Some(lengths)) => rectangle(all_si(centre), all_si(lengths), si_or(&self.yaw, 0.0)),
+            _ => given,
+        };
+        let area: f64 = (0..corners.len())
+            .map(|i| (corners[i], corners[(i + 1) % corners.len()]))
+            .map(|(p, q)| p[0] * q[1] - p[1] * q[0])
+            .sum();
+        if area < 0.0 {
+            corners.reverse();
+        }
+        corners
+    }
+}
+
+/// Corners of a rectangle about its middle, clockwise from above.
+fn rectangle([x, y]: [f64; 2], lengths_m: [f64; 2], yaw_rad: f64) -> Vec<[f64; 2]> {
+    let (sine, cosine) = yaw_rad.sin_cos();
+    let corner = |[along, across]: [f64; 2]| {
+        let [a, c] = [0.5 * along * lengths_m[0], 0.5 * across * lengths_m[1]];
+        [x + a * cosine - c * sine, y + a * sine + c * cosine]
+    };
+    [[1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]].map(corner).to_vec()
+}
+
+impl RailSection {
+    fn rail(&self, b: &mut Builder, at: &str, [x, y]: [f64; 2]) -> Option<Rail> {
+        let line_m = [all_si(&self.line[0]), all_si(&self.line[1])];
+        let [from, to] = line_m;
+        let way = [to[0] - from[0], to[1] - from[1]];
+        let right = way[0] * (y - from[1]) - way[1] * (x - from[0]);
+        let mut rail = Rail::w_beam(line_m);
+        rail.traffic_on_left = self.traffic.map_or(right < 0.0, |hand| hand == Hand::Left);
+        put(&mut rail.height_m, &self.height);
+        if let Some(edges) = &self.edges {
+            rail.band_m = all_si(edges);
+            if rail.band_m[1] <= rail.band_m[0] {
+                let found = format!("edges at {} m and {} m", rail.band_m[0], rail.band_m[1]);
+                b.error(&with_key(at, "edges"), found, "the lower edge, then the upper one");
+                return None;
+            }
+        }
+        put(&mut rail.spacing_m, &self.posts.spacing);
+        put(&mut rail.post_n, &self.posts.force);
+        put(&mut rail.post_n_per_m, &self.posts.stiffness);
+        put(&mut rail.release_m, &self.posts.release);
+        put(&mut rail.post_kg, &self.posts.mass);
+        put(&mut rail.anchor_n_per_m, &self.anchor);
+        put(&mut rail.yield_n, &self.yields);
+        put(&mut rail.friction, &self.friction);
+        let length_m = way[0].hypot(way[1]);
+        if length_m < 2.0 * rail.spacing_m {
+            let found = format!("a rail of {length_m:.2} m on posts every {} m", rail.spacing_m);
+            b.error(&with_key(at, "line"), found, "at least two spacings of its posts");
+            return None;
+        }
+        Some(rail)
+    }
+}
+
+impl CushionSection {
+    fn slider(&self, b: &mut Builder, at: &str) -> Option<Slider> {
+        let back_rad = si_or(&self.facing, PI) + PI;
+        let (sine, cosine) = back_rad.sin_cos();
+        let ([x, y], length_m) = (all_si(&self.at), self.length.si());
+        let middle = [x + 0.5 * length_m * cosine, y + 0.5 * length_m * sine];
+        Some(Slider {
+            corners_m: rectangle(middle, [length_m, self.width.si()], back_rad),
+            mass_kg: self.mass.si(),
+            direction_rad: Some(back_rad),
+            force_n: held_back(b, at, &self.stroke, &self.force)?,
+            returned: si_or(&self.returned, 0.05),
+            end: End::Rigid,
+            friction: si_or(&self.friction, ROUGH),
+        })
+    }
+}
+
+impl SignSection {
+    fn slider(&self, b: &mut Builder, at: &str) -> Option<Slider> {
+        let friction = si_or(&self.friction, ROUGH);
+        let pole = Pole { at_m: all_si(&self.at), radius_m: 0.5 * self.diameter.si(), friction };
+        Some(Slider {
+            corners_m: pole.corners_m(),
+            mass_kg: self.mass.si(),
+            direction_rad: None,
+            force_n: held_back(b, at, &self.stroke, &self.force)?,
+            returned: 0.0,
+            end: End::Released,
+            friction,
+        })
+    }
+}
+
+/// Force over way, m and N; reports lists of unlike length, and strokes that do not rise from 0.
+fn held_back(
+    b: &mut Builder,
+    at: &str,
+    stroke: &[Length<NOT_NEGATIVE>],
+    force: &[Force<NOT_NEGATIVE>],
+) -> Option<Vec<[f64; 2]>> {
+    let at_stroke = with_key(at, "stroke");
+    if stroke.len() != force.len() || stroke.len() < 2 {
+        let found = format!("{} strokes and {} forces", stroke.len(), force.len());
+        b.error(&at_stroke, found, "a force for each stroke, at least two");
+        return None;
+    }
+    let table: Vec<[f64; 2]> = stroke.iter().zip(force).map(|(way, force)| [way.si(), force.si()]).collect();
+    if table[0][0] != 0.0 {
+        b.error(&format!("{at_stroke}[0]"), format!("a first stroke of {} m", table[0][0]), "0");
+        return None;
+    }
+    if let Some(i) = (1..table.len()).find(|&i| table[i][0] <= table[i - 1][0]) {
+        let found = format!("stroke {} is {} m, after {} m", i + 1, table[i][0], table[i - 1][0]);
+        b.error(&format!("{at_stroke}[{i}]"), found, "strokes that rise");
+        return None;
+    }
+    Some(table)
+}

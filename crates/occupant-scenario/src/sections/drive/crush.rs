@@ -1,0 +1,166 @@
+//! `crush` of a vehicle of `[drive]`, and `[[drive.impacts]]`.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use vehicle_motion::body::{Crush, Reading, Stiffness as Face};
+use vehicle_motion::car::Car;
+use vehicle_motion::world::{Impact, Partner};
+
+use super::super::builder::Builder;
+use super::super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, all_si, si_or};
+use super::super::{Angle, Length, Pressure, Ratio, Speed, Stiffness, Time};
+use super::DriveSection;
+use placed_text::with_key;
+
+/// How a vehicle crushes. What is not said is its preset's.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-at-most-one" = [["front", "test"]]))]
+pub(crate) struct CrushSection {
+    /// Which crush the stiffness gives; "dynamic" if absent and somebody begins in the vehicle, else "residual".
+    pub(crate) reading: Option<CrushReading>,
+    /// How much longer the greatest crush is in dynamic reading than in residual reading; 0.2 if absent, by one test.
+    pub(crate) longer: Option<Ratio<NOT_NEGATIVE>>,
+    /// Front.
+    pub(crate) front: Option<FaceSection>,
+    /// Both sides.
+    pub(crate) side: Option<FaceSection>,
+    /// Rear.
+    pub(crate) rear: Option<FaceSection>,
+    /// A full-width wall test from which the front's stiffness follows.
+    pub(crate) test: Option<WallTestSection>,
+    /// Shares of the energy that come back, of that below A/B and of the rest; [0.2, 0.015] if absent.
+    pub(crate) returned: Option<[Ratio<FRACTION>; 2]>,
+}
+
+/// Which crush the stiffness gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum CrushReading {
+    /// The greatest crush is the residual crush and A/B: for damage and reconstruction. The pulse is too short for people.
+    Residual,
+    /// The greatest crush is longer, at the same energy and residual crush: for pulses that people feel.
+    Dynamic,
+}
+
+/// Force per width of a face over its residual crush C: A + B C.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct FaceSection {
+    /// Force per width without residual crush.
+    #[serde(rename = "A")]
+    pub(crate) a: Stiffness<POSITIVE>,
+    /// Its rise with residual crush, such as "632 kN/m^2".
+    #[serde(rename = "B")]
+    pub(crate) b: Pressure<POSITIVE>,
+}
+
+/// A full-width test against a rigid wall.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct WallTestSection {
+    /// Speed.
+    pub(crate) speed: Speed<POSITIVE>,
+    /// Residual crush C1 to C6 at equal distances over the width.
+    pub(crate) depths: [Length<NOT_NEGATIVE>; 6],
+    /// Mass of the vehicle in the test; its mass here without load if absent.
+    pub(crate) mass: Option<super::super::Mass<POSITIVE>>,
+}
+
+/// An impact by impulse and momentum; the two do not crush each other.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ImpactSection {
+    /// A vehicle, and another vehicle or a barrier, by name.
+    pub(crate) between: [String; 2],
+    /// When; when they first touch if absent.
+    pub(crate) time: Option<Time<NOT_NEGATIVE>>,
+    /// Where, [x, y]; where they first touch if absent.
+    pub(crate) at: Option<[Length; 2]>,
+    /// Direction across the line of contact, to the right of x, in either sense.
+    pub(crate) normal: Angle,
+    /// Restitution; 0.1 if absent.
+    pub(crate) restitution: Option<Ratio<FRACTION>>,
+    /// Greatest share of the impulse along the line of contact in that across it; 0.55 if absent.
+    pub(crate) friction: Option<Ratio<NOT_NEGATIVE>>,
+    /// How long it takes; 0.1 s if absent, 0 is at once.
+    pub(crate) duration: Option<Time<NOT_NEGATIVE>>,
+}
+
+/// Greatest crush of people's vehicles beyond that of residual reading.
+const LONGER: f64 = 0.2;
+
+impl CrushSection {
+    /// Puts what is written in the place of a preset's crush; reports a test that gives no stiffness.
+    pub(super) fn fit(&self, b: &mut Builder, at: &str, car: &mut Car, has_people: bool) {
+        let (mass_kg, width_m) = (car.mass_kg, car.body.width_m);
+        let crush: &mut Crush = &mut car.body.crush;
+        if let Some(test) = &self.test {
+            let depths_m = all_si(&test.depths);
+            let mean_m = depths_m.iter().sum::<f64>() / 6.0;
+            let speed_m_s = test.speed.si();
+            if mean_m <= 0.0 || speed_m_s <= vehicle_motion::body::NO_CRUSH_M_S {
+                let found = format!("a mean crush of {mean_m} m at {speed_m_s:.2} m/s");
+                b.error(
+                    &with_key(at, "test"),
+                    found,
+                    "crush above 0, and a speed above 2.22 m/s, up to which none stays",
+                );
+                return;
+            }
+            crush.front = Face::by_test(si_or(&test.mass, mass_kg), width_m, speed_m_s, depths_m);
+        }
+        let faces = [(&self.front, &mut crush.front), (&self.side, &mut crush.side), (&self.rear, &mut crush.rear)];
+        for (written, face) in faces {
+            if let Some(own) = written {
+                *face = Face { a_n_per_m: own.a.si(), b_n_per_m2: own.b.si() };
+            }
+        }
+        if let Some(returned) = &self.returned {
+            crush.returned = all_si(returned);
+        }
+        let is_dynamic = self.reading.map_or(has_people, |reading| reading == CrushReading::Dynamic);
+        if is_dynamic {
+            crush.reading = Reading::Dynamic { longer: si_or(&self.longer, LONGER) };
+        } else if self.longer.is_some() {
+            b.error(
+                &with_key(at, "longer"),
+                "a longer crush in residual reading",
+                "reading = \"dynamic\", or no `longer`",
+            );
+        }
+    }
+}
+
+impl ImpactSection {
+    /// The impact; reports names that lead nowhere.
+    pub(super) fn impact(&self, b: &mut Builder, at: &str, drive: &DriveSection) -> Option<Impact> {
+        let [first, second] = &self.between;
+        let cars: Vec<&str> = drive.vehicles.keys().map(String::as_str).collect();
+        let barriers: Vec<&str> = drive.barriers.keys().map(String::as_str).collect();
+        let at = with_key(at, "between");
+        let Some(car) = cars.iter().position(|name| name == first) else {
+            b.unknown(&format!("{at}[0]"), "vehicle of `drive`", first, &cars);
+            return None;
+        };
+        let other = cars.iter().position(|name| name == second).map(Partner::Car);
+        let other = other.or_else(|| barriers.iter().position(|name| name == second).map(Partner::Barrier));
+        let Some(partner) = other else {
+            b.unknown(&format!("{at}[1]"), "vehicle or barrier of `drive`", second, &[cars, barriers].concat());
+            return None;
+        };
+        if partner == Partner::Car(car) {
+            b.error(&at, format!("an impact of {first} with itself"), "two that meet");
+            return None;
+        }
+        Some(Impact {
+            between: (car, partner),
+            time_s: self.time.as_ref().map(|time| time.si()),
+            at_m: self.at.as_ref().map(all_si),
+            normal_rad: self.normal.si(),
+            restitution: si_or(&self.restitution, 0.1),
+            friction: si_or(&self.friction, 0.55),
+            duration_s: si_or(&self.duration, 0.1),
+        })
+    }
+}

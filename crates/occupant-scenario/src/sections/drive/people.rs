@@ -1,0 +1,164 @@
+//! Those who sit in driven vehicles: their mass, and whether the crush reaches them.
+
+use vehicle_motion::V3;
+use vehicle_motion::world::Partner;
+
+use super::super::Scenario;
+use super::super::builder::Builder;
+use super::super::frames::VEHICLE;
+use super::super::path::PathSection;
+use super::{DrivenSection, Solved};
+use occupant_core::model::Model;
+use placed_text::{Diagnostics, Document, Problem, with_key};
+
+/// Those in a vehicle: mass, and their centre of gravity in its axes, from its own without load.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct People {
+    pub(crate) mass_kg: f64,
+    pub(crate) centre_m: V3,
+    balls: Vec<Ball>,
+}
+
+/// A sphere of one of them at the start, vehicle axes.
+#[derive(Clone, Debug, PartialEq)]
+struct Ball {
+    /// Where he stands in the scenario, and its name.
+    who: String,
+    name: String,
+    place_m: V3,
+    radius_m: f64,
+}
+
+/// Crush that reaches less deep into a sphere is let be, m.
+const REACHES_M: f64 = 0.05;
+
+/// Whether a load depends on who sits in a vehicle, or whether the crush of a vehicle may reach them.
+pub(crate) fn asks_for_people(s: &Scenario) -> bool {
+    let Some(drive) = &s.drive else { return false };
+    let may_crush = drive.vehicles.len() > 1 || !drive.barriers.is_empty();
+    let carries = (0..drive.vehicles.len()).any(|number| s.carries(number));
+    drive.vehicles.values().any(DrivenSection::takes_people) || may_crush && carries
+}
+
+impl Scenario {
+    /// The vehicle of `drive` that a vehicle of the scenario is.
+    pub(super) fn driven(&self, vehicle: &str) -> Option<usize> {
+        let own = self.vehicles.get(vehicle).map(|own| &own.path);
+        let path = own.or_else(|| (vehicle == VEHICLE).then(|| self.first_path().map(|(_, path)| path)).flatten())?;
+        match path {
+            PathSection::Drive(own) => self.drive.as_ref()?.named(own),
+            _ => None,
+        }
+    }
+
+    /// Bodies: where each stands in the scenario, and the vehicle in which it begins.
+    fn homes(&self) -> impl Iterator<Item = (String, Option<&str>)> {
+        let first = self.body.is_some().then_some(("body".to_owned(), Some(VEHICLE)));
+        let others = self.occupants.iter().map(|(name, own)| (with_key("occupants", name), own.vehicle.as_deref()));
+        let loose = self.loose.iter().map(|(name, own)| (with_key("loose", name), own.vehicle.as_deref()));
+        first.into_iter().chain(others).chain(loose)
+    }
+
+    /// Whether somebody begins in a vehicle of `drive`.
+    pub(super) fn carries(&self, number: usize) -> bool {
+        self.homes().any(|(_, home)| home.and_then(|home| self.driven(home)) == Some(number))
+    }
+
+    /// Those who begin in each vehicle of `drive`; `model` has them in vehicles that stand at the origin.
+    pub(crate) fn weighed(&self, model: &Model) -> Vec<Option<People>> {
+        let mut people = vec![None; self.drive.as_ref().map_or(0, |drive| drive.vehicles.len())];
+        let bodies = if model.alone().is_empty() { std::slice::from_ref(model) } else { model.alone() };
+        for ((who, home), body) in self.homes().zip(bodies) {
+            let Some(vehicle) = home.and_then(|home| self.driven(home)) else { continue };
+            let one = People::of(&who, body);
+            people[vehicle] = Some(match people[vehicle].take() {
+                Some(before) => one.and(before),
+                None => one,
+            });
+        }
+        people
+    }
+
+    /// Reports whoever begins within the crush of his vehicle: no wall of his compartment moves with it.
+    pub(crate) fn check_crush(&self, document: &Document, solved: &Solved) -> Diagnostics {
+        let b = &mut Builder { document, problems: Diagnostics::new(), drives: None };
+        for number in 0..solved.vehicles.len() {
+            let Some((ball, reach_m)) = solved.reached(number, self.time.end.si()) else { continue };
+            let name = &solved.vehicles[number].name;
+            let found = format!(
+                "the crush of {name} reaches {reach_m:.2} m into the {} of who sits there; nothing moves his side of the car",
+                ball.name
+            );
+            let expected = "a panel in [frames] that moves in as far, a seat away from it, or less of a collision";
+            let problem = match self.has_panel(number) {
+                true => {
+                    Problem::warning(&ball.who, found, "a panel in [frames] that moves as far: yours is not compared")
+                }
+                false => Problem::error(&ball.who, found, expected),
+            };
+            b.report(problem);
+        }
+        std::mem::take(&mut b.problems)
+    }
+
+    /// Whether a panel moves in a vehicle of `drive`.
+    fn has_panel(&self, number: usize) -> bool {
+        self.frames.iter().any(|(name, own)| {
+            let home = self.frame_named(name).and_then(|frame| self.vehicle_of(frame));
+            let names = std::iter::once(VEHICLE).chain(self.vehicles.keys().map(String::as_str));
+            let mut driven = names.filter(|name| self.driven(name) == Some(number));
+            own.path.is_some() && driven.any(|name| home.is_some() && self.frame_named(name) == home)
+        })
+    }
+}
+
+impl People {
+    fn of(who: &str, body: &Model) -> Self {
+        let turned = |at: nalgebra::Vector3<f64>| V3::new(at.x, -at.y, -at.z);
+        let (mass_kg, centre) = body.centre_at_start();
+        let spheres = body.body().spheres.iter().zip(body.spheres_at_start());
+        let ball = |(sphere, place): (&occupant_core::body::ContactSphere, nalgebra::Vector3<f64>)| Ball {
+            who: who.to_owned(),
+            name: sphere.name.replace('_', " "),
+            place_m: turned(place),
+            radius_m: sphere.radius_m,
+        };
+        People { mass_kg, centre_m: turned(centre), balls: spheres.map(ball).collect() }
+    }
+
+    fn and(mut self, other: Self) -> Self {
+        let mass_kg = self.mass_kg + other.mass_kg;
+        self.centre_m = (self.centre_m * self.mass_kg + other.centre_m * other.mass_kg) / mass_kg;
+        self.mass_kg = mass_kg;
+        self.balls.extend(other.balls);
+        self
+    }
+}
+
+impl Solved {
+    /// The sphere into which the crush of a vehicle before a time reaches deepest, and how deep, m; none if it reaches none.
+    fn reached(&self, number: usize, end_s: f64) -> Option<(&Ball, f64)> {
+        let meets = |contact: &&vehicle_motion::world::Contact| {
+            contact.from_s < end_s && (contact.car == number || contact.partner == Partner::Car(number))
+        };
+        self.outcome.contacts.iter().find(meets)?;
+        let (own, damage) = (&self.vehicles[number], &self.outcome.damage[number]);
+        let balls = &self.people.get(number)?.as_ref()?.balls;
+        let reach = |ball: &Ball| damage.reaches_m(&(ball.place_m + own.origin_m), ball.radius_m, &own.car);
+        let reached = balls.iter().filter_map(|ball| Some((ball, reach(ball)?)));
+        reached.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, reach_m)| *reach_m > REACHES_M)
+    }
+
+    /// Warns of crush that goes deeper than a front is long.
+    pub(super) fn warn_of_crush(&self, b: &mut Builder) {
+        for (own, damage) in self.vehicles.iter().zip(&self.outcome.damage) {
+            let front_m = own.car.body.front_m - own.car.front.ahead_m;
+            if damage.front_m() > front_m {
+                let found = format!("{} is crushed by {:.2} m at its front", own.name, damage.front_m());
+                let expected =
+                    format!("at most {front_m:.2} m, the way to its front axle: class stiffness knows no firewall");
+                b.report(Problem::warning(with_key("drive.vehicles", &own.name), found, expected));
+            }
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! Barriers as polygons to draw.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Point3;
+use vehicle_motion::barrier::{Barrier, Rail, Slider, Wall};
+
+use super::Drives;
+use super::scenery::{Polygons, on_ground};
+
+/// Heights of what has none of its own, m.
+const WALL_M: f64 = 0.9;
+const POLE_M: f64 = 2.4;
+/// A wall is drawn so far beyond what was driven, m.
+const BEYOND_M: f64 = 5.0;
+/// Half the breadth of a post, m.
+const POST_M: f64 = 0.06;
+/// Sides of a pole.
+const ROUND: usize = 12;
+
+/// A barrier by its number: a rail and a cushion as they are at the end.
+pub(super) fn polygons(drives: &Drives, number: usize) -> Polygons {
+    match &drives.world.barriers[number] {
+        Barrier::Wall(wall) => vec![face(drives, wall)],
+        Barrier::Pole(pole) => upright(drives, &round(pole.at_m, pole.radius_m), [0.0, POLE_M]),
+        Barrier::Block(block) => upright(drives, &block.corners_m, [0.0, WALL_M]),
+        Barrier::Rail(rail) => of_rail(drives, number, rail),
+        Barrier::Slider(slider) => of_slider(drives, number, slider),
+    }
+}
+
+/// Corners of the outline of a pole.
+fn round([x, y]: [f64; 2], radius_m: f64) -> Vec<[f64; 2]> {
+    let corner = |i: usize| {
+        let (sine, cosine) = (TAU * i as f64 / ROUND as f64).sin_cos();
+        [x + radius_m * cosine, y + radius_m * sine]
+    };
+    (0..ROUND).map(corner).collect()
+}
+
+/// The part of a wall's face along which something was driven.
+fn face(drives: &Drives, wall: &Wall) -> Vec<Point3<f64>> {
+    let (sine, cosine) = wall.normal_rad.sin_cos();
+    let along = |x: f64, y: f64| (y - wall.point_m[1]) * cosine - (x - wall.point_m[0]) * sine;
+    let stations = drives.outcome.rides.iter().flat_map(|ride| ride.stations());
+    let places = stations.map(|station| along(station.position_m.x, station.position_m.y));
+    let [from, to] = places.fold([0.0, 0.0], |[least, most]: [f64; 2], at| [least.min(at), most.max(at)]);
+    let at = |way: f64, up: f64| {
+        let way = way + BEYOND_M.copysign(way);
+        on_ground(drives, wall.point_m[0] - sine * way, wall.point_m[1] + cosine * way, up)
+    };
+    vec![at(from.min(-1e-9), 0.0), at(to, 0.0), at(to, WALL_M), at(from.min(-1e-9), WALL_M)]
+}
+
+/// Sides and top of a prism between two heights.
+fn upright(drives: &Drives, corners: &[[f64; 2]], [foot, top]: [f64; 2]) -> Polygons {
+    let at = |[x, y]: [f64; 2], up: f64| on_ground(drives, x, y, up);
+    let side = |i: usize| {
+        let [a, b] = [corners[i], corners[(i + 1) % corners.len()]];
+        vec![at(a, foot), at(b, foot), at(b, top), at(a, top)]
+    };
+    let roof = corners.iter().map(|corner| at(*corner, top)).collect();
+    (0..corners.len()).map(side).chain([roof]).collect()
+}
+
+/// The strip of a rail as it is bent at the end, and its posts as they stood.
+fn of_rail(drives: &Drives, number: usize, rail: &Rail) -> Polygons {
+    let bent = drives.outcome.rails.iter().find(|bent| bent.barrier == number);
+    let line = bent.map_or(&rail.line_m[..], |bent| &bent.line_m);
+    let [low, high] = rail.band_m;
+    let at = |[x, y]: [f64; 2], up: f64| on_ground(drives, x, y, up);
+    let strip = |pair: &[[f64; 2]]| vec![at(pair[0], low), at(pair[1], low), at(pair[1], high), at(pair[0], high)];
+    let [from, to] = rail.line_m;
+    let way = [to[0] - from[0], to[1] - from[1]];
+    let posts = (way[0].hypot(way[1]) / rail.spacing_m).floor() as usize;
+    let post = |i: usize| {
+        let share = i as f64 * rail.spacing_m / way[0].hypot(way[1]);
+        let [x, y] = [from[0] + share * way[0], from[1] + share * way[1]];
+        let corner = |dx: f64, up: f64| at([x + dx * way[0].signum() * POST_M, y], up);
+        vec![corner(-1.0, 0.0), corner(1.0, 0.0), corner(1.0, high), corner(-1.0, high)]
+    };
+    line.windows(2).map(strip).chain((0..=posts).map(post)).collect()
+}
+
+/// A cushion from its nose, where that was pushed, to its back; a sign where it stood.
+fn of_slider(drives: &Drives, number: usize, slider: &Slider) -> Polygons {
+    let Some(direction_rad) = slider.direction_rad else { return upright(drives, &slider.corners_m, [0.0, POLE_M]) };
+    let (sine, cosine) = direction_rad.sin_cos();
+    let along = |[x, y]: [f64; 2]| x * cosine + y * sine;
+    let ends = slider.corners_m.iter().map(|corner| along(*corner));
+    let [nose, back] = ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], at| [a.min(at), b.max(at)]);
+    let pushed = (nose + drives.outcome.slides[number].most_m).min(back - 0.1 * (back - nose));
+    let moved = |corner: &[f64; 2]| {
+        let way = (pushed - along(*corner)).max(0.0);
+        [corner[0] + way * cosine, corner[1] + way * sine]
+    };
+    upright(drives, &slider.corners_m.iter().map(moved).collect::<Vec<_>>(), [0.0, WALL_M])
+}
