@@ -26,21 +26,25 @@ def place(page):
     return Path(*(part for part in parts if part not in ("crates", "docs")))
 
 
-def outside_code(change, text):
-    """The text with `change` made to all that is no code."""
+def without_code(text):
+    """The text with blanks in the place of code, so that all else stays where it is."""
+    return CODE.sub(lambda code: re.sub(r"[^\n]", " ", code.group()), text)
+
+
+def with_links(text, change):
+    """The text with each link in it changed: `change` takes mark, words and target."""
     kept, end = [], 0
-    for code in CODE.finditer(text):
-        kept += [change(text[end : code.start()]), code.group()]
-        end = code.end()
-    return "".join([*kept, change(text[end:])])
+    for link in LINK.finditer(without_code(text)):
+        kept += [text[end : link.start()], change(*(text[slice(*link.span(part))] for part in (1, 2, 3)))]
+        end = link.end()
+    return "".join([*kept, text[end:]])
 
 
-def turned(link, source, pages, repository):
+def turned(mark, text, target, source, pages, repository):
     """A link of a page as it stands in the book."""
-    mark, text, target = link.groups()
     file, _, anchor = target.partition("#")
     if not file or re.match(r"[a-z]+:", target):
-        return link.group()
+        return f"{mark}[{text}]({target})"
     found = (source.parent / file).resolve()
     anchor = f"#{anchor}" if anchor else ""
     if found in pages or (mark and found.is_relative_to(DOCS)):
@@ -74,6 +78,14 @@ def printed(match, occupant):
     return "```text\n" + run.stdout.rstrip() + "\n```"
 
 
+def untold(occupant, pages):
+    """Commands of which no page has the help."""
+    words = subprocess.run([occupant, "--help"], capture_output=True, text=True, check=True).stdout
+    commands = re.findall(r"^  ([a-z]+) ", words.partition("Commands:")[2].partition("Options:")[0], re.M)
+    told = {match[1] for page in pages for match in PRINTED.finditer(page)}
+    return [name for name in commands if name != "help" and f"{name} --help" not in told]
+
+
 def main():
     if sys.argv[1:2] == ["supports"]:
         sys.exit(0 if sys.argv[2:] == ["html"] else 1)
@@ -82,11 +94,12 @@ def main():
     found = list(chapters(book.get("items") or book.get("sections") or []))
     pages = {(DOCS / chapter["path"]).resolve() for chapter in found}
     occupant = command()
+    if occupant and (lacking := untold(occupant, [chapter["content"] for chapter in found])):
+        sys.exit(f"docs/reference/commands.md lacks the help of: {', '.join(lacking)}")
     for chapter in found:
         source = (DOCS / chapter["path"]).resolve()
-        text = outside_code(
-            lambda part: LINK.sub(lambda link: turned(link, source, pages, settings.get("repository")), part),
-            chapter["content"],
+        text = with_links(
+            chapter["content"], lambda *link: turned(*link, source, pages, settings.get("repository"))
         )
         chapter["content"] = PRINTED.sub(lambda match: printed(match, occupant), text)
         chapter["path"] = str(place(source))

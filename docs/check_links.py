@@ -9,7 +9,7 @@ import re
 import sys
 from pathlib import Path
 
-from book import CODE, DOCS, LINK, ROOT
+from book import DOCS, LINK, ROOT, without_code
 
 SKIPPED = {"target", "node_modules", ".git", ".venv"}
 WIDTH = 130
@@ -38,14 +38,9 @@ def anchors(text):
     return names
 
 
-def blank(match):
-    """Code as blanks of the same lines, so that places stay."""
-    return re.sub(r"[^\n]", " ", match.group())
-
-
 def dead(page, texts):
     """Links of a page that lead nowhere, each with its line."""
-    text = CODE.sub(blank, texts[page])
+    text = without_code(texts[page])
     for link in LINK.finditer(text):
         file, _, anchor = link[3].partition("#")
         if re.match(r"[a-z]+:", link[3]):
@@ -62,7 +57,7 @@ def wide(page, text):
     """Lines of prose wider than code is."""
     if page.name in WRITTEN:
         return
-    for number, line in enumerate(CODE.sub(blank, text).splitlines(), 1):
+    for number, line in enumerate(without_code(text).splitlines(), 1):
         full = text.splitlines()[number - 1]
         if len(full) > WIDTH and line.strip() and not full.lstrip().startswith(("|", "[", "<!--", "![")):
             yield f"{page.relative_to(ROOT)}:{number}: {len(full)} characters, at most {WIDTH}"

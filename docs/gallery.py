@@ -4,8 +4,8 @@
     python3 docs/gallery.py OCCUPANT [NAME...]    runs the scenarios (all, or those named), draws the pictures, writes the
                                                   figures into gallery.md; needs Pillow
 
-What is drawn and told of a run stands in gallery.md in a comment: `<!-- NAME: VIEW, TIMES; FIGURE FIGURE ... -->`. The line
-below it is written by this program.
+What is drawn and told of a run stands in gallery.md in a comment: `<!-- NAME: VIEW, TIMES; FIGURE FIGURE ... -->`. What
+stands below it, up to a blank line, is written by this program.
 """
 
 import json
@@ -19,7 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/gallery.md"
 PICTURES = ROOT / "docs/gallery"
-ENTRY = re.compile(r"^<!-- ([a-z0-9-]+): (side|top|front), ([^;]+); ([^>]+) -->\n([^\n]*)\n", re.M)
+ENTRY = re.compile(r"^<!-- ([a-z0-9-]+): (side|top|front), ([^;]+); ([^>]+) -->\n((?:[^\n]+\n)*)", re.M)
 LARGEST, LARGEST_TOGETHER, WIDTH, COLOURS = 40_000, 1_500_000, 700, 12
 G = 9.80665
 # figure: label, its unit, how many of it are one of SI
@@ -44,12 +44,17 @@ def shown(value):
     return f"{value:.0f}" if abs(value) >= 100 else f"{value:#.2g}".rstrip(".")
 
 
+def own(table, occupant):
+    """What a table of names has of an occupant, or of the only one."""
+    return table[occupant] if occupant in table else next(iter(table.values()))
+
+
 def told(name, body, run, occupant):
     """One figure of one body: its words, with a mark where it is not to be quoted."""
     if name == "ejection":
-        return f"ejection {run['ejections'][occupant]['degree']}"
+        return f"ejection {own(run['ejections'], occupant)['degree']}"
     if name == "throw":
-        return f"lands {shown(run['throws'][occupant]['landing']['distance_m'])} m on"
+        return f"lands {shown(own(run['throws'], occupant)['landing']['distance_m'])} m on"
     if name in EXCURSIONS:
         label, unit, factor = EXCURSIONS[name], "mm", 1000
         value, name = body["head_excursion"][name], "head_excursion"
@@ -62,11 +67,12 @@ def told(name, body, run, occupant):
 
 
 def figures(run, names):
-    """The line of a run's figures, for each of its people."""
+    """The figures of a run, a line for each of its people."""
     bodies = {run.get("occupant"): run} | run.get("others", {})
-    lines = {name: " · ".join(told(figure, body, run, name) for figure in names) for name, body in bodies.items()}
-    several = len(lines) > 1
-    return "**" + "; ".join(f"{name}: {line}" if several else line for name, line in lines.items()) + "**"
+    lines = [f"**{' · '.join(told(figure, body, run, name) for figure in names)}**" for name, body in bodies.items()]
+    if len(lines) == 1:
+        return lines[0] + "\n"
+    return "".join(f"- {name}: {line}\n" for name, line in zip(bodies, lines))
 
 
 def draw(occupant, result, view, times, picture):
@@ -86,20 +92,17 @@ def make(occupant, wanted):
     """Runs, draws and writes what the page asks for."""
     PICTURES.mkdir(exist_ok=True)
 
-    def entry(match):
-        name, view, times, names, _ = match.groups()
+    for name, view, times, names, _ in ENTRY.findall(PAGE.read_text()):
         if wanted and name not in wanted:
-            return match.group()
+            continue
         with tempfile.TemporaryDirectory() as folder:
             result = Path(folder) / "run.mcap"
             command = [occupant, "run", ROOT / f"scenarios/{name}.toml", "--json", "--output", result]
             run = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
             draw(occupant, result, view, times, PICTURES / f"{name}.png")
-        line = figures(run, names.split())
-        print(f"{name}: {line}", flush=True)
-        return match.group()[: match.start(5) - match.start()] + line + "\n"
-
-    PAGE.write_text(ENTRY.sub(entry, PAGE.read_text()))
+        text = f"<!-- {name}: {view}, {times}; {names} -->\n{figures(run, names.split())}"
+        PAGE.write_text(ENTRY.sub(lambda match: text if match[1] == name else match.group(), PAGE.read_text()))
+        print(f"drawn: {name}", flush=True)
 
 
 def check():
