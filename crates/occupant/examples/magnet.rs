@@ -20,7 +20,7 @@ impl Force for Magnet {
     }
 }
 
-fn main() -> Result<(), Error> {
+pub(crate) fn main() -> Result<(), Error> {
     let mut case = Case::from_toml(include_str!("driver.toml"))?;
     let knob = Place::Frame(Frame::Vehicle, Point3::new(0.35, -0.1, -0.1));
     case.force("magnet", Magnet(case.sphere("right_hand")?.into(), knob));

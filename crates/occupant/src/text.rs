@@ -3,8 +3,8 @@
 use std::fmt;
 
 use occupant_core::model::setup::Setup;
-use occupant_scenario::{Draft, Format, Loaded};
-use placed_text::{Problem, Value};
+use occupant_scenario::{Diagnostics, Draft, Format, Loaded};
+use placed_text::{Problem, Severity, Value};
 
 use crate::{Error, ErrorKind};
 
@@ -76,9 +76,17 @@ impl Scenario {
     /// Puts a value, as text with its unit: `set("path.speed", "25 mph")`.
     ///
     /// # Errors
-    /// A path that leads nowhere.
+    /// A path that leads nowhere; a key that no scenario has, or a value that it cannot have. Nothing is changed then.
     pub fn set(&mut self, path: &str, value: &str) -> Result<(), Error> {
-        Ok(self.draft.set_value(path, value)?)
+        let mut changed = self.draft.clone();
+        changed.set_value(path, value)?;
+        let count = |found: &Diagnostics| found.iter().filter(|one| one.problem.severity == Severity::Error).count();
+        let found = changed.check();
+        if count(&found) > count(&self.draft.check()) {
+            return Err(found.into());
+        }
+        self.draft = changed;
+        Ok(())
     }
 
     /// The scenario as TOML, with all that was set.

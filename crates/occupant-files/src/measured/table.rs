@@ -17,6 +17,8 @@ use crash_measures::signal::usual_interval;
 
 /// So many problems of a table are shown.
 const SHOWN: usize = 8;
+/// So many times that do not increase are shown each.
+const EACH: usize = 3;
 
 #[derive(Clone, Debug)]
 struct Heading {
@@ -262,13 +264,15 @@ impl Reader<'_> {
             self.wrong(table.lines[i], "a line without its time", "times that increase");
         }
         let all: Vec<usize> = (0..time_s.len()).filter(|&i| late(i)).collect();
-        let Some(&i) = all.first() else { return };
-        let more = if all.len() > 1 { format!(" (and so in {} more)", all.len() - 1) } else { String::new() };
-        let hint =
-            (all.len() == time_s.len() - 1).then_some("the table runs from its end to its beginning: turn it round");
-        let problem =
-            Problem::error("", format!("time {} s after {} s{more}", time_s[i], time_s[i - 1]), "times that increase");
-        self.report(table.lines[i], problem.with_hint(hint));
+        let goes_back =
+            (all.len() + 1 == time_s.len()).then_some("the table runs from its end to its beginning: turn it round");
+        // many are one mistake
+        let more = if all.len() > EACH { format!(" (and so in {} more)", all.len() - 1) } else { String::new() };
+        for &i in all.iter().take(if all.len() > EACH { 1 } else { EACH }) {
+            let found = format!("time {} s after {} s{more}", time_s[i], time_s[i - 1]);
+            let problem = Problem::error("", found, "times that increase").with_hint(goes_back);
+            self.report(table.lines[i], problem);
+        }
     }
 
     fn signals(&self, columns: Vec<Vec<f64>>, time: usize, time_s: &[f64]) -> Vec<Signal> {

@@ -198,7 +198,7 @@ fn add_ejections(rows: &mut Vec<Measure>, summary: &Summary) {
         });
         rows.extend(ejection.parts.iter().map(|exit| {
             let past = exit.past.as_ref().map_or(String::new(), |past| format!(", past {past}"));
-            let words = format!("{prefix}{} leaves {}{past}", exit.part.replace('_', " "), exit.side.words());
+            let words = format!("{} leaves {}{past}", exit.part.replace('_', " "), exit.side.words());
             Measure { time_s: Some(exit.time_s), ..row(words) }
         }));
     }

@@ -297,7 +297,7 @@ impl Caveat {
         let text = format!(
             "who leaves his seat tumbles: whether and what is ejected ({} first, at {:.1} ms), and what comes after, may be chance in one run; \
              --estimate-error shows what is not determined, --ensemble what is stable",
-            first.part.replace('_', " "),
+            first.part.rsplit('.').next().unwrap_or_default().replace('_', " "),
             1e3 * first.time_s
         );
         Some(Caveat::new(Self::CHANCE, text, [owned(&["ejection*", "throw.*"]), later].concat()))

@@ -72,20 +72,22 @@ fn is_held(values: &[f64], (a, b): (usize, usize)) -> bool {
 pub(super) fn held(motion: &Motion) -> Option<String> {
     let all = motion.columns.iter().filter_map(|column| Some((column, longest(&column.values)?)));
     let all: Vec<_> = all.filter(|(column, run)| is_held(&column.values, *run)).collect();
-    let (_, (a, b)) = all.first()?;
-    let same: Vec<&str> = all.iter().filter(|(_, run)| run == &(*a, *b)).map(|(column, _)| column.name).collect();
-    let is_zero = all.iter().all(|(column, (a, _))| column.values[*a] == 0.0);
+    let &(_, (a, b)) = all.first()?;
+    let holds = |column: &&Column| column.values[a..=b].iter().all(|value| *value == column.values[a]);
+    let same: Vec<&Column> = motion.columns.iter().filter(holds).collect();
+    let is_zero = same.iter().all(|column| column.values[a] == 0.0);
+    let names: Vec<&str> = same.iter().map(|column| column.name).collect();
     Some(format!(
         "{} {} from {} s to {} s, {} samples, and go{} on with a jump: were samples lost there? If so, empty those cells, and --bridge bridges them",
-        same.join(", "),
+        names.join(", "),
         match (is_zero, same.len()) {
             (true, 1) => "is 0",
             (true, _) => "are 0",
             (false, 1) => "stays at one value",
             (false, _) => "stay at one value",
         },
-        number(motion.time_s[*a]),
-        number(motion.time_s[*b]),
+        number(motion.time_s[a]),
+        number(motion.time_s[b]),
         b - a + 1,
         if same.len() == 1 { "es" } else { "" }
     ))
