@@ -51,7 +51,8 @@ impl Where {
             }
             Where::Segment(name, point) => {
                 let segment = setup.body.tree.segment_named(name).map(|one| Place::Segment(one, (*point).into()));
-                segment.ok_or_else(|| plain(format!("no segment is called {name}; there are vehicle and space as well")))
+                segment
+                    .ok_or_else(|| plain(format!("no segment is called {name}; there are vehicle and space as well")))
             }
             Where::Vehicle(point) => Ok(Place::Frame(Frame::Vehicle, (*point).into())),
             Where::Space(point) => Ok(Place::Frame(Frame::Space, (*point).into())),
@@ -84,9 +85,9 @@ impl Called {
     /// What the function says: a force for each place, space axes, N.
     fn ask(&self, scene: &Scene<'_>) -> PyResult<Vec<[f64; 3]>> {
         Python::attach(|py| {
-            let motions = self.places.iter().map(|place| scene.motion(place));
-            let (places, velocities): (Vec<[f64; 3]>, Vec<[f64; 3]>) =
-                motions.map(|motion| (motion.place_m.into(), motion.velocity_m_s.into())).unzip();
+            let motions: Vec<_> = self.places.iter().map(|place| scene.motion(place)).collect();
+            let places: Vec<[f64; 3]> = motions.iter().map(|motion| motion.place_m.into()).collect();
+            let velocities: Vec<[f64; 3]> = motions.iter().map(|motion| motion.velocity_m_s.into()).collect();
             let args = (scene.time_s(), PyList::new(py, places)?, PyList::new(py, velocities)?);
             let forces: Vec<[f64; 3]> = self.function.call1(py, args)?.extract(py)?;
             if forces.len() == self.places.len() {

@@ -82,8 +82,7 @@ impl LiveRun {
     /// fixed axes x forward, y right, z down.
     #[pyo3(signature = (until, acceleration, angular=[0.0; 3]))]
     fn push(&mut self, until: f64, acceleration: [f64; 3], angular: [f64; 3]) -> PyResult<()> {
-        let input =
-            VehicleInput::Acceleration { linear_m_s2: acceleration.into(), angular_rad_s2: angular.into() };
+        let input = VehicleInput::Acceleration { linear_m_s2: acceleration.into(), angular_rad_s2: angular.into() };
         self.run.push(until, &input).map_err(plain)
     }
 

@@ -228,6 +228,7 @@ impl Course {
 
     /// The same for a run whose state and history, which the caller has set, are those before the commit at the start of
     /// `latest`.
+    #[cfg(any(target_arch = "x86_64", test))]
     pub(super) fn go_back(&mut self, model: &Model, latest: Step) -> Result<(), StepError> {
         let stepper = &mut Stepper::new(model, &self.state);
         self.take_again(stepper, latest)
@@ -307,6 +308,7 @@ impl Course {
     }
 
     /// The same where `phase` tells what pairs remember.
+    #[cfg(any(target_arch = "x86_64", test))]
     pub(super) fn note(&mut self, model: &Model, time_s: f64, phase: impl Fn(usize) -> f64) {
         self.seen.see(model, time_s, &self.met, &self.felt, phase);
     }

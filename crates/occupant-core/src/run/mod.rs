@@ -21,6 +21,7 @@ pub mod simulate;
 mod switch;
 
 pub(crate) use course::Course;
+#[cfg(any(target_arch = "x86_64", test))]
 pub(crate) use course::broken;
 pub use driving::Run;
 pub use error::RunError;
