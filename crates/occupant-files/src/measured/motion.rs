@@ -86,8 +86,8 @@ impl Motion {
                 found => found,
             },
         };
-        // of signals that end at other times the longest, so that what the others lack is told
-        let Some(time_s) = found.iter().map(|(_, signal)| &signal.time_s).reduce(longer) else { return Ok(None) };
+        let Some((_, first)) = found.first() else { return Ok(None) };
+        notes.extend(beyond(&found, first));
         if placed.at.is_none() && kind == MotionKind::Accelerations {
             say_if_places_differ(recording, notes);
         }
@@ -100,12 +100,12 @@ impl Motion {
                     "write the unit that it has, such as ax[g], wz[deg/s] or x[m]",
                 ));
             }
-            Ok(Column { name, unit, factor: scale.factor, values: at_times(signal, time_s) })
+            Ok(Column { name, unit, factor: scale.factor, values: at_times(signal, &first.time_s) })
         };
         let mut motion = Motion {
             kind,
             words,
-            time_s: time_s.clone(),
+            time_s: first.time_s.clone(),
             columns: found.iter().map(column).collect::<Result<_, Failure>>()?,
             signals: found.iter().map(|(_, signal)| signal.name.clone()).collect(),
         };
@@ -238,10 +238,23 @@ impl Motion {
     }
 }
 
-/// The times that span more; the first of two that span the same.
-fn longer<'a>(first: &'a Vec<f64>, other: &'a Vec<f64>) -> &'a Vec<f64> {
-    let span_s = |time_s: &[f64]| time_s.last().zip(time_s.first()).map_or(0.0, |(last, first)| last - first);
-    if span_s(other) > span_s(first) { other } else { first }
+/// What other signals tell of times at which the first tells nothing.
+fn beyond(found: &Found<'_>, first: &Signal) -> Option<String> {
+    let ends = |signal: &Signal| Some([*signal.time_s.first()?, *signal.time_s.last()?]);
+    let [from_s, to_s] = ends(first)?;
+    let least_s = 1.5 * usual_interval(&first.time_s);
+    let goes_on = |signal: &Signal| ends(signal).is_some_and(|[a, b]| a < from_s - least_s || b > to_s + least_s);
+    let names: Vec<&str> = found.iter().filter(|(_, signal)| goes_on(signal)).map(|(name, _)| *name).collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "{} {} told before or after {}, which goes from {} s to {} s: left out there",
+            names.join(", "),
+            if names.len() == 1 { "is" } else { "are" },
+            first.name,
+            placed_text::number(from_s),
+            placed_text::number(to_s)
+        )
+    })
 }
 
 fn without_unit(signal: &Signal) -> Failure {
@@ -455,13 +468,13 @@ mod tests {
             values: vec![1.0; count],
             place: String::new(),
         };
-        for (ax, ay) in [(80, 100), (100, 80)] {
+        for (ax, ay, words) in [(80, 100, "ay is told before or after ax"), (100, 80, "80 of 100 times")] {
             let signals = vec![signal("ax", ax), signal("ay", ay)];
             let recording = Recording { path: PathBuf::from("r"), sha256: String::new(), signals, notes: Vec::new() };
             let mut notes = Vec::new();
             let motion = Motion::of(&recording, Placed::default(), &mut notes).ok().flatten().expect("a motion");
             assert_eq!(motion.time_s.len(), 80);
-            assert!(notes.iter().any(|note| note.contains("80 of 100 times")), "{notes:?}");
+            assert!(notes.iter().any(|note| note.contains(words)), "{notes:?}");
         }
     }
 
