@@ -49,7 +49,7 @@ fn cars_leave_a_rail_as_another_program_says() {
     ];
     for ((mass, yaw, size, front, speed_m_s, deg), anchor, [deflection_m, exit_kmh, tension_kn]) in cases {
         let outcome = hit(mass, yaw, size, front, speed_m_s, deg, anchor);
-        let (rail, v) = (outcome.rails[0], outcome.rides[0].last().velocity_m_s);
+        let (rail, v) = (&outcome.rails[0], outcome.rides[0].last().velocity_m_s);
         // measured 1.270, 0.928, 0.690, 0.513 m; 61.1, 66.9, 59.1, 63.9 km/h; 160, 232 kN
         assert!((rail.deflection_m / deflection_m - 1.0).abs() < 0.06, "{rail:?}");
         assert!((3.6 * v.norm() / exit_kmh - 1.0).abs() < 0.05, "{}", 3.6 * v.norm());
