@@ -36,15 +36,15 @@ fn a_wall_is_a_collision_and_no_spin() {
     let all = report(folder.path());
     let collision = &all[0]["collisions"][0];
     assert_eq!((collision["with"].as_str(), collision["clock"].as_u64()), (Some("wall"), Some(12)));
-    assert!((number(collision, "closing_m_s") - 15.0).abs() < 0.01);
+    assert!((number(collision, "closing_m_s") - 15.0).abs() < 0.02);
     // restitution of 0.14: measured 17.0
     let delta_v = number(collision, "delta_v_m_s");
     assert!((16.7..17.4).contains(&delta_v), "{delta_v}");
-    // what stays with the structure is what the wall took: 15² − 2.1²
-    assert!((number(collision, "ees_m_s") - 14.85).abs() < 0.1, "{collision:#}");
+    // the front takes ½M (15² − 1.8²), and the spin of the wheels
+    assert!((number(collision, "ees_m_s") - 14.98).abs() < 0.05, "{collision:#}");
     let (most, stays) = (number(&all[0], "crush_dynamic_m"), number(&all[0], "crush_residual_m"));
-    // v / 27.7 s⁻¹, less A/B = 80 mm
-    assert!((most - 0.5415).abs() < 5e-3 && (most - stays - 0.0802).abs() < 1e-3, "{most} {stays}");
+    // v / 27.7 s⁻¹ and 3 % for the wheels' spin; less A/B = 80 mm
+    assert!((most - 0.5574).abs() < 2e-3 && (most - stays - 0.0802).abs() < 1e-3, "{most} {stays}");
     let profile = &all[0]["damage"][0];
     assert_eq!(profile["side"].as_str(), Some("front"));
     assert!(profile["depths_m"].as_array().is_some_and(|depths| depths.len() == 6));

@@ -54,14 +54,17 @@ fn one(drives: &Drives, contact: &Contact, number: usize) -> Option<Collision> {
         Partner::Car(other) => (drives.vehicles[other].name.clone(), speed(number) - speed(other)),
         Partner::Barrier(barrier) => (drives.barriers[barrier].0.clone(), speed(number)),
     };
+    // an impulse at once leaves no station within it
+    let is_at_once = contact.until_s <= contact.from_s;
+    let delta_v = if is_at_once { struck.by_contact_m_s } else { struck.delta_v_m_s };
     let turn = (struck.pdof_rad + PI).rem_euclid(2.0 * PI) - PI;
     Some(Collision {
         with,
         from_s: contact.from_s,
         until_s: contact.until_s,
         closing_m_s: closing.norm(),
-        delta_v_m_s: struck.delta_v_m_s.norm(),
-        delta_v_axes_m_s: struck.delta_v_m_s.into(),
+        delta_v_m_s: delta_v.norm(),
+        delta_v_axes_m_s: delta_v.into(),
         delta_v_contact_m_s: struck.by_contact_m_s.norm(),
         pdof_rad: turn,
         clock: struck.clock,

@@ -134,7 +134,7 @@ impl Run {
             segments: model.body().tree.segment_rows().iter().map(|row| row.name.replace('_', " ")).collect(),
             parts: parts(model.body()).iter().map(PartData::of).collect(),
             spheres: spheres(results),
-            surfaces: surfaces(results).into_iter().chain(sides(results)).collect(),
+            surfaces: surfaces(results).into_iter().chain(sides(results)).chain(scenery(results)).collect(),
             motion,
             plots: curves::plots(&series, &prefixes, units),
             measures: measures::measures(&summary, &ride, units),
@@ -198,6 +198,14 @@ fn surfaces(results: &Results) -> Vec<SurfaceData> {
     .collect()
 }
 
+/// Road, tyre marks, barriers and the outside of the vehicle, which nothing touches.
+fn scenery(results: &Results) -> Vec<SurfaceData> {
+    let drawn = results.model.setup().scenery.iter().filter(|own| is_shown(results, own.frame));
+    let plates =
+        drawn.flat_map(|own| own.polygons_m.iter().filter(|corners| corners.len() > 2).map(|p| (own.frame, p)));
+    plates.map(|(frame, corners)| SurfaceData::plate(frame, SCENERY, "", corners)).collect()
+}
+
 /// The first sides of all solids, then the others.
 fn sides(results: &Results) -> Vec<SurfaceData> {
     let (mut first, mut others) = (Vec::new(), Vec::new());
@@ -229,18 +237,25 @@ impl SurfaceData {
     }
 
     fn side(solid: &Solid, name: &str, corners: &[Point3<f64>]) -> Self {
-        let (frame, turned) = shown_in(solid.frame);
+        SurfaceData::plate(solid.frame, solid.material, name, corners)
+    }
+
+    fn plate(frame: Frame, material: usize, name: &str, corners: &[Point3<f64>]) -> Self {
+        let (frame, turned) = shown_in(frame);
         let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).normalize();
         SurfaceData {
             name: name.to_owned(),
             frame,
             bounded: true,
-            material: solid.material,
+            material,
             corners: corners.iter().map(|p| turned((*p).into())).collect(),
             normal: turned(normal.into()),
         }
     }
 }
+
+/// What is drawn and touches nothing has the colour of this material: grey.
+const SCENERY: usize = 5;
 
 /// Whether the page can show what is fixed to a frame: it knows the vehicle, space, and the ground.
 fn is_shown(results: &Results, frame: Frame) -> bool {

@@ -77,14 +77,17 @@ impl Recorder for Motion {
     }
 }
 
-/// Edges of the surfaces and solids that move within a vehicle, for which the page has no plates.
+/// Edges of the surfaces and solids that move within a vehicle, and of the outsides of other vehicles, for which the page has no plates.
 fn moving(sample: &Sample<'_>) -> Vec<Section> {
     let setup = sample.model.setup();
     let moves = |frame: Frame| matches!(frame, Frame::Other(i) if setup.frames[i].parent.is_some());
     let faces = setup.surfaces.iter().zip(sample.model.faces());
     let faces = faces.map(|(surface, face)| (&surface.name, face.frame, corners_m(face)));
     let solids = setup.solids.iter().map(|solid| (&solid.name, solid.frame, solid.edge()));
-    let all = faces.chain(solids).filter(|(_, frame, _)| moves(*frame));
+    let is_other = |frame: Frame| matches!(frame, Frame::Other(i) if setup.frames[i].parent.is_none());
+    let drawn = setup.scenery.iter().filter(|own| is_other(own.frame));
+    let outside = drawn.flat_map(|own| own.polygons_m.iter().map(move |side| (&own.name, own.frame, side.clone())));
+    let all = faces.chain(solids).filter(|(_, frame, _)| moves(*frame)).chain(outside);
     all.map(|(name, frame, corners_m)| {
         let motion = sample.frame(frame);
         let placed = |p: &Point3<f64>| sample.vehicle.point_to_frame(motion.point_to_space(p.coords)).into();

@@ -254,7 +254,8 @@ mod tests {
         let all: Vec<[f64; 3]> = (0..18).map(|i| [i / 9, i / 3 % 3, i % 3].map(f64::from)).collect();
         let column = |at: usize| all.iter().map(|row| row[at]).collect::<Vec<f64>>();
         let values: Vec<f64> = (0..18).map(|i| 100.0 + f64::from(i)).collect();
-        let response = Response { name: "hic15".to_owned(), values, ..Response::default() };
+        let unit = Units::default().told("");
+        let response = Response { name: "hic15".to_owned(), unit, values, ..Response::default() };
         let samples = Samples {
             numbers: (0..18).collect(),
             inputs: vec![input("belt", column(0)), input("speed", column(1)), input("angle", column(2))],

@@ -20,7 +20,7 @@ use serde_json::{Value, json};
 use super::body::{Snapshot, parts};
 use file::{File, place, turn};
 use occupant_files::base::{Failure, program};
-use occupant_files::mcap::scene::compartment::{color_of, corners_m, frame_name};
+use occupant_files::mcap::scene::compartment::{color_of, corners_m, frame_name, scenery_color};
 use occupant_files::results::Results;
 
 /// No more times are written; of a run with more outputs, every second or third and so on.
@@ -94,7 +94,8 @@ fn watched(results: &Results) -> Result<Motion, Failure> {
 /// The frames besides the vehicle that anything is fixed to, in space.
 fn frames_of(sample: &Sample<'_>) -> Vec<(String, Isometry3<f64>)> {
     let setup = sample.model.setup();
-    let used = setup.surfaces.iter().map(|s| s.frame).chain(setup.solids.iter().map(|s| s.frame));
+    let touched = setup.surfaces.iter().map(|s| s.frame).chain(setup.solids.iter().map(|s| s.frame));
+    let used = touched.chain(setup.scenery.iter().map(|own| own.frame));
     let mut all: Vec<(String, Isometry3<f64>)> = Vec::new();
     for frame in used.filter(|frame| *frame != Frame::Vehicle) {
         let name = frame_name(sample.model, frame);
@@ -142,7 +143,7 @@ fn bodies(file: &mut File, model: &Model, motion: &Motion) -> Vec<usize> {
     body.tree.segments().map(&mut node).collect()
 }
 
-/// Surfaces and solids by the frame that they are fixed to: names and meshes.
+/// Surfaces, solids and what is drawn alone by the frame that they are fixed to: names and meshes.
 fn compartment(file: &mut File, model: &Model) -> BTreeMap<String, Vec<(String, usize)>> {
     let setup = model.setup();
     let surfaces = setup.surfaces.iter().zip(model.faces());
@@ -151,8 +152,19 @@ fn compartment(file: &mut File, model: &Model) -> BTreeMap<String, Vec<(String, 
     let materials: Vec<usize> =
         (0..setup.materials.len()).map(|i| file.material(&setup.materials[i].name, color_of(i).parts())).collect();
     let mut frames: BTreeMap<String, Vec<(String, usize)>> = BTreeMap::new();
-    for (name, frame, material, polygons) in surfaces.chain(solids) {
-        let mesh = file.mesh(name, &[(shape::polygons(&polygons), materials[material])]);
+    let touched =
+        surfaces.chain(solids).map(|(name, frame, material, sides)| (name, frame, materials[material], sides));
+    let mut drawn = Vec::new();
+    for own in setup.scenery.iter().filter(|own| !own.polygons_m.is_empty()) {
+        drawn.push((
+            &own.name,
+            own.frame,
+            file.material(&own.name, scenery_color(&own.name).parts()),
+            own.polygons_m.clone(),
+        ));
+    }
+    for (name, frame, material, polygons) in touched.chain(drawn) {
+        let mesh = file.mesh(name, &[(shape::polygons(&polygons), material)]);
         let of = if frame == Frame::Vehicle { "compartment".to_owned() } else { frame_name(model, frame) };
         frames.entry(of).or_default().push((name.clone(), mesh));
     }

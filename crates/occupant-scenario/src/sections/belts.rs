@@ -23,8 +23,6 @@ use placed_text::with_key;
     "x-together" = [["k2", "delta_b"], ["anchors", "sphere"], ["anchors", "k1"]],
 ))]
 pub(crate) struct BeltSection {
-    /// Whether it is worn: false leaves it out. True if absent.
-    pub(crate) worn: Option<bool>,
     /// Name of the sphere of a loop, such as "pelvis" or "chest".
     pub(crate) sphere: Option<String>,
     /// The two anchor points [x, y, z] of a loop, vehicle axes.
@@ -63,6 +61,8 @@ pub(crate) struct BeltSection {
     pub(crate) retractor: Option<String>,
     /// Pretensioner of a preset's buckle; pulls it towards its anchor.
     pub(crate) pretensioner: Option<StrokeSection>,
+    /// Whether it is worn: false leaves it out. True if absent.
+    pub(crate) worn: Option<bool>,
 }
 
 impl BeltSection {

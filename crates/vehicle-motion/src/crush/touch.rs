@@ -8,8 +8,9 @@ use crate::crush::law::Series;
 use crate::crush::outline::{Node, Outline};
 use nalgebra::Matrix3;
 
-/// A node of a narrow body marks the nodes of the other within this way, m.
+/// A node of a narrow body marks the nodes of the other within this way along its face, and within this height: sides have other rows than ends, m.
 const NEXT_M: f64 = 0.05;
+const LEVEL_M: f64 = 0.155;
 /// A node that faces what it meets by less than this is not damaged by it: those of a side that a wall ahead has passed.
 pub(crate) const SQUARE: f64 = 0.2;
 /// Speed over which friction turns, m/s.
@@ -226,7 +227,7 @@ impl Pass {
             for (own, most) in shapes[b].nodes.iter().zip(on.iter_mut()).filter(|(own, _)| own.face == met.face) {
                 let way = own.place_m - met.at_m;
                 let aside_m = if is_end { way.y } else { way.x };
-                if aside_m.abs() <= NEXT_M && way.z.abs() <= NEXT_M && own.normal.dot(&met.normal) > 0.99 {
+                if aside_m.abs() <= NEXT_M && way.z.abs() <= LEVEL_M && own.normal.dot(&met.normal) > 0.99 {
                     *most = most.max(marks.most[i]);
                 }
             }

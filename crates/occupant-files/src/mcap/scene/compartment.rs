@@ -19,8 +19,13 @@ const PATCH_M: f64 = 2.5;
 /// Corners of the polygon that stands for a disc.
 const DISC_CORNERS: usize = 48;
 const EDGE_M: f64 = 0.006;
-/// The road, the outside of vehicles.
-const SCENERY: Color = Color(0.55, 0.55, 0.52, OPACITY);
+/// The road and all else that is drawn alone: by the last word of its name, or its first.
+const SCENERY: [(&str, Color); 3] = [
+    ("marks", Color(0.12, 0.12, 0.12, 0.8)),
+    ("barrier", Color(0.45, 0.47, 0.50, 0.8)),
+    ("outside", Color(0.25, 0.42, 0.62, 0.25)),
+];
+const ROAD: Color = Color(0.62, 0.61, 0.57, 0.6);
 /// Colours of the materials, in their order, again from the first when they run out.
 const PALETTE: [Color; 8] = [
     Color(0.35, 0.55, 0.75, OPACITY),
@@ -40,7 +45,8 @@ pub fn write(wire: &mut Wire, model: &Model) {
     let surfaces = surfaces.map(|(s, face)| (&s.name, s.frame, s.material, vec![corners_m(face)]));
     let solids = setup.solids.iter().map(|s| (&s.name, s.frame, s.material, s.outline()));
     let touched = surfaces.chain(solids).map(|(name, frame, material, sides)| (name, frame, color_of(material), sides));
-    let scenery = setup.scenery.iter().map(|own| (&own.name, own.frame, SCENERY, own.polygons_m.clone()));
+    let scenery =
+        setup.scenery.iter().map(|own| (&own.name, own.frame, scenery_color(&own.name), own.polygons_m.clone()));
     for (name, frame, color, polygons) in touched.chain(scenery) {
         entity(wire, 0, &frame_name(model, frame), name, |w| {
             for corners in &polygons {
@@ -49,6 +55,12 @@ pub fn write(wire: &mut Wire, model: &Model) {
             }
         });
     }
+}
+
+/// The colour of what is drawn and touches nothing, by its name.
+pub fn scenery_color(name: &str) -> Color {
+    let is_it = |word: &str| name.ends_with(word) || name.starts_with(word);
+    SCENERY.into_iter().find(|(word, _)| is_it(word)).map_or(ROAD, |(_, color)| color)
 }
 
 /// The colour of a material, by its place among them.

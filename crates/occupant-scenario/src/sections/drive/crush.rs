@@ -75,7 +75,7 @@ pub(crate) struct ImpactSection {
     pub(crate) between: [String; 2],
     /// When; when they first touch if absent.
     pub(crate) time: Option<Time<NOT_NEGATIVE>>,
-    /// Where, [x, y]; where they first touch if absent.
+    /// Where, [x, y]; the first point of their outlines that touches if absent, which is a corner where two meet squarely.
     pub(crate) at: Option<[Length; 2]>,
     /// Direction across the line of contact, to the right of x, in either sense.
     pub(crate) normal: Angle,
