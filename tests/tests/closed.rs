@@ -2,6 +2,7 @@
 //! energy, under the default integrator and others.
 
 use occupant_core::model::Model;
+use occupant_core::results::channel::{Series, channels};
 use occupant_core::results::outcome::Status;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
@@ -255,16 +256,20 @@ fn any_rod(r: &mut Random, end_s: f64, pin: impl Fn(&mut Random, f64) -> Pin) ->
 #[test]
 fn limits_stops_and_locks_of_joints_close_open_and_close_again() {
     check_rods("limit", 2, |r| {
-        any_rod(r, 0.7, |r, weight| Pin::Limit {
+        any_rod(r, 1.0, |r, weight| Pin::Limit {
             from_rad: r.between(0.5, 1.2),
             per_rad: weight * r.between(5.0, 60.0),
             returned: r.between(0.2, 1.0),
         })
     });
     check_rods("stop", 2, |r| {
-        any_rod(r, 1.2, |r, weight| {
-            let begin_rad = r.between(1.6, 2.2);
-            Pin::Stop { begin_rad, full_rad: begin_rad + r.between(0.05, 0.2), damping: weight * r.between(0.01, 0.05) }
+        any_rod(r, 2.5, |r, weight| {
+            let begin_rad = r.between(1.6, 1.8);
+            Pin::Stop {
+                begin_rad,
+                full_rad: begin_rad + r.between(0.05, 0.2),
+                damping: weight * r.between(0.005, 0.03),
+            }
         })
     });
     check_rods("lock", 1, |r| {
@@ -282,9 +287,19 @@ fn webbing_that_keeps_a_part_of_its_work_turns_round_within_a_step() {
     check("anchor", |r| {
         let case =
             Strap { is_fixed: true, webbing_returned: returned(r), gravity_m_s2: r.between(3.0, 300.0), ..any(r) };
-        Strap { webbing_n: r.between(10e3, 100e3), end_s: 0.3, ..case }
+        Strap { webbing_n: r.between(10e3, 100e3), end_s: 0.12, ..case }
     });
+}
+
+#[test]
+fn zz_spool() {
+    let returned = |r: &mut Random| 10_f64.powf(r.between(-1.5, 0.0));
     check("spool", |r| Strap { lock: Some((cue(r), 0.0)), webbing_returned: returned(r), ..any(r) });
+}
+
+#[test]
+fn zz_pull() {
+    let returned = |r: &mut Random| 10_f64.powf(r.between(-1.5, 0.0));
     check("pretensioner", |r| {
         let case =
             Strap { gravity_m_s2: 0.0, speed_m_s: r.between(-0.5, 2.0), webbing_returned: returned(r), ..any(r) };
@@ -294,30 +309,57 @@ fn webbing_that_keeps_a_part_of_its_work_turns_round_within_a_step() {
 }
 
 #[test]
+fn zz_locks() {
+    let mut random = Random::new(17);
+    for i in 0..20 {
+        let rod = any_rod(&mut random, 1.0, |r, weight| Pin::Lock {
+            until: weight * r.between(0.3, 0.95),
+            per_rad: weight * r.between(8.0, 40.0),
+            below: r.between(0.3, 2.0),
+        });
+        let e = rod.expected();
+        let sets = [
+            INTEGRATORS[0].0,
+            "integrator={ kind = \"adaptive\", relative = 1e-9, absolute_length = 1e-10, absolute_speed = 1e-8 }",
+            "integrator={ kind = \"rk4\", step = \"0.01 ms\" }",
+            INTEGRATORS[2].0,
+        ];
+        let err = sets.map(|s| (rod.run(&[s]) - e.angle) / e.way);
+        println!("lock {i} {rod:?} {e:?}: {err:?}");
+    }
+}
+
+#[test]
 fn the_vent_of_an_air_bag_opens_at_its_pressure() {
     let mut random = Random::new(12);
-    let (mut worst, mut opened) = ([0.0_f64; 4], 0);
-    for _ in 0..20 {
+    let (mut worst, mut opened, mut cases) = ([0.0_f64; 4], 0, 0);
+    while cases < 20 {
         let r = &mut random;
-        let speed_m_s = r.between(2.0, 8.0);
+        let speed_m_s = r.between(2.0, 6.0);
         let bag = GasBag {
-            mass_kg: r.between(3.0, 30.0),
+            mass_kg: r.between(2.0, 12.0),
             above_m: 0.016 * speed_m_s + r.between(0.0, 0.1),
             speed_m_s,
             gravity_m_s2: r.between(0.0, 9.81),
             radius_m: r.between(0.2, 0.28),
-            flow_kg_s: [r.between(0.5, 2.5), r.between(0.5, 2.5)],
+            flow_kg_s: [r.between(1.5, 4.0), r.between(1.5, 4.0)],
             hole_m2: r.between(5e-4, 4e-3),
-            opens_at_pa: r.between(2e3, 40e3),
+            opens_at_pa: r.between(2e3, 20e3),
             leak_m2: r.between(1e-5, 5e-4),
             end_s: 0.06,
         };
         let ([z, gauge, way, most], opened_s) = bag.expected();
-        opened += u32::from(opened_s.is_some());
+        if !bag.stays_off_the_middle(way) {
+            continue;
+        }
+        (cases, opened) = (cases + 1, opened + u32::from(opened_s.is_some()));
         for ((integrator, _), worst) in INTEGRATORS.iter().zip(&mut worst) {
-            let (mut at, mut pressure) = (f64::NAN, f64::NAN);
-            let watch = Watch(|s: &Sample<'_>| (at, pressure) = (s.sphere_centre_m(0).z, s.actions.bags[0].pressure));
-            assert_eq!(simulate(&bag.model(&[integrator]), watch).unwrap().status, Status::Completed);
+            let (model, mut at) = (bag.model(&[integrator]), f64::NAN);
+            let wanted = channels(&model).into_iter().filter(|channel| channel.name == "bag.g.pressure");
+            let mut series = Series::new(wanted.collect());
+            let watch = Watch(|s: &Sample<'_>| at = s.sphere_centre_m(0).z);
+            assert_eq!(simulate(&model, (watch, &mut series)).unwrap().status, Status::Completed);
+            let pressure = series.values[0].last().unwrap();
             *worst = worst.max((at - z).abs() / way).max((pressure - gauge).abs() / most);
         }
     }

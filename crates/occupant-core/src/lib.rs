@@ -53,6 +53,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! A run in one's own hands, step by step or frame by frame, is a [`run::Run`]; a force of one's own a [`forces::own::Force`]. Programs
+//! depend best on the crate `occupant`, which has this one behind typed ids, one error and measures by type.
+//!
 //! `examples/case_in_code.rs` beside this crate's sources is a driver, a compartment, belts and a crash pulse without a text.
 //! Examples that start from a scenario stand in `occupant-scenario`: a vehicle path of one's own (a
 //! [`vehicle::VehicleMotion`]), a recorder of one's own, many runs on all cores.

@@ -2,6 +2,12 @@
 //!
 //! Takes what files hold; writes no file, starts no run and knows no command. Films may go through an encoder of the machine. A drawing is written once, as SVG. Its PNG is
 //! that SVG rendered with the fonts of this program, so that it looks the same on every machine, fonts installed or not.
+//!
+//! ```
+//! let mut svg = occupant_pictures::Svg::new(200.0, 100.0, "A ramp");
+//! svg.polyline(&[[0.0, 100.0], [200.0, 0.0]], "fill=\"none\" stroke=\"black\"");
+//! assert!(svg.finish().contains("<polyline"));
+//! ```
 
 #![allow(missing_docs, reason = "fields and variants say by their names and units what they hold")]
 

@@ -18,7 +18,7 @@ use pythonize::pythonize;
 use crate::trouble::plain;
 
 /// A run under way.
-#[pyclass(module = "occupant", skip_from_py_object)]
+#[pyclass(module = "occupant")]
 pub(crate) struct LiveRun {
     model: Arc<Model>,
     run: Stepped<'static>,

@@ -16,6 +16,11 @@ CART = ROOT / "scenarios" / "cart-lap-torso.toml"
 COMMAND = ROOT / "target" / "release" / "occupant"
 
 
+@pytest.fixture
+def scenario():
+    return occupant.Scenario(CART)
+
+
 @pytest.fixture(scope="module")
 def run():
     scenario = occupant.Scenario(CART)
@@ -124,3 +129,83 @@ def test_figures_are_those_of_the_command():
     own = occupant.Scenario(CART).run().summary
     for each in ("accelerations", "measures", "contacts", "energy"):
         assert own[each] == command[each], each
+
+
+def test_reads_values_by_path(scenario):
+    scenario["path.speed"] = "25 mph"
+    assert scenario["path.speed"] == "25 mph"
+    assert len(scenario["joints.*.damping"]) > 3
+    with pytest.raises(KeyError):
+        scenario["paht.speed"]
+
+
+def test_refuses_what_contains_itself_or_has_no_end(scenario):
+    endless = {"title": "a"}
+    endless["body"] = endless
+    with pytest.raises(occupant.OccupantError, match="contains itself"):
+        occupant.Scenario(endless)
+    deep = []
+    for _ in range(100_000):
+        deep = [deep]
+    with pytest.raises(occupant.OccupantError, match="nested"):
+        occupant.Scenario({"title": deep})
+    with pytest.raises(occupant.OccupantError, match="nested"):
+        scenario["path.speed"] = deep
+
+
+def test_a_live_run_is_told_frame_by_frame(scenario):
+    scenario["time.end"] = "50 ms"
+    live = scenario.live(velocity=[8.9, 0, 0])
+    with pytest.raises(occupant.OccupantError, match="known up to"):
+        live.advance(0.01)
+    saved = None
+    while live.time < live.end - 1e-9:
+        live.record()
+        live.push(min(live.time + 1e-3, live.end), acceleration=[-150, 0, 0])
+        live.advance()
+        if saved is None and live.time > 0.02:
+            saved = live.save()
+            other = live.copy()
+    live.record()
+    assert live["vehicle.velocity.x"] == pytest.approx(8.9 - 150 * 0.05)
+    assert live["belt.lap.force"] > 100
+    assert live.summary()["reached_s"] == pytest.approx(0.05)
+    with pytest.raises(KeyError):
+        live["belt.lop.force"]
+    at = live.time
+    live.load(saved)
+    assert live.time < at and live["head.position.x"] == other["head.position.x"]
+
+
+def test_a_kick_moves_the_head(scenario):
+    live = scenario.live()
+    live.advance(0.001)
+    before = live["head.velocity.resultant"]
+    live.kick("head", [0, 10, 0])
+    assert abs(live["head.velocity.resultant"] - before) > 0.1
+    with pytest.raises(KeyError):
+        live.kick("hed", [0, 10, 0])
+
+
+def test_a_force_of_ones_own(scenario):
+    scenario["time.end"] = "30 ms"
+    plain = scenario.run()
+
+    def magnet(t, places, velocities):
+        way = np.subtract(places[1], places[0])
+        pull = way * 500
+        return [list(pull), list(-pull)]
+
+    scenario.add_force("magnet", ["right_hand", ("vehicle", [0.35, -0.1, -0.1])], magnet)
+    pulled = scenario.run()
+    assert pulled["own_force.magnet.force"].max() > 50
+    assert abs(pulled["sphere.right_hand.position.x"][-1] - plain["sphere.right_hand.position.x"][-1]) > 1e-3
+    wrong = occupant.Scenario(CART)
+    wrong["time.end"] = "10 ms"
+    wrong.add_force("broken", ["head"], lambda t, places, velocities: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        wrong.run()
+    lost = occupant.Scenario(CART)
+    lost.add_force("lost", ["hed"], magnet)
+    with pytest.raises(occupant.OccupantError, match="hed"):
+        lost.run()

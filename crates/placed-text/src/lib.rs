@@ -3,6 +3,23 @@
 //! nothing.
 //!
 //! Without the feature `documents` there are messages alone: what computes has problems to tell, and reads no text.
+//!
+//! ```
+//! # #[cfg(feature = "documents")]
+//! # fn main() -> Result<(), placed_text::Diagnostics> {
+//! use placed_text::{Document, Format, Problem};
+//!
+//! let text = "title = \"Stop\"\nspeed = \"20 mhp\"\n";
+//! let document = Document::read(text, Format::Toml, "my.toml")?;
+//! assert_eq!(document.root.get("title").and_then(|title| title.as_str()), Some("Stop"));
+//!
+//! let problem = Problem::error("speed", "`mhp` is no unit", "a speed such as \"20 mph\"");
+//! assert!(document.place(problem).to_string().contains("my.toml:2:9"));
+//! # Ok(())
+//! # }
+//! # #[cfg(not(feature = "documents"))]
+//! # fn main() {}
+//! ```
 
 #![cfg_attr(not(feature = "documents"), allow(dead_code, reason = "what messages of documents need"))]
 

@@ -2,6 +2,7 @@
 
 /// Why a signal cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SignalError {
     /// Fewer samples than the operation needs.
     #[error("{what} has {found} samples, at least {needed} are needed")]

@@ -383,6 +383,7 @@ pub struct Unlike(pub &'static str);
 
 /// What elements cannot remember.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Misfit {
     /// Another number of them.
     #[error("the checkpoint has {found} {of}, the scenario {expected}")]

@@ -133,6 +133,7 @@ impl Progress {
 
 /// A checkpoint that is none of a model's.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum CheckpointError {
     /// Memory that is not that of the model's force elements.
     #[error(transparent)]
