@@ -60,7 +60,7 @@ def wide(page, text):
     for number, line in enumerate(without_code(text).splitlines(), 1):
         full = text.splitlines()[number - 1]
         if len(full) > WIDTH and line.strip() and not full.lstrip().startswith(("|", "[", "<!--", "![")):
-            yield f"{page.relative_to(ROOT)}:{number}: {len(full)} characters, at most {WIDTH}"
+            yield f"{page.relative_to(ROOT)}:{number}: {len(full)} characters, at most {WIDTH}: python3 docs/wrap.py"
 
 
 def faults():

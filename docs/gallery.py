@@ -19,7 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/gallery.md"
 PICTURES = ROOT / "docs/gallery"
-ENTRY = re.compile(r"^<!-- ([a-z0-9-]+): (side|top|front), ([^;]+); ([^>]+) -->\n((?:[^\n]+\n)*)", re.M)
+ENTRY = re.compile(r"^<!-- ([a-z0-9/-]+): (side|top|front), ([^;]+); ([^>]+) -->\n((?:[^\n]+\n)*)", re.M)
 LARGEST, LARGEST_TOGETHER, WIDTH, COLOURS = 40_000, 1_500_000, 700, 12
 G = 9.80665
 # figure: label, its unit, how many of it are one of SI
@@ -37,6 +37,11 @@ FIGURES = {
     "left_femur": ("left femur", "kN", 1e-3),
 }
 EXCURSIONS = {"forward_m": "head forward", "right_m": "head to the right", "left_m": "head to the left"}
+
+
+def picture_of(name):
+    """Where the picture of a scenario is."""
+    return PICTURES / f"{name.replace('/', '-')}.png"
 
 
 def shown(value):
@@ -99,7 +104,7 @@ def make(occupant, wanted):
             result = Path(folder) / "run.mcap"
             command = [occupant, "run", ROOT / f"scenarios/{name}.toml", "--json", "--output", result]
             run = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
-            draw(occupant, result, view, times, PICTURES / f"{name}.png")
+            draw(occupant, result, view, times, picture_of(name))
         text = f"<!-- {name}: {view}, {times}; {names} -->\n{figures(run, names.split())}"
         PAGE.write_text(ENTRY.sub(lambda match: text if match[1] == name else match.group(), PAGE.read_text()))
         print(f"drawn: {name}", flush=True)
@@ -109,17 +114,18 @@ def check():
     """What the page lacks."""
     page = PAGE.read_text()
     there = {match[1] for match in ENTRY.finditer(page)}
-    shipped = {path.stem for path in (ROOT / "scenarios").glob("*.toml")}
-    faults = [f"gallery.md lacks scenarios/{name}.toml" for name in sorted(shipped - there)]
-    faults += [f"gallery.md has {name}, which is not shipped" for name in sorted(there - shipped)]
+    scenarios = ROOT / "scenarios"
+    faults = [f"gallery.md lacks scenarios/{path.name}" for path in scenarios.glob("*.toml") if path.stem not in there]
     total = 0
-    for name in sorted(there & shipped):
-        picture = PICTURES / f"{name}.png"
+    for name in sorted(there):
+        picture = picture_of(name)
         size = picture.stat().st_size if picture.is_file() else 0
         total += size
+        if not (scenarios / f"{name}.toml").is_file():
+            faults.append(f"gallery.md has {name}, which is not shipped")
         if not 0 < size <= LARGEST:
             faults.append(f"{picture.relative_to(ROOT)}: {size} bytes, expected 1 to {LARGEST}")
-        for needed in (f"`occupant run scenarios/{name}.toml`", f"](gallery/{name}.png)"):
+        for needed in (f"`occupant run scenarios/{name}.toml`", f"](gallery/{picture.name})"):
             if needed not in page:
                 faults.append(f"gallery.md lacks {needed}")
     if total > LARGEST_TOGETHER:
