@@ -8,6 +8,9 @@ use crate::motion::vector::{V3, v3};
 /// No change of speed along a track is foreseen over more than so many times the step that showed it.
 const MOST_AHEAD: f64 = 2.0;
 
+/// Rate of strain at which webbing goes back, 1/s: no rounding is as fast.
+pub(super) const BACK_PER_S: f64 = 1e-4;
+
 /// Length of the last step where the payout has gone on otherwise since.
 const ANEW: f64 = -1.0;
 
@@ -65,6 +68,12 @@ numbers! {
         /// Strain of the strap, and that of its viscous branch.
         strain,
         viscous,
+        /// How fast the strain of lossy webbing rises, 1/s: on average in the last step, which lasted so long, s, and at its end; 1
+        /// where it goes back.
+        mean,
+        lasted,
+        rate,
+        back,
         /// P of the strap, what a metre of unstretched webbing carries away from it, N.
         carried,
         /// s, webbing that has come into the strap here since the start, unstretched, m; at the first node the payout.
@@ -177,6 +186,7 @@ impl<S: Scalar> ChainPast<S> {
             note(node.is_on());
             // no place along a track has just this speed
             note(node.has_stalled());
+            note(node.back.gt(o));
         }
         sum
     }
@@ -230,6 +240,18 @@ impl<S: Scalar> NodePast<S> {
     #[inline(always)]
     pub(super) fn goes_back(&self) -> S::Mask {
         self.normal_z.gt(S::zero())
+    }
+
+    /// Notes at an accepted step of length h whether the strap goes back, whose webbing has this strain: it falls, or has fallen and is
+    /// not the greatest again.
+    #[inline(always)]
+    pub(super) fn turn(&mut self, strain: S, h: S) {
+        let (o, mean) = (S::zero(), (strain - self.strain) / h);
+        let change = (mean - self.mean) * (h / (h + self.lasted));
+        self.rate = mean + S::select(self.lasted.gt(o), change, o);
+        let (was_back, is_less) = (self.back.gt(o), strain.lt(self.greatest));
+        let is_back = (was_back & is_less) | (!was_back & self.rate.lt(S::of(-BACK_PER_S)));
+        (self.mean, self.lasted, self.back) = (mean, h, S::select(is_back, S::one(), o));
     }
 
     /// Of a node that is pulled.

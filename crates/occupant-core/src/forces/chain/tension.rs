@@ -8,7 +8,7 @@ use super::data::{Chain, NEVER, Rest};
 use super::device::{DeviceLaw, Moment, Phase};
 use super::feed::Feed;
 use super::march::{Run, Solved, solve};
-use super::past::{ChainPast, NodePast};
+use super::past::{BACK_PER_S, ChainPast, NodePast};
 use crate::forces::decay::decay;
 use crate::forces::element::passes;
 use crate::forces::function::FunctionLaw;
@@ -18,6 +18,8 @@ use crate::motion::scalar::Scalar;
 #[derive(Clone, Debug)]
 pub(super) struct WebbingLaw<S> {
     curve: FunctionLaw<S>,
+    /// Whether it keeps a part of its work: then it matters where it goes back.
+    is_lossy: bool,
     /// κ, N, and τ, s, of a Maxwell branch: κe with ė = ε̇ − e/τ.
     viscous: Option<[S; 2]>,
 }
@@ -68,11 +70,18 @@ impl<S: Scalar> Taut<'_, S> {
     }
 }
 
+impl WebbingLaw<f64> {
+    fn new(curve: FunctionLaw<f64>, viscous: Option<[f64; 2]>) -> Self {
+        WebbingLaw { is_lossy: curve.is_lossy(), curve, viscous }
+    }
+}
+
 impl<S: Copy> WebbingLaw<S> {
     fn zip<A: Copy, T>(&self, other: &WebbingLaw<A>, f: &impl Fn(S, A) -> T) -> WebbingLaw<T> {
         let viscous = self.viscous.zip(other.viscous);
         WebbingLaw {
             curve: self.curve.zip(&other.curve, f),
+            is_lossy: self.is_lossy,
             viscous: viscous.map(|([a, b], [c, d])| [f(a, c), f(b, d)]),
         }
     }
@@ -113,7 +122,7 @@ impl Straps<f64> {
         Straps {
             friction: starts.iter().map(|&node| chain.nodes[node].friction).collect(),
             starts,
-            webbing: WebbingLaw { curve: FunctionLaw::new(&chain.webbing), viscous: chain.viscous },
+            webbing: WebbingLaw::new(FunctionLaw::new(&chain.webbing), chain.viscous),
             device: DeviceLaw::new(&chain.device, &chain.release),
             strength: chain.strength_n,
             rest: chain.rest,
@@ -153,7 +162,7 @@ impl Straps<f64> {
 
 impl Straps<f64> {
     pub(super) fn can_switch(&self) -> bool {
-        self.strength < NEVER || self.device.can_switch()
+        self.strength < NEVER || self.webbing.is_lossy || self.device.can_switch()
     }
 }
 
@@ -178,13 +187,24 @@ impl<S: Scalar<Mask = bool>> Straps<S> {
         let [a, b] = [before, now].map(greatest);
         let tears =
             (before.device.free.lt(now.device.free) && b.gt(self.strength)).then(|| passes(self.strength, a, b));
-        self.device.due(&from, &to).into_iter().chain(tears).reduce(S::min)
+        let turns = self.starts.iter().filter_map(|&node| Self::turns(&before.nodes[node], &now.nodes[node]));
+        self.device.due(&from, &to).into_iter().chain(tears).chain(turns).reduce(S::min)
+    }
+
+    /// Where between two commits a strap was due to go back, or to load again.
+    fn turns(before: &NodePast<S>, now: &NodePast<S>) -> Option<S> {
+        match [before, now].map(|past| past.back.gt(S::zero())) {
+            [false, true] => Some(passes(S::of(BACK_PER_S), -before.rate, -now.rate)),
+            [true, false] => Some(passes(before.greatest, before.strain, now.strain)),
+            _ => None,
+        }
     }
 }
 
 impl<S: Copy> Straps<S> {
     pub(super) fn is_like<A: Copy>(&self, other: &Straps<A>) -> bool {
         self.webbing.viscous.is_some() == other.webbing.viscous.is_some()
+            && self.webbing.is_lossy == other.webbing.is_lossy
             && self.webbing.curve.len() == other.webbing.curve.len()
             && self.device.shape() == other.device.shape()
     }
@@ -310,6 +330,9 @@ impl<S: Scalar> Straps<S> {
             }
             (before, pulled) = (both, carried);
             own.carried = carried;
+            if self.webbing.is_lossy {
+                own.turn(tense.strain, time - past.device.time);
+            }
             (own.viscous, own.strain) = (self.viscous(taut, strap), tense.strain);
             let greatest_strain = own.greatest.max(tense.loading);
             let [was, is] = [own.greatest, greatest_strain].map(|strain| self.webbing.curve.returned_to(strain)[2]);

@@ -48,6 +48,11 @@ impl FunctionLaw<f64> {
         Self::of([(Cubic { from: 0.0, c: [0.0, c1, c2, c3] }, returned)])
     }
 
+    /// Whether any of its work does not come back.
+    pub(crate) fn is_lossy(&self) -> bool {
+        self.pieces.iter().any(|piece| piece.returned < 1.0)
+    }
+
     fn of(cubics: impl IntoIterator<Item = (Cubic<f64>, f64)>) -> Self {
         let mut law = FunctionLaw { pieces: Vec::new(), end: NOWHERE, stop: NOWHERE };
         for (f, mu) in cubics {
