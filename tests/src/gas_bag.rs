@@ -89,15 +89,23 @@ impl GasBag {
         if t < UNFOLDED_S - 1e-9 { [whole * (FOLDED + rate * t), whole * rate] } else { [whole, 0.0] }
     }
 
-    /// Volume and section of the lens of ball and bag, m³ and m².
+    /// Volume and section of what the ball takes of the bag, m³ and m²: their lens, from where it is as wide as the ball with a body as
+    /// wide behind it.
     fn lens(&self, z: f64) -> [f64; 2] {
-        let (r, big, d) = (BALL_M, self.radius_m, self.middle_m() - z);
-        if d >= r + big {
+        let (r, big, apart) = (BALL_M, self.radius_m, self.middle_m() - z);
+        if apart >= r + big {
             return [0.0; 2];
         }
+        let d = apart.max((big * big - r * r).sqrt());
         let radical = 4.0 * d * d * big * big - (d * d - r * r + big * big).powi(2);
         let squares = d * d + 2.0 * d * (r + big) - 3.0 * (r - big).powi(2);
-        [PI * (r + big - d).powi(2) * squares / (12.0 * d), PI * radical / (4.0 * d * d)]
+        let section = PI * radical / (4.0 * d * d);
+        [PI * (r + big - d).powi(2) * squares / (12.0 * d) + section * (d - apart), section]
+    }
+
+    /// Whether the ball stays off the middle of the bag, where its push has no direction, as far as it goes (m).
+    pub fn stays_off_the_middle(&self, way_m: f64) -> bool {
+        self.middle_m() - way_m > 0.2 * self.radius_m
     }
 
     fn gas(&self, t: f64, [z, _, air, other, total]: State) -> Gas {

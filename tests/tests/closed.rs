@@ -256,16 +256,20 @@ fn any_rod(r: &mut Random, end_s: f64, pin: impl Fn(&mut Random, f64) -> Pin) ->
 #[test]
 fn limits_stops_and_locks_of_joints_close_open_and_close_again() {
     check_rods("limit", 2, |r| {
-        any_rod(r, 0.7, |r, weight| Pin::Limit {
+        any_rod(r, 1.0, |r, weight| Pin::Limit {
             from_rad: r.between(0.5, 1.2),
             per_rad: weight * r.between(5.0, 60.0),
             returned: r.between(0.2, 1.0),
         })
     });
     check_rods("stop", 2, |r| {
-        any_rod(r, 1.2, |r, weight| {
-            let begin_rad = r.between(1.6, 2.2);
-            Pin::Stop { begin_rad, full_rad: begin_rad + r.between(0.05, 0.2), damping: weight * r.between(0.01, 0.05) }
+        any_rod(r, 2.5, |r, weight| {
+            let begin_rad = r.between(1.6, 1.8);
+            Pin::Stop {
+                begin_rad,
+                full_rad: begin_rad + r.between(0.05, 0.2),
+                damping: weight * r.between(0.005, 0.03),
+            }
         })
     });
     check_rods("lock", 1, |r| {
@@ -283,7 +287,7 @@ fn webbing_that_keeps_a_part_of_its_work_turns_round_within_a_step() {
     check("anchor", |r| {
         let case =
             Strap { is_fixed: true, webbing_returned: returned(r), gravity_m_s2: r.between(3.0, 300.0), ..any(r) };
-        Strap { webbing_n: r.between(10e3, 100e3), end_s: 0.3, ..case }
+        Strap { webbing_n: r.between(10e3, 100e3), end_s: 0.12, ..case }
     });
     check("spool", |r| Strap { lock: Some((cue(r), 0.0)), webbing_returned: returned(r), ..any(r) });
     check("pretensioner", |r| {
@@ -297,24 +301,27 @@ fn webbing_that_keeps_a_part_of_its_work_turns_round_within_a_step() {
 #[test]
 fn the_vent_of_an_air_bag_opens_at_its_pressure() {
     let mut random = Random::new(12);
-    let (mut worst, mut opened) = ([0.0_f64; 4], 0);
-    for _ in 0..20 {
+    let (mut worst, mut opened, mut cases) = ([0.0_f64; 4], 0, 0);
+    while cases < 20 {
         let r = &mut random;
-        let speed_m_s = r.between(2.0, 8.0);
+        let speed_m_s = r.between(2.0, 6.0);
         let bag = GasBag {
-            mass_kg: r.between(3.0, 30.0),
+            mass_kg: r.between(2.0, 12.0),
             above_m: 0.016 * speed_m_s + r.between(0.0, 0.1),
             speed_m_s,
             gravity_m_s2: r.between(0.0, 9.81),
             radius_m: r.between(0.2, 0.28),
-            flow_kg_s: [r.between(0.5, 2.5), r.between(0.5, 2.5)],
+            flow_kg_s: [r.between(1.5, 4.0), r.between(1.5, 4.0)],
             hole_m2: r.between(5e-4, 4e-3),
-            opens_at_pa: r.between(2e3, 40e3),
+            opens_at_pa: r.between(2e3, 20e3),
             leak_m2: r.between(1e-5, 5e-4),
             end_s: 0.06,
         };
         let ([z, gauge, way, most], opened_s) = bag.expected();
-        opened += u32::from(opened_s.is_some());
+        if !bag.stays_off_the_middle(way) {
+            continue;
+        }
+        (cases, opened) = (cases + 1, opened + u32::from(opened_s.is_some()));
         for ((integrator, _), worst) in INTEGRATORS.iter().zip(&mut worst) {
             let (model, mut at) = (bag.model(&[integrator]), f64::NAN);
             let wanted = channels(&model).into_iter().filter(|channel| channel.name == "bag.g.pressure");

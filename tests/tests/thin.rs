@@ -234,7 +234,7 @@ fn balls_that_spin_and_rub_pass_no_plate_and_get_no_more_along_it_than_friction_
         // no deeper than a half of the ball
         let least = throw.mass_kg * (2.0 * throw.speed_m_s / throw.radius_m).powi(2);
         throw.stiffness_n_per_m = throw.stiffness_n_per_m.max(least);
-        let coefficient = random.between(0.05, 1.5);
+        let coefficient = random.between(0.02, 0.6);
         let spin = random.between(-2.0, 2.0) * throw.speed_m_s / throw.radius_m;
         let [along, turning] = rubbed(&throw, coefficient, spin);
         gripped += u32::from((along - throw.aside * throw.speed_m_s).abs() < 1.9 * coefficient * throw.speed_m_s);

@@ -186,6 +186,9 @@ pub fn stored(file: &Path, run: &StoredRun) -> Result<(Loaded, Model, Diagnostic
             if draft.get("posture.seat").is_ok() && draft.get("posture.settle").is_err() {
                 draft.set_value("posture.settle", "false")?;
             }
+            if draft.get("surfaces").is_ok() && draft.get("contact.edge_force").is_err() {
+                draft.set_value("contact.edge_force", "contact_point")?;
+            }
             draft.load(&resolver)
         })
         .map_err(|problems| unreadable(format!("\n{problems}")))?;

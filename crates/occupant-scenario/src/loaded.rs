@@ -54,6 +54,10 @@ impl Loaded {
         for posture in explicit.posture.iter_mut().chain(others) {
             posture.settle.get_or_insert(true);
         }
+        // nor did that version say where edge forces act: at the point of contact
+        if !explicit.surfaces.is_empty() {
+            explicit.contact.get_or_insert_default().edge_force.get_or_insert_default();
+        }
         read_tables(&mut document, &scenario, resolver)?;
         Ok(Loaded { scenario, explicit, document })
     }
