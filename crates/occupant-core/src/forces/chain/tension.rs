@@ -18,8 +18,8 @@ use crate::motion::scalar::Scalar;
 #[derive(Clone, Debug)]
 pub(super) struct WebbingLaw<S> {
     curve: FunctionLaw<S>,
-    /// Whether it keeps a part of its work: then it matters where it goes back.
-    is_lossy: bool,
+    /// Whether it keeps a part of its work and no limiter gives way with it: then it matters where it goes back.
+    turns: bool,
     /// κ, N, and τ, s, of a Maxwell branch: κe with ė = ε̇ − e/τ.
     viscous: Option<[S; 2]>,
 }
@@ -71,8 +71,9 @@ impl<S: Scalar> Taut<'_, S> {
 }
 
 impl WebbingLaw<f64> {
-    fn new(curve: FunctionLaw<f64>, viscous: Option<[f64; 2]>) -> Self {
-        WebbingLaw { is_lossy: curve.is_lossy(), curve, viscous }
+    fn new(chain: &Chain) -> Self {
+        let curve = FunctionLaw::new(&chain.webbing);
+        WebbingLaw { turns: curve.is_lossy() && chain.device.limiter.is_none(), curve, viscous: chain.viscous }
     }
 }
 
@@ -81,7 +82,7 @@ impl<S: Copy> WebbingLaw<S> {
         let viscous = self.viscous.zip(other.viscous);
         WebbingLaw {
             curve: self.curve.zip(&other.curve, f),
-            is_lossy: self.is_lossy,
+            turns: self.turns,
             viscous: viscous.map(|([a, b], [c, d])| [f(a, c), f(b, d)]),
         }
     }
@@ -122,7 +123,7 @@ impl Straps<f64> {
         Straps {
             friction: starts.iter().map(|&node| chain.nodes[node].friction).collect(),
             starts,
-            webbing: WebbingLaw::new(FunctionLaw::new(&chain.webbing), chain.viscous),
+            webbing: WebbingLaw::new(chain),
             device: DeviceLaw::new(&chain.device, &chain.release),
             strength: chain.strength_n,
             rest: chain.rest,
@@ -162,7 +163,7 @@ impl Straps<f64> {
 
 impl Straps<f64> {
     pub(super) fn can_switch(&self) -> bool {
-        self.strength < NEVER || self.webbing.is_lossy || self.device.can_switch()
+        self.strength < NEVER || self.webbing.turns || self.device.can_switch()
     }
 }
 
@@ -204,7 +205,7 @@ impl<S: Scalar<Mask = bool>> Straps<S> {
 impl<S: Copy> Straps<S> {
     pub(super) fn is_like<A: Copy>(&self, other: &Straps<A>) -> bool {
         self.webbing.viscous.is_some() == other.webbing.viscous.is_some()
-            && self.webbing.is_lossy == other.webbing.is_lossy
+            && self.webbing.turns == other.webbing.turns
             && self.webbing.curve.len() == other.webbing.curve.len()
             && self.device.shape() == other.device.shape()
     }
@@ -330,7 +331,7 @@ impl<S: Scalar> Straps<S> {
             }
             (before, pulled) = (both, carried);
             own.carried = carried;
-            if self.webbing.is_lossy {
+            if self.webbing.turns {
                 own.turn(tense.strain, time - past.device.time);
             }
             (own.viscous, own.strain) = (self.viscous(taut, strap), tense.strain);
