@@ -16,7 +16,6 @@ const CALM_S: f64 = 5e-3;
 
 /// What acts in the pin.
 #[derive(Clone, Copy, Debug)]
-#[expect(missing_docs, reason = "each says what its numbers are")]
 pub enum Pin {
     /// Beyond an angle either way, rad, a torque over what is beyond, N·m/rad, of whose work unloading returns a part.
     Limit {
