@@ -41,6 +41,7 @@ pub fn lap(integrator: Integrator) -> Setup {
         chains: Vec::new(),
         bags: Vec::new(),
         columns: Vec::new(),
+        own_forces: Vec::new(),
         path: path(),
         posture: InitialPosture::Seated(seating()),
         velocity: InitialVelocity::WithVehicle,

@@ -105,7 +105,7 @@ impl Compartment {
             solids: &[],
             self_contact: None,
             materials: &self.materials,
-            edge_force: EdgeForce::default(),
+            edge_force: EdgeForce::AtContactPoint,
             longest_step_s: 1e-3,
         };
         let skeleton = Skeleton::new(&system.body, -system.gravity.z);
@@ -114,6 +114,7 @@ impl Compartment {
             belts: Vec::new(),
             chains: Vec::new(),
             bags: Vec::new(),
+            own: Default::default(),
             columns: Vec::new(),
             joints: JointSystem::new(&system.joints, &skeleton, |_| f64::NAN),
             limits: Vec::new(),

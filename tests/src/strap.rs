@@ -77,6 +77,10 @@ pub struct Strap {
     pub release: Option<Cue>,
     /// Tension at which it tears, N.
     pub strength_n: Option<f64>,
+    /// Part of the work of the webbing that unloading returns.
+    pub webbing_returned: f64,
+    /// Whether it ends at an anchor instead of a spool.
+    pub is_fixed: bool,
 }
 
 /// A mass that falls on a spool, which locks 20 mm after 20 ms.
@@ -95,6 +99,8 @@ pub const FALLS: Strap = Strap {
     second: None,
     release: None,
     strength_n: None,
+    webbing_returned: 1.0,
+    is_fixed: false,
 };
 
 /// A pretensioner that stalls.
@@ -108,6 +114,22 @@ pub const PULLED: Strap = Strap {
     pull: Some(Pull { cue: Cue::At(0.013), delay_s: 0.0, speed_m_s: 7.5, lasts_s: 0.008, stall_n: 1500.0 }),
     ..FALLS
 };
+
+/// Beginning of a scenario: a mass (kg), a ball of 0.1 m, at a place along z (m) with a speed (m/s), under gravity (m/s²), for a
+/// time (s).
+pub fn mass_text([mass_kg, place_m, speed_m_s, gravity_m_s2, end_s]: [f64; 5]) -> String {
+    let heavy_kg = mass_kg - 0.5;
+    format!(
+        "title = \"a mass\"\nunits = \"si\"\ngravity = {gravity_m_s2}\n[output]\ninterval = \"0.5 ms\"\n\
+         [path]\nkind = \"fixed\"\n[body.segments.a]\nlength = 0.2\ncg_from_lower_end = 0.1\nmass = {heavy_kg}\n\
+         inertia = [0.1, 0.1, 0.1]\n[body.segments.b]\nlength = 0.2\ncg_from_lower_end = 0.1\nmass = 0.5\n\
+         inertia = [0.0005, 0.0005, 0.0005]\n[body.joints.j]\nproximal = \"a\"\ndistal = \"b\"\nkind = \"fixed\"\n\
+         on_proximal = [0, 0, 0.1]\non_distal = [0, 0, 0.1]\n[body.spheres.ball]\nsegment = \"a\"\n\
+         centre = [0, 0, 0.1]\nradius = 0.1\n[body.landmarks]\nhead = \"a\"\nchest = \"a\"\npelvis = \"a\"\n\
+         [joints.all]\ndamping = 0\n[time]\nend = {end_s}\n[mount]\nsegment = \"a\"\nframe = \"vehicle\"\n\
+         point = [0, 0, 0.1]\nplace = [0, 0, {place_m}]\nroll = 0\npitch = 0\nyaw = 0\nlet_go = [0, 0, {speed_m_s}]\n"
+    )
+}
 
 impl Cue {
     fn text(self, name: &str) -> String {
@@ -163,20 +185,16 @@ impl Strap {
         if let Some(strength_n) = self.strength_n {
             belt += &format!("strength = {strength_n}\n");
         }
-        let Strap { mass_kg, webbing_n, place_m, speed_m_s, gravity_m_s2, end_s, .. } = *self;
-        let heavy_kg = mass_kg - 0.5;
+        let Strap { mass_kg, webbing_n, place_m, speed_m_s, gravity_m_s2, end_s, webbing_returned, .. } = *self;
+        let (retractors, held) = match self.is_fixed {
+            true => (String::new(), String::new()),
+            false => (format!("{triggers}{limiters}[retractors.r]\n{retractor}"), ", retractor = \"r\"".to_owned()),
+        };
+        let mass = mass_text([mass_kg, place_m, speed_m_s, gravity_m_s2, end_s]);
         format!(
-            "title = \"a mass on a strap\"\nunits = \"si\"\ngravity = {gravity_m_s2}\n[output]\ninterval = \"0.5 ms\"\n\
-             [path]\nkind = \"fixed\"\n[body.segments.a]\nlength = 0.2\ncg_from_lower_end = 0.1\nmass = {heavy_kg}\n\
-             inertia = [0.1, 0.1, 0.1]\n[body.segments.b]\nlength = 0.2\ncg_from_lower_end = 0.1\nmass = 0.5\n\
-             inertia = [0.0005, 0.0005, 0.0005]\n[body.joints.j]\nproximal = \"a\"\ndistal = \"b\"\nkind = \"fixed\"\n\
-             on_proximal = [0, 0, 0.1]\non_distal = [0, 0, 0.1]\n[body.spheres.ball]\nsegment = \"a\"\n\
-             centre = [0, 0, 0.1]\nradius = 0.1\n[body.landmarks]\nhead = \"a\"\nchest = \"a\"\npelvis = \"a\"\n\
-             [joints.all]\ndamping = 0\n[webbings.w]\nstrain = [0, 1]\nforce = [0, {webbing_n}]\nreturned = 1\n\
-             [time]\nend = {end_s}\n[mount]\nsegment = \"a\"\nframe = \"vehicle\"\npoint = [0, 0, 0.1]\n\
-             place = [0, 0, {place_m}]\nroll = 0\npitch = 0\nyaw = 0\nlet_go = [0, 0, {speed_m_s}]\n\
-             {triggers}{limiters}[retractors.r]\n{retractor}[belts.b]\nwebbing = \"w\"\n{belt}nodes = [\
-             {{ name = \"a0\", at = [0, 0, 0], retractor = \"r\" }}, {{ name = \"e\", on = \"a\", at = [0, 0, 0.1] }}]\n"
+            "{mass}[webbings.w]\nstrain = [0, 1]\nforce = [0, {webbing_n}]\nreturned = {webbing_returned}\n\
+             {retractors}[belts.b]\nwebbing = \"w\"\n{belt}nodes = [\
+             {{ name = \"a0\", at = [0, 0, 0]{held} }}, {{ name = \"e\", on = \"a\", at = [0, 0, 0.1] }}]\n"
         )
     }
 
@@ -217,6 +235,8 @@ struct Waiting {
 pub struct Course {
     case: Strap,
     unstretched_m: f64,
+    /// Greatest strain so far.
+    strained: f64,
     /// s.
     pub t: f64,
     /// m.
@@ -242,6 +262,7 @@ pub struct Course {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Phase {
+    Fixed,
     Open,
     /// To this payout.
     Locking(f64),
@@ -263,11 +284,16 @@ impl Course {
         };
         Course {
             case: *case,
-            unstretched_m: case.place_m / (1.0 + case.spool_n / case.webbing_n),
+            unstretched_m: if case.is_fixed {
+                case.place_m
+            } else {
+                case.place_m / (1.0 + case.spool_n / case.webbing_n)
+            },
+            strained: if case.is_fixed { 0.0 } else { case.spool_n / case.webbing_n },
             t: 0.0,
             z: case.place_m,
             v: case.speed_m_s,
-            phase: Phase::Open,
+            phase: if case.is_fixed { Phase::Fixed } else { Phase::Open },
             cues: [
                 wait(lock.map(|lock| lock.0), 0.0),
                 wait(pull.map(|pull| pull.cue), pull.map_or(0.0, |pull| pull.delay_s)),
@@ -286,11 +312,15 @@ impl Course {
 
     /// Payout that leaves this tension.
     fn payout_at(&self, tension: f64) -> f64 {
-        self.z / (1.0 + tension / self.case.webbing_n) - self.unstretched_m
+        let (strain, most) = (tension / self.case.webbing_n, self.strained);
+        let strain = if strain < most { most - (most - strain) * self.case.webbing_returned } else { strain };
+        self.z / (1.0 + strain) - self.unstretched_m
     }
 
     fn stretched(&self, payout: f64) -> f64 {
-        (self.case.webbing_n * (self.z / (self.unstretched_m + payout) - 1.0)).max(0.0)
+        let (strain, most) = (self.z / (self.unstretched_m + payout) - 1.0, self.strained);
+        let loading = if strain < most { most - (most - strain) / self.case.webbing_returned } else { strain };
+        (self.case.webbing_n * loading).max(0.0)
     }
 
     /// Share of the second limiter.
@@ -329,6 +359,7 @@ impl Course {
     pub fn tension(&self) -> f64 {
         match self.phase {
             _ if self.is_free => 0.0,
+            Phase::Fixed => self.stretched(0.0),
             Phase::Open | Phase::Locking(_) => self.case.spool_n,
             Phase::Pulling(from_m) => {
                 let (pull, due_s) = (self.case.pull.unwrap(), self.cues[1].due_s.unwrap());
@@ -436,6 +467,7 @@ impl Course {
             let tension = next.tension();
             next.most_n = next.most_n.max(tension);
             next.way_m = next.way_m.max((next.z - next.case.place_m).abs());
+            next.strained = next.strained.max(tension / next.case.webbing_n);
             if let Phase::Locked(base, greatest) = next.phase {
                 next.greatest_m = greatest.max(next.payout() - base);
                 next.phase = Phase::Locked(base, next.greatest_m);

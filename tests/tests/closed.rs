@@ -6,8 +6,10 @@ use occupant_core::results::outcome::Status;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::simulate;
+use occupant_tests::gas_bag::GasBag;
 use occupant_tests::measure::assert_below;
 use occupant_tests::random::Random;
+use occupant_tests::rod::{self, Pin, Rod};
 use occupant_tests::room::{ends_alike_side_by_side, setup};
 use occupant_tests::strap::{Cue, FALLS, PULLED, Pull, Strap, Watched};
 
@@ -200,16 +202,8 @@ fn a_joint_opens_or_slips_at_its_moment() {
         let weight = mass_kg * 9.806_65 * 0.5 * length_m;
         let (until, per_rad) = (weight * random.between(0.3, 1.4), weight * random.between(4.0, 40.0));
         let (slips, spin) = (i % 2 == 1 && until < 0.8 * weight, mass_kg * length_m * length_m / 12.0);
-        let text = format!(
-            "title = \"a rod\"\nunits = \"si\"\ngravity = 9.80665\n[time]\nend = 0.15\n[output]\ninterval = \"1 ms\"\n\
-             [path]\nkind = \"fixed\"\n[body.segments.a]\nlength = 0.2\ncg_from_lower_end = 0.1\nmass = 5\n\
-             inertia = [0.1, 0.1, 0.1]\n[body.segments.b]\nlength = {length_m}\ncg_from_lower_end = {}\nmass = {mass_kg}\n\
-             inertia = [{spin}, {spin}, {spin}]\n[body.joints.j]\nproximal = \"a\"\ndistal = \"b\"\nkind = \"pin\"\n\
-             on_proximal = [0, 0, 0.1]\non_distal = [0, 0, 0]\n[body.landmarks]\nhead = \"b\"\n[mount]\nsegment = \"a\"\n\
-             frame = \"vehicle\"\npoint = [0, 0, 0.1]\nplace = [0, 0, 0]\nroll = 0\npitch = 90\nyaw = 0\n[joints.j]\n\
-             damping = 0\nlock = {{ until = {until}, stiffness = {per_rad}, slips = {slips} }}\n",
-            0.5 * length_m
-        );
+        let pin = format!("lock = {{ until = {until}, stiffness = {per_rad}, slips = {slips} }}");
+        let text = rod::text(mass_kg, length_m, &pin, 0.15);
         for ((integrator, _), worst) in INTEGRATORS.iter().zip(&mut worst) {
             let model = Model::new(setup(&text, &[integrator])).unwrap();
             let (mut fallen_m, mut speed_m_s) = (0.0, 0.0);
@@ -228,6 +222,106 @@ fn a_joint_opens_or_slips_at_its_moment() {
             *worst = worst.max((moving / expected - 1.0).abs());
         }
     }
+    for ((integrator, bound), worst) in INTEGRATORS.iter().zip(worst) {
+        assert_below(integrator, worst, *bound);
+    }
+}
+
+/// The worst angle at the end of twenty such rods, as a part of all that each has turned; `least` is how often the pin begins to act.
+fn check_rods(what: &str, least: u32, any: impl Fn(&mut Random) -> Rod) {
+    let mut random = Random::new(17);
+    let mut worst = [0.0_f64; 4];
+    let mut begins = 0;
+    for _ in 0..20 {
+        let rod = any(&mut random);
+        let expected = rod.expected();
+        begins += expected.begins;
+        for ((integrator, _), worst) in INTEGRATORS.iter().zip(&mut worst) {
+            *worst = worst.max((rod.run(&[integrator]) - expected.angle).abs() / expected.way);
+        }
+    }
+    assert!(begins >= 20 * least, "{what}: {begins}");
+    for ((integrator, bound), worst) in INTEGRATORS.iter().zip(worst) {
+        assert_below(&format!("{what}, {integrator}"), worst, *bound);
+    }
+}
+
+fn any_rod(r: &mut Random, end_s: f64, pin: impl Fn(&mut Random, f64) -> Pin) -> Rod {
+    let (mass_kg, length_m) = (r.between(0.5, 8.0), r.between(0.2, 0.6));
+    let weight = mass_kg * 9.806_65 * 0.5 * length_m;
+    Rod { mass_kg, length_m, pin: pin(r, weight), end_s }
+}
+
+#[test]
+fn limits_stops_and_locks_of_joints_close_open_and_close_again() {
+    check_rods("limit", 2, |r| {
+        any_rod(r, 0.7, |r, weight| Pin::Limit {
+            from_rad: r.between(0.5, 1.2),
+            per_rad: weight * r.between(5.0, 60.0),
+            returned: r.between(0.2, 1.0),
+        })
+    });
+    check_rods("stop", 2, |r| {
+        any_rod(r, 1.2, |r, weight| {
+            let begin_rad = r.between(1.6, 2.2);
+            Pin::Stop { begin_rad, full_rad: begin_rad + r.between(0.05, 0.2), damping: weight * r.between(0.01, 0.05) }
+        })
+    });
+    check_rods("lock", 1, |r| {
+        any_rod(r, 1.0, |r, weight| Pin::Lock {
+            until: weight * r.between(0.3, 0.95),
+            per_rad: weight * r.between(8.0, 40.0),
+            below: r.between(0.3, 2.0),
+        })
+    });
+}
+
+#[test]
+fn webbing_that_keeps_a_part_of_its_work_turns_round_within_a_step() {
+    let returned = |r: &mut Random| 10_f64.powf(r.between(-1.5, 0.0));
+    check("anchor", |r| {
+        let case =
+            Strap { is_fixed: true, webbing_returned: returned(r), gravity_m_s2: r.between(3.0, 300.0), ..any(r) };
+        Strap { webbing_n: r.between(10e3, 100e3), end_s: 0.3, ..case }
+    });
+    check("spool", |r| Strap { lock: Some((cue(r), 0.0)), webbing_returned: returned(r), ..any(r) });
+    check("pretensioner", |r| {
+        let case =
+            Strap { gravity_m_s2: 0.0, speed_m_s: r.between(-0.5, 2.0), webbing_returned: returned(r), ..any(r) };
+        let fires = cue(r);
+        Strap { pull: Some(pull(r, fires, case.knee[1])), ..case }
+    });
+}
+
+#[test]
+fn the_vent_of_an_air_bag_opens_at_its_pressure() {
+    let mut random = Random::new(12);
+    let (mut worst, mut opened) = ([0.0_f64; 4], 0);
+    for _ in 0..20 {
+        let r = &mut random;
+        let speed_m_s = r.between(2.0, 8.0);
+        let bag = GasBag {
+            mass_kg: r.between(3.0, 30.0),
+            above_m: 0.016 * speed_m_s + r.between(0.0, 0.1),
+            speed_m_s,
+            gravity_m_s2: r.between(0.0, 9.81),
+            radius_m: r.between(0.2, 0.28),
+            flow_kg_s: [r.between(0.5, 2.5), r.between(0.5, 2.5)],
+            hole_m2: r.between(5e-4, 4e-3),
+            opens_at_pa: r.between(2e3, 40e3),
+            leak_m2: r.between(1e-5, 5e-4),
+            end_s: 0.06,
+        };
+        let ([z, gauge, way, most], opened_s) = bag.expected();
+        opened += u32::from(opened_s.is_some());
+        for ((integrator, _), worst) in INTEGRATORS.iter().zip(&mut worst) {
+            let (mut at, mut pressure) = (f64::NAN, f64::NAN);
+            let watch = Watch(|s: &Sample<'_>| (at, pressure) = (s.sphere_centre_m(0).z, s.actions.bags[0].pressure));
+            assert_eq!(simulate(&bag.model(&[integrator]), watch).unwrap().status, Status::Completed);
+            *worst = worst.max((at - z).abs() / way).max((pressure - gauge).abs() / most);
+        }
+    }
+    assert!(opened >= 15, "{opened}");
     for ((integrator, bound), worst) in INTEGRATORS.iter().zip(worst) {
         assert_below(integrator, worst, *bound);
     }

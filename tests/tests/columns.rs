@@ -259,8 +259,9 @@ fn what_pushes_a_column_is_what_the_body_feels_of_all_that_it_carries() {
     let mut most = 0.0_f64;
     let watch = Watch(|s: &Sample<'_>| {
         let touched = s.contacts().filter(|c| on_wheel(c.surface)).map(|c| c.force_n).sum::<nalgebra::Vector3<f64>>();
-        let pulled =
-            (0..s.model.body().spheres.len()).map(|i| s.sphere_pull_n(i, Some("bag"))).sum::<nalgebra::Vector3<f64>>();
+        let pulled = (0..s.model.body().spheres.len())
+            .map(|i| s.sphere_pull_n(i, Some("bag")).unwrap())
+            .sum::<nalgebra::Vector3<f64>>();
         let (push, felt) = (channel.value(s), -axis.dot(&(touched + pulled)));
         assert!((push - felt).abs() < 1e-6 + 1e-9 * push.abs(), "{push} {felt}");
         most = most.max(push);

@@ -3,7 +3,7 @@
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 use occupant_core::body::tti12::{self, TTI12};
 use occupant_core::forces::joint::{AngularSpring, BallJoint, HingeJoint, Joints, Stop};
-use occupant_core::forces::joint::{BallAction, DAMPING, JointSystem};
+use occupant_core::forces::joint::{DAMPING, JointAction, JointSystem};
 use occupant_core::motion::kinematics::Kinematics;
 use occupant_core::motion::layout::Layout;
 use occupant_core::motion::skeleton::Skeleton;
@@ -141,7 +141,7 @@ fn the_spring_without_an_angle_of_its_own_rests_at_the_initial_one() {
     assert_below("½K(β − β₀)², J", stored - 50.0 * 0.3 * 0.3, 1e-4);
 }
 
-fn damped(epsilon: f64, k: &Kinematics<f64>) -> BallAction<f64> {
+fn damped(epsilon: f64, k: &Kinematics<f64>) -> JointAction<f64> {
     let data = BallJoint { damping_n_m_s: 0.7, ..BallJoint::default() };
     system(data, epsilon).ball(NECK, k)
 }

@@ -11,7 +11,7 @@ use occupant_core::results::outcome::{Outcome, Status};
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_core::run::batch::{Ended, Job, Kernel, simulate_many};
-use occupant_core::run::simulate::simulate;
+use occupant_core::run::simulate::attempt;
 use occupant_scenario::{Format, Scenario};
 use occupant_tests::cart::lap;
 use occupant_tests::room::setup;
@@ -54,7 +54,7 @@ type Result_ = (Result<Outcome, String>, Vec<String>);
 fn alone(case: &Case) -> Result_ {
     let model = Model::new(case.setup.clone()).unwrap();
     let mut texts = case.texts.clone();
-    let outcome = simulate(&model, &mut texts);
+    let outcome = attempt(&model, &mut texts);
     (outcome.map_err(|e| e.to_string()), texts.outputs)
 }
 

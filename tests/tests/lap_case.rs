@@ -51,7 +51,7 @@ fn compare(sample: &Sample<'_>, row: &Row, peak: &Peaks, worst: &mut Difference)
         let [x, y, z] = row.sphere_centres[i];
         let place = Point3::new(x, y, z) * INCH_M;
         worst.place_m = worst.place_m.max((sample.sphere_centre_m(i) - place).norm());
-        let force = (sample.sphere_force_n(i) + sample.sphere_pull_n(i, None)).norm();
+        let force = (sample.sphere_force_n(i) + sample.sphere_pull_n(i, None).unwrap()).norm();
         let expected = row.sphere_forces[i] * LBF_N;
         worst.force = worst.force.max((force - expected).abs() / peak.force_n);
     }

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Crates with their rooms from the lowest to the highest.
-const ROOMS: [(&str, &[&str]); 9] = [
+const ROOMS: [(&str, &[&str]); 10] = [
     ("occupant-units", &["trig", "unit"]),
     ("crash-measures", &["signal", "correlation", "measure", "injury"]),
     (
@@ -22,6 +22,7 @@ const ROOMS: [(&str, &[&str]); 9] = [
             "presets",
             "driver",
             "crush",
+            "state",
             "chassis",
             "slider",
             "rail",
@@ -99,11 +100,33 @@ const ROOMS: [(&str, &[&str]); 9] = [
         ],
     ),
     ("occupant-pictures", &["font", "svg", "format", "body", "view", "plot", "gltf", "film", "html"]),
-    ("occupant-cli", &["base", "files", "jobs", "commands"]),
+    (
+        "occupant-jobs",
+        &[
+            "base",
+            "files",
+            "compare",
+            "import",
+            "export",
+            "plot",
+            "print",
+            "risk",
+            "report",
+            "run",
+            "extend",
+            "drive",
+            "ensemble",
+            "sensitivity",
+            "sweep",
+            "study",
+            "fit",
+        ],
+    ),
+    ("occupant-cli", &["base", "commands"]),
 ];
 
 /// Crates that a crate of the workspace may depend on, outside its tests.
-const CRATES: [(&str, &[&str]); 11] = [
+const CRATES: [(&str, &[&str]); 13] = [
     ("placed-text", &[]),
     ("occupant-units", &["placed-text"]),
     ("crash-measures", &["occupant-units"]),
@@ -116,7 +139,26 @@ const CRATES: [(&str, &[&str]); 11] = [
         "occupant-files",
         &["placed-text", "occupant-units", "crash-measures", "occupant-core", "occupant-scenario", "cardio-legacy"],
     ),
+    (
+        "occupant",
+        &["placed-text", "occupant-units", "crash-measures", "occupant-core", "occupant-scenario", "occupant-files"],
+    ),
     ("occupant-pictures", &["placed-text", "occupant-units", "occupant-core", "occupant-files"]),
+    (
+        "occupant-jobs",
+        &[
+            "placed-text",
+            "occupant-units",
+            "crash-measures",
+            "vehicle-motion",
+            "occupant-core",
+            "occupant-scenario",
+            "occupant-study",
+            "cardio-legacy",
+            "occupant-files",
+            "occupant-pictures",
+        ],
+    ),
     (
         "occupant-cli",
         &[
@@ -130,6 +172,7 @@ const CRATES: [(&str, &[&str]); 11] = [
             "cardio-legacy",
             "occupant-files",
             "occupant-pictures",
+            "occupant-jobs",
         ],
     ),
 ];
@@ -254,10 +297,10 @@ fn the_scanner_sees_what_is_there() {
     assert_eq!(found, ["forces", "model", "results", "run"]);
 }
 
-/// A page in a browser and Python need files and pictures, and have no terminal.
+/// A page in a browser and Python need files, pictures and jobs, and have no terminal.
 #[test]
-fn files_and_pictures_talk_to_nobody() {
-    for krate in ["occupant-files", "occupant-pictures"] {
+fn files_pictures_and_jobs_talk_to_nobody() {
+    for krate in ["occupant-files", "occupant-pictures", "occupant-jobs"] {
         let mut files = Vec::new();
         sources(&crates().join(krate).join("src"), &mut files);
         for file in files {

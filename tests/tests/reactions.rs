@@ -137,7 +137,7 @@ fn every_channel_has_its_own_name_and_a_finite_value() {
     assert!(all.len() > 500, "{}", all.len());
     assert_eq!(matching(&model, "belt.lap.*").len(), 6);
     let near = find(&model, "head.aceleration.x").unwrap_err();
-    assert_eq!(near.as_deref(), Some("head.acceleration.x"));
+    assert_eq!(near.nearest.as_deref(), Some("head.acceleration.x"));
     watch(&model, |s| {
         for channel in &all {
             assert!(channel.value(s).is_finite(), "{}", channel.name);

@@ -8,13 +8,13 @@ use occupant_core::model::setup::{Integrator, Setup};
 use occupant_core::results::outcome::{Outcome, Status, StepError};
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError, Watch};
 use occupant_core::results::sample::Sample;
-use occupant_core::run::simulate::simulate;
+use occupant_core::run::simulate::attempt;
 use occupant_tests::cart::lap;
 
 /// Every bit of state, forces and energies at every output of a run.
 fn fingerprint(model: &Model) -> Vec<u64> {
     let mut bits = Vec::new();
-    let outcome = simulate(
+    let outcome = attempt(
         model,
         Watch(|s: &Sample<'_>| {
             let q = s.report_coordinates().unwrap();
@@ -96,7 +96,7 @@ impl Recorder for Diary {
 fn a_step_far_too_long_for_its_springs_ends_the_run_with_time_step_and_component() {
     let model = Model::new(far_too_stiff()).unwrap();
     let mut diary = Diary::default();
-    let outcome = simulate(&model, &mut diary).unwrap();
+    let outcome = attempt(&model, &mut diary).unwrap();
     let Status::Failed(ref error @ StepError::NotFinite { time_s, step_s, ref component }) = outcome.status else {
         panic!("{:?}", outcome.status);
     };
@@ -119,7 +119,7 @@ fn a_step_far_too_long_for_its_springs_ends_the_run_with_time_step_and_component
 #[test]
 fn an_error_control_that_asks_for_less_than_the_smallest_step_ends_the_run() {
     let model = Model::new(lap(adaptive(1e-9, 5e-4))).unwrap();
-    let outcome = simulate(&model, ()).unwrap();
+    let outcome = attempt(&model, ()).unwrap();
     let Status::Failed(StepError::StepTooSmall { time_s, step_s, min_step_s, error }) = outcome.status else {
         panic!("{:?}", outcome.status);
     };
@@ -139,7 +139,7 @@ impl Recorder for Stopper {
 #[test]
 fn a_recorder_can_stop_a_run_and_an_error_of_it_is_the_runs() {
     let model = Model::new(lap(Integrator::Rk4 { step_s: 5e-4 })).unwrap();
-    let outcome = simulate(&model, Stopper).unwrap();
+    let outcome = attempt(&model, Stopper).unwrap();
     assert_eq!(outcome.status, Status::Stopped);
     assert!((outcome.time_s - 0.010).abs() < 1e-12);
 
@@ -152,7 +152,7 @@ fn a_recorder_can_stop_a_run_and_an_error_of_it_is_the_runs() {
             Ok(Flow::Continue)
         }
     }
-    let error = simulate(&model, FullDisk).unwrap_err();
+    let error = attempt(&model, FullDisk).unwrap_err();
     assert!((error.time_s - 0.003).abs() < 1e-12);
     assert!(error.to_string().contains("the disk is full"));
 }
@@ -160,7 +160,7 @@ fn a_recorder_can_stop_a_run_and_an_error_of_it_is_the_runs() {
 #[test]
 fn a_summary_of_the_lap_case_says_what_touches_what_and_in_which_order() {
     let model = Model::new(lap(Integrator::Rk4 { step_s: 1e-4 })).unwrap();
-    let outcome = simulate(&model, ()).unwrap();
+    let outcome = attempt(&model, ()).unwrap();
     let touched = |sphere: &str, surface: &str| {
         outcome.first_touches.iter().position(|t| {
             model.body().spheres[t.sphere].name == sphere && model.setup().surfaces[t.surface].name == surface

@@ -236,24 +236,25 @@ fn head(text: &str, set: &[&str]) -> Found {
 
 /// Belts, a bag and a column under the default integrator against short steps of rk4: as they are, and with other materials, levels,
 /// delays, speeds and slopes.
-fn shipped(count: u64) {
+#[test]
+fn shipped_restraints_and_ten_variants_are_within_a_tenth_of_a_millimetre_of_short_steps() {
     let cases = [
-        ("three-point", include_str!("../../scenarios/three-point.toml"), 8192.0),
-        ("airbag-driver", include_str!("../../scenarios/airbag-driver.toml"), 9130.0),
-        ("column-driver", include_str!("../../scenarios/column-driver.toml"), 9628.0),
+        ("three-point", include_str!("../../scenarios/three-point.toml"), 8189.0),
+        ("airbag-driver", include_str!("../../scenarios/airbag-driver.toml"), 9220.0),
+        ("column-driver", include_str!("../../scenarios/column-driver.toml"), 9757.0),
     ];
     for (name, text, evaluations) in cases {
         let mut worst = [0.0_f64; 4];
-        for i in 0..count {
+        for i in 0..11 {
             let mut set = vec!["output.interval=\"1 ms\"".to_owned()];
             set.extend(if i == 0 { Vec::new() } else { other(&mut Random::new(i)) });
             let set: Vec<&str> = set.iter().map(String::as_str).collect();
             let found = head(text, &set);
             if i == 0 {
-                // against what they took when limiters did not yet end a step; measured: column-driver 2.06 %
-                assert_below(&format!("{name}: evaluations"), found.evaluations as f64 / evaluations - 1.0, 0.025);
+                // against what they took before switches ended their steps
+                assert_below(&format!("{name}: evaluations"), found.evaluations as f64 / evaluations - 1.0, 0.02);
             }
-            let short = "integrator={ kind = \"rk4\", step = \"5 us\" }";
+            let short = "integrator={ kind = \"rk4\", step = \"20 us\" }";
             let expected = head(text, &[&set[..], &[short]].concat());
             let off_m = found.path.iter().zip(&expected.path).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
             let figures = found.figures.iter().zip(&expected.figures);
@@ -283,16 +284,4 @@ fn other(random: &mut Random) -> Vec<String> {
         format!("materials.wheel.k1={}", number(15e3, 60e3)),
         format!("materials.floor.k1={}", number(25e3, 100e3)),
     ]
-}
-
-#[test]
-fn shipped_restraints_are_within_a_tenth_of_a_millimetre_of_short_steps() {
-    shipped(2);
-}
-
-/// What `docs/accuracy.md` says.
-#[test]
-#[ignore = "takes minutes"]
-fn ten_variants_of_each_are_too() {
-    shipped(11);
 }

@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3, Point3, Vector3};
 use occupant_core::body::{Body, ContactSphere};
+use occupant_core::forces::contact::material::DEFAULT_FRICTION_SPEED_M_S;
 use occupant_core::forces::contact::solid::{Shape, Solid};
 use occupant_core::forces::contact::surface::Frame;
 use occupant_core::forces::joint::Joints;
@@ -18,6 +19,7 @@ use occupant_tests::cases::{afloat, smooth};
 use occupant_tests::measure::assert_below;
 use occupant_tests::random::Random;
 use occupant_tests::room::ends_alike_side_by_side;
+use occupant_tests::steps::step;
 
 /// A ball that is thrown at a plate across the x axis, whose front is at x = 0.
 #[derive(Clone, Copy, Debug)]
@@ -204,6 +206,67 @@ fn balls_that_meet_posts_rims_and_edges_are_thrown_off_and_pass_none() {
         }
     }
     assert_below("against hard ones", worst, 0.05);
+}
+
+/// Speed along the plate and spin that friction of `coefficient` leaves, m/s and rad/s, by itself: the push is half a sine, and the
+/// friction acts half-way into the overlap.
+fn rubbed(throw: &Throw, coefficient: f64, spin_rad_s: f64) -> [f64; 2] {
+    let Throw { mass_kg, stiffness_n_per_m, radius_m, speed_m_s, aside, .. } = *throw;
+    let pace = (stiffness_n_per_m / mass_kg).sqrt();
+    let about = 0.4 * mass_kg * radius_m.powi(2);
+    let rate = |t: f64, [along, spin]: [f64; 2]| {
+        let depth_m = speed_m_s / pace * (pace * t).sin();
+        let lever_m = (radius_m - 0.5 * depth_m).max(0.0);
+        let slip = along + spin * lever_m;
+        let push = -coefficient * stiffness_n_per_m * depth_m * slip / slip.hypot(DEFAULT_FRICTION_SPEED_M_S);
+        [push / mass_kg, push * lever_m / about]
+    };
+    let h = throw.contact_s() / 20_000.0;
+    (0..20_000).fold([aside * speed_m_s, spin_rad_s], |y, i| step(h * f64::from(i), h, y, &rate))
+}
+
+#[test]
+fn balls_that_spin_and_rub_pass_no_plate_and_get_no_more_along_it_than_friction_gives() {
+    let mut random = Random::new(4);
+    let (mut worst, mut gripped) = ([0.0_f64; 2], 0);
+    for i in 0..300 {
+        let mut throw = Throw::random(&mut random);
+        // no deeper than a half of the ball
+        let least = throw.mass_kg * (2.0 * throw.speed_m_s / throw.radius_m).powi(2);
+        throw.stiffness_n_per_m = throw.stiffness_n_per_m.max(least);
+        let coefficient = random.between(0.05, 1.5);
+        let spin = random.between(-2.0, 2.0) * throw.speed_m_s / throw.radius_m;
+        let [along, turning] = rubbed(&throw, coefficient, spin);
+        gripped += u32::from((along - throw.aside * throw.speed_m_s).abs() < 1.9 * coefficient * throw.speed_m_s);
+        for integrator in [Integrator::default(), Integrator::Rk4 { step_s: STEPS_S[i % STEPS_S.len()] }] {
+            let mut setup = throw.setup(throw.plate(), integrator);
+            setup.materials[0].friction = coefficient;
+            if let InitialPosture::Placed(placing) = &mut setup.posture {
+                placing.spin_rad_s = Vector3::z() * spin;
+            }
+            let model = Model::new(setup).unwrap_or_else(|problems| panic!("{problems}"));
+            let [mut went, mut spun] = [Vector3::zeros(); 2];
+            // in axes of space y points to the left and z up
+            let watch = Watch(|s: &Sample<'_>| {
+                let ball = s.model.body().tree.segment(0);
+                (went, spun) = (s.cg_velocity_m_s(ball), s.angular_velocity_rad_s(ball));
+            });
+            let outcome = simulate(&model, watch).unwrap();
+            assert_eq!(outcome.status, Status::Completed);
+            let (across, pushed) = (went.x - throw.speed_m_s, -went.y - throw.aside * throw.speed_m_s);
+            assert!(went.x < 0.0, "{throw:?}, {integrator:?}: {went:?}");
+            // of the integrals of a push and of what it lets friction be at most
+            assert!(pushed.abs() <= 1.001 * coefficient * across.abs(), "{throw:?}, {integrator:?}: {pushed} {across}");
+            if integrator == Integrator::default() {
+                let size = throw.speed_m_s.hypot(spin * throw.radius_m);
+                let off = [-went.y - along, (-spun.z - turning) * throw.radius_m].map(|off| off.abs() / size);
+                worst = [worst[0].max(off[0]), worst[1].max(off[1])];
+            }
+        }
+    }
+    assert!((50..250).contains(&gripped), "{gripped}");
+    assert_below("along the plate", worst[0], 1e-4);
+    assert_below("spin", worst[1], 1e-4);
 }
 
 #[test]

@@ -64,10 +64,13 @@ pub(crate) struct WheelLayout {
     pub number: u32,
     /// Name of the surface.
     pub name: String,
-    /// The point with which its centre is level.
+    /// The point by which its centre lies.
     pub point: u32,
     /// How far its centre lies behind that point, in.
     pub behind_in: f64,
+    /// How far it lies below that point, in; level with it if absent.
+    #[serde(default)]
+    pub below_in: f64,
     /// Tilt of its plane from vertical, degrees; it faces rearward and up.
     pub tilt_deg: f64,
 }
@@ -106,6 +109,18 @@ pub(crate) struct LeftOut {
     pub name: String,
     /// Why, as the predicate of a sentence about it.
     pub why: &'static str,
+}
+
+impl WheelLayout {
+    /// Where it is, in words.
+    pub(crate) fn words(&self) -> String {
+        let height = match self.below_in {
+            0.0 => "level with it".to_owned(),
+            below if below < 0.0 => format!("{} in above it", -below),
+            below => format!("{below} in below it"),
+        };
+        format!("{} in behind point {} and {height}", self.behind_in, self.point)
+    }
 }
 
 impl CompartmentLayout {

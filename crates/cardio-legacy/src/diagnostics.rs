@@ -127,6 +127,8 @@ impl fmt::Display for Diagnostic {
 
 /// So many problems of one rule are shown.
 const SHOWN: usize = 5;
+/// What follows of cards whose columns moved.
+const OF_MOVED_COLUMNS: [Rule; 3] = [Rule::SeriesMissing, Rule::UnexpectedCard, Rule::NoTerminator];
 
 /// All problems of a file, in the order in which they were found.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -160,7 +162,9 @@ impl fmt::Display for Diagnostics {
     /// The problems, of each rule the first ones, then one line that counts them all.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut seen: Vec<(Rule, usize)> = Vec::new();
-        for item in &self.items {
+        let moved = self.items.iter().filter(|item| item.rule == Rule::Tab && item.severity == Severity::Error).count();
+        let shown = self.items.iter().filter(|item| moved < SHOWN || !OF_MOVED_COLUMNS.contains(&item.rule));
+        for item in shown {
             let at = seen.iter().position(|(rule, _)| *rule == item.rule).unwrap_or_else(|| {
                 seen.push((item.rule, 0));
                 seen.len() - 1
@@ -172,6 +176,9 @@ impl fmt::Display for Diagnostics {
         }
         for (rule, count) in seen.iter().filter(|(_, count)| *count > SHOWN) {
             writeln!(f, "and {} more of the kind [{}]\n", count - SHOWN, rule.name())?;
+        }
+        if moved >= SHOWN {
+            writeln!(f, "{moved} lines contain tabs: what cards are missing is told once they have columns\n")?;
         }
         let counted = |severity, name: &str| {
             let n = self.count(severity);

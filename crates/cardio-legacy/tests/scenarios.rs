@@ -250,6 +250,7 @@ fn every_change_that_cards_cannot_hold_is_refused() {
     let toml = deck("driver-lap-torso.dat").to_scenario(&options("driver-lap-torso.dat")).expect("converts").toml;
     let changes = [
         ("kind = \"rk4\"", "kind = \"adaptive\"", "integrator.kind"),
+        ("edge_force = \"contact_point\"", "", "contact.edge_force"),
         ("\"linear\"", "\"spline\"", "path.interpolation"),
         ("tilt = 25", "tilt = 30", "places the wheel"),
         ("neck.damping = ", "neck.twist_damping = 1\nneck.damping = ", "neck.twist_damping"),

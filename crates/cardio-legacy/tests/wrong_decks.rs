@@ -227,6 +227,20 @@ fn what_is_wrong_alike_on_many_cards_is_said_once() {
     assert!(decks[0].differences(of_zeros).is_empty());
 }
 
+/// What follows of a mistake in every line is not told beside it.
+#[test]
+fn one_mistake_in_every_line_is_told_as_one() {
+    let tabs = driver(|lines| lines.iter_mut().for_each(|line| *line = line.replace("          ", "\t")));
+    let said = parse(&tabs).1.to_string();
+    assert!(said.contains("44 lines contain tabs") && said.contains("error[tab]"), "{said}");
+    assert!(!said.contains("series-missing") && !said.contains("unexpected-card"), "{said}");
+    let numbered = driver(|lines| {
+        lines.iter_mut().enumerate().for_each(|(i, line)| *line = format!("{line:<72.72}{:08}", 10 * (i + 1)));
+    });
+    let said = parse(&numbered).1.to_string();
+    assert!(said.contains("columns 73–80 hold sequence numbers"), "{said}");
+}
+
 #[test]
 fn a_decimal_point_that_slipped_is_doubted() {
     for (ncard, behind, column, text, variable) in [
@@ -235,6 +249,8 @@ fn a_decimal_point_that_slipped_is_doubted() {
         ("5", 0, 11, "      33.5", "XLH"),
         ("5", 1, 11, "      92.0", "XLE(1)"),
         ("8", 1, 1, "      400.", "XV(1)"),
+        ("8", 0, 1, "      290.", "VCW"),
+        ("8", 0, 31, "      150.", "DSW"),
     ] {
         let found = warnings(&punched(ncard, behind, column, text));
         assert!(found.iter().any(|(rule, _, v)| *rule == Rule::Unlikely && v == variable), "{variable}: {found:?}");

@@ -38,6 +38,39 @@ fn a_deck_becomes_the_committed_scenario_and_comes_back() {
     assert_eq!(out.replace("case.dat", "driver-lap-torso.dat"), committed, "deck, scenario, deck, scenario");
 }
 
+/// No card places the wheel: who knows better has it in `compartment.toml` beside his decks, and all that reads them takes it.
+#[test]
+fn a_deck_stands_in_the_compartment_beside_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for name in ["unbelted.dat", "compartment.toml"] {
+        std::fs::copy(decks().join("report").join(name), folder.path().join(name)).expect(name);
+    }
+    let committed = std::fs::read_to_string(decks().join("report/unbelted.toml")).expect("committed");
+    let (code, out, said) = convert(folder.path(), &["unbelted.dat"]);
+    assert_eq!((code, &out), (0, &committed), "{said}");
+    assert!(said.contains("its compartment is that of compartment.toml"), "{said}");
+    let run = |words: &[&str]| {
+        let output = Command::cargo_bin("occupant").expect("built").current_dir(folder.path()).args(words).output();
+        let output = output.expect("runs");
+        String::from_utf8_lossy(&[output.stdout, output.stderr].concat()).into_owned()
+    };
+    let said = run(&["check", "unbelted.dat"]);
+    assert!(said.contains("its compartment is that of compartment.toml"), "{said}");
+    std::fs::write(folder.path().join("converted.toml"), out).expect("written");
+    let peak = |name: &str| {
+        let said = run(&["run", name, "--json", "--no-mcap", "-q"]);
+        let json = &said[said.find('{').expect("JSON")..];
+        let summary: serde_json::Value = serde_json::from_str(json).expect("JSON");
+        summary["accelerations"]["head"]["peak_g"].as_f64().expect("a peak")
+    };
+    // measured: with the built-in wheel 90.4 g
+    assert_eq!(peak("unbelted.dat"), peak("converted.toml"));
+    // a file that is none is an error, not the built-in one
+    std::fs::write(folder.path().join("compartment.toml"), "roof = 1").expect("written");
+    let (code, _, said) = convert(folder.path(), &["unbelted.dat"]);
+    assert!(code == 2 && said.contains("compartment.toml"), "{said}");
+}
+
 #[test]
 fn nothing_is_overwritten_without_force() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -43,7 +43,7 @@ WORK = {
     "run": ["run case.toml -q -o run.mcap --set time.end=0.15"],
     "sweep": ["sweep sweep.toml -o sweep -q --csv"],
     "bands": ["sweep ensemble.toml -o ensemble -q --csv", "study bands ensemble"],
-    "fit": ["fit fit.toml --to test.csv -o fit -q"],
+    "fit": ["fit fit.toml --test test.csv -o fit -q"],
 }
 
 
@@ -122,7 +122,7 @@ def kills(occupant, base, count, dice):
 
 SMALL = [
     "run case.toml -q -o run.mcap --set time.end=0.15", "sweep sweep.toml -o sweep -q --csv", "sweep ensemble.toml -o ensemble -q --csv",
-    "fit fit.toml --to test.csv -o fit -q", "print ../texts/seed.mcap -o out.txt", "report ../texts/seed.mcap -o out.html",
+    "fit fit.toml --test test.csv -o fit -q", "print ../texts/seed.mcap -o out.txt", "report ../texts/seed.mcap -o out.html",
     "export ../texts/seed.mcap -o out.csv", "export ../texts/seed.mcap -o out.parquet", "export ../texts/seed.mcap -o out.mme",
     "plot ../texts/seed.mcap -o out.svg", "plot ../texts/seed.mcap -o out.png", "view ../texts/seed.mcap -o out.png",
     "convert ../texts/deck.dat -o out.toml", "new out.toml", "run case.toml -q --ensemble 4 -o run.mcap",

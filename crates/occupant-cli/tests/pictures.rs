@@ -319,6 +319,82 @@ fn solids_are_drawn_in_views_and_on_the_page() {
     assert_eq!((&sides[surfaces.len()]["name"], &sides[surfaces.len()]["bounded"]), (&"block".into(), &true.into()));
 }
 
+/// A sphere that no limb reaches looks like a thing of its own: toes did, of legs without feet.
+#[test]
+fn no_sphere_of_a_body_floats_beside_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cart = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/cart-unbelted.toml");
+    for view in ["side", "top", "front"] {
+        let output = answer(folder.path(), &["view", cart, "-f", "-o", "sits.svg", "--views", view]);
+        assert_eq!(code(&output), 0, "{}", err(&output));
+        let svg = read(folder.path(), "sits.svg");
+        let groups = |opening: &str| -> Vec<String> {
+            let parts = svg.split(opening).skip(1).map(|rest| rest.split("</g>").next().unwrap_or_default().to_owned());
+            parts.collect()
+        };
+        let body = &groups("<g stroke=\"#2b2f36\" stroke-width=\"0.7\" stroke-linejoin=\"round\">")[0];
+        let spheres = &groups("<g fill=\"none\" stroke=\"#2b2f36\" stroke-opacity=\"0.45\"")[0];
+        let number = |text: &str| text.parse::<f64>().expect("a number");
+        let attribute = |element: &str, name: &str| {
+            element.split_once(&format!(" {name}=\"")).and_then(|(_, rest)| rest.split('"').next()).map(str::to_owned)
+        };
+        let polygons: Vec<Vec<[f64; 2]>> = body
+            .split("<polygon")
+            .filter_map(|element| attribute(element, "points"))
+            .map(|points| {
+                points.split(' ').filter_map(|p| p.split_once(',')).map(|(x, y)| [number(x), number(y)]).collect()
+            })
+            .collect();
+        let circles: Vec<[f64; 3]> = spheres
+            .split("<circle")
+            .filter_map(|element| {
+                Some(["cx", "cy", "r"].map(|name| attribute(element, name)).map(|v| number(&v.unwrap_or("0".into()))))
+            })
+            .filter(|[.., radius]| *radius > 0.0)
+            .collect();
+        assert!(circles.len() > 30 && polygons.len() > 20, "{} and {}", circles.len(), polygons.len());
+        // polygons are convex: inside is always on the same side
+        let holds = |polygon: &Vec<[f64; 2]>, c: &[f64; 2]| {
+            let sides = (0..polygon.len()).map(|i| {
+                let (a, b) = (polygon[i], polygon[(i + 1) % polygon.len()]);
+                (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+            });
+            let sides: Vec<f64> = sides.collect();
+            sides.iter().all(|s| *s > -0.5) || sides.iter().all(|s| *s < 0.5)
+        };
+        // its middle or a place of its edge
+        let meets = |[x, y, r]: &[f64; 3]| {
+            let edge = (0..16).map(|i| (f64::from(i) * std::f64::consts::TAU / 16.0).sin_cos());
+            let mut places = edge.map(|(sin, cos)| [x + r * cos, y + r * sin]).chain([[*x, *y]]);
+            places.any(|place| polygons.iter().any(|polygon| holds(polygon, &place)))
+        };
+        let alone: Vec<_> = circles.iter().filter(|circle| !meets(circle)).collect();
+        assert!(alone.is_empty(), "{view}: {alone:?}");
+    }
+}
+
+/// The greatest of −∫F dx over the outputs of a run, J: of a belt's force on the body, and of the sphere in it in the vehicle.
+fn work_on_belt(folder: &Path, run: &str, belt: &str, sphere: &str) -> f64 {
+    let channels = format!("belt.{belt}.body_force.*,sphere.{sphere}.position.*");
+    let output = answer(folder, &["export", run, "-f", "-o", "belt.csv", "--channel", &channels]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let csv = read(folder, "belt.csv");
+    let mut lines = csv.lines();
+    let headings: Vec<&str> = lines.next().expect("headings").split(',').collect();
+    let place = |name: &str| headings.iter().position(|h| h.split('[').next() == Some(name)).expect("a column");
+    let axes = |stem: &str| ["x", "y", "z"].map(|axis| place(&format!("{stem}.{axis}")));
+    let (force, way) = (axes(&format!("belt.{belt}.body_force")), axes(&format!("sphere.{sphere}.position")));
+    let rows: Vec<Vec<f64>> =
+        lines.map(|line| line.split(',').map(|cell| cell.parse().expect("a number")).collect()).collect();
+    let (mut work_j, mut greatest_j) = (0.0_f64, 0.0);
+    for pair in rows.windows(2) {
+        let along = |(f, x): (&usize, &usize)| 0.5 * (pair[0][*f] + pair[1][*f]) * (pair[1][*x] - pair[0][*x]);
+        work_j -= force.iter().zip(&way).map(along).sum::<f64>();
+        greatest_j = work_j.max(greatest_j);
+    }
+    greatest_j
+}
+
 #[test]
 fn three_runs_stand_abreast_with_ride_down_and_work() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -351,6 +427,14 @@ fn three_runs_stand_abreast_with_ride_down_and_work() {
     assert!(value(1, "Work taken up by belt lap").expect("work") > 0.0);
     assert!(value(2, "Work taken up by belt torso").expect("work") > 0.0);
     assert!(value(0, "Work taken up by panel_lower_face").expect("work") > 0.0);
+    // by themselves: what the body does on a belt is its force along the way of the sphere that it goes round
+    for (belt, sphere) in [("lap", "pelvis"), ("torso", "chest")] {
+        let own = value(2, &format!("Work taken up by belt {belt}")).expect("work");
+        let j_per_in_lbf = 0.112_984_829;
+        let work = work_on_belt(folder.path(), "cart-lap-torso.mcap", belt, sphere) / j_per_in_lbf;
+        // measured: 371.3 for 371.9, 6706.9 for 6707.6 in·lbf
+        assert!((own - work).abs() < 0.005 * work, "{belt}: {own} for {work}");
+    }
     // the same of results, and not of five
     let all = ["report", "cart-unbelted.mcap", "cart-lap.mcap", "cart-lap-torso.mcap", "-o", "again.html"];
     assert_eq!(code(&answer(folder.path(), &all)), 0);

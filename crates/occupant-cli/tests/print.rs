@@ -102,7 +102,7 @@ fn assert_printed(printed: &[f64], recorded: &[f64], unit: f64, decimals: i32) {
 #[test]
 fn every_page_has_the_titles_its_number_and_at_most_60_lines_of_132_columns() {
     let folder = recorded();
-    let text = printed(folder.path(), &["short.mcap", "--every", "10 ms"]);
+    let text = printed(folder.path(), &["short.mcap", "--interval", "10 ms"]);
     let pages = pages(&text);
     // five pages of echo at least, two a print time (0, 10, 20, 30 and the last, 39.5 ms), the last sheet
     assert!(pages.len() > 5 + 2 * 5, "{} pages", pages.len());
@@ -123,18 +123,18 @@ fn the_echo_lists_solids_where_there_are_any() {
     let solid = "[solids]\nbar = { kind = \"capsule\", material = \"seat\", ends = [[0.6, 0, 0.1], [0.6, 0.5, 0.1]], \
         radius = 0.05 }\n";
     let folder = recorded_of(&format!("{SCENARIO}\n{solid}"));
-    let text = printed(folder.path(), &["short.mcap", "--every", "1"]);
+    let text = printed(folder.path(), &["short.mcap", "--interval", "1"]);
     let line = text.lines().find(|line| line.starts_with(" 5 bar ")).expect("a line");
     for words in ["VEHICLE", "seat", "CAPSULE, RADIUS 0.0500", "0.6000"] {
         assert!(line.contains(words), "{line}");
     }
-    assert!(!printed(recorded().path(), &["short.mcap", "--every", "1"]).contains("SOLIDS"));
+    assert!(!printed(recorded().path(), &["short.mcap", "--interval", "1"]).contains("SOLIDS"));
 }
 
 #[test]
 fn the_echo_says_what_was_read_and_computed() {
     let folder = recorded();
-    let text = printed(folder.path(), &["short.mcap", "--every", "1"]);
+    let text = printed(folder.path(), &["short.mcap", "--interval", "1"]);
     for words in [
         "RUNGE-KUTTA, FOURTH ORDER, STEP 0.00025 SEC",
         "TITLE          Short",
@@ -196,7 +196,7 @@ fn printed_numbers_are_the_recorded_ones() {
 #[test]
 fn inches_and_pounds_come_with_the_scenario_or_on_request() {
     let folder = recorded();
-    let text = printed(folder.path(), &["short.mcap", "--units", "in-lbf-s", "--every", "1"]);
+    let text = printed(folder.path(), &["short.mcap", "--units", "in-lbf-s", "--interval", "1"]);
     assert!(text.contains("VEHICLE COORDINATES (IN)"));
     let cells = row(&text, 0, "1. END POINTS", "head");
     let end = value(folder.path(), "/occupant/segment/head", 0, "upper_end_vehicle_m");
@@ -209,7 +209,7 @@ fn inches_and_pounds_come_with_the_scenario_or_on_request() {
 #[test]
 fn the_last_sheet_lists_the_passed_pairs_of_the_run() {
     let folder = recorded();
-    let text = printed(folder.path(), &["short.mcap", "--every", "1"]);
+    let text = printed(folder.path(), &["short.mcap", "--interval", "1"]);
     let pages = pages(&text);
     let last = pages.last().expect("a page");
     for words in [
@@ -306,7 +306,7 @@ fn an_exact_state_is_echoed_with_the_digits_of_its_cards() {
     let run = ["run", "short.toml", "-q", "--until", "0.002"];
     let (code, _, said) = occupant(folder.path(), &run);
     assert_eq!(code, 0, "{said}");
-    let text = printed(folder.path(), &["short.mcap", "--every", "1"]);
+    let text = printed(folder.path(), &["short.mcap", "--interval", "1"]);
     let start = text.split("GENERALIZED COORDINATES AT THE START").nth(1).expect("coordinates");
     for digits in ["-5.28315849", "-0.261799", "-0.349066"] {
         assert!(start.lines().take(14).any(|line| line.contains(digits)), "{digits}: {start}");
@@ -318,7 +318,8 @@ fn an_exact_state_is_echoed_with_the_digits_of_its_cards() {
 #[test]
 fn print_times_that_are_no_outputs_are_said_to_be_uneven() {
     let folder = recorded();
-    let said = |every: &str| occupant(folder.path(), &["print", "short.mcap", "-o", "p.txt", "-f", "--every", every]).2;
+    let said =
+        |every: &str| occupant(folder.path(), &["print", "short.mcap", "-o", "p.txt", "-f", "--interval", every]).2;
     assert_eq!(said("2 ms"), "wrote p.txt\n");
     assert!(said("2.5 ms").contains("note: the print interval, 0.0025 s, is no multiple"), "{}", said("2.5 ms"));
 }
@@ -335,7 +336,7 @@ fn a_path_beside_the_scenario_travels_with_the_results() {
     assert_eq!(code, 0, "{said}");
     // the file alone is enough
     fs::remove_file(folder.path().join("side-slope-path.csv")).expect("removed");
-    let text = printed(folder.path(), &["side-slope.mcap", "--every", "10 ms"]);
+    let text = printed(folder.path(), &["side-slope.mcap", "--interval", "10 ms"]);
     assert!(text.contains("STATIONS, NATURAL SPLINES BETWEEN THEM"), "{text}");
     assert!(text.contains("PAIRS WITH NARRY(J,K) = 0: "));
 }
@@ -355,7 +356,7 @@ fn a_record_of_sensors_travels_with_the_results_and_is_printed_and_gone_on_with(
     let (code, _, said) = occupant(folder.path(), &run);
     assert_eq!(code, 0, "{said}");
     fs::remove_file(folder.path().join("side-slope-sensors.csv")).expect("removed");
-    let text = printed(folder.path(), &["run.mcap", "--every", "10 ms"]);
+    let text = printed(folder.path(), &["run.mcap", "--interval", "10 ms"]);
     for words in [
         "RECORDED MOTION, INTEGRATED",
         "GRAVITY        IN THE ACCELERATIONS",
@@ -371,7 +372,7 @@ fn a_file_that_was_cut_off_prints_what_it_has_and_says_so() {
     let whole = fs::read(folder.path().join("short.mcap")).expect("recorded");
     let cut = folder.path().join("cut.mcap");
     fs::write(&cut, &whole[..whole.len() * 6 / 10]).expect("written");
-    let (code, out, said) = occupant(folder.path(), &["print", "cut.mcap", "--every", "5 ms"]);
+    let (code, out, said) = occupant(folder.path(), &["print", "cut.mcap", "--interval", "5 ms"]);
     assert_eq!(code, 0, "{said}");
     assert!(said.contains("is partial"), "{said}");
     let all = pages(&out);
@@ -380,7 +381,7 @@ fn a_file_that_was_cut_off_prints_what_it_has_and_says_so() {
     assert!(last.contains("OF 0.029500 SEC"), "{last}");
     assert!(last.contains("PAIRS WITH NARRY(J,K) = 0: "), "{last}");
     let times = out.matches("    OUTPUT ").count();
-    let whole = printed(folder.path(), &["short.mcap", "--every", "5 ms"]);
+    let whole = printed(folder.path(), &["short.mcap", "--interval", "5 ms"]);
     let all_times = whole.matches("    OUTPUT ").count();
     assert!(0 < times && times < all_times, "{times} of {all_times}");
 }
@@ -401,14 +402,14 @@ fn files_that_cannot_be_printed_are_refused_in_words() {
     let bytes = empty.into_inner().into_inner();
     fs::write(folder.path().join("other.mcap"), bytes).expect("written");
     refused(&["other.mcap"], "no result of `occupant run`");
-    refused(&["deck.dat", "--every", "3 kg"], "not a time");
-    refused(&["deck.dat", "--every", "-1"], "--every");
+    refused(&["deck.dat", "--interval", "3 kg"], "not a time");
+    refused(&["deck.dat", "--interval", "-1"], "--interval");
 }
 
 #[test]
 fn an_interval_shorter_than_the_recorded_one_is_refused_and_files_are_kept() {
     let folder = recorded();
-    let finer = ["print", "short.mcap", "--every", "0.5 ms"];
+    let finer = ["print", "short.mcap", "--interval", "0.5 ms"];
     let (code, _, said) = occupant(folder.path(), &finer);
     assert_eq!(code, 2);
     assert!(said.contains("recorded every 0.001 s"), "{said}");
@@ -438,7 +439,7 @@ fn any_body_and_every_occupant_and_vehicle_is_printed() {
         let scenario = format!("{scenarios}{file}");
         let (code, _, said) = occupant(folder.path(), &["run", &scenario, "-q", "-o", "run.mcap", "--until", "20 ms"]);
         assert_eq!(code, 0, "{file}: {said}");
-        let text = printed(folder.path(), &["run.mcap", "--every", "10 ms"]);
+        let text = printed(folder.path(), &["run.mcap", "--interval", "10 ms"]);
         for word in words {
             assert!(text.contains(word), "{file}: {word}");
         }
@@ -458,7 +459,7 @@ fn a_path_of_straight_lines_has_its_acceleration_in_print() {
     let deck = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/decks/driver-lap-torso.dat");
     let (code, _, said) = occupant(folder.path(), &["run", deck, "-q", "-o", "run.mcap"]);
     assert_eq!(code, 0, "{said}");
-    let text = printed(folder.path(), &["run.mcap", "--every", "40 ms"]);
+    let text = printed(folder.path(), &["run.mcap", "--interval", "40 ms"]);
     let title = "FROM DIFFERENCES OF THE STATIONS";
     let at_40_ms = text.split("TIME 0.040000").nth(1).expect("a page");
     let line = at_40_ms.lines().find(|line| line.contains(title)).expect("a row");

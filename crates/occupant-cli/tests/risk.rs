@@ -92,16 +92,17 @@ fn the_yawing_vectors_of_thiv() {
 fn distances_first_contact_and_gravity_are_options() {
     let folder = folder();
     steady(folder.path(), "ax[g],ay[g],az[g]", "-10,0,-1", 10_000);
-    let report = json(
-        folder.path(),
-        &["a.csv", "--flail-x", "0.3 m", "--start", "50 ms", "--end", "0.19", "--gravity-included"],
-    );
+    let report =
+        json(folder.path(), &["a.csv", "--flail-x", "0.3 m", "--start", "50 ms", "--to", "0.19", "--gravity-included"]);
     let met_s = (0.6 / (10.0 * G)).sqrt();
     assert_near(value(&report, "oiv_x_m_s"), 10.0 * G * met_s, 1e-6);
     let when = report["measures"]["oiv_x_m_s"]["when_s"][0].as_f64().unwrap();
     assert_near(when, 0.05 + met_s, 1e-6);
     assert_near(value(&report, "max_50ms_z_m_s2"), 0.0, 1e-9);
     assert_near(report["record"]["end_s"].as_f64().unwrap(), 0.19, 1e-9);
+    // the former name of --to
+    let former = json(folder.path(), &["a.csv", "--end", "0.19"]);
+    assert_near(former["record"]["end_s"].as_f64().unwrap(), 0.19, 1e-9);
 }
 
 #[test]
@@ -143,9 +144,13 @@ fn rules_judge_with_margin_and_origin() {
     }
     assert!(out.contains("¹ limit read in a source that quotes the rule"), "{out}");
     assert!(!out.contains("NCHRP"), "{out}");
+    assert!(out.contains("MASH 2016: AASHTO, Manual for Assessing Safety Hardware, 2nd edition, 2016"), "{out}");
     // without a rule all are shown, and none decides
     let (code, out, _) = occupant(folder.path(), &["risk", "a.csv"]);
     assert_eq!(code, 0);
+    for document in ["NCHRP Report 350, TRB, 1993", "EN 1317-2:2010", "EN 1317-3:2010", "EN 12767:2007"] {
+        assert!(out.contains(document), "{document}: {out}");
+    }
     assert!(out.contains("NCHRP 350") && out.contains("EN 1317-1:2010"), "{out}");
     let (code, _, _) = occupant(folder.path(), &["risk", "a.csv", "--rule", "en1317-1998"]);
     assert_eq!(code, 1, "a THIV of 46 km/h");

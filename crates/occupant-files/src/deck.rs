@@ -1,10 +1,10 @@
 //! A card deck in the place of a scenario: it is converted in memory.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use cardio_legacy::{Conversion, ConvertOptions, Deck, ParseOptions, Plot};
+use cardio_legacy::{CompartmentLayout, Conversion, ConvertOptions, Deck, ParseOptions, Plot};
 
-use crate::base::{Failure, file_name};
+use crate::base::{Failure, file_name, input_file};
 
 /// A deck that was read as a scenario.
 pub struct FromDeck {
@@ -21,10 +21,34 @@ pub fn is_deck(bytes: &[u8]) -> bool {
     Deck::is_likely(bytes)
 }
 
-/// The scenario of the only deck of a file.
+/// Where decks of a folder have the compartment that no card gives.
+const COMPARTMENT: &str = "compartment.toml";
+
+/// The layout of a compartment, which says what points of series 8 bound, and where the wheel is.
 ///
 /// # Errors
-/// What is wrong with the deck; several decks, of which one is to be chosen; a path that the deck takes from disk.
+/// A file that cannot be read, or is no layout.
+pub fn compartment(path: &Path) -> Result<CompartmentLayout, Failure> {
+    let text = String::from_utf8(input_file::read(path)?)
+        .map_err(|_| Failure::plain(format!("{} is not UTF-8 text", path.display())))?;
+    CompartmentLayout::from_toml(&text).map_err(|reason| Failure::plain(format!("{}: {reason}", path.display())))
+}
+
+/// The file with the compartment of a deck that stands in its folder, if there is one.
+pub fn compartment_beside(deck: &Path) -> Option<PathBuf> {
+    let beside = deck.with_file_name(COMPARTMENT);
+    (deck.is_file() && beside.is_file()).then_some(beside)
+}
+
+/// Says of what compartment a conversion is.
+pub fn of_compartment(file: Option<&Path>) -> String {
+    file.map_or(String::new(), |file| format!("its compartment is that of {}\n", file.display()))
+}
+
+/// The scenario of the only deck of a file, in the compartment that stands beside it.
+///
+/// # Errors
+/// What is wrong with the deck or its compartment; several decks, of which one is to be chosen; a path that the deck takes from disk.
 pub fn from_deck(path: &Path, bytes: &[u8]) -> Result<FromDeck, Failure> {
     let name = path.display().to_string();
     let options = ParseOptions { file: name.clone(), ..ParseOptions::default() };
@@ -37,11 +61,17 @@ pub fn from_deck(path: &Path, bytes: &[u8]) -> Result<FromDeck, Failure> {
         let help = format!("occupant convert {name} -o NAME.toml makes a scenario of each, to be run one by one");
         return Err(Failure::with_help(found, &help));
     };
-    let options = ConvertOptions { deck_name: file_name(path), ..ConvertOptions::default() };
+    let beside = compartment_beside(path);
+    let compartment = beside.as_deref().map(compartment).transpose()?;
+    let options = ConvertOptions { deck_name: file_name(path), compartment, ..ConvertOptions::default() };
     let help = "occupant convert has options for such a deck, and writes a scenario to be run";
     let converted = deck.to_scenario(&options).map_err(|error| Failure::with_help(format!("{name}: {error}"), help));
     let Conversion { toml, report } = converted?;
     let found = if diagnostics.is_empty() { String::new() } else { format!("{diagnostics}\n\n") };
-    let words = format!("{found}{name} is a card deck, converted in memory: {}\n{report}\n", deck.titles()[0]);
+    let words = format!(
+        "{found}{name} is a card deck, converted in memory: {}\n{}{report}\n",
+        deck.titles()[0],
+        of_compartment(beside.as_deref())
+    );
     Ok(FromDeck { toml, words, wants_plots: deck.plot() == Plot::Standard })
 }

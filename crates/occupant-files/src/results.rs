@@ -16,7 +16,7 @@ use occupant_core::results::outcome::{Outcome, Status};
 use occupant_core::results::recorder::{Recorder, Watch};
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{RunStatus, Summarizer, Summary};
-use occupant_core::run::simulate::{replay, simulate};
+use occupant_core::run::simulate::{attempt, replay};
 use occupant_scenario::ending::{Balance, Ending};
 use occupant_scenario::{Format, Loaded};
 
@@ -212,7 +212,7 @@ impl Results {
         let again = |what: String| self.refused(&format!("it cannot be run again: {what}"));
         let model = Model::new(setup).map_err(|problems| again(self.loaded.diagnose(&problems).to_string()))?;
         let mut seen = (Summarizer::judging(options), FrictionWatch::new());
-        let outcome = simulate(&model, &mut seen).map_err(|e| again(e.to_string()))?;
+        let outcome = attempt(&model, &mut seen).map_err(|e| again(e.to_string()))?;
         if let Status::Failed(error) = outcome.status {
             return Err(again(error.to_string()));
         }

@@ -4,6 +4,8 @@
 //! without Python's lock.
 
 mod convert;
+mod force;
+mod live;
 mod run;
 mod scenario;
 mod study;
@@ -13,6 +15,8 @@ use pyo3::prelude::*;
 
 #[pymodule]
 mod _occupant {
+    #[pymodule_export]
+    use super::live::LiveRun;
     #[pymodule_export]
     use super::run::Run;
     #[pymodule_export]

@@ -7,7 +7,7 @@ use occupant_core::results::checkpoint::Checkpoint;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{Summarizer, Summary};
-use occupant_core::run::simulate::{replay, simulate};
+use occupant_core::run::simulate::{attempt, replay};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -36,7 +36,7 @@ impl Recorder for Keeper {
 impl Run {
     pub(crate) fn of(model: Model) -> PyResult<Self> {
         let mut recorders = (Summarizer::new(), Keeper(Vec::with_capacity(model.output_count())));
-        simulate(&model, &mut recorders).map_err(plain)?;
+        attempt(&model, &mut recorders).map_err(plain)?;
         let (summarizer, Keeper(checkpoints)) = recorders;
         let summary = summarizer.summary(None).ok_or_else(|| plain("the run ended before its first output"))?;
         Ok(Run { model, checkpoints, summary })
@@ -105,10 +105,7 @@ impl Run {
 
     /// The time history of a channel, a value for each output time, in its SI unit.
     fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let channel = find(&self.model, name).map_err(|near| {
-            let help = near.map_or_else(String::new, |near| format!("; did you mean {near}?"));
-            PyKeyError::new_err(format!("no channel is called {name}{help}"))
-        })?;
+        let channel = find(&self.model, name).map_err(|unknown| PyKeyError::new_err(unknown.to_string()))?;
         let series = py.detach(|| self.series(vec![channel]))?;
         Ok(series.values.into_iter().next().unwrap_or_default().into_pyarray(py))
     }

@@ -1,13 +1,20 @@
 //! Scenarios.
 
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, PoisonError};
 
 use occupant_core::model::Model;
+use occupant_core::vehicle::{VehiclePath, VehicleState};
 use occupant_scenario::{Diagnostics, Draft, Format};
+use placed_text::Value;
+use pyo3::IntoPyObjectExt;
+use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
 use crate::convert::{assigned, json};
+use crate::force::{Brought, Where};
+use crate::live::{LiveRun, Trouble, state};
 use crate::run::Run;
 use crate::trouble::{plain, problems, refused};
 
@@ -17,6 +24,8 @@ use crate::trouble::{plain, problems, refused};
 pub(crate) struct Scenario {
     pub(crate) draft: Draft,
     folder: PathBuf,
+    /// Forces that Python brings.
+    forces: Vec<Arc<Brought>>,
 }
 
 #[pymethods]
@@ -41,7 +50,47 @@ impl Scenario {
             other => return Err(plain(format!("format \"{other}\"; expected \"toml\" or \"json\""))),
         };
         let draft = Draft::read(text, format, "text").map_err(|wrong| refused(&wrong))?;
-        Ok(Scenario { draft, folder })
+        Ok(Scenario::of(draft, folder))
+    }
+
+    /// The value at a path, `scenario["joints.neck.damping"]`, presets included: a number, a text with its unit, a list, a dict of
+    /// all that a path with a star leads to.
+    fn __getitem__<'py>(&self, py: Python<'py>, path: &str) -> PyResult<Bound<'py, PyAny>> {
+        let mut found = self.draft.clone().get(path).map_err(|wrong| PyKeyError::new_err(wrong.to_string()))?;
+        if !path.contains('*') && found.len() == 1 {
+            let (_, value) = found.swap_remove(0);
+            return written(py, &value);
+        }
+        let dict = PyDict::new(py);
+        for (place, value) in found {
+            dict.set_item(place, written(py, &value)?)?;
+        }
+        Ok(dict.into_any())
+    }
+
+    /// Adds a force of one's own: `function(t, places, velocities)` gives a force for each of `places`, N. Places are spheres by name, or
+    /// points `("head", [x, y, z])` of a segment, of "vehicle" or of "space", m. The function sees and says all in space axes: x
+    /// forward, y left, z up. It must follow from what it is given.
+    fn add_force(&mut self, name: String, places: Vec<Bound<'_, PyAny>>, function: Py<PyAny>) -> PyResult<()> {
+        let places = places.iter().map(Where::of).collect::<PyResult<Vec<_>>>()?;
+        self.forces.push(Arc::new(Brought { name, places, function }));
+        Ok(())
+    }
+
+    /// A run that is stepped from outside. With `velocity` the vehicle begins with it, m/s, at `place`, m, turned by `attitude`, rad, and
+    /// is told from then on how it moves: `LiveRun.push`.
+    #[pyo3(signature = (velocity=None, place=[0.0; 3], attitude=[0.0; 3], rates=[0.0; 3]))]
+    fn live(
+        &self,
+        py: Python<'_>,
+        velocity: Option<[f64; 3]>,
+        place: [f64; 3],
+        attitude: [f64; 3],
+        rates: [f64; 3],
+    ) -> PyResult<LiveRun> {
+        let start = velocity.map(|velocity| state(place, attitude, velocity, rates));
+        let (model, trouble) = self.own_model(py, start)?;
+        Ok(LiveRun::of(model, trouble))
     }
 
     /// Changes a value, `scenario["path.speed"] = "30 mph"`: a number in the scenario's units, a text with its unit, a list,
@@ -82,7 +131,15 @@ impl Scenario {
 
     /// Simulates it. Other threads of Python go on meanwhile.
     fn run(&self, py: Python<'_>) -> PyResult<Run> {
-        py.detach(|| Run::of(self.model().map_err(|wrong| refused(&wrong))?.0))
+        if self.forces.is_empty() {
+            return py.detach(|| Run::of(self.model().map_err(|wrong| refused(&wrong))?.0));
+        }
+        let (model, trouble) = self.own_model(py, None)?;
+        let run = py.detach(|| Run::of(model))?;
+        match trouble.lock().unwrap_or_else(PoisonError::into_inner).take() {
+            Some(error) => Err(error),
+            None => Ok(run),
+        }
     }
 }
 
@@ -91,16 +148,58 @@ impl Scenario {
         let name = path.display().to_string();
         let bytes = std::fs::read(path)?;
         let draft = Draft::read_bytes(&bytes, format_of(path), &name).map_err(|wrong| refused(&wrong))?;
-        Ok(Scenario { draft, folder: path.parent().map(Path::to_owned).unwrap_or_default() })
+        Ok(Scenario::of(draft, path.parent().map(Path::to_owned).unwrap_or_default()))
     }
 
     pub(crate) fn of(draft: Draft, folder: PathBuf) -> Self {
-        Scenario { draft, folder }
+        Scenario { draft, folder, forces: Vec::new() }
+    }
+
+    /// The model with forces that Python brings, and of a vehicle that is told on the way if it begins with `start`.
+    fn own_model(&self, py: Python<'_>, start: Option<VehicleState>) -> PyResult<(Model, Trouble)> {
+        let loaded = self.draft.clone().load(&|file| beside(&self.folder, file)).map_err(|wrong| refused(&wrong))?;
+        let (mut setup, _) = loaded.build().map_err(|wrong| refused(&wrong))?;
+        if let Some(start) = start {
+            let ahead = loaded.triggers_of_path();
+            if !ahead.is_empty() {
+                let found = format!("triggers that look ahead along the path: {}", ahead.join(", "));
+                return Err(plain(found + "; expected triggers by time, or by what belts do"));
+            }
+            setup.path = VehiclePath::live(start);
+        }
+        let trouble = Trouble::default();
+        for force in &self.forces {
+            setup.own_forces.push(force.own(py, &setup, trouble.clone())?);
+        }
+        let model = py.detach(|| Model::new(setup)).map_err(|problems| refused(&loaded.diagnose(&problems)))?;
+        Ok((model, trouble))
     }
 
     fn model(&self) -> Result<(Model, Diagnostics), Diagnostics> {
         self.draft.clone().load(&|file| beside(&self.folder, file))?.model()
     }
+}
+
+/// A value as Python's.
+fn written<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
+    Ok(match value {
+        Value::Null => py.None().into_bound(py),
+        Value::Bool(is) => is.into_bound_py_any(py)?,
+        Value::Integer(whole) => whole.into_bound_py_any(py)?,
+        Value::Float(number) => number.into_bound_py_any(py)?,
+        Value::String(text) => text.into_bound_py_any(py)?,
+        Value::Array(items) => {
+            let items = items.iter().map(|item| written(py, &item.value)).collect::<PyResult<Vec<_>>>()?;
+            PyList::new(py, items)?.into_any()
+        }
+        Value::Table(table) => {
+            let dict = PyDict::new(py);
+            for (key, entry) in table {
+                dict.set_item(key, written(py, &entry.node.value)?)?;
+            }
+            dict.into_any()
+        }
+    })
 }
 
 /// The format that a file's ending says, if it says one.

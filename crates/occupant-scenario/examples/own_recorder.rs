@@ -53,9 +53,9 @@ impl Recorder for HeadToHub {
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let no_files = |name: &str| Err(format!("{name}: no files here"));
     let cases = [
-        ("no belt", include_str!("../../../tests/data/carts/cart-unbelted.toml")),
-        ("lap belt", include_str!("../../../tests/data/carts/cart-lap.toml")),
-        ("lap and torso belt", include_str!("../../../tests/data/carts/cart-lap-torso.toml")),
+        ("no belt", include_str!("../testdata/carts/cart-unbelted.toml")),
+        ("lap belt", include_str!("../testdata/carts/cart-lap.toml")),
+        ("lap and torso belt", include_str!("../testdata/carts/cart-lap-torso.toml")),
     ];
     for (belts, text) in cases {
         let (model, _) = Scenario::from_text(text, Format::Toml, belts, &no_files)?.model()?;

@@ -53,7 +53,7 @@ impl VehicleMotion for ObliqueCollision {
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     // the compartment and the driver of a scenario, the vehicle's motion from here
-    let text = include_str!("../../../scenarios/cart-lap-torso.toml");
+    let text = include_str!("../scenarios/cart-lap-torso.toml");
     let no_files = |name: &str| Err(format!("{name}: no files here"));
     let (mut setup, _) = Scenario::from_text(text, Format::Toml, "cart-lap-torso.toml", &no_files)?.build()?;
     let collision = ObliqueCollision {

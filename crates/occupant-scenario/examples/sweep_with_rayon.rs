@@ -9,7 +9,7 @@ use rayon::prelude::*;
 type Failure = Box<dyn std::error::Error + Send + Sync>;
 
 pub(crate) fn main() -> Result<(), Failure> {
-    let base = Draft::read(include_str!("../../../scenarios/cart-lap-torso.toml"), Format::Toml, "cart")?;
+    let base = Draft::read(include_str!("../scenarios/cart-lap-torso.toml"), Format::Toml, "cart")?;
     let speeds_mph: Vec<u32> = (10..=40).step_by(5).collect();
     let rows: Result<Vec<Summary>, Failure> = speeds_mph.par_iter().map(|mph| stop_from(&base, *mph)).collect();
     println!("stop from   head   chest   lap belt   torso belt");

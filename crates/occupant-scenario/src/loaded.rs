@@ -86,6 +86,12 @@ impl Loaded {
         build(&self.scenario, &self.explicit, &self.document, drives)
     }
 
+    /// Names of the triggers that look ahead along the path of the vehicle: none of a motion that is told on the way can be.
+    pub fn triggers_of_path(&self) -> Vec<String> {
+        let looks_ahead = self.explicit.triggers.iter().filter(|(_, trigger)| trigger.is_of_path());
+        looks_ahead.map(|(name, _)| name.clone()).collect()
+    }
+
     /// What is driven before people are looked at, with warnings; none in a scenario without `drive`.
     ///
     /// # Errors

@@ -27,7 +27,7 @@ use occupant_core::run::simulate::simulate;
 use occupant_core::vehicle::VehiclePath;
 use occupant_scenario::{Draft, Format, preset_body};
 
-const CART: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/carts/cart-lap-torso.toml");
+const CART: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/testdata/carts/cart-lap-torso.toml");
 
 fn from_text(text: &str) -> Setup {
     let no_files = |name: &str| Err(format!("{name}: no files here"));

@@ -41,7 +41,7 @@ impl Recorder for Outputs {
 
 /// The driver in a lap belt on a cart that stops.
 fn lap(integrator: Integrator) -> Setup {
-    let text = include_str!("../../../tests/data/carts/cart-lap.toml");
+    let text = include_str!("../testdata/carts/cart-lap.toml");
     let no_files = |name: &str| Err(format!("{name}: no files here"));
     let loaded = Scenario::from_text(text, Format::Toml, "cart-lap.toml", &no_files).unwrap();
     Setup { integrator, ..loaded.build().unwrap().0 }

@@ -29,6 +29,9 @@ use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 /// Stack of a thread, bytes: eight runs side by side of many bodies are large to make.
 const STACK: usize = 16 << 20;
 
+/// More threads than this are more than any machine has cores.
+pub const MOST_THREADS: usize = 1024;
+
 /// Where runs come from and what they leave. One is shared by all threads.
 pub trait Source: Sync {
     /// Takes the results of one run.
@@ -106,14 +109,14 @@ pub struct Engine {
 }
 
 impl Engine {
-    /// So many threads, or fewer where the system gives no more.
+    /// So many threads, at most [`MOST_THREADS`] and fewer where the system gives no more.
     ///
     /// # Errors
     /// The system gives not even one.
     pub fn new(threads: usize, kernel: Kernel) -> Result<Engine, ThreadPoolBuildError> {
         let pool =
             |n| ThreadPoolBuilder::new().num_threads(n).stack_size(STACK).thread_name(|i| format!("runs {i}")).build();
-        let mut count = threads.max(1);
+        let mut count = threads.clamp(1, MOST_THREADS);
         loop {
             match pool(count) {
                 Err(_) if count > 1 => count /= 2,

@@ -14,11 +14,31 @@ fn alike<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'
     let plain = plain(word);
     let limit = plain.chars().count().clamp(2, 60) / 3;
     candidates
-        .map(|candidate| (strsim::osa_distance(&plain, &self::plain(candidate)), candidate))
+        .map(|candidate| (distance(&plain, &self::plain(candidate)), candidate))
         .filter(|(d, _)| *d <= limit.max(1))
         .min_by_key(|(d, _)| *d)
         .filter(|(d, candidate)| *d == 0 || plain.chars().count() > 2 || candidate.len() > 2)
         .map(|(_, candidate)| candidate)
+}
+
+/// How many letters must be put in, left out, changed or exchanged with their neighbour to make one word of another, each place at
+/// most once: the distance of optimal string alignment.
+fn distance(one: &str, other: &str) -> usize {
+    let other: Vec<char> = other.chars().collect();
+    let (mut before, mut row): (Vec<usize>, Vec<usize>) = (Vec::new(), (0..=other.len()).collect());
+    let mut last = None;
+    for (i, a) in one.chars().enumerate() {
+        let mut next = vec![i + 1];
+        for (j, b) in other.iter().enumerate() {
+            let mut least = (row[j] + usize::from(a != *b)).min(row[j + 1] + 1).min(next[j] + 1);
+            if j > 0 && last == Some(*b) && other[j - 1] == a {
+                least = least.min(before[j - 1] + 1);
+            }
+            next.push(least);
+        }
+        (before, row, last) = (row, next, Some(a));
+    }
+    row[other.len()]
 }
 
 /// Letters in lower case, `-` and blanks as `_`.
@@ -29,6 +49,21 @@ fn plain(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn letters_are_counted() {
+        let all = [
+            ("", "", 0),
+            ("ab", "", 2),
+            ("abc", "abc", 0),
+            ("firction", "friction", 1),
+            ("ca", "abc", 3),
+            ("äb", "bä", 1),
+        ];
+        for (one, other, count) in all {
+            assert_eq!([distance(one, other), distance(other, one)], [count; 2], "{one} {other}");
+        }
+    }
 
     #[test]
     fn finds_what_was_meant_and_nothing_else() {

@@ -2,9 +2,10 @@
 
 use crate::V3;
 use crate::body::Body;
-use crate::chassis::{Chassis, State};
+use crate::chassis::Chassis;
 use crate::crush::touch::Pose;
 use crate::ground::Ground;
+use crate::state::State;
 
 /// Speed over which friction turns, m/s.
 const TURNS_M_S: f64 = 0.127;

@@ -1,6 +1,6 @@
 //! The pair of Bogacki and Shampine, orders 3 and 2, with error control (Appl. Math. Lett. 2 (1989) 321).
 
-use crate::chassis::{MOTION, State};
+use crate::state::{MOTION, State};
 
 /// What the error of a step is measured against.
 #[derive(Clone, Copy, Debug, PartialEq)]

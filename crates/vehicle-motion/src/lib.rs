@@ -45,6 +45,7 @@
 //! | [`ground`] | plane, cross-section, curbs, zones of friction; how a wheel meets them |
 //! | [`tyre`] | the law of slip and shear force |
 //! | [`driver`] | steering, brake and drive over time; a driver who follows a line; what he does when hit |
+//! | [`state`] | numbers of a vehicle's state, and sums of work |
 //! | [`chassis`] | equations of motion: the rate of change of the state |
 //! | [`crush`] | force per width over crush, outlines and nodes, contacts that keep momentum |
 //! | [`barrier`] | walls, poles, blocks, cushions, signs, rails |
@@ -72,6 +73,7 @@ mod rail;
 pub mod ride;
 pub mod run;
 mod slider;
+pub mod state;
 pub mod tyre;
 mod vehicle;
 pub mod world;

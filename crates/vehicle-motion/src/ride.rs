@@ -2,7 +2,8 @@
 
 use nalgebra::{Quaternion, UnitQuaternion};
 
-use crate::chassis::{State, WheelReport};
+use crate::chassis::WheelReport;
+use crate::state::State;
 use crate::{V3, WHEELS};
 
 /// Where a vehicle starts, as it stands on the ground there.

@@ -1,11 +1,12 @@
 //! A drive of one vehicle from its start to its end, and what it leaves: stations and the energy balance.
 
 use crate::car::Car;
-use crate::chassis::{Chassis, State};
+use crate::chassis::Chassis;
 use crate::driver::Driver;
 use crate::ground::Ground;
 use crate::integrate::Tolerance;
 pub use crate::ride::{Ride, Start, Station};
+use crate::state::State;
 use crate::world::{Begin, Entry, World, WorldError};
 
 /// One vehicle, its driver and the ground.

@@ -2,10 +2,11 @@
 
 use crate::body::Body;
 use crate::car::{Car, CarError};
-use crate::chassis::{Chassis, Controls, Report, State};
+use crate::chassis::{Chassis, Controls, Report};
 use crate::driver::{Driver, LOOK_S, OnImpact, Steering, ackermann_rad};
 use crate::ground::Ground;
 use crate::ride::Start;
+use crate::state::State;
 use crate::{V3, WHEELS};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 

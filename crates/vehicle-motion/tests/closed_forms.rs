@@ -4,11 +4,12 @@ mod common;
 
 use common::proof_car;
 use vehicle_motion::car::Car;
-use vehicle_motion::chassis::{Controls, State};
+use vehicle_motion::chassis::Controls;
 use vehicle_motion::driver::{Driver, Follower, Steering, Table};
 use vehicle_motion::ground::Ground;
 use vehicle_motion::integrate::Tolerance;
 use vehicle_motion::run::{Drive, Ride, Start};
+use vehicle_motion::state::State;
 use vehicle_motion::tyre::Tyre;
 use vehicle_motion::{GRAVITY_M_S2, V3};
 

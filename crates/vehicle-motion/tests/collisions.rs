@@ -6,10 +6,11 @@ use common::proof_car;
 use vehicle_motion::barrier::{Barrier, Wall};
 use vehicle_motion::body::{Body, Crush, Reading, Row, Side, Stiffness};
 use vehicle_motion::car::{Car, Class};
-use vehicle_motion::chassis::{Chassis, State};
+use vehicle_motion::chassis::Chassis;
 use vehicle_motion::driver::Driver;
 use vehicle_motion::integrate::Tolerance;
 use vehicle_motion::run::Start;
+use vehicle_motion::state::State;
 use vehicle_motion::world::{Begin, Entry, Outcome, Partner, World};
 use vehicle_motion::{GRAVITY_M_S2 as G, V3};
 

@@ -5,8 +5,9 @@ mod common;
 use common::proof_car;
 use serde_json::Value;
 use vehicle_motion::car::Car;
-use vehicle_motion::chassis::{Chassis, Controls, NUMBERS, Outside, State};
+use vehicle_motion::chassis::{Chassis, Controls};
 use vehicle_motion::ground::Ground;
+use vehicle_motion::state::{NUMBERS, Outside, State};
 use vehicle_motion::tyre::Tyre;
 
 fn reference_car() -> Car {

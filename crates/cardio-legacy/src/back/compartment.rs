@@ -134,12 +134,14 @@ fn check_wheel(back: &mut Back<'_>, layout: &CompartmentLayout, surface: &Surfac
     let (sin, cos) = wheel.tilt_deg.to_radians().sin_cos();
     let tilted = (axis / axis.norm() - Vector3::new(-cos, 0.0, -sin)).norm() > SAME_PLACE;
     let differ = |one: f64, two: f64| (one - two).abs() > SAME_PLACE * (1.0 + one.abs());
-    let moved = differ(x - wheel.behind_in * inch, centre_m.x) || differ(z, centre_m.z);
+    let moved = differ(x - wheel.behind_in * inch, centre_m.x) || differ(z + wheel.below_in * inch, centre_m.z);
     back.misfit_if(
         moved || tilted,
         format!(
-            "surfaces.{}: no card places the wheel; a deck has it {} in behind point {}, level with it, tilted {} degrees",
-            wheel.name, wheel.behind_in, wheel.point, wheel.tilt_deg
+            "surfaces.{}: no card places the wheel; a deck has it {}, tilted {} degrees",
+            wheel.name,
+            wheel.words(),
+            wheel.tilt_deg
         ),
     );
 }

@@ -267,7 +267,7 @@ fn times(back: &mut Back<'_>) {
         }
     }
     back.misfit_if(
-        setup.edge_force != EdgeForce::default(),
-        "the edge force at the sphere's centre: cards cannot choose it",
+        setup.edge_force != EdgeForce::AtContactPoint && !setup.surfaces.is_empty(),
+        "contact.edge_force = \"centre\", which it is unless a scenario says another: cards know \"contact_point\" only",
     );
 }

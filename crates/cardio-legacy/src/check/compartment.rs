@@ -18,6 +18,8 @@ const EQUALITIES: [&[&str]; 7] = [
 const TOLERANCE_IN: f64 = 1e-6;
 /// A point of a car's compartment lies no further from its centre of gravity.
 const FARTHEST_IN: f64 = 200.0;
+/// No car is wider to each side.
+const WIDEST_IN: f64 = 60.0;
 
 pub(super) fn check(c: &mut Check<'_>) {
     let (width, roof, wheel) = (c.value("VCW"), c.value("VRW"), c.value("SWP"));
@@ -43,6 +45,11 @@ pub(super) fn check(c: &mut Check<'_>) {
     let narrow = width > 0.0 && width < 8.0;
     c.wrong_if(narrow, Rule::LooksLikeOtherUnit, "VCW", "a compartment narrower than a person")
         .expected("half of the width in inches", "multiply feet by 12");
+    c.wrong_if(width > WIDEST_IN, Rule::Unlikely, "VCW", "half of the width of no car")
+        .expected("14 to 40 inches", "look for the decimal point, and give half of the width");
+    let size = c.value("DSW");
+    c.wrong_if(size > 0.0 && !(8.0..=30.0).contains(&size), Rule::Unlikely, "DSW", "the diameter of no steering wheel")
+        .expected("14 to 18 inches", "look for the decimal point, and give the diameter");
     (1..=25).for_each(|surface| check_stiffness(c, "STIF", surface));
     BELTS.iter().for_each(|belt| check_stiffness(c, "SK", belt.0));
 }

@@ -18,6 +18,8 @@ struct Written {
 pub(super) fn write(w: &mut Writer<'_>, layout: &CompartmentLayout) {
     let surfaces = surfaces(w, layout);
     let groups = materials(w, &surfaces);
+    w.table("contact", "The report lets all of a contact force act at the point of contact");
+    w.set("edge_force", "\"contact_point\"");
     w.table(
         "materials",
         "Series 9: surfaces with the same six numbers share a material, named after the first of them",
@@ -37,8 +39,9 @@ pub(super) fn write(w: &mut Writer<'_>, layout: &CompartmentLayout) {
     }
     let wheel = &layout.wheel;
     w.report.assumptions.push(format!(
-        "the steering wheel's centre stands {} in behind point {} and level with it, its plane tilted {} degrees: no card places it",
-        wheel.behind_in, wheel.point, wheel.tilt_deg
+        "the steering wheel's centre stands {}, its plane tilted {} degrees: no card places it",
+        wheel.words(),
+        wheel.tilt_deg
     ));
     let unused = layout.unused_coordinates();
     if !unused.is_empty() {
@@ -174,7 +177,10 @@ fn place(w: &mut Writer<'_>, corner: &Corner) -> String {
 fn disc(w: &mut Writer<'_>, layout: &CompartmentLayout) -> String {
     let wheel = &layout.wheel;
     let x = decimal(w.value(&format!("XV({})", wheel.point)) - wheel.behind_in);
-    let z = w.bare(&format!("ZV({})", wheel.point));
+    let z = match wheel.below_in {
+        0.0 => w.bare(&format!("ZV({})", wheel.point)),
+        below_in => decimal(w.value(&format!("ZV({})", wheel.point)) + below_in),
+    };
     let y = negated(&w.bare("SWP"));
     let diameter = w.bare("DSW");
     format!("disc = {{ centre = [{x}, {y}, {z}], diameter = {diameter}, tilt = {} }}", wheel.tilt_deg)

@@ -8,8 +8,11 @@ use crate::cards::{CardId, END_OF_NUMBERS, NCARD, SeriesLayout, series};
 use crate::check::check_deck;
 use crate::deck::{Deck, Plot};
 use crate::diagnostics::Diagnostic;
-use crate::punched::PunchedCard;
+use crate::punched::{Columns, PunchedCard};
 use crate::rule::Rule;
+
+/// Where card readers punched sequence numbers.
+const SEQUENCE: Columns = Columns::new(73, 80);
 
 /// How many cards are searched for the third one when the titles are not where they should be.
 const TITLE_SEARCH: usize = 8;
@@ -128,7 +131,11 @@ impl Reader<'_> {
             .on(first)
             .at(NCARD)
             .expected("the first card of a series, with its number ending in column 80, or the card 1000")
-            .remedy("look for a surplus card, a missing first card or a wrong card number")
+            .remedy(if are_numbered(&here[..count]) {
+                "columns 73–80 hold sequence numbers, where card numbers are to be: blank them, and punch the card numbers"
+            } else {
+                "look for a surplus card, a missing first card or a wrong card number"
+            })
             .report(self.sink);
         self.at += count;
     }
@@ -171,6 +178,13 @@ impl Reader<'_> {
         self.check_rest_of_word_card(card, id);
         Some(plot.unwrap_or(Plot::None))
     }
+}
+
+/// Whether columns 73–80 of cards hold sequence numbers: digits that grow from card to card.
+fn are_numbered(cards: &[PunchedCard]) -> bool {
+    let number = |card: &PunchedCard| card.text_of(SEQUENCE).trim().parse::<u32>().ok();
+    let numbers: Option<Vec<u32>> = cards.iter().map(number).collect();
+    numbers.is_some_and(|all| all.len() > 2 && all.windows(2).all(|pair| pair[0] < pair[1]))
 }
 
 /// Where the card of series 3 stands, counted from the first title.

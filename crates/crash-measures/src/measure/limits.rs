@@ -61,6 +61,29 @@ impl Rule {
             Self::SeverityIndex => "severity index (historical)",
         }
     }
+
+    /// The document that sets its limits, with edition, year and place.
+    #[must_use]
+    pub fn document(self) -> &'static str {
+        match self {
+            Self::Fmvss208 => "NHTSA, 49 CFR 571.208, S6, as of 2000 (advanced air bags)",
+            Self::UnR94 => "UN Regulation 94, paragraph 5.2.1, as amended in 1998",
+            Self::UnR137 => "UN Regulation 137, paragraph 5.2.1, 2016",
+            Self::Mash2016 | Self::Mash2016Supports => {
+                "AASHTO, Manual for Assessing Safety Hardware, 2nd edition, 2016, Table 5-1, criteria F, H and I"
+            }
+            Self::Nchrp350 | Self::Nchrp350Supports => {
+                "Ross and others, NCHRP Report 350, TRB, 1993, Table 5.1, criteria H and I"
+            }
+            Self::En1317Edition1998 => "CEN, EN 1317-2:1998 with A1:2006 (class C), impact severity levels",
+            Self::En1317Edition2010 => "CEN, EN 1317-2:2010, impact severity levels",
+            Self::En1317CushionHeadOn | Self::En1317CushionSide => "CEN, EN 1317-3:2010, impact severity levels",
+            Self::En12767 | Self::En12767Slow => {
+                "CEN, EN 12767:2007, levels of occupant safety; the edition of 2019 has classes A to E instead"
+            }
+            Self::SeverityIndex => "Gadd, SAE 660793, 1966; of the chest as of the head",
+        }
+    }
 }
 
 /// What is limited.
@@ -328,6 +351,20 @@ mod tests {
         assert_eq!(of(Dummy::HybridIii5F, FemurAxial), [6805.0]);
         assert_eq!(of(Dummy::Thor50M, FemurAxial), [0.0; 0]);
         assert_eq!(of(Dummy::Thor50M, Quantity::Nij), [1.0]);
+    }
+
+    /// Whoever reads a verdict finds the document and its year.
+    #[test]
+    fn each_rule_names_its_document_and_a_year() {
+        let has_year = |words: &str| {
+            words
+                .split(|c: char| !c.is_ascii_digit())
+                .any(|number| number.len() == 4 && number > "1959" && number < "2030")
+        };
+        for limit in LIMITS {
+            let document = limit.rule.document();
+            assert!(has_year(document), "{}: {document}", limit.rule.name());
+        }
     }
 
     #[test]

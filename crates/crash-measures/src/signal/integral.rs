@@ -83,10 +83,14 @@ impl<'a> CumulativeIntegral<'a> {
         second
     }
 
-    /// The second integral at `time_s`, given [`Self::second_at_samples`], clamped to the record.
+    /// The second integral at `time_s`, given [`Self::second_at_samples`], clamped to the record; not a number with a list of
+    /// another length.
     #[must_use]
     pub fn second_at(&self, second: &[f64], time_s: f64) -> f64 {
         let (i, s) = self.cell(time_s);
+        if second.len() != self.values.len() {
+            return f64::NAN;
+        }
         let slope = (self.values[i + 1] - self.values[i]) / self.dt_s;
         second[i] + s * (self.first[i] + s * (0.5 * self.values[i] + slope * s / 6.0))
     }

@@ -21,7 +21,7 @@ fuzz_target!(|bytes: &[u8]| {
     write(name, bytes);
     give(&[
         &format!("sweep {name} -o file/out"),
-        &format!("fit {name} --to test.csv -o file/out"),
+        &format!("fit {name} --test test.csv -o file/out"),
         &format!("fit {name} -o file/out"),
     ]);
 });

@@ -1,7 +1,6 @@
-//! How far a run is, or many runs are: a bar on a terminal; of many runs else a line now and then.
+//! How far a run is, or many runs are: a bar on a terminal.
 
 use std::fmt;
-use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use occupant_core::model::Model;
@@ -9,7 +8,8 @@ use occupant_core::results::outcome::Outcome;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 
-use super::talk::say;
+use occupant_jobs::base::Show;
+use occupant_jobs::base::progress::Bar;
 
 /// A recorder that shows how far the run is.
 #[derive(Debug)]
@@ -43,75 +43,39 @@ pub(crate) fn bar(length: Option<u64>, template: &str, quiet: bool) -> ProgressB
     bar
 }
 
-/// How far many runs are: a bar on a terminal, else a line now and then.
-#[derive(Debug)]
-pub(crate) struct Runs {
-    bar: ProgressBar,
-    quiet: bool,
-    what: &'static str,
-    every: Duration,
-    line: Instant,
-    began: Instant,
-    /// How many were done before this process.
-    before: u64,
+/// The same for jobs.
+struct Terminal(ProgressBar);
+
+impl Bar for Terminal {
+    fn set_length(&self, all: u64) {
+        self.0.set_length(all);
+    }
+
+    fn set_position(&self, done: u64) {
+        self.0.set_position(done);
+    }
+
+    fn set_message(&self, words: String) {
+        self.0.set_message(words);
+    }
+
+    fn forget_rate(&self) {
+        self.0.reset_eta();
+    }
+
+    fn clear(&self) {
+        self.0.finish_and_clear();
+    }
 }
 
-impl Runs {
-    /// Of so many of `what`; without a terminal at most a line `every` so often.
-    pub(crate) fn new(length: u64, what: &'static str, every: Duration, quiet: bool) -> Self {
-        let (bar, now) = (bar(Some(length), &counted(what), quiet), Instant::now());
-        Runs { bar, quiet, what, every, line: now, began: now, before: 0 }
-    }
-
-    /// So many were there before: they say nothing of the rate.
-    pub(crate) fn from(mut self, before: u64) -> Self {
-        self.bar.set_position(before);
-        self.bar.reset_eta();
-        self.before = before;
-        self
-    }
-
-    /// Seconds since the beginning.
-    pub(crate) fn elapsed_s(&self) -> f64 {
-        self.began.elapsed().as_secs_f64()
-    }
-
-    /// The bar's words as a line: how many, how fast, how long still.
-    pub(crate) fn words(&self, done: u64) -> String {
-        let all = self.bar.length().unwrap_or(done);
-        let computed = done.saturating_sub(self.before);
-        if computed == 0 {
-            return format!("{done} of {all} {}", self.what);
-        }
-        let rate = computed as f64 / self.elapsed_s();
-        if done > all {
-            return format!("{done} {}, {rate:.1}/s", self.what);
-        }
-        let to_go_s = all.saturating_sub(done) as f64 / rate;
-        format!("{done} of {all} {}, {rate:.1}/s, {to_go_s:.0} s to go", self.what)
-    }
-
-    /// The bar, where there is one.
-    pub(crate) fn bar(&self) -> Option<&ProgressBar> {
-        (!self.bar.is_hidden()).then_some(&self.bar)
-    }
-
-    /// Whether lines are written, but none for a while.
-    pub(crate) fn is_line_due(&self) -> bool {
-        !self.quiet && self.line.elapsed() > self.every
-    }
-
-    /// Writes a line.
-    pub(crate) fn say(&mut self, text: &str) {
-        if !self.quiet {
-            say(text);
-            self.line = Instant::now();
-        }
-    }
-
-    /// No more.
-    pub(crate) fn end(&self) {
-        self.bar.finish_and_clear();
+/// What a job shows on standard error.
+pub(crate) fn show(quiet: bool) -> Show {
+    Show {
+        quiet,
+        bar: |all, what| {
+            let bar = bar(Some(all), &counted(what), false);
+            (!bar.is_hidden()).then(|| Box::new(Terminal(bar)) as Box<dyn Bar>)
+        },
     }
 }
 

@@ -6,7 +6,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use placed_text::plain;
 
-use super::failure::Failure;
+use occupant_jobs::base::text_table::fit_terminal;
+use occupant_jobs::base::{Failure, talk};
 
 /// Whether the process began with its standard output closed. The standard library opens `/dev/null` in its place before
 /// `main`, so that what is written is lost and nobody hears of it.
@@ -60,15 +61,30 @@ pub(crate) fn say(text: &str) {
     let _unwritten = writeln!(stderr().lock(), "{}", plain(text));
 }
 
-/// Says what to know of a result.
-pub(crate) fn note(text: &String) {
-    say(&format!("note: {text}"));
+/// Writes what jobs say while they work to standard error.
+struct Voice;
+
+impl log::Log for Voice {
+    fn enabled(&self, about: &log::Metadata<'_>) -> bool {
+        about.target() == talk::TARGET
+    }
+
+    fn log(&self, message: &log::Record<'_>) {
+        if self.enabled(message.metadata()) {
+            say(&message.args().to_string());
+        }
+    }
+
+    fn flush(&self) {}
 }
 
-/// A value as JSON text for people and programs, with a line end.
-pub(crate) fn json(value: &impl serde::Serialize) -> Result<String, Failure> {
-    let mut text = serde_json::to_string_pretty(value)
-        .map_err(|e| Failure::BrokeOff(format!("error: the result is not JSON: {e}")))?;
-    text.push('\n');
-    Ok(text)
+/// From now on what jobs say is written to standard error, and their tables fit the terminal.
+pub(crate) fn hear_jobs() {
+    if let Some((terminal_size::Width(columns), _)) = terminal_size::terminal_size_of(stdout()) {
+        fit_terminal(columns);
+    }
+    // whoever uses the command as a library may listen elsewhere
+    if log::set_logger(&Voice).is_ok() {
+        log::set_max_level(log::LevelFilter::Info);
+    }
 }

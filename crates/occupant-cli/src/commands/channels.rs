@@ -11,8 +11,8 @@ use placed_text::did_you_mean;
 use super::new::STARTER;
 use crate::base::text_table::{Align, Table};
 use crate::base::{Failure, by_ending, ending, quoted, talk};
-use crate::files::results::Results;
-use crate::files::scenario::{self, ScenarioArgs};
+use occupant_files::results::Results;
+use occupant_jobs::files::scenario::{self, ScenarioArgs};
 
 /// List the channels of a run: name, unit, meaning
 ///

@@ -4,7 +4,7 @@ use occupant_core::diagnosis::{Diagnosis, RK4_STABILITY_LIMIT, diagnose};
 
 use super::tables::check::check_text;
 use crate::base::{Done, Failure, UnitsArg, say, talk};
-use crate::files::scenario::{self, ScenarioArgs, warn_of};
+use occupant_jobs::files::scenario::{self, ScenarioArgs, warn_of};
 
 /// Check a scenario and show what will be simulated, without running it
 ///
@@ -37,7 +37,7 @@ pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
     opened.loaded.compare_with_people(&mut diagnosis.body);
     let units = args.units.or(opened.loaded.scenario.units);
     if args.json {
-        talk::print(&talk::json(&diagnosis)?)?;
+        talk::print(&crate::base::json(&diagnosis)?)?;
     } else if !args.quiet {
         talk::print(&check_text(&diagnosis, units))?;
     }

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use super::flags::history::{TestArgs, WindowArgs};
 use crate::base::{Done, Failure, json, note, print, say};
-use crate::files::history::Treatment;
-use crate::jobs::compare::{Request, Window, compare as rate};
+use occupant_jobs::compare::{Request, Window, compare as rate};
+use occupant_jobs::files::history::Treatment;
 
 /// Rate how well a run follows a test: ISO/TS 18571, CORA, Sprague–Geers, ANOVA
 ///

@@ -7,12 +7,13 @@ use cardio_legacy::{
     write_file,
 };
 use clap::ArgGroup;
+use occupant_files::deck::{compartment, compartment_beside, of_compartment};
 use occupant_scenario::{Draft, Format, Loaded};
 
 use crate::base::input_file::{deck, read};
 use crate::base::{Failure, ending, file_name, print_file, publish, refuse_input, say, with_word};
-use crate::files::scenario::{files_beside, format_of};
-use crate::jobs::extend::{extend, extend_run};
+use occupant_jobs::extend::{extend, extend_run};
+use occupant_jobs::files::scenario::{files_beside, format_of};
 
 /// Convert a card deck of 1970 to a scenario, or a scenario to a card deck
 ///
@@ -54,7 +55,7 @@ pub(crate) struct Args {
     #[arg(long, requires = "path")]
     path_cards: bool,
 
-    /// Which points bound which surface, instead of the built-in reconstruction
+    /// Which points bound which surface, instead of compartment.toml beside the deck or the built-in reconstruction
     #[arg(long, value_name = "FILE.toml")]
     compartment: Option<PathBuf>,
 
@@ -97,13 +98,16 @@ impl From<Seating> for DeckSeating {
 /// Converts in the direction that the ending of the input gives.
 pub(crate) fn convert(args: &Args) -> Result<(), Failure> {
     let bytes = deck(&args.input)?;
-    let layout = args.compartment.as_deref().map(compartment).transpose()?;
+    let is_deck = ending(&args.input) != "mcap" && format_of(&args.input).is_none();
+    let beside = if is_deck { compartment_beside(&args.input) } else { None };
+    let file = args.compartment.clone().or(beside);
+    let layout = file.as_deref().map(compartment).transpose()?;
     if ending(&args.input) == "mcap" {
         return deliver_deck(args, run_to_deck(args, &bytes, layout.as_ref())?);
     }
     match format_of(&args.input) {
         Some(format) => deliver_deck(args, scenario_to_deck(args, &bytes, format, layout.as_ref())?),
-        None => decks_to_scenarios(args, &bytes, layout),
+        None => decks_to_scenarios(args, &bytes, layout, file.as_deref()),
     }
 }
 
@@ -111,12 +115,12 @@ fn read_text(path: &Path) -> Result<String, Failure> {
     String::from_utf8(read(path)?).map_err(|_| Failure::plain(format!("{} is not UTF-8 text", path.display())))
 }
 
-fn compartment(path: &Path) -> Result<CompartmentLayout, Failure> {
-    CompartmentLayout::from_toml(&read_text(path)?)
-        .map_err(|reason| Failure::plain(format!("{}: {reason}", path.display())))
-}
-
-fn decks_to_scenarios(args: &Args, bytes: &[u8], layout: Option<CompartmentLayout>) -> Result<(), Failure> {
+fn decks_to_scenarios(
+    args: &Args,
+    bytes: &[u8],
+    layout: Option<CompartmentLayout>,
+    of: Option<&Path>,
+) -> Result<(), Failure> {
     let decks = decks(args, bytes)?;
     if decks.len() > 1 && args.output.is_none() {
         let found = format!("{} holds {} decks, and standard output takes one", args.input.display(), decks.len());
@@ -140,7 +144,8 @@ fn decks_to_scenarios(args: &Args, bytes: &[u8], layout: Option<CompartmentLayou
             None => conversion.toml.into_bytes(),
         };
         deliver(args, output.as_deref(), &text)?;
-        reports.push_str(&format!("{}: {}\n{}\n", args.input.display(), deck.titles()[0], conversion.report));
+        let (name, title) = (args.input.display(), &deck.titles()[0]);
+        reports.push_str(&format!("{name}: {title}\n{}{}\n", of_compartment(of), conversion.report));
     }
     report(args, &reports)
 }

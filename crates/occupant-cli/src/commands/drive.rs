@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use crate::base::{Done, Failure, UnitsArg, note, print, publish, refuse_input, say, talk};
-use crate::files::scenario::{self, ScenarioArgs};
-use crate::files::table::Form;
-use crate::jobs::drive::{Driven, columns, json, path_columns, plan, text, write};
-use crate::pictures::Format;
+use crate::base::{Done, Failure, UnitsArg, note, print, publish, refuse_input, say};
+use occupant_files::table::Form;
+use occupant_jobs::drive::{Driven, columns, json, path_columns, plan, text, write};
+use occupant_jobs::files::scenario::{self, ScenarioArgs};
+use occupant_pictures::Format;
 
 /// Pixels of a user unit of a plan.
 const PIXELS: f64 = 2.0;
@@ -56,7 +56,7 @@ pub(crate) fn drive(args: &Args) -> Result<Done, Failure> {
     let (loaded, drives) = scenario::drives(&args.scenario)?;
     let all: Vec<Driven> = (0..drives.vehicles.len()).map(|i| Driven::of(&drives, i)).collect();
     if args.json {
-        print(&talk::json(&json(&drives, &all))?)?;
+        print(&crate::base::json(&json(&drives, &all))?)?;
     } else {
         print(&text(&drives, &all, args.units.or(loaded.scenario.units)))?;
     }

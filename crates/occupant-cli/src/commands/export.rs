@@ -5,17 +5,17 @@ use std::path::{Path, PathBuf};
 use super::flags::history::{code_letter, interval};
 use crate::base::input_file::is_input;
 use crate::base::{Existing, Failure, deliver, ending, file_name, note, print_file, program, refuse_input, say};
-use crate::files::export::{About, table};
-use crate::files::history::{AxisChoice, Filter, Histories, Treatment, UnitChoice, choose, family_name, load};
-use crate::files::mme::{Labels, files};
-use crate::files::results::Results;
-use crate::files::scenario::inputs;
-use crate::files::study_folder::StudyTable;
-use crate::files::table::Form;
-use crate::jobs::export::{TableFiles, publish_folder};
-use crate::jobs::sweep::results::refuse_gaps;
-use crate::jobs::sweep::stored::{MadeBy, Stored, open};
-use crate::pictures::gltf::glb;
+use occupant_files::export::{About, table};
+use occupant_files::mme::{Labels, files};
+use occupant_files::results::Results;
+use occupant_files::table::Form;
+use occupant_jobs::export::{TableFiles, publish_folder};
+use occupant_jobs::files::history::{AxisChoice, Filter, Histories, Treatment, UnitChoice, choose, family_name, load};
+use occupant_jobs::files::scenario::inputs;
+use occupant_jobs::files::study_folder::StudyTable;
+use occupant_jobs::sweep::results::refuse_gaps;
+use occupant_jobs::sweep::stored::{MadeBy, Stored, open};
+use occupant_pictures::gltf::glb;
 
 /// Write a run's time histories as CSV, Parquet, XLSX, MAT or ISO-MME, or its motion as a scene
 ///

@@ -3,21 +3,21 @@
 use std::path::PathBuf;
 
 use super::flags::sweep::{EngineArgs, folder_of};
-use crate::base::{Failure, Interrupt, json, print, program, quoted, say};
-use crate::files::measured::MapArgument;
-use crate::files::study_folder::checksums::Checksums;
-use crate::files::study_folder::folder::Folder;
-use crate::files::study_folder::journal::Journal;
-use crate::files::study_folder::shard::Shard;
-use crate::jobs::fit::evaluator::Evaluator;
-use crate::jobs::fit::fitting::Fitting;
-use crate::jobs::fit::identified::search;
-use crate::jobs::fit::opening::Given;
-use crate::jobs::fit::output::Output;
-use crate::jobs::fit::progress::Progress;
-use crate::jobs::fit::report;
-use crate::jobs::sweep::stored::sha256_of;
-use crate::jobs::sweep::words::{tell_damaged, warn_unlocked};
+use crate::base::{Failure, json, listen, print, program, progress, quoted, say};
+use occupant_files::measured::MapArgument;
+use occupant_jobs::files::study_folder::checksums::Checksums;
+use occupant_jobs::files::study_folder::folder::Folder;
+use occupant_jobs::files::study_folder::journal::Journal;
+use occupant_jobs::files::study_folder::shard::Shard;
+use occupant_jobs::fit::evaluator::Evaluator;
+use occupant_jobs::fit::fitting::Fitting;
+use occupant_jobs::fit::identified::search;
+use occupant_jobs::fit::opening::Given;
+use occupant_jobs::fit::output::Output;
+use occupant_jobs::fit::progress::Progress;
+use occupant_jobs::fit::report;
+use occupant_jobs::sweep::stored::sha256_of;
+use occupant_jobs::sweep::words::{tell_damaged, warn_unlocked};
 
 /// Find the parameters of a study with which runs follow a test best
 ///
@@ -34,7 +34,7 @@ pub(crate) struct Args {
     study: PathBuf,
 
     /// A test: a text table (CSV) or an ISO-MME test; may be repeated. Not needed where the study names its tests
-    #[arg(long, value_name = "TEST")]
+    #[arg(long = "test", alias = "to", value_name = "FILE")]
     to: Vec<PathBuf>,
 
     /// The folder of the results, made if it is not there; that of the study's name in the present folder if absent
@@ -78,8 +78,8 @@ pub(crate) fn fit(args: &Args) -> Result<(), Failure> {
     let held = folder.claim(&fitting.manifest, &fitting.texts, Shard::WHOLE, args.restart)?;
     warn_unlocked(&held, "fitting into one folder", args.quiet);
     let sums = Checksums::open(&folder.path, |_| true)?;
-    let interrupt = Interrupt::listen("stopping; once more to stop at once");
-    let progress = Progress::new(fitting.fit.budget, args.quiet);
+    let interrupt = listen("stopping; once more to stop at once");
+    let progress = Progress::new(fitting.fit.budget, progress::show(args.quiet));
     let mut evaluator = Evaluator::new(&fitting, (&folder, &sums), &sha256, &engine, &interrupt, progress)?;
     tell_damaged(&[held.mended, sums.damaged()].concat());
     if evaluator.known() > 0 && !args.quiet {

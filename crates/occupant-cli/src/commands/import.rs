@@ -7,8 +7,8 @@ use occupant_scenario::kind::{FREQUENCY, KINDS, LENGTH, SPEED, TIME};
 use super::flags::history::{WindowArgs, interval};
 use super::new::with_path;
 use crate::base::{Failure, ending, file_name, file_stem, note, one_of, publish, quoted, refuse_input, say};
-use crate::files::measured::{self, AXES, Axes, Imported, Reading};
-use crate::jobs::import::{Made, PathFilter, PathTable, Request, import as made};
+use occupant_files::measured::{self, AXES, Axes, Imported, Reading};
+use occupant_jobs::import::{Made, PathFilter, PathTable, Request, import as made};
 
 /// Make a scenario and curves of the record of a test
 ///

@@ -14,8 +14,8 @@ use super::flags::history::interval;
 use super::tables::measures::{remarks, risks, side_by_side, table};
 use super::tables::summary::Marks;
 use crate::base::{Done, Failure, Units, UnitsArg, json, note, one_of, print};
-use crate::files::history::{FAMILIES, family_name};
-use crate::files::results::Results;
+use occupant_files::results::Results;
+use occupant_jobs::files::history::{FAMILIES, family_name};
 
 /// Readings of filtered channels are taken so often, s: the 10 kHz of SAE J211.
 const FILTERED_S: f64 = 1e-4;

@@ -38,7 +38,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use placed_text::shown;
 
-use crate::base::{Done, Failure, say, survive_long_files, written};
+use crate::base::{Done, Failure, hear_jobs, say, survive_long_files, written};
 
 /// Simulates the occupant of a car in a crash or a violent manoeuvre.
 #[derive(Debug, Parser)]
@@ -100,6 +100,7 @@ pub fn main() -> ExitCode {
 
 /// Does what these words say, of which the first is the program's name.
 pub fn answer(words: impl IntoIterator<Item = OsString>) -> ExitCode {
+    hear_jobs();
     match Cli::try_parse_from(words) {
         Ok(cli) => exit_code(done(cli.command)),
         Err(wrong) if wrong.use_stderr() => exit_code(Err(Failure::CouldNotRun(in_lines(&wrong.render().to_string())))),

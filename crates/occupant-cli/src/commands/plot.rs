@@ -9,11 +9,11 @@ use placed_text::number;
 
 use super::flags::history::{TestArgs, WindowArgs};
 use crate::base::{Failure, file_name, note, program, publish, refuse_input, said_and_opened, say, with_word};
-use crate::files::history::{AxisChoice, Treatment, UnitChoice};
-use crate::files::results::Results;
-use crate::jobs::plot::{Request, plots};
-use crate::pictures::Format;
-use crate::pictures::plot::{Figure, LimitArgument, Sheet, sheet};
+use occupant_files::results::Results;
+use occupant_jobs::files::history::{AxisChoice, Treatment, UnitChoice};
+use occupant_jobs::plot::{Request, plots};
+use occupant_pictures::Format;
+use occupant_pictures::plot::{Figure, LimitArgument, Sheet, sheet};
 
 /// Draw time histories of one or more runs as SVG or PNG
 ///
@@ -77,7 +77,7 @@ pub(crate) struct Args {
     title: Option<String>,
 
     /// Plots beside each other on a sheet
-    #[arg(long, value_name = "N", default_value = "3", value_parser = clap::value_parser!(u8).range(1..=10))]
+    #[arg(long = "across", alias = "columns", value_name = "N", default_value = "3", value_parser = clap::value_parser!(u8).range(1..=10))]
     columns: u8,
 
     /// Pixels of a PNG for each unit of the drawing (1/96 inch)

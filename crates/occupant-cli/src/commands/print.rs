@@ -6,7 +6,7 @@ use cardio_legacy::print::{printout, uneven};
 
 use super::flags::history::interval;
 use crate::base::{Failure, UnitsArg, deliver, note, print, refuse_input, say};
-use crate::jobs::print::read;
+use occupant_jobs::print::read;
 
 /// Print a run as paged text, as the report's program did
 ///
@@ -27,7 +27,7 @@ pub(crate) struct Args {
     force: bool,
 
     /// Print interval (DTPRNT), such as "10 ms" or 0.01; every recorded output if absent
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = interval)]
+    #[arg(long = "interval", alias = "every", value_name = "TIME", allow_hyphen_values = true, value_parser = interval)]
     every: Option<f64>,
 
     #[command(flatten)]

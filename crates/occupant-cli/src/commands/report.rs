@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use crate::base::{Failure, Units, UnitsArg, deliver_and, file_name, is_page, note, refuse_input, say};
-use crate::files::results::Results;
-use crate::jobs::report::{MOST_RUNS, page, subject};
-use crate::pictures::html::is_page_of;
+use occupant_files::results::Results;
+use occupant_jobs::report::{MOST_RUNS, page, subject};
+use occupant_pictures::html::is_page_of;
 
 /// Make a page of a run, or of up to four abreast: motion in 3-D, time histories, measures, contacts and where it comes from, in
 /// one HTML file

@@ -12,12 +12,12 @@ use occupant_study::risk::{Preparation, VehicleSignals};
 
 use super::flags::history::interval;
 use crate::base::{
-    Done, Failure, SYSTEMS, input_file, is_page, note, one_of, print, publish, refuse_input, say, sha256, talk,
+    Done, Failure, SYSTEMS, input_file, is_page, note, one_of, print, publish, refuse_input, say, sha256,
 };
-use crate::files::measured::{AXES, Axes};
-use crate::jobs::import::PathFilter;
-use crate::jobs::risk::{Report, json, page, text};
 use input::measured;
+use occupant_files::measured::{AXES, Axes};
+use occupant_jobs::import::PathFilter;
+use occupant_jobs::risk::{Report, json, page, text};
 use options::{errors, flight, preparation};
 
 /// Measure the risk to occupants from the vehicle's motion alone
@@ -63,7 +63,7 @@ pub(crate) struct Args {
     filter: Option<PathFilter>,
 
     /// Filter coefficients
-    #[arg(long, value_name = "FAMILY", default_value = "iso6487", value_parser = one_of(&FAMILIES))]
+    #[arg(long, value_name = "STANDARD", default_value = "iso6487", value_parser = one_of(&FAMILIES))]
     coefficients: CfcFamily,
 
     /// Sample interval: recorded data are resampled by straight lines, paths are sampled (0.1 ms if absent)
@@ -75,7 +75,7 @@ pub(crate) struct Args {
     start: Option<String>,
 
     /// Time up to which the record is looked at; its end if absent
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    #[arg(long = "to", alias = "end", value_name = "TIME", allow_hyphen_values = true)]
     end: Option<String>,
 
     /// Names and units of the file's columns in place of its own headings, `-` for one that is left out and a minus before one whose
@@ -171,7 +171,7 @@ pub(crate) fn risk(args: &Args) -> Result<Done, Failure> {
     report.notes = [notes, report.notes].concat();
     report.notes.iter().for_each(note);
     if args.json {
-        print(&talk::json(&json(&report))?)?
+        print(&crate::base::json(&json(&report))?)?
     } else {
         print(&text(&report, args.units))?
     }

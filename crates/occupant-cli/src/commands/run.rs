@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use occupant_core::diagnosis::{UnstableFriction, diagnose};
 use occupant_core::model::setup::Integrator;
-use occupant_core::results::summary::{Degree, RunStatus, Summary};
+use occupant_core::results::summary::{Caveat, RunStatus, Summary};
 use occupant_scenario::Diagnostics;
 use occupant_scenario::ending::Balance;
 use serde::Serialize;
@@ -15,19 +15,20 @@ use super::tables::measures::side_by_side;
 use super::tables::summary::{Marks, summary_table};
 use super::{plot, report};
 use crate::base::input_file::is_input;
+use crate::base::progress::Progress;
 use crate::base::{
-    Done, Existing, Failure, Interrupt, Units, UnitsArg, ending, is_page, json, print, program, say, with_word,
+    Done, Existing, Failure, Units, UnitsArg, ending, is_page, json, listen, print, program, progress, say, with_word,
 };
-use crate::files::scenario::{self, Opened, ScenarioArgs, warn_of};
-use crate::files::steps;
-use crate::jobs::ensemble::report::Report;
-use crate::jobs::ensemble::text::text as ensemble_text;
-use crate::jobs::report::MOST_RUNS;
-use crate::jobs::run::earlier::is_earlier;
-use crate::jobs::run::estimate::{ErrorEstimate, estimate};
-use crate::jobs::run::recording::{Recording, Written};
-use crate::jobs::run::resume::{Resumed, Resumption};
-use crate::jobs::run::{Simulated, run as simulate};
+use occupant_files::steps;
+use occupant_jobs::ensemble::report::Report;
+use occupant_jobs::ensemble::text::text as ensemble_text;
+use occupant_jobs::files::scenario::{self, Opened, ScenarioArgs, warn_of};
+use occupant_jobs::report::MOST_RUNS;
+use occupant_jobs::run::earlier::is_earlier;
+use occupant_jobs::run::estimate::{ErrorEstimate, estimate};
+use occupant_jobs::run::recording::{Recording, Written};
+use occupant_jobs::run::resume::{Resumed, Resumption};
+use occupant_jobs::run::{Simulated, run as simulate};
 
 /// Simulate the occupant and write what happened
 ///
@@ -210,25 +211,29 @@ fn one(args: &Args) -> Result<(Done, Summary, Units), Failure> {
     let recording = recording.transpose()?.unwrap_or(Recording::none());
     from.iter().filter(|_| !args.quiet).for_each(Resumption::announce);
     let channels = ensemble.as_ref().map(|e| e.channels.clone()).unwrap_or_default();
-    let interrupt = Interrupt::listen("stopping at the next output; once more to stop at once");
+    let interrupt = listen("stopping at the next output; once more to stop at once");
     let diagnosis = matches!(opened.model.setup().integrator, Integrator::Rk4 { .. }).then(|| diagnose(&opened.model));
     if let Some(message) = diagnosis.as_ref().and_then(too_long).filter(|_| !args.quiet) {
         say(&format!("warning: {message}"));
     }
-    let mut run = simulate(&opened, from.as_ref(), recording, channels, &interrupt, args.quiet)?;
+    let mut run =
+        simulate(&opened, from.as_ref(), recording, channels, (interrupt.clone(), Progress::new(args.quiet)))?;
     if run.completed {
         let caveats = steps::caveats(&opened.model, &run.friction, &run.summary);
         run.summary.caveats.extend(caveats);
     }
     let balance = run.summary.energy.balance;
     let histories = std::mem::take(&mut run.histories);
-    let is_examined = args.estimate_error || ensemble.is_some();
     let ensemble = ensemble.filter(|_| run.completed && balance != Balance::Lost);
-    let ensemble = ensemble.map(|wanted| wanted.run(&opened, &run.summary, histories, &interrupt, args.quiet));
+    let ensemble =
+        ensemble.map(|wanted| wanted.run(&opened, &run.summary, histories, &interrupt, progress::show(args.quiet)));
     let estimate = (args.estimate_error && run.completed && !interrupt.is_asked())
         .then(|| estimate(&opened, &run.summary, &run.head, &interrupt));
-    let caveat = estimate.as_ref().and_then(told).and_then(|estimate| estimate.caveat(&run.summary));
-    run.summary.caveats.extend(caveat);
+    if let Some(estimate) = estimate.as_ref().and_then(told) {
+        // what may be chance is now known
+        run.summary.caveats.retain(|caveat| caveat.name != Caveat::CHANCE);
+        run.summary.caveats.extend(estimate.caveat(&run.summary));
+    }
     if !args.is_one_of_several {
         // the run itself is told also where what was to come after it has failed
         let more = (ensemble.as_ref().and_then(told), estimate.as_ref().and_then(told));
@@ -239,9 +244,6 @@ fn one(args: &Args) -> Result<(Done, Summary, Units), Failure> {
     unmade.map_or(Ok(()), |failure| Err(failure.with_done(&run.written.left())))?;
     if !args.quiet || balance == Balance::Lost {
         say_balance(balance, &run.summary);
-    }
-    if !args.quiet && !is_examined {
-        say_chance(&run.summary);
     }
     if !run.completed {
         return Err(Failure::BrokeOff(broke_off(&run)));
@@ -291,16 +293,6 @@ fn say_balance(balance: Balance, summary: &Summary) {
     let help = "a smaller step or tolerance; `occupant check` shows the fastest time scale";
     for caveat in summary.caveats.iter().filter(|caveat| caveat.name.starts_with("energy_balance")) {
         say(&format!("{word}: {}\n = help: {help}", caveat.text));
-    }
-}
-
-/// Who has left his vehicle tumbles: a little at the start is much at the end, and the energy balance does not show it.
-fn say_chance(summary: &Summary) {
-    if summary.ejections.values().any(|ejection| ejection.degree == Degree::Complete) {
-        say(
-            "warning: who is thrown out tumbles, and what comes of it may be chance: this run does not say which figures are determined\n \
-             = help: --estimate-error marks those that are not, --ensemble says which are stable",
-        );
     }
 }
 

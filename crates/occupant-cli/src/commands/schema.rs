@@ -64,8 +64,8 @@ impl Document {
 /// Prints the schema.
 pub(crate) fn print(args: &Args) -> Result<(), Failure> {
     let answer = match args.of {
-        Of::Scenario => return talk::print(&talk::json(Document::Scenario.schema())?),
-        Of::Study | Of::Fit => return talk::print(&talk::json(Document::Study.schema())?),
+        Of::Scenario => return talk::print(&crate::base::json(Document::Scenario.schema())?),
+        Of::Study | Of::Fit => return talk::print(&crate::base::json(Document::Study.schema())?),
         Of::Run => "run",
         Of::Check => "check",
         Of::Measures => "measures",
@@ -76,5 +76,5 @@ pub(crate) fn print(args: &Args) -> Result<(), Failure> {
     let all: serde_json::Result<Json> = serde_json::from_str(include_str!("schema/answers.json"));
     let mut all = all.map_err(|error| Failure::plain(format!("the schema is broken: {error}")))?;
     all["$ref"] = format!("#/$defs/{answer}").into();
-    talk::print(&talk::json(&all)?)
+    talk::print(&crate::base::json(&all)?)
 }

@@ -2,12 +2,12 @@
 
 use std::path::PathBuf;
 
-use crate::base::{Existing, Failure, UnitsArg, file_name, print, sha256, talk};
-use crate::files::history::UnitChoice;
-use crate::files::scenario::{ScenarioArgs, files_beside, inputs, open_source, source, warn_of};
-use crate::files::table::Form;
-use crate::jobs::export::TableFiles;
-use crate::jobs::sensitivity::{Words, about, analyse, answer, ask, histories, text};
+use crate::base::{Existing, Failure, UnitsArg, file_name, print, sha256};
+use occupant_files::table::Form;
+use occupant_jobs::export::TableFiles;
+use occupant_jobs::files::history::UnitChoice;
+use occupant_jobs::files::scenario::{ScenarioArgs, files_beside, inputs, open_source, source, warn_of};
+use occupant_jobs::sensitivity::{Words, about, analyse, answer, ask, histories, text};
 
 /// How measures and channels change with numbers of the scenario
 ///
@@ -73,7 +73,7 @@ pub(crate) fn sensitivity(args: &Args) -> Result<(), Failure> {
         files.write(&histories(&asked, &analysis), &about, UnitChoice::Si)?;
     }
     print(&if args.json {
-        talk::json(&answer(&name, &opened.model, &asked, &analysis))?
+        crate::base::json(&answer(&name, &opened.model, &asked, &analysis))?
     } else {
         text(&opened.model, &asked, &analysis, args.units.or(opened.loaded.scenario.units))
     })

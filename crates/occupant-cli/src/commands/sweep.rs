@@ -7,12 +7,12 @@ use std::path::{Path, PathBuf};
 use clap::Subcommand;
 
 use super::flags::sweep as flags;
-use crate::base::{Done, Failure, Interrupt, UnitsArg, print, program, say};
-use crate::files::scenario::warn;
-use crate::files::study_folder::folder::Folder;
-use crate::files::study_folder::texts::Texts;
-use crate::jobs::sweep::job::Sweep;
-use crate::jobs::sweep::plan::Plan;
+use crate::base::{Done, Failure, UnitsArg, listen, print, program, progress, say};
+use occupant_jobs::files::scenario::warn;
+use occupant_jobs::files::study_folder::folder::Folder;
+use occupant_jobs::files::study_folder::texts::Texts;
+use occupant_jobs::sweep::job::Sweep;
+use occupant_jobs::sweep::plan::Plan;
 
 /// Run every sample of a study and write one table
 ///
@@ -87,7 +87,9 @@ pub(crate) fn sweep(args: &Args) -> Result<Done, Failure> {
                 return print(&sweep.rehearse()?).map(Into::into);
             }
             sweep.plan.refuse_hopeless()?;
-            sweep.run()
+            let (done, words) = sweep.run()?;
+            print(&words)?;
+            Ok(done)
         }
         (None, None) => Err(Failure::plain("a sweep needs a study")),
     }
@@ -117,9 +119,9 @@ fn open(args: &Args, study: &Path, output: &Path) -> Result<Sweep, Failure> {
         csv: args.csv || (plan.study.csv && shard.is_whole()),
         folder: Folder::at(output),
         engine: args.engine.engine()?,
-        interrupt: Interrupt::listen("stopping; once more to stop at once"),
+        interrupt: listen("stopping; once more to stop at once"),
         restart: args.restart,
-        quiet: args.quiet,
+        show: progress::show(args.quiet),
         units: args.units.or(Some(plan.study.base.units())),
         plan,
         shard,

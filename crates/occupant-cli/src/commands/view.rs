@@ -6,18 +6,18 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
-use occupant_core::run::simulate::simulate;
+use occupant_core::run::simulate::attempt;
 use rayon::prelude::*;
 
 use super::flags::history::seconds;
 use crate::base::progress::{bar, counted};
 use crate::base::{Failure, deliver_and, ending, file_name, note, publish, refuse_input, say, with_word};
-use crate::files::results::Results;
-use crate::files::scenario::{self, ScenarioArgs, warn_of};
-use crate::pictures::Format;
-use crate::pictures::body::Snapshot;
-use crate::pictures::film::{Draw, FRAMES_A_SECOND, Film};
-use crate::pictures::view::{Strip, View, draw, frames};
+use occupant_files::results::Results;
+use occupant_jobs::files::scenario::{self, ScenarioArgs, warn_of};
+use occupant_pictures::Format;
+use occupant_pictures::body::Snapshot;
+use occupant_pictures::film::{Draw, FRAMES_A_SECOND, Film};
+use occupant_pictures::view::{Strip, View, draw, frames};
 
 /// Pixels of a PNG for each unit of the drawing.
 const PIXELS: f64 = 2.0;
@@ -186,7 +186,7 @@ fn seated(args: &Args, output: &Path, kind: Kind) -> Result<(), Failure> {
     let opened = scenario::open(&scenario)?;
     warn_of(&opened);
     let mut first = First(None);
-    let run = simulate(&opened.model, &mut first);
+    let run = attempt(&opened.model, &mut first);
     let moments: Vec<Snapshot> = first.0.into_iter().collect();
     if let (true, Err(error)) = (moments.is_empty(), run) {
         return Err(Failure::BrokeOff(format!("error: {error}")));

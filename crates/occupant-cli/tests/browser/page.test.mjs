@@ -23,7 +23,7 @@ globalThis.document = {
   getElementById: () => ({ textContent: "licences" }),
 };
 
-const { buildPage } = await import("../../assets/viewer/src/page.js");
+const { buildPage } = await import("../../../occupant-jobs/assets/viewer/src/page.js");
 
 const run = (label, caveats) => ({
   label,

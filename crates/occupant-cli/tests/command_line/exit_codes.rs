@@ -16,7 +16,7 @@ const COMMANDS: [[&str; 2]; 23] = [
     ],
     ["sweep study.toml -o sweep", "sweep none.toml"],
     ["study report sweep -f", "study report none"],
-    ["fit study.toml --to test.csv -o fit", "fit study.toml --to none.csv -o none"],
+    ["fit study.toml --test test.csv -o fit", "fit study.toml --test none.csv -o none"],
     ["import test.csv -f -o import.toml", "import none.csv"],
     ["check case.toml", "check none.toml"],
     ["drive driven.toml -f -o drive.csv", "drive case.toml"],

@@ -328,9 +328,13 @@ fn friction_is_too_stiff_where_the_energy_balance_says_so() {
 fn a_run_that_throws_someone_out_asks_for_a_second_one() {
     let folder = folder_with_case();
     let rider = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/thrown-rider.toml");
-    let said = |words: &[&str]| err(&answer(folder.path(), &[&["run", "--no-mcap"], words].concat()));
-    assert!(said(&[rider, "--until", "0.4"]).contains("may be chance"));
-    for known in [&[rider, "--until", "0.4", "--estimate-error"][..], &[rider, "--until", "0.2"], &["case.toml"]] {
+    let said = |words: &[&str]| out(&answer(folder.path(), &[&["run", "--no-mcap"], words].concat()));
+    let thrown = said(&[rider, "--until", "0.4"]);
+    assert!(thrown.contains("may be chance"), "{thrown}");
+    // the verdict itself bears the mark
+    let verdict = thrown.split_once("ejected ").expect("a verdict").1.lines().nth(1).expect("a part");
+    assert!(verdict.contains('!'), "{verdict}");
+    for known in [&[rider, "--until", "0.4", "--estimate-error"][..], &[rider, "--until", "0.05"], &["case.toml"]] {
         assert!(!said(known).contains("may be chance"), "{known:?}");
     }
 }

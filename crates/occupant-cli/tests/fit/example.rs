@@ -45,7 +45,7 @@ fn the_example_finds_what_was_hidden_in_its_tests() {
 fn the_example_of_webbing_and_anchorage_says_that_they_are_not_identified() {
     let folder = example();
     let at = folder.path().join("studies/fit-cart");
-    let words = ["fit", "anchorage.toml", "--to", "test-20mph.csv", "-o", "out"];
+    let words = ["fit", "anchorage.toml", "--test", "test-20mph.csv", "-o", "out"];
     let said = done(&at, &words);
     let found = found(&at, "out");
     let value = |name| number(&parameter(&found, name)["value"]);

@@ -31,7 +31,7 @@ fn killed_at_any_moment_it_ends_at_the_same_answer_bit_for_bit() {
     let folder = folder_with(STUDY);
     let at = folder.path();
     measure(at, "test.csv", &HIDDEN, 0.03, 1);
-    let fit = |out| ["fit", "study.toml", "--to", "test.csv", "-o", out, "--quiet"];
+    let fit = |out| ["fit", "study.toml", "--test", "test.csv", "-o", out, "--quiet"];
     done(at, &fit("whole"));
     let mut kills = 0;
     for round in 0..8_u64 {
@@ -65,7 +65,7 @@ fn the_answer_is_the_same_for_any_number_of_threads_and_every_kernel() {
     let at = folder.path();
     measure(at, "test.csv", &HIDDEN, 0.03, 2);
     let fit = |out: &str, more: &[&str]| {
-        let words = ["fit", "study.toml", "--to", "test.csv", "-o", out, "--quiet"];
+        let words = ["fit", "study.toml", "--test", "test.csv", "-o", out, "--quiet"];
         done(at, &[&words, more].concat());
         results(at, out)
     };
@@ -83,7 +83,7 @@ fn another_test_or_study_in_the_same_folder_is_refused_with_what_differs() {
     let folder = folder_with(&STUDY.replace("budget = 160", "budget = 16"));
     let at = folder.path();
     measure(at, "test.csv", &HIDDEN, 0.03, 1);
-    let fit = ["fit", "study.toml", "--to", "test.csv", "-o", "out", "--quiet"];
+    let fit = ["fit", "study.toml", "--test", "test.csv", "-o", "out", "--quiet"];
     done(at, &fit);
     measure(at, "test.csv", &HIDDEN, 0.03, 2);
     let refused = answer(at, &fit);
@@ -103,7 +103,7 @@ fn damage_in_a_finished_folder_is_named_and_made_again() {
     let folder = folder_with(&STUDY.replace("budget = 160", "budget = 16"));
     let at = folder.path();
     measure(at, "test.csv", &HIDDEN, 0.03, 1);
-    let fit = ["fit", "study.toml", "--to", "test.csv", "-o", "out", "--quiet"];
+    let fit = ["fit", "study.toml", "--test", "test.csv", "-o", "out", "--quiet"];
     done(at, &fit);
     let whole = results(at, "out");
     for name in ["fit.json", "fitted.toml", "history.csv", "plots/test.svg", "search.json", "inputs/2-test.csv"] {

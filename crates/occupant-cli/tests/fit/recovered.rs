@@ -13,7 +13,7 @@ fn without_noise_the_hidden_numbers_are_found_to_four_digits() {
     let folder = folder_with(STUDY);
     let at = folder.path();
     measure(at, "test.csv", &HIDDEN, 0.0, 0);
-    let said = done(at, &["fit", "study.toml", "--to", "test.csv", "-o", "out"]);
+    let said = done(at, &["fit", "study.toml", "--test", "test.csv", "-o", "out"]);
     let found = found(at, "out");
     for (name, planted) in [("lap", 90e3), ("slack", 0.035)] {
         let p = parameter(&found, name);
@@ -39,7 +39,7 @@ fn with_noise_intervals_hold_the_hidden_numbers_whatever_the_seed() {
         let study = STUDY.replace("seed = 5", &format!("seed = {seed}"));
         fs::write(at.join("study.toml"), study).unwrap();
         let out = format!("out-{seed}");
-        done(at, &["fit", "study.toml", "--to", &name, "-o", &out, "--quiet"]);
+        done(at, &["fit", "study.toml", "--test", &name, "-o", &out, "--quiet"]);
         let found = found(at, &out);
         for (name, planted) in [("lap", 90e3), ("slack", 0.035)] {
             let p = parameter(&found, name);
@@ -72,7 +72,7 @@ range = { from = 0.5, to = 2, scale = "log" }
     let folder = folder_with(&study);
     let at = folder.path();
     measure(at, "test.csv", &HIDDEN, 0.03, 3);
-    let said = done(at, &["fit", "study.toml", "--to", "test.csv", "-o", "out"]);
+    let said = done(at, &["fit", "study.toml", "--test", "test.csv", "-o", "out"]);
     let found = found(at, "out");
     let (lap, anchorage) = (parameter(&found, "lap"), parameter(&found, "anchorage"));
     // what counts is their product
@@ -98,7 +98,7 @@ fn a_best_value_beyond_the_range_is_at_its_bound() {
     let folder = folder_with(&study);
     let at = folder.path();
     measure(at, "test.csv", &HIDDEN, 0.0, 0);
-    let said = done(at, &["fit", "study.toml", "--to", "test.csv", "-o", "out"]);
+    let said = done(at, &["fit", "study.toml", "--test", "test.csv", "-o", "out"]);
     let found = found(at, "out");
     assert_eq!(parameter(&found, "lap")["verdict"], "at_upper_bound", "{said}");
     assert!(said.contains("lap is at its upper bound"), "{said}");
@@ -112,7 +112,7 @@ fn all_parameters_at_a_wall_have_an_answer_again_and_again() {
     let folder = folder_with(&study.replace("to = \"140 kN/m\"", "to = \"80 kN/m\""));
     let at = folder.path();
     measure(at, "test.csv", &HIDDEN, 0.0, 0);
-    let fit = ["fit", "study.toml", "--to", "test.csv", "-o", "out"];
+    let fit = ["fit", "study.toml", "--test", "test.csv", "-o", "out"];
     for _resumed in 0..2 {
         let said = done(at, &fit);
         assert!(said.contains("lap is at its upper bound"), "{said}");
@@ -141,7 +141,7 @@ weight = 0.5
     measure(at, "fast.csv", &HIDDEN, 0.02, 1);
     let slow = [HIDDEN[0], HIDDEN[1], "path.speed=30 km/h", "path.delta_v=30 km/h"];
     measure(at, "slow.csv", &slow, 0.02, 2);
-    let said = done(at, &["fit", "study.toml", "--to", "slow.csv", "-o", "out"]);
+    let said = done(at, &["fit", "study.toml", "--test", "slow.csv", "-o", "out"]);
     let found = found(at, "out");
     for (name, planted) in [("lap", 90e3), ("slack", 0.035)] {
         let error = (number(&parameter(&found, name)["value"]) / planted - 1.0).abs();
@@ -173,7 +173,7 @@ fn the_other_objectives_find_the_hidden_numbers_too() {
         let folder = folder_with(&study);
         let at = folder.path();
         measure(at, "test.csv", &HIDDEN, 0.0, 0);
-        let said = done(at, &["fit", "study.toml", "--to", "test.csv", "-o", "out"]);
+        let said = done(at, &["fit", "study.toml", "--test", "test.csv", "-o", "out"]);
         let found = found(at, "out");
         assert_eq!(found["objective"], objective);
         for (name, planted) in [("lap", 90e3), ("slack", 0.035)] {

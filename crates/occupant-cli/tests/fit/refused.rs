@@ -9,7 +9,7 @@ fn refusal(at: &Path, words: &[&str]) -> String {
     err(&output)
 }
 
-const FIT: [&str; 6] = ["fit", "study.toml", "--to", "test.csv", "-o", "out"];
+const FIT: [&str; 6] = ["fit", "study.toml", "--test", "test.csv", "-o", "out"];
 
 #[test]
 fn everything_that_is_wrong_is_told_at_once_with_its_place() {
@@ -63,7 +63,7 @@ fn a_parameter_without_ends_and_a_missing_test_are_told() {
     assert!(said.contains("test.csv cannot be read"), "{said}");
     let folder = folder_with(STUDY);
     let said = refusal(folder.path(), &["fit", "study.toml", "-o", "out"]);
-    assert!(said.contains("no test to fit to") && said.contains("--to test.csv"), "{said}");
+    assert!(said.contains("no test to fit to") && said.contains("--test test.csv"), "{said}");
     let study = STUDY.replace("case.toml", "none.toml") + "[[fit.tests]]\nfile = \"gone.csv\"\n";
     let said = refusal(folder_with(&study).path(), &["fit", "study.toml", "-o", "out"]);
     let base = study.lines().position(|line| line.starts_with("base")).expect("it has one") + 1;

@@ -7,7 +7,7 @@ fn the_fitted_scenario_keeps_its_authors_words_and_runs_to_the_score_that_is_tol
     let folder = folder_with(STUDY);
     let at = folder.path();
     measure(at, "test.csv", &HIDDEN, 0.03, 1);
-    let said = done(at, &["fit", "study.toml", "--to", "test.csv", "-o", "out"]);
+    let said = done(at, &["fit", "study.toml", "--test", "test.csv", "-o", "out"]);
     let text = fs::read_to_string(at.join("out/fitted.toml")).unwrap();
     let original = fs::read_to_string(at.join("case.toml")).unwrap();
     // comments and order stay; only the changed lines, the provenance and the head differ
@@ -26,7 +26,7 @@ fn the_fitted_scenario_keeps_its_authors_words_and_runs_to_the_score_that_is_tol
     // the rms of ours is not among the ratings of `compare`; that of ISO 18571 is
     let study = STUDY.replace("[fit]", "[fit]\nobjective = \"iso18571\"");
     fs::write(at.join("iso.toml"), study).unwrap();
-    done(at, &["fit", "iso.toml", "--to", "test.csv", "-o", "iso", "--quiet"]);
+    done(at, &["fit", "iso.toml", "--test", "test.csv", "-o", "iso", "--quiet"]);
     done(at, &["run", "iso/fitted.toml", "-o", "fitted.mcap", "--quiet"]);
     let words = ["compare", "fitted.mcap", "test.csv", "--filter", "CFC60", "--from", "5 ms"];
     let compared = done(at, &[&words[..], &["--to", "75 ms", "--json"]].concat());
@@ -52,7 +52,7 @@ fn a_scenario_that_only_a_preset_holds_is_written_where_it_belongs() {
     let folder = folder_with(&study.replace("budget = 160", "budget = 32"));
     let at = folder.path();
     measure(at, "test.csv", &HIDDEN[1..], 0.03, 1);
-    done(at, &["fit", "study.toml", "--to", "test.csv", "-o", "out", "--quiet"]);
+    done(at, &["fit", "study.toml", "--test", "test.csv", "-o", "out", "--quiet"]);
     let text = fs::read_to_string(at.join("out/fitted.toml")).unwrap();
     assert!(text.contains("damping = "), "{text}");
     assert!(text.contains("# where the numbers come from"), "{text}");
@@ -64,7 +64,7 @@ fn history_and_plots_show_every_candidate_and_every_channel() {
     let folder = folder_with(&STUDY.replace("budget = 160", "budget = 48"));
     let at = folder.path();
     measure(at, "test.csv", &HIDDEN, 0.03, 1);
-    let output = answer(at, &["fit", "study.toml", "--to", "test.csv", "-o", "out", "--json"]);
+    let output = answer(at, &["fit", "study.toml", "--test", "test.csv", "-o", "out", "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
     let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
     let found = found(at, "out");

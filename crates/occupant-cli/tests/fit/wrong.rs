@@ -21,7 +21,7 @@ fn slack_alone(of_test: &str) -> String {
         .replace("budget = 160", "budget = 90")
 }
 
-const FIT: [&str; 6] = ["fit", "study.toml", "--to", "test.csv", "-o", "out"];
+const FIT: [&str; 6] = ["fit", "study.toml", "--test", "test.csv", "-o", "out"];
 
 /// The warnings but for what is to know of the figures of the fitted run.
 fn of_tests(warnings: &Value) -> Vec<String> {

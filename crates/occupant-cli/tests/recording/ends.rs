@@ -11,7 +11,7 @@ use occupant_core::model::setup::Integrator;
 use occupant_core::results::outcome::Status;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
-use occupant_core::run::simulate::simulate;
+use occupant_core::run::simulate::attempt;
 
 use super::support::{SCENARIO, field, model, read, record, recorder, recorder_into, setup, text};
 
@@ -174,7 +174,7 @@ fn a_file_dropped_before_the_end_is_readable_and_has_no_result() {
     {
         let mut recorder = recorder_into(file.try_clone().unwrap());
         let halt = Halt { at: 30, breaks: true };
-        assert!(simulate(&model, (&mut recorder, halt)).is_err());
+        assert!(attempt(&model, (&mut recorder, halt)).is_err());
     }
     let mut bytes = Vec::new();
     file.rewind().unwrap();
@@ -189,7 +189,7 @@ fn what_a_killed_run_wrote_is_readable_to_the_last_chunk() {
     let (whole, _) = record(&model, ());
     let mut cut = recorder();
     let halt = Halt { at: 40, breaks: true };
-    assert!(simulate(&model, (&mut cut, halt)).is_err());
+    assert!(attempt(&model, (&mut cut, halt)).is_err());
     // as the process left it: nothing is finished
     let bytes = cut.into_inner().unwrap().into_inner();
     assert!(bytes.len() < whole.len());
@@ -233,7 +233,7 @@ fn a_target_that_is_full_ends_the_run_with_its_reason() {
     for room in [whole.len() / 2, whole.len() - 100] {
         let kept = std::io::Cursor::new(Vec::new());
         let mut recorder = recorder_into(Narrow { kept, room });
-        let error = simulate(&model, &mut recorder).unwrap_err();
+        let error = attempt(&model, &mut recorder).unwrap_err();
         let mut deepest: &dyn Error = &*error.source;
         while let Some(cause) = deepest.source() {
             deepest = cause;

@@ -68,7 +68,7 @@ fn sphere(s: &Sample<'_>, sphere: usize) -> Fields {
         ("centre_vehicle_m", v(s.sphere_centre_m(sphere).coords)),
         ("contact_force_vehicle_n", v(force)),
         ("contact_force_resultant_n", vec![force.norm()]),
-        ("belt_force_vehicle_n", v(s.sphere_pull_n(sphere, None))),
+        ("belt_force_vehicle_n", v(s.sphere_pull_n(sphere, None).unwrap())),
     ]
 }
 

@@ -11,7 +11,7 @@ mod together;
 pub(crate) mod tree;
 pub mod tti12;
 
-use nalgebra::{Point3, UnitQuaternion, Vector2, Vector3};
+use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector2, Vector3};
 
 pub use people::Sex;
 pub(crate) use together::called;
@@ -41,6 +41,19 @@ pub struct SegmentProperties {
 }
 
 impl SegmentProperties {
+    /// Of no segment.
+    const NONE: SegmentProperties = {
+        let none = f64::NAN;
+        SegmentProperties {
+            length_m: none,
+            mass_kg: none,
+            cg_from_lower_end_m: none,
+            cg_beside_m: Vector2::new(none, none),
+            inertia_kg_m2: Vector3::new(none, none, none),
+            principal: UnitQuaternion::new_unchecked(Quaternion::new(none, none, none, none)),
+        }
+    };
+
     /// As in the report: the centre of gravity between the ends, the segment's axes principal.
     pub fn new(length_m: f64, mass_kg: f64, cg_from_lower_end_m: f64, inertia_kg_m2: Vector3<f64>) -> Self {
         SegmentProperties {
@@ -135,9 +148,9 @@ pub struct Body {
 }
 
 impl Body {
-    /// Properties of one segment.
+    /// Properties of one segment; those of none, which are not numbers, of a segment that the body has not.
     pub fn segment(&self, segment: Segment) -> &SegmentProperties {
-        &self.segments[segment.index()]
+        self.segments.get(segment.index()).unwrap_or(&SegmentProperties::NONE)
     }
 
     /// Σ M.

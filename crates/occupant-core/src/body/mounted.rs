@@ -5,8 +5,12 @@ use super::{Body, ContactSphere, Joint, Segment, Tree};
 
 impl Body {
     /// The same with `root` for its first segment, without the segments `left_out` and what hangs on them as seen from there.
-    /// Segments are numbered from the root outwards; joints, spheres and landmarks keep their names and their order.
+    /// Segments are numbered from the root outwards; joints, spheres and landmarks keep their names and their order. A root
+    /// that is none of the body's changes nothing.
     pub fn hung_on(&self, root: Segment, left_out: &[Segment]) -> Body {
+        if root.index() >= self.segments.len() {
+            return self.clone();
+        }
         let kept = self.reached_from(root, left_out);
         let now = |segment: Segment| kept.iter().position(|old| *old == segment).map(Segment);
         let rows = self.tree.joints().filter_map(|joint| {

@@ -3,7 +3,11 @@
 //! What the report's body says of a segment or a sphere holds for one of the same name: a `left_thigh` below the pelvis is
 //! the upper part of a leg, and the sphere `left_knee` is at its lower end.
 
-pub use super::tree::MissingLandmark;
+use std::collections::HashSet;
+
+use placed_text::nearest;
+
+pub use super::tree::TreeProblem;
 use super::tree::kept;
 use super::tree::{
     End, Joint, JointKind, JointRow, Landmarks, Limb, Pair, Place, Segment, SegmentRow, SphereRow, Tree,
@@ -45,8 +49,9 @@ const SHIN_ABOVE_ANKLE: f64 = 0.534;
 /// hangs from T1.
 ///
 /// # Errors
-/// The landmark for which there is no segment.
-pub fn tree(joints: &[NamedJoint<'_>], marks: &NamedLandmarks<'_>) -> Result<&'static Tree, MissingLandmark> {
+/// A joint that hangs on a segment which no joint before it carries; a segment that two joints carry; a landmark for which
+/// there is no segment.
+pub fn tree(joints: &[NamedJoint<'_>], marks: &NamedLandmarks<'_>) -> Result<&'static Tree, TreeProblem> {
     let row = |name: &str, hangs: bool| SegmentRow {
         name: kept(name),
         joint_end: if hangs { End::Upper } else { End::Lower },
@@ -54,6 +59,7 @@ pub fn tree(joints: &[NamedJoint<'_>], marks: &NamedLandmarks<'_>) -> Result<&'s
     let root = joints.first().map(|joint| row(joint.proximal, true));
     let segments: Vec<SegmentRow> =
         root.into_iter().chain(joints.iter().map(|joint| row(joint.distal, joint.hangs))).collect();
+    check(joints)?;
     let named = |name: &str| segments.iter().position(|row| row.name == name).map(Segment);
     let joint_rows = joints.iter().filter_map(|joint| {
         let (proximal, distal) = (named(joint.proximal)?, named(joint.distal)?);
@@ -62,6 +68,24 @@ pub fn tree(joints: &[NamedJoint<'_>], marks: &NamedLandmarks<'_>) -> Result<&'s
     let joint_rows: Vec<JointRow> = joint_rows.collect();
     let landmarks = landmarks(&joint_rows, marks, &named)?;
     Ok(Tree::interned(&segments, &joint_rows, &spheres(&named), landmarks, &[]))
+}
+
+/// Whether every joint hangs a new segment on one that is there.
+fn check(joints: &[NamedJoint<'_>]) -> Result<(), TreeProblem> {
+    let mut known: HashSet<&str> = joints.first().map(|joint| joint.proximal).into_iter().collect();
+    for NamedJoint { name, proximal, distal, .. } in joints {
+        let joint = (*name).to_owned();
+        if !known.contains(proximal) {
+            let mut names: Vec<&str> = known.into_iter().collect();
+            names.sort_unstable();
+            let nearest = nearest(proximal, names.into_iter()).map(str::to_owned);
+            return Err(TreeProblem::UnknownSegment { joint, segment: (*proximal).to_owned(), nearest });
+        }
+        if !known.insert(distal) {
+            return Err(TreeProblem::Twice { joint, segment: (*distal).to_owned() });
+        }
+    }
+    Ok(())
 }
 
 /// A single segment, which hangs on nothing and carries nothing.
@@ -74,16 +98,20 @@ fn landmarks(
     joints: &[JointRow],
     marks: &NamedLandmarks<'_>,
     named: &impl Fn(&str) -> Option<Segment>,
-) -> Result<Landmarks, MissingLandmark> {
+) -> Result<Landmarks, TreeProblem> {
     let usual = |own: Option<&str>, names: [&str; 2], key: &'static str| {
         let found = own.map_or_else(|| names.into_iter().find_map(named), named);
-        if found.is_none() && (own.is_some() || !marks.is_part) { Err(MissingLandmark(key)) } else { Ok(found) }
+        if found.is_none() && (own.is_some() || !marks.is_part) {
+            Err(TreeProblem::MissingLandmark(key))
+        } else {
+            Ok(found)
+        }
     };
     let head = usual(marks.head, ["head", "head"], "head")?;
     let pelvis = usual(marks.pelvis, ["lower_torso", "pelvis"], "pelvis")?;
     let neck = joints.iter().position(|joint| Some(joint.distal) == head).map(Joint);
     if neck.is_none() && !marks.is_part {
-        return Err(MissingLandmark("head"));
+        return Err(TreeProblem::MissingLandmark("head"));
     }
     let hung =
         |distal: Segment, proximal: Segment| joints.iter().find(|j| j.distal == distal && j.proximal == proximal);
@@ -135,7 +163,10 @@ mod tests {
         let neck = String::from("neck");
         assert!(std::ptr::eq(first, tree(&[arm(&neck)], &marks).expect("a tree")));
         assert!(!std::ptr::eq(first, tree(&[arm("other")], &marks).expect("a tree")));
-        assert_eq!(tree(&[arm("neck")], &NamedLandmarks::default()).map(|_| ()), Err(MissingLandmark("pelvis")));
+        assert_eq!(
+            tree(&[arm("neck")], &NamedLandmarks::default()).map(|_| ()),
+            Err(TreeProblem::MissingLandmark("pelvis"))
+        );
         assert_eq!(first.sphere_names(), ["head", "chest", "right_shoulder", "left_shoulder"]);
         assert_eq!(
             (first.landmarks().neck.map(|neck| first[neck].name), first.landmarks().legs().count()),

@@ -291,9 +291,36 @@ pub struct BodyRow {
     pub landmarks: Landmarks,
 }
 
-/// A landmark for which a body has no segment, by its key in a scenario.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MissingLandmark(pub &'static str);
+/// Joints that make no tree.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TreeProblem {
+    /// A landmark for which there is no segment, by its key in a scenario.
+    #[error("no segment for the landmark `{0}`")]
+    MissingLandmark(&'static str),
+    /// A segment that no joint before has named.
+    #[error("the joint `{joint}` hangs on `{segment}`, which no joint before it carries{}", meant(.nearest.as_deref()))]
+    UnknownSegment {
+        /// Name of the joint.
+        joint: String,
+        /// Its proximal segment.
+        segment: String,
+        /// The nearest name that there is, if one is near.
+        nearest: Option<String>,
+    },
+    /// A segment that two joints carry, or that carries itself.
+    #[error("the joint `{joint}` carries `{segment}`, which is there already")]
+    Twice {
+        /// Name of the joint.
+        joint: String,
+        /// Its distal segment.
+        segment: String,
+    },
+}
+
+fn meant(nearest: Option<&str>) -> String {
+    nearest.map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
+}
 
 /// A name that is kept to the end of the program, once for all that are spelt so.
 pub(crate) fn kept(name: &str) -> &'static str {
@@ -390,21 +417,14 @@ impl Tree {
         self.bodies.iter().rposition(|body| body.first <= segment).unwrap_or(0)
     }
 
-    /// The segment at a place in the table.
-    ///
-    /// # Panics
-    /// If the table has no such row.
+    /// The segment at a place in the table. Of one that the table has not, nothing is known: its row has no name, and a model
+    /// refuses it.
     pub const fn segment(&self, index: usize) -> Segment {
-        assert!(index < self.segments.len());
         Segment(index)
     }
 
-    /// The joint at a place in the table.
-    ///
-    /// # Panics
-    /// If the table has no such row.
+    /// The joint at a place in the table; of one that the table has not, as [`Tree::segment`] says.
     pub const fn joint(&self, index: usize) -> Joint {
-        assert!(index < self.joints.len());
         Joint(index)
     }
 
@@ -500,11 +520,17 @@ pub fn both_sides(name: &str) -> Option<String> {
     Some(one.strip_suffix("foot").map_or_else(|| format!("{one}s"), |stem| format!("{stem}feet")))
 }
 
+/// Rows of what a tree has not.
+const NOBODY: Segment = Segment(usize::MAX);
+static NO_SEGMENT: SegmentRow = SegmentRow { name: "", joint_end: End::Lower };
+static NO_JOINT: JointRow =
+    JointRow { name: "", kind: JointKind::Fixed, proximal: NOBODY, distal: NOBODY, place: Place::Root };
+
 impl Index<Segment> for Tree {
     type Output = SegmentRow;
 
     fn index(&self, segment: Segment) -> &SegmentRow {
-        &self.segments[segment.0]
+        self.segments.get(segment.0).unwrap_or(&NO_SEGMENT)
     }
 }
 
@@ -512,6 +538,6 @@ impl Index<Joint> for Tree {
     type Output = JointRow;
 
     fn index(&self, joint: Joint) -> &JointRow {
-        &self.joints[joint.0]
+        self.joints.get(joint.0).unwrap_or(&NO_JOINT)
     }
 }

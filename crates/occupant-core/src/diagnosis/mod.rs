@@ -7,7 +7,7 @@ mod friction;
 mod rates;
 mod start;
 
-use indexmap::IndexMap;
+use crate::forces::table::InOrder;
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -51,7 +51,7 @@ pub struct Diagnosis {
     /// Corners of two surfaces within reach that a sphere may come round without touching either.
     pub corners: Vec<[String; 2]>,
     /// Parts of the body with those that they can touch.
-    pub self_contact: IndexMap<String, Vec<String>>,
+    pub self_contact: InOrder<String, Vec<String>>,
     /// Force elements that have something to say of themselves.
     #[serde(flatten)]
     pub elements: Tables,
@@ -217,6 +217,7 @@ fn vehicle(model: &Model) -> VehicleFigures {
             VehiclePath::Sensors(_) => "sensors",
             VehiclePath::Fixed(_) => "fixed",
             VehiclePath::Driven(_) => "drive",
+            VehiclePath::Live(_) => "live",
             VehiclePath::Own(_) => "own",
         },
         start_speed_m_s: first.norm(),

@@ -1,6 +1,6 @@
 //! Where things stand at the start: seat, contacts, other force elements.
 
-use indexmap::IndexMap;
+use crate::forces::table::InOrder;
 use serde::Serialize;
 
 use super::rates::frame_at_start;
@@ -18,7 +18,7 @@ use crate::motion::mobility::Mobility;
 use crate::motion::vector::V3;
 use crate::results::recorder::Watch;
 use crate::results::sample::{Contact, Sample};
-use crate::run::Run;
+use crate::run::Course;
 
 /// Figures of the seating, vehicle axes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -129,7 +129,7 @@ pub(super) fn look(model: &Model, mobility: &Mobility<'_>) -> Look {
         };
     });
     // a closure that watches never fails, so neither does the record
-    let _recorded = Run::new(model).record(model, &mut first);
+    let _recorded = Course::new(model).record(model, &mut first);
     look
 }
 
@@ -207,12 +207,12 @@ pub(super) fn corners(model: &Model) -> Vec<[String; 2]> {
 }
 
 /// Which parts of the body can touch which others.
-pub(super) fn self_contact(model: &Model) -> IndexMap<String, Vec<String>> {
+pub(super) fn self_contact(model: &Model) -> InOrder<String, Vec<String>> {
     let part = |sphere: usize| model.body().spheres[sphere].part.clone();
-    let mut list: IndexMap<String, Vec<String>> = IndexMap::new();
+    let mut list: InOrder<String, Vec<String>> = InOrder::new();
     for pair in model.setup().self_contact.iter().flat_map(|own| &own.pairs) {
         let [one, other] = pair.map(part);
-        let others = list.entry(one).or_default();
+        let others = list.or_default(one);
         if !others.contains(&other) {
             others.push(other);
         }

@@ -9,6 +9,7 @@ use super::element::{Element, Hints as _, Instant, Load, Misfit, StoredEnergy, U
 use super::joint::JointMoments;
 use super::joint::limit::JointLimits;
 use super::joint::muscle::Muscles;
+use super::own::OwnForces;
 use super::pace::Pace;
 use super::rate::Rate;
 use super::shown::{Reported, Tracker};
@@ -463,6 +464,7 @@ kinds! {
     belts: Belts,
     chains: Chains,
     bags: Bags,
+    own: OwnForces,
     columns: Columns,
     joints: JointMoments,
     limits: JointLimits,

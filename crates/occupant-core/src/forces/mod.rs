@@ -19,6 +19,7 @@ mod element;
 pub mod function;
 pub mod joint;
 mod list;
+pub mod own;
 mod pace;
 pub(crate) mod rate;
 pub mod shown;

@@ -25,6 +25,8 @@ pub trait Reported: Element + 'static {
     /// The numbers of one of them whose peaks a run's summary tells.
     const PEAKS: &'static [Tracked] = &[];
 
+    /// Whether a run's summary has a table of their peaks.
+    const SHOWS_PEAKS: bool = true;
     /// Whether a run's summary tells what happens to them: [`Reported::event`].
     const TELLS: bool = false;
 
@@ -67,6 +69,12 @@ pub trait Reported: Element + 'static {
         _show: &mut dyn FnMut(usize, &'static str),
     ) {
     }
+
+    /// What happens at accepted steps, in words as of [`Reported::event`]: all that [`Reported::switched`] and [`Reported::told`] say.
+    const BY_STEPS: &'static [&'static str] = &[];
+
+    /// Shows what has happened to one of them between two accepted steps, by the numbers that it tracks there.
+    fn told(_before: &[f64], _now: &[f64], _show: &mut dyn FnMut(&'static str)) {}
 
     /// What has happened to one of them between two looks, in words that follow its name, and by how much its force jumps, N;
     /// nothing where only a slope changes.

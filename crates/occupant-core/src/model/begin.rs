@@ -13,6 +13,7 @@ use crate::model::seat::{Seat, SeatPlane, Seated, seat};
 use crate::model::seating::{InitialPosture, InitialVelocity, Placing, Seating, Settling};
 use crate::model::settle::{Settled, carry, kept, lack, settle, stand, standing};
 use crate::model::setup::Setup;
+use crate::model::validate::check_whole;
 use crate::model::{Model, Start, frames, together};
 use crate::motion::frame::VEHICLE;
 use crate::motion::kinematics::Kinematics;
@@ -32,6 +33,12 @@ pub(super) fn begin(
     let start_s = setup.time.start_s;
     let vehicle = setup.path.motion(start_s, start_s, &mut PathCursor::default());
     let alone = together::alone(setup, problems)?;
+    if !alone.is_empty() {
+        check_whole(setup, problems);
+        if problems.has_errors() {
+            return None;
+        }
+    }
     let skeleton = skeleton(setup, &alone);
     let data = setup.forces(faces);
     let forces = Forces::new(&data, &setup.body);
@@ -69,9 +76,10 @@ pub(super) fn begin(
     rest.iter().for_each(|rest| rest.keep(forces));
     let own = forces.own();
     if own.len() > MOST_OWN {
-        let found = format!("bags and columns with {} numbers of a state", own.len());
-        let expected =
-            format!("at most {MOST_OWN}: five for each bag, one more for each inflator, three for each column");
+        let found = format!("bags, columns and own forces with {} numbers of a state", own.len());
+        let expected = format!(
+            "at most {MOST_OWN}: five for each bag, one more for each inflator, three for each column, one for each own force"
+        );
         problems.error("bags", found, expected);
         return None;
     }

@@ -11,6 +11,8 @@ pub mod setup;
 mod together;
 mod validate;
 
+use std::hash::{DefaultHasher, Hash, Hasher};
+
 use crate::body::Body;
 use crate::forces::History;
 use crate::forces::bag::Bag;
@@ -42,6 +44,7 @@ pub struct Model {
     start: Start,
     alone: Vec<Model>,
     warnings: Problems,
+    names_hash: u64,
 }
 
 /// The occupant at the start.
@@ -76,10 +79,16 @@ impl Model {
         let faces: Vec<FlatFace> = faces.into_iter().flatten().collect();
         match begin(&setup, &faces, &mut problems) {
             Some((system, start, alone)) if !problems.has_errors() => {
-                Ok(Model { setup, faces, system, start, alone, warnings: problems })
+                let names_hash = names_hash(&setup);
+                Ok(Model { setup, faces, system, start, alone, warnings: problems, names_hash })
             }
             _ => Err(problems),
         }
+    }
+
+    /// The same number for models whose parts have the same names in the same order, and so the same results.
+    pub(crate) fn names_hash(&self) -> u64 {
+        self.names_hash
     }
 
     /// What the model was made from.
@@ -254,6 +263,31 @@ impl Model {
         }
         homes
     }
+}
+
+/// A number that tells models apart whose parts have other names.
+fn names_hash(setup: &Setup) -> u64 {
+    let Setup { body, belts, chains, bags, columns, frames, members, joints, output, .. } = setup;
+    let mut hasher = DefaultHasher::new();
+    for row in body.tree.segment_rows() {
+        row.name.hash(&mut hasher);
+    }
+    body.tree.joint_rows().iter().for_each(|row| row.name.hash(&mut hasher));
+    let spheres = body.spheres.iter().map(|one| &one.name);
+    let things = setup.surfaces.iter().map(|one| &one.name).chain(setup.solids.iter().map(|one| &one.name));
+    let straps = chains.iter().flat_map(|chain| [&chain.belt].into_iter().chain(&chain.straps));
+    let elements = belts.iter().map(|one| &one.name).chain(straps).chain(bags.iter().map(|one| &one.name));
+    let more = setup
+        .own_forces
+        .iter()
+        .map(|one| &one.name)
+        .chain(columns.iter().map(|one| &one.name))
+        .chain(frames.iter().map(|one| &one.name));
+    let told = members.iter().map(|one| &one.name).chain(output.markers.iter().map(|one| &one.name));
+    spheres.chain(things).chain(elements).chain(more).chain(told).for_each(|name| name.hash(&mut hasher));
+    let counts = [setup.surfaces.len(), joints.limits.len(), joints.muscles.len()];
+    (counts, setup.self_contact.is_some(), output.report_coordinates).hash(&mut hasher);
+    hasher.finish()
 }
 
 /// Frames for a motion of the vehicle at a time; others stand still in space.

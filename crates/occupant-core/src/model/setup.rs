@@ -21,6 +21,7 @@ use crate::forces::contact::solid::Solid;
 use crate::forces::contact::surface::{Frame, Surface};
 use crate::forces::contact::{ContactData, EdgeForce};
 use crate::forces::joint::Joints;
+use crate::forces::own::{Force, OwnData, OwnForce};
 use crate::forces::sphere::Site;
 use crate::model::seating::{InitialPosture, InitialVelocity, Mounting, upright};
 use crate::motion::frame::{Frames, MOST_FRAMES, Moving, VEHICLE};
@@ -283,6 +284,8 @@ pub struct Setup {
     pub bags: Vec<Bag>,
     /// Steering columns that give way, each of which carries one of `frames`.
     pub columns: Vec<Column>,
+    /// Forces that the program brings itself.
+    pub own_forces: Vec<OwnForce>,
     /// Motion of the vehicle.
     pub path: VehiclePath,
     /// What is drawn and touches nothing: the road, the outside of vehicles.
@@ -410,6 +413,7 @@ impl Setup {
             belts: &self.belts,
             chains: &self.chains,
             bags: &self.bags,
+            own: OwnData { forces: &self.own_forces, others: self.frames.len() },
             columns: ColumnData { columns: &self.columns, gravity_m_s2: self.gravity_m_s2 },
             joints: &self.joints,
             limits: &self.joints,
@@ -442,6 +446,7 @@ impl SetupBuilder {
             chains: Vec::new(),
             bags: Vec::new(),
             columns: Vec::new(),
+            own_forces: Vec::new(),
             path: VehiclePath::parked(),
             scenery: Vec::new(),
             facts: Vec::new(),
@@ -472,6 +477,11 @@ impl SetupBuilder {
     /// Adds a belt.
     pub fn belt(&mut self, belt: Belt) {
         self.setup.belts.push(belt);
+    }
+
+    /// Adds a force of the program's own under a name: its channels are `own_force.NAME.*`.
+    pub fn force(&mut self, name: impl Into<String>, force: impl Force + 'static) {
+        self.setup.own_forces.push(OwnForce::new(name, force));
     }
 
     /// The setup: this occupant in a vehicle that moves along `path`, from `posture` until `end_s`.

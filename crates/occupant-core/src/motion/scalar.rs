@@ -40,6 +40,7 @@ pub trait Scalar:
     + Neg<Output = Self>
     + AddAssign
     + SubAssign
+    + 'static
 {
     /// Whether numbers carry derivatives.
     const HAS_SLOPES: bool = false;

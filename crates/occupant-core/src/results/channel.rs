@@ -12,7 +12,7 @@ use crate::quantity::Value;
 use crate::results::catalogue::{Catalogue, Source};
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
-use placed_text::nearest;
+use crate::results::unknown::Unknown;
 
 /// A scalar time history of a run.
 #[derive(Clone, Debug)]
@@ -27,12 +27,14 @@ pub struct Channel {
     pub meaning: String,
     pub(super) source: Source,
     pub(super) component: Component,
+    /// [`Model::names_hash`] of the model that it was listed for.
+    pub(super) of: u64,
 }
 
 impl Channel {
-    /// Its value at an output, in its SI unit; the sample must be of the model that the channel was listed for.
+    /// Its value at an output, in its SI unit; not a number at a sample of a model that has other channels.
     pub fn value(&self, sample: &Sample<'_>) -> f64 {
-        self.component.of(&self.source.value(sample))
+        if sample.model.names_hash() == self.of { self.component.of(&self.source.value(sample)) } else { f64::NAN }
     }
 }
 
@@ -75,12 +77,12 @@ pub fn channels(model: &Model) -> Vec<Channel> {
 /// The channel of this name.
 ///
 /// # Errors
-/// The nearest name there is, if one is near.
-pub fn find(model: &Model, name: &str) -> Result<Channel, Option<String>> {
+/// A name that no channel has, with the nearest that one has.
+pub fn find(model: &Model, name: &str) -> Result<Channel, Unknown> {
     let mut all = channels(model);
     match all.iter().position(|c| c.name == name) {
         Some(at) => Ok(all.swap_remove(at)),
-        None => Err(nearest(name, all.iter().map(|c| c.name.as_str())).map(str::to_owned)),
+        None => Err(Unknown::new("channel", name, all.iter().map(|c| c.name.as_str()))),
     }
 }
 
@@ -148,6 +150,11 @@ impl Series {
 
 impl Recorder for Series {
     fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
+        if let Some(channel) = self.channels.iter().find(|channel| channel.of != model.names_hash()) {
+            return Err(
+                format!("the channel {} was listed for another model; list those of this one", channel.name).into()
+            );
+        }
         let outputs = model.output_count();
         self.time_s.clear();
         self.time_s.reserve(outputs);

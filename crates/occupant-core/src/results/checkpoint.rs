@@ -10,7 +10,8 @@ use crate::motion::state::State;
 use crate::quantity::FieldWords;
 use crate::results::energy::{EnergyStart, Greatest, Rest};
 use crate::results::outcome::{FirstTouch, Outcome, Status};
-use crate::results::sample::Effort;
+use crate::results::sample::{Effort, Switched};
+use crate::results::told::{self, from_indices, to_indices};
 
 /// A run at one of its outputs.
 #[derive(Clone, Debug)]
@@ -31,6 +32,8 @@ pub struct Checkpoint {
     pub readings_before: Vec<f64>,
     /// Readings of instruments since the output before: [`Fine`](super::fine::Fine).
     pub readings: Vec<f32>,
+    /// What has happened to force elements since the output before.
+    pub events: Vec<Switched>,
     /// Sums and extremes.
     pub progress: Progress,
     /// The step of the error control in which the output lies, if it goes on beyond it.
@@ -44,6 +47,7 @@ impl PartialEq for Checkpoint {
         (self.index, self.time_s, &self.state) == (other.index, other.time_s, &other.state)
             && (&self.memory, &self.first_touches) == (&other.memory, &other.first_touches)
             && (&self.progress, &self.under_way) == (&other.progress, &other.under_way)
+            && self.events == other.events
             && same(&self.peaks, &other.peaks)
             && same(&self.readings_before, &other.readings_before)
             && self.readings.iter().map(|x| x.to_bits()).eq(other.readings.iter().map(|x| x.to_bits()))
@@ -153,8 +157,8 @@ pub enum CheckpointError {
         /// Time of the output, s.
         time_s: f64,
     },
-    /// Readings and greatest values of other elements, instruments or parts than the model has.
-    #[error("the checkpoint has greatest values or readings that are not those of the scenario")]
+    /// Readings, events and greatest values of other elements, instruments or parts than the model has.
+    #[error("the checkpoint has greatest values, readings or events that are not those of the scenario")]
     Readings,
     /// A first touch of a sphere or surface that the model does not have.
     #[error("the checkpoint knows a touch of sphere {sphere} and surface {surface}, which the scenario does not have")]
@@ -180,6 +184,8 @@ const STATE: &str = "in space axes, SI: T1; w, x, y, z of the free segments, the
 upper_torso, head, lower_torso, left_upper_arm, right_upper_arm, left_thigh, right_thigh); hinges (of 12: left_forearm, right_forearm, \
 left_lower_leg, right_lower_leg); velocity of T1; angular velocities of the free segments; hinge rates; work of contacts, friction, \
 joints, belts, muscles, bags, columns, vehicle: of 12 segments 78 numbers, 75 without the muscles, bags and columns in files of 0.1.0; then the numbers of bags and columns, each scaled to the order of 1";
+
+const EVENTS: &str = "when something happened to force elements at the accepted steps since the output before, s";
 
 const STEP: &str =
     "start and end of the step in which the output lies, if it goes on beyond it; the columns below tell its start";
@@ -207,6 +213,7 @@ impl Checkpoint {
             peaks: Vec::new(),
             readings_before: Vec::new(),
             readings: Vec::new(),
+            events: Vec::new(),
             progress: Progress::default(),
             under_way: None,
         };
@@ -242,6 +249,19 @@ impl Checkpoint {
         let own = std::mem::take(&mut self.readings_before);
         self.readings_before = file.numbers(words(62, "readings_before", before), own);
         self.readings = file.singles(words(63, "readings", readings), std::mem::take(&mut self.readings));
+        self.keep_events(file);
+    }
+
+    fn keep_events(&mut self, file: &mut dyn Archive) {
+        let times_s = self.events.iter().map(|event| event.time_s).collect();
+        let times_s = file.numbers(words(65, "event_times_s", EVENTS), times_s);
+        let meaning =
+            "of each event three numbers: place of its kind, of its element, of its words among those of the kind";
+        let indices = file.indices(words(66, "events", meaning), to_indices(&self.events));
+        match from_indices(&times_s, &indices) {
+            Some(events) => self.events = events,
+            None => file.refuse("events of force elements that this program does not know"),
+        }
     }
 
     fn keep_touches(&mut self, file: &mut dyn Archive) {
@@ -306,15 +326,29 @@ impl Checkpoint {
     /// # Errors
     /// The first thing that does not fit the model.
     pub fn check(&self, model: &Model) -> Result<(), CheckpointError> {
+        self.check_at(model, true)
+    }
+
+    /// The same; `at_output`: whether it must be one of the model's outputs.
+    pub(crate) fn check_at(&self, model: &Model, at_output: bool) -> Result<(), CheckpointError> {
         let forces = &model.system().forces;
         self.memory.check_count(forces)?;
         Self::state_of(model, &self.state)?;
         let expected_s = model.output_time_s(self.index);
         // to the bit: a step from another time is another step
-        if expected_s.map(f64::to_bits) != Some(self.time_s.to_bits()) {
+        let time = &model.setup().time;
+        let is_right = if at_output {
+            expected_s.map(f64::to_bits) == Some(self.time_s.to_bits())
+        } else {
+            (time.start_s..=time.end_s).contains(&self.time_s) && self.index <= model.output_count()
+        };
+        if !is_right {
             return Err(CheckpointError::Time { index: self.index, found_s: self.time_s, expected_s });
         }
         self.check_touches(model)?;
+        if !told::fit(&self.events, forces) {
+            return Err(CheckpointError::Readings);
+        }
         if let Some(step) = &self.under_way {
             step.memory.check_count(forces)?;
             Self::state_of(model, &step.state)?;

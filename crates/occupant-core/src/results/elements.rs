@@ -88,6 +88,13 @@ impl Sample<'_> {
 }
 
 impl Model {
+    /// What kinds of force elements are called that the model can have, and the names of its own elements.
+    pub(crate) fn element_names(&self) -> Vec<&str> {
+        let mut list = AllNames { model: self, list: Vec::new() };
+        visit_kinds(&mut list);
+        list.list
+    }
+
     /// The elements of the kind of which one is called `of`, in the scenario's order.
     pub fn named(&self, of: &str) -> Vec<Named<'_>> {
         let mut list = Names { model: self, of, list: Vec::new() };
@@ -125,6 +132,18 @@ struct StartTables<'s, 'a>(&'s Sample<'a>, Tables);
 impl Visitor for StartTables<'_, '_> {
     fn visit<E: Listed>(&mut self) {
         self.1.extend(self.0.show(E::start_table).map(|table| (E::NAMES[1], table)));
+    }
+}
+
+struct AllNames<'m> {
+    model: &'m Model,
+    list: Vec<&'m str>,
+}
+
+impl Visitor for AllNames<'_> {
+    fn visit<E: Listed>(&mut self) {
+        self.list.push(E::NAMES[0]);
+        self.list.extend(E::named(E::data(&self.model.setup().forces(self.model.faces()))).iter().map(|one| one.name));
     }
 }
 

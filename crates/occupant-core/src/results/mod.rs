@@ -12,3 +12,7 @@ pub mod reaction;
 pub mod recorder;
 pub mod sample;
 pub mod summary;
+mod told;
+mod unknown;
+
+pub use unknown::Unknown;

@@ -48,7 +48,19 @@ pub struct FirstTouch {
 
 /// The integration cannot go on.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StepError {
+    /// The vehicle's motion is told on the way, and nobody has told it so far.
+    #[error(
+        "the motion of the vehicle is known up to t = {known_s:.6} s, the run was to go on to {target_s:.6} s; push a frame first, in a \
+         run that you step yourself"
+    )]
+    NotTold {
+        /// Up to when it is known, s.
+        known_s: f64,
+        /// Up to when it was asked for, s.
+        target_s: f64,
+    },
     /// A component of the state is no longer a number.
     #[error(
         "at t = {time_s:.6} s, in a step of {step_s:.3e} s, the {component} is no longer a finite number; a smaller step or softer \
@@ -89,6 +101,38 @@ pub enum StepError {
         /// Error of the last trial in units of the tolerance.
         error: f64,
     },
+}
+
+/// A run that did not come to its end.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SimulationError {
+    /// The integration could not go on: what was recorded before stands.
+    #[error("{}", failed(.0))]
+    Failed(Box<Outcome>),
+    /// The recorder failed.
+    #[error(transparent)]
+    Recording(#[from] RecordingFailed),
+}
+
+fn failed(outcome: &Outcome) -> String {
+    match &outcome.status {
+        Status::Failed(error) => error.to_string(),
+        status => format!("the run ended at t = {:.6} s: {status:?}", outcome.time_s),
+    }
+}
+
+impl Outcome {
+    /// The same, if the integration did not fail.
+    ///
+    /// # Errors
+    /// The step that failed.
+    pub fn succeeded(self) -> Result<Self, SimulationError> {
+        match self.status {
+            Status::Failed(_) => Err(SimulationError::Failed(Box::new(self))),
+            Status::Completed | Status::Stopped => Ok(self),
+        }
+    }
 }
 
 /// A run that could not be recorded.

@@ -31,10 +31,21 @@ pub(crate) struct PartPeak {
     pub penetration: Peak,
     /// Greatest Δ over the thickness of a solid.
     pub used: f64,
+    /// Δ in a bar or a rim whose axis a centre went through, m, and which that was.
+    pub through: Peak,
+    pub bar: usize,
 }
 
 impl PartPeak {
-    const NONE: PartPeak = PartPeak { force: Peak::NONE, surface: 0, penetration: Peak::NONE, used: 0.0 };
+    const NONE: PartPeak =
+        PartPeak { force: Peak::NONE, surface: 0, penetration: Peak::NONE, used: 0.0, through: Peak::NONE, bar: 0 };
+
+    /// Notes a centre that goes through a bar.
+    pub(crate) fn go_through(&mut self, depth_m: f64, bar: usize, time_s: f64) {
+        if self.through.see(depth_m, time_s) {
+            self.bar = bar;
+        }
+    }
 }
 
 impl Peaks {
@@ -78,6 +89,7 @@ impl Peaks {
             }
             part.penetration.see(other.penetration.value, other.penetration.time_s);
             part.used = part.used.max(other.used);
+            part.go_through(other.through.value, other.bar, other.through.time_s);
         }
     }
 
@@ -85,15 +97,17 @@ impl Peaks {
     pub(crate) fn numbers(&self) -> Vec<f64> {
         let peaks = self.elements.iter().chain(self.felt.iter().flatten());
         let parts = self.parts.iter().flat_map(|part| {
-            let PartPeak { force, surface, penetration, used } = *part;
-            [force.value, force.time_s, surface as f64, penetration.value, penetration.time_s, used]
+            let PartPeak { force, surface, penetration, used, through, bar } = *part;
+            let places = [surface, bar].map(|place| place as f64);
+            let peaks = [force, penetration, through].map(|peak| [peak.value, peak.time_s]);
+            peaks.into_iter().flatten().chain(places).chain([used])
         });
         peaks.flat_map(|peak| [peak.value, peak.time_s]).chain(parts).collect()
     }
 
     /// From plain numbers, of a run of which `self` has seen nothing; false where they are of another.
     pub(crate) fn read(&mut self, numbers: &[f64]) -> bool {
-        let (peaks, parts) = (2 * (self.elements.len() + FELT * self.felt.len()), 6 * self.parts.len());
+        let (peaks, parts) = (2 * (self.elements.len() + FELT * self.felt.len()), 9 * self.parts.len());
         if numbers.len() != peaks + parts {
             return false;
         }
@@ -101,10 +115,12 @@ impl Peaks {
         let all = self.elements.iter_mut().chain(self.felt.iter_mut().flatten());
         all.zip(pairs).for_each(|(peak, &[value, time_s])| *peak = Peak { value, time_s });
         let (rows, _) = numbers[peaks..].as_chunks();
-        for (part, &[force, force_s, surface, depth, depth_s, used]) in self.parts.iter_mut().zip(rows) {
+        for (part, &[force, force_s, depth, depth_s, through, through_s, surface, bar, used]) in
+            self.parts.iter_mut().zip(rows)
+        {
             let peak = |value, time_s| Peak { value, time_s };
-            let (force, penetration) = (peak(force, force_s), peak(depth, depth_s));
-            *part = PartPeak { force, surface: surface as usize, penetration, used };
+            let (force, penetration, through) = (peak(force, force_s), peak(depth, depth_s), peak(through, through_s));
+            *part = PartPeak { force, surface: surface as usize, penetration, used, through, bar: bar as usize };
         }
         true
     }

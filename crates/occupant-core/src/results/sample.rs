@@ -1,17 +1,19 @@
 //! What a run tells at one output time (report, "Output", items 1–7), computed when asked for.
 
-use nalgebra::{Point3, UnitQuaternion, Vector3};
+use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
 
 use crate::body::Joint;
 use crate::body::Segment;
 use crate::body::tti12::TTI12;
 use crate::forces::contact::Touch;
 use crate::forces::contact::surface::Frame;
+use crate::forces::shown::Pull;
 use crate::forces::{Actions, History};
 use crate::kernel::Evaluation;
 use crate::kernel::instruments::Reading;
 use crate::model::Model;
 use crate::motion::frame::{Frames, MOST_FRAMES, VEHICLE};
+use crate::motion::layout::Trunk;
 use crate::motion::report_coordinates::ReportCoordinates;
 use crate::motion::state::State;
 use crate::motion::vector::{M3, V3};
@@ -20,6 +22,7 @@ use crate::results::energy::EnergyLedger;
 use crate::results::fine::Fine;
 use crate::results::outcome::FirstTouch;
 use crate::results::peaks::Peaks;
+use crate::results::unknown::Unknown;
 use crate::vehicle::{FrameMotion, VehiclePose};
 
 /// Work of the integrator so far.
@@ -128,11 +131,20 @@ pub struct Contact {
     pub slip_m_s: f64,
 }
 
+/// Where nothing is: what is told of a segment or sphere that the body has not.
+const NOWHERE: Point3<f64> = Point3::new(f64::NAN, f64::NAN, f64::NAN);
+
+/// All that is told of a segment, sphere, joint or frame which the model has not is not a number.
 impl<'a> Sample<'a> {
-    /// The same with the instruments and the summary of a body (index).
+    /// Whether a segment is one of the model's.
+    fn has(&self, segment: Segment) -> bool {
+        segment.index() < self.model.body().segments.len()
+    }
+
+    /// The same with the instruments and the summary of a body (index), the last of them at most.
     #[must_use]
     pub fn of_body(self, of: usize) -> Self {
-        Sample { of, ..self }
+        Sample { of: of.min(self.homes.len().saturating_sub(1)), ..self }
     }
 
     /// The same with all places in the axes of the first vehicle, as pictures show them.
@@ -151,8 +163,9 @@ impl<'a> Sample<'a> {
         match frame {
             Frame::Vehicle => *self.vehicle,
             Frame::Space => FrameMotion::space(),
-            Frame::Other(_) => self.frames[frame.index(&[])].motion(),
-            Frame::Segment(n) => self.evaluation.kinematics.moving(n).motion(),
+            Frame::Other(i) if i < self.model.setup().frames.len() => self.frames[frame.index(&[])].motion(),
+            Frame::Segment(n) if n < self.model.body().segments.len() => self.evaluation.kinematics.moving(n).motion(),
+            Frame::Other(_) | Frame::Segment(_) => FrameMotion::nowhere(),
         }
     }
 
@@ -173,6 +186,7 @@ impl<'a> Sample<'a> {
             peaks: self.step_peaks.numbers(),
             readings_before: self.fine.numbers(),
             readings: self.fine.singles(),
+            events: self.switched.to_vec(),
             progress: self.progress,
             under_way: self.under_way.map(|step| step.to_start()),
         }
@@ -180,6 +194,9 @@ impl<'a> Sample<'a> {
 
     /// Upper and lower end of a segment, vehicle axes, m (item 1).
     pub fn end_points_m(&self, segment: Segment) -> [Point3<f64>; 2] {
+        if !self.has(segment) {
+            return [NOWHERE; 2];
+        }
         let k = &self.evaluation.kinematics;
         let n = segment.index();
         let body = self.model.body();
@@ -190,12 +207,18 @@ impl<'a> Sample<'a> {
 
     /// Centre of gravity of a segment, vehicle axes, m.
     pub fn cg_m(&self, segment: Segment) -> Point3<f64> {
+        if !self.has(segment) {
+            return NOWHERE;
+        }
         let k = &self.evaluation.kinematics;
         self.place_m(segment.index(), k.cg(&self.model.system().skeleton, segment.index()))
     }
 
     /// Orientation of a segment relative to the vehicle: turns segment axes into vehicle axes.
     pub fn orientation(&self, segment: Segment) -> UnitQuaternion<f64> {
+        if !self.has(segment) {
+            return UnitQuaternion::new_unchecked(Quaternion::new(f64::NAN, f64::NAN, f64::NAN, f64::NAN));
+        }
         let axes = self.evaluation.kinematics.axes[segment.index()].to_matrix();
         let relative = self.seen_from(segment.index()).rotation.tr_mul(&axes);
         UnitQuaternion::from_rotation_matrix(&nalgebra::Rotation3::from_matrix_unchecked(relative))
@@ -205,7 +228,7 @@ impl<'a> Sample<'a> {
     pub fn centre_of_body(&self, body: usize) -> (Vector3<f64>, Vector3<f64>) {
         let (k, skeleton) = (&self.evaluation.kinematics, &self.model.system().skeleton);
         let (mut mass, mut place, mut moving) = (0.0, Vector3::zeros(), Vector3::zeros());
-        for n in skeleton.layout.trunks()[body].segments() {
+        for n in skeleton.layout.trunks().get(body).into_iter().flat_map(Trunk::segments) {
             let own = skeleton.links[n].mass;
             mass += own;
             place += own * k.cg(skeleton, n).to_vector();
@@ -216,11 +239,17 @@ impl<'a> Sample<'a> {
 
     /// Kinematic acceleration of the centre of gravity, segment axes, m/s² (item 2).
     pub fn cg_acceleration_m_s2(&self, segment: Segment) -> Vector3<f64> {
+        if !self.has(segment) {
+            return NOWHERE.coords;
+        }
         self.in_segment(segment, self.cg_acceleration_space(segment))
     }
 
     /// What an accelerometer at the centre of gravity reads: acceleration minus gravity, segment axes, m/s² (item 2).
     pub fn specific_force_m_s2(&self, segment: Segment) -> Vector3<f64> {
+        if !self.has(segment) {
+            return NOWHERE.coords;
+        }
         let mut a = self.cg_acceleration_space(segment);
         a.z += self.model.setup().gravity_m_s2;
         self.in_segment(segment, a)
@@ -228,16 +257,25 @@ impl<'a> Sample<'a> {
 
     /// Angular acceleration, segment axes, rad/s² (item 3).
     pub fn angular_acceleration_rad_s2(&self, segment: Segment) -> Vector3<f64> {
+        if !self.has(segment) {
+            return NOWHERE.coords;
+        }
         self.in_segment(segment, self.evaluation.accelerations.alpha[segment.index()])
     }
 
     /// Absolute angular velocity, segment axes, rad/s (item 4).
     pub fn angular_velocity_rad_s(&self, segment: Segment) -> Vector3<f64> {
+        if !self.has(segment) {
+            return NOWHERE.coords;
+        }
         self.in_segment(segment, self.evaluation.kinematics.omega[segment.index()])
     }
 
     /// Velocity of the centre of gravity, space axes, m/s.
     pub fn cg_velocity_m_s(&self, segment: Segment) -> Vector3<f64> {
+        if !self.has(segment) {
+            return NOWHERE.coords;
+        }
         let k = &self.evaluation.kinematics;
         k.cg_velocity(&self.model.system().skeleton, segment.index()).to_vector()
     }
@@ -256,6 +294,9 @@ impl<'a> Sample<'a> {
 
     /// Sum of contact and friction forces on a sphere, vehicle axes, N; other elements apart (item 5).
     pub fn sphere_force_n(&self, sphere: usize) -> Vector3<f64> {
+        if sphere >= self.model.body().spheres.len() {
+            return NOWHERE.coords;
+        }
         self.touches().filter(|t| t.sphere == sphere).map(|t| self.contact(&t).force_n).sum()
     }
 
@@ -285,11 +326,28 @@ impl<'a> Sample<'a> {
         self.touches().filter(|t| t.sphere == sphere).map(|t| t.depth).fold(0.0, f64::max)
     }
 
-    /// Force of all elements but contacts on a sphere, or of those called `of` alone, vehicle axes, N.
-    pub fn sphere_pull_n(&self, sphere: usize, of: Option<&str>) -> Vector3<f64> {
+    /// Force of all elements but contacts on a sphere, vehicle axes, N: of one kind alone (`belt`, `bag`), or of the element of
+    /// one name (`lap`).
+    ///
+    /// # Errors
+    /// No such sphere; a name that is neither that of a kind nor that of an element of the model.
+    pub fn sphere_pull_n(&self, sphere: usize, of: Option<&str>) -> Result<Vector3<f64>, Unknown> {
+        let spheres = &self.model.body().spheres;
+        if sphere >= spheres.len() {
+            return Err(Unknown::new("sphere", sphere, spheres.iter().map(|s| s.name.as_str())));
+        }
+        let names = of.map(|of| (of, self.model.element_names()));
+        if let Some((of, names)) = names.filter(|(of, names)| names.iter().all(|name| name != of)) {
+            return Err(Unknown::new("force element", of, names.into_iter()));
+        }
+        Ok(self.pull_n(sphere, |pull| of.is_none_or(|of| pull.of == of || pull.name == of)))
+    }
+
+    /// The sum of those forces on a sphere that are asked for, vehicle axes, N.
+    pub(crate) fn pull_n(&self, sphere: usize, is_asked: impl Fn(&Pull<'_>) -> bool) -> Vector3<f64> {
         let mut sum_n = Vector3::zeros();
         self.pulls(&mut |pull| {
-            if pull.sphere == sphere && of.is_none_or(|of| pull.of == of) {
+            if pull.sphere == sphere && is_asked(pull) {
                 sum_n += pull.force_n;
             }
         });
@@ -299,13 +357,14 @@ impl<'a> Sample<'a> {
     /// Centre of a sphere, vehicle axes, m.
     pub fn sphere_centre_m(&self, sphere: usize) -> Point3<f64> {
         let system = self.model.system();
-        self.place_m(system.spheres[sphere].segment, system.sphere(&self.evaluation.kinematics, sphere).1)
+        let Some(site) = system.spheres.get(sphere) else { return NOWHERE };
+        self.place_m(site.segment, system.sphere(&self.evaluation.kinematics, sphere).1)
     }
 
     /// Point of application of a sphere's contact force relative to its centre, segment axes, m: the mean over the faces
     /// touched, weighted by wF (item 6). `None` without contact.
     pub fn application_point_m(&self, sphere: usize) -> Option<Vector3<f64>> {
-        let site = &self.model.system().spheres[sphere];
+        let site = self.model.system().spheres.get(sphere)?;
         let (mut sum, mut total) = (Vector3::zeros(), 0.0);
         for t in self.touches().filter(|t| t.sphere == sphere) {
             let normal = self.axes_of(t.frame).out(t.normal);

@@ -1,7 +1,7 @@
 //! Steps with error control.
 
 use super::front::Asks;
-use super::{Front, Run, Step};
+use super::{Course, Front, Step};
 use crate::model::Model;
 use crate::motion::integrate::bogacki_shampine::{ERROR_ORDER, EVALUATIONS, Tolerance};
 use crate::results::outcome::StepError;
@@ -51,7 +51,7 @@ impl Memory {
     }
 }
 
-impl Run {
+impl Course {
     /// Steps until one reaches `target_s`, none across a break of the path; then shows the state at `target_s`.
     pub(super) fn advance_adaptive(
         &mut self,
@@ -62,8 +62,7 @@ impl Run {
         let Some(mut front) = self.front.take() else {
             return Ok(());
         };
-        let (breaks_s, cursor) = (&self.breaks_s, &mut self.cursor);
-        front.complete(model, &control.tolerance, breaks_s, cursor);
+        front.complete(model, &control.tolerance, &self.breaks_s, (&mut self.cursor, &mut self.seen));
         let mut failed = Ok(());
         while failed.is_ok() && front.step.end_s < target_s {
             front.note(model, &mut self.seen, &mut self.switches);
@@ -86,10 +85,12 @@ impl Run {
     /// One accepted step of the front.
     fn step_on(&mut self, model: &Model, front: &mut Front, control: &Control) -> Result<(), StepError> {
         let start_s = front.step.end_s;
-        let mut breaks = self.breaks_s.iter().copied();
-        let stop_s = breaks.find(|&b| b > start_s).unwrap_or(f64::INFINITY);
+        // they are in increasing order
+        let next = self.breaks_s.partition_point(|&b| b <= start_s);
+        let stop_s = self.breaks_s.get(next).copied().unwrap_or(f64::INFINITY);
         // the rate is then that of the end of the step before
-        let follows = self.effort.steps > 0 && !self.breaks_s.contains(&start_s);
+        let is_break = next > 0 && self.breaks_s[next - 1] == start_s;
+        let follows = self.effort.steps > 0 && !is_break;
         self.effort.evaluations += u64::from(!follows);
         let (mut was_rejected, last_s) = (false, self.effort.step_s);
         // the end of the step, where it is to end at a switch or behind a corner

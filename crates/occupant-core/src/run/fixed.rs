@@ -1,6 +1,6 @@
 //! Whole steps from output to output.
 
-use super::Run;
+use super::Course;
 use super::corner::Touching;
 use super::switch::Search;
 use crate::forces::{Follow, History, Memory};
@@ -160,7 +160,7 @@ impl<'a> Stepper<'a> {
     }
 }
 
-impl Run {
+impl Course {
     /// What is left of a step, if anything, and all steps of `stretch`.
     pub(crate) fn advance_rk4(&mut self, model: &Model, left: Option<Step>, stretch: Stretch) -> Result<(), StepError> {
         let stepper = &mut Stepper::new(model, &self.state);

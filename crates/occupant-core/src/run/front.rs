@@ -27,6 +27,7 @@ pub(super) struct Asks<'a> {
 }
 
 /// The latest step of the integration, and where it stands.
+#[derive(Clone)]
 pub(super) struct Front {
     pub step: Step,
     from: State<f64>,
@@ -92,12 +93,19 @@ impl Front {
     }
 
     /// Takes the step again of which only the start is known.
-    pub(super) fn complete(&mut self, model: &Model, tolerance: &Tolerance, breaks_s: &[f64], cursor: &mut PathCursor) {
+    pub(super) fn complete(
+        &mut self,
+        model: &Model,
+        tolerance: &Tolerance,
+        breaks_s: &[f64],
+        (cursor, seen): (&mut PathCursor, &mut Seen),
+    ) {
         if self.is_half_known {
             self.is_half_known = false;
             let step = self.step;
             let follows = step.start_s > model.setup().time.start_s && !breaks_s.contains(&step.start_s);
             self.look(model, step, follows, cursor);
+            seen.compare(model, step.start_s, &self.met, &self.felt);
             let trial = self.attempt(model, step, tolerance, cursor);
             self.take_over(trial, step, breaks_s.contains(&step.end_s));
         }

@@ -11,7 +11,10 @@ use crate::results::checkpoint::Checkpoint;
 use crate::results::fine::Fine;
 use crate::results::outcome::FirstTouch;
 use crate::results::peaks::{EXCURSIONS, FELT, Peaks};
+use crate::results::sample::Switched;
 use crate::results::summary::Peak;
+use crate::run::bars::Bars;
+use crate::run::changes::Changes;
 use crate::run::corner::Touching;
 use crate::vehicle::PathCursor;
 
@@ -29,6 +32,7 @@ pub(super) struct Meeting {
     pub depth_m: f64,
     /// On the sphere, space axes.
     pub force_n: V3<f64>,
+    pub normal: V3<f64>,
 }
 
 impl From<&Touch<f64>> for Meeting {
@@ -36,8 +40,8 @@ impl From<&Touch<f64>> for Meeting {
     fn from(touch: &Touch<f64>) -> Self {
         let (sphere, pair, part) = (touch.sphere, touch.pair, touch.part as usize);
         let (closing_m_s, velocity_m_s) = (touch.closing, touch.velocity);
-        let (normal_force_n, depth_m, force_n) = (touch.normal_force, touch.depth, touch.force);
-        Meeting { sphere, pair, part, closing_m_s, velocity_m_s, normal_force_n, depth_m, force_n }
+        let (normal_force_n, depth_m, force_n, normal) = (touch.normal_force, touch.depth, touch.force, touch.normal);
+        Meeting { sphere, pair, part, closing_m_s, velocity_m_s, normal_force_n, depth_m, force_n, normal }
     }
 }
 
@@ -80,6 +84,7 @@ impl Tracker<f64> for Count<'_> {
 }
 
 /// Remembers which sphere has touched which surface, the greatest values and the readings.
+#[derive(Clone)]
 pub(super) struct Seen {
     surfaces: usize,
     /// By sphere and surface.
@@ -87,10 +92,13 @@ pub(super) struct Seen {
     pub touches: Vec<FirstTouch>,
     pub peaks: Peaks,
     pub fine: Fine,
+    changes: Changes,
+    bars: Bars,
     look: Look,
 }
 
 /// What greatest values are found with.
+#[derive(Clone)]
 struct Look {
     /// By sphere.
     part_of: Vec<usize>,
@@ -114,7 +122,8 @@ impl Seen {
         let combinations = model.body().spheres.len() * surfaces;
         let (known, touches) = (vec![false; combinations], Vec::with_capacity(combinations));
         let (look, peaks) = (Look::new(model), none_of(model));
-        Seen { surfaces, known, touches, peaks, fine: Fine::new(model), look }
+        let (changes, bars) = (Changes::new(model), Bars::new(model));
+        Seen { surfaces, known, touches, peaks, fine: Fine::new(model), changes, bars, look }
     }
 
     /// Takes over what an earlier part of the run has seen; all of it is of the model.
@@ -146,7 +155,24 @@ impl Seen {
         if !self.peaks.are_unknown() {
             self.look.at(model, time_s, (met, felt), phase, &mut self.peaks);
             self.fine.see(time_s, &felt.readings);
+            self.compare(model, time_s, met, felt);
         }
+    }
+
+    /// Compares an accepted step with the one before; the same step twice makes no difference.
+    pub(super) fn compare(&mut self, model: &Model, time_s: f64, met: &[Touching], felt: &Felt) {
+        self.changes.see(time_s, &felt.numbers);
+        let (parts, part_of) = (&mut self.peaks.parts, &self.look.part_of);
+        self.bars.see(model, met, |sphere, depth_m, bar| {
+            if let Some(part) = parts.get_mut(part_of[sphere]) {
+                part.go_through(depth_m, bar, time_s);
+            }
+        });
+    }
+
+    /// What has happened to force elements since this was last asked.
+    pub(super) fn told(&mut self) -> &mut Vec<Switched> {
+        &mut self.changes.told
     }
 
     /// What there is to see at one instant alone.

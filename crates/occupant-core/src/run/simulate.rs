@@ -2,27 +2,34 @@
 
 use crate::model::Model;
 use crate::results::checkpoint::Checkpoint;
-use crate::results::outcome::{Outcome, RecordingFailed, ResumeError, Status};
+use crate::results::outcome::{Outcome, RecordingFailed, ResumeError, SimulationError, Status};
 use crate::results::recorder::{Flow, Recorder};
-use crate::run::Run;
+use crate::run::Course;
 
-/// Runs `model` from its start to its end time.
+/// Runs `model` from its start to its end time, or to where the recorder stops it.
 ///
-/// A step that fails is an [`Outcome`] of [`Status::Failed`]: what was recorded before stands.
+/// # Errors
+/// A step that fails, with the outcome so far: what was recorded before stands. What the recorder reports.
+pub fn simulate(model: &Model, recorder: impl Recorder) -> Result<Outcome, SimulationError> {
+    attempt(model, recorder)?.succeeded()
+}
+
+/// Runs `model` as far as it goes: a step that fails is an [`Outcome`] of [`Status::Failed`].
 ///
 /// # Errors
 /// What the recorder reports.
-pub fn simulate(model: &Model, mut recorder: impl Recorder) -> Result<Outcome, RecordingFailed> {
-    go(model, Run::new(model), &mut recorder)
+pub fn attempt(model: &Model, mut recorder: impl Recorder) -> Result<Outcome, RecordingFailed> {
+    go(model, Course::new(model), &mut recorder)
 }
 
 /// Runs `model` from one of its outputs to its end time. The first output recorded is that of the checkpoint; all outputs
-/// and the outcome are, to the bit, those of a run from the start, whose end time may have been another.
+/// and the outcome are, to the bit, those of a run from the start, whose end time may have been another. A step that fails is
+/// an outcome, as of [`attempt`].
 ///
 /// # Errors
 /// A checkpoint that does not fit the model; what the recorder reports.
 pub fn resume(model: &Model, checkpoint: &Checkpoint, mut recorder: impl Recorder) -> Result<Outcome, ResumeError> {
-    let run = Run::from_checkpoint(model, checkpoint).map_err(ResumeError::Refused)?;
+    let run = Course::from_checkpoint(model, checkpoint, true).map_err(ResumeError::Refused)?;
     go(model, run, &mut recorder).map_err(ResumeError::Recording)
 }
 
@@ -31,20 +38,20 @@ pub fn resume(model: &Model, checkpoint: &Checkpoint, mut recorder: impl Recorde
 /// # Errors
 /// A checkpoint that does not fit the model; what the recorder reports.
 pub fn replay(model: &Model, checkpoint: &Checkpoint, recorder: &mut impl Recorder) -> Result<(), ResumeError> {
-    let mut run = Run::from_checkpoint(model, checkpoint).map_err(ResumeError::Refused)?;
+    let mut run = Course::from_checkpoint(model, checkpoint, true).map_err(ResumeError::Refused)?;
     let recorded = run.record(model, recorder);
     recorded.map(|_| ()).map_err(ResumeError::Recording)
 }
 
 /// A whole run, from the present output of `run` on.
-fn go(model: &Model, mut run: Run, recorder: &mut dyn Recorder) -> Result<Outcome, RecordingFailed> {
+fn go(model: &Model, mut run: Course, recorder: &mut dyn Recorder) -> Result<Outcome, RecordingFailed> {
     run.begin(model, recorder)?;
     let status = go_on(model, &mut run, recorder)?;
     run.end(status, recorder)
 }
 
 /// From the present output of `run`, the next to be recorded, to the end.
-pub(crate) fn go_on(model: &Model, run: &mut Run, recorder: &mut dyn Recorder) -> Result<Status, RecordingFailed> {
+pub(crate) fn go_on(model: &Model, run: &mut Course, recorder: &mut dyn Recorder) -> Result<Status, RecordingFailed> {
     loop {
         if run.record(model, recorder)? == Flow::Stop {
             return Ok(Status::Stopped);

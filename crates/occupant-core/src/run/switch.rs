@@ -54,8 +54,8 @@ impl Switches {
     }
 }
 
-/// Room for the switches between two outputs; more are told as well.
-const ROOM: usize = 64;
+/// Room for what happens between two outputs; more is told as well.
+pub(super) const ROOM: usize = 64;
 
 struct Telling<'a> {
     forces: &'a Forces<f64>,

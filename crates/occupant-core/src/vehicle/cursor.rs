@@ -1,12 +1,16 @@
 //! Where in a path's list of pieces the last question was answered.
 
+use super::live::LiveFrames;
+
 /// Remembers the piece of a path that was found last, so that the next look-up, usually in the same piece or the next,
 /// takes no search.
 ///
-/// It changes the speed and never the answer: any cursor, fresh or from another path, gives the same bits.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// It changes the speed and never the answer: any cursor, fresh or from another path, gives the same bits. Of a path that is
+/// told on the way it holds what was told.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct PathCursor {
     piece: usize,
+    pub(crate) live: Option<Box<LiveFrames>>,
 }
 
 impl PathCursor {
@@ -55,7 +59,7 @@ mod tests {
             [(-1.0, 0), (0.0, 0), (0.49, 0), (0.5, 1), (0.7, 2), (1.99, 2), (2.0, 3), (2.5, 4), (9.0, 4)];
         for (at, piece) in at_and_piece {
             for hint in 0..8 {
-                let mut cursor = PathCursor { piece: hint };
+                let mut cursor = PathCursor { piece: hint, live: None };
                 assert_eq!(cursor.locate(starts.len(), at, |i| starts[i]), piece, "at {at} from {hint}");
             }
         }

@@ -36,6 +36,26 @@ impl FrameMotion {
         }
     }
 
+    /// The motion of a frame that there is not.
+    pub(crate) fn nowhere() -> Self {
+        let none = Vector3::repeat(f64::NAN);
+        FrameMotion {
+            origin_m: none,
+            rotation: Matrix3::repeat(f64::NAN),
+            velocity_m_s: none,
+            angular_velocity_rad_s: none,
+            acceleration_m_s2: none,
+            angular_acceleration_rad_s2: none,
+        }
+    }
+
+    /// Whether all of it is numbers.
+    pub(crate) fn is_finite(&self) -> bool {
+        let vectors = [self.velocity_m_s, self.angular_velocity_rad_s, self.acceleration_m_s2];
+        let sum = self.rotation.sum() + self.angular_acceleration_rad_s2.sum() + self.origin_m.sum();
+        sum.is_finite() && vectors.iter().all(|v| v.sum().is_finite())
+    }
+
     /// The space point of a point given in the frame, m.
     pub fn point_to_space(&self, point_frame_m: Vector3<f64>) -> Vector3<f64> {
         // X′ = F·X_vc + F·A·X_v (82)

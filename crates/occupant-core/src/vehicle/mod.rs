@@ -11,7 +11,8 @@
 //! - [`SensorPath`]: recorded accelerations and turning rates, or velocity changes, integrated (ours);
 //! - [`FixedPath`]: a frame at rest, such as a vehicle in a free fall test (ours);
 //! - [`DrivenPath`]: a vehicle that was driven on a road and beside it, by `vehicle_motion` (ours);
-//! - [`OwnPath`]: a program's own vehicle model, any [`VehicleMotion`] (ours).
+//! - [`OwnPath`]: a program's own vehicle model, any [`VehicleMotion`] (ours);
+//! - [`LivePath`]: a vehicle that a run is told of frame by frame, by [`VehicleInput`]s (ours).
 //!
 //! Input is in the report's vehicle-space axes X′_v forward, Y′_v right, Z′_v down, with roll, pitch and yaw; output is in
 //! space axes X′ forward, Y′ left, Z′ up. F = diag(1, −1, −1) leads from one to the other (Eq. 81).
@@ -26,6 +27,7 @@ mod differences;
 mod driven;
 mod fixed;
 mod frame;
+pub(crate) mod live;
 mod own;
 mod problem;
 mod pulse;
@@ -42,6 +44,7 @@ pub use cursor::PathCursor;
 pub use driven::DrivenPath;
 pub use fixed::FixedPath;
 pub use frame::FrameMotion;
+pub use live::{LivePath, VehicleInput};
 pub use own::{OwnPath, VehicleMotion, VehicleState};
 pub use problem::PathProblem;
 pub use pulse::{DecelerationPoint, PulseDefinition, PulsePath, PulseShape, Stop, Strength, TravelDirection};
@@ -83,6 +86,8 @@ pub enum VehiclePath {
     Driven(DrivenPath),
     /// What a program computes itself.
     Own(OwnPath),
+    /// What a run is told on its way.
+    Live(Box<LivePath>),
 }
 
 /// A run may miss the ends of a table by this fraction of its length, so that times that were added up step by step
@@ -104,11 +109,22 @@ impl VehiclePath {
         VehiclePath::Own(OwnPath::new(motion))
     }
 
+    /// A vehicle that is `start` at 0 s and is told from then on, frame by frame, how it moves:
+    /// [`Run::push`](crate::run::Run::push).
+    pub fn live(start: VehicleState) -> Self {
+        VehiclePath::Live(Box::new(LivePath { start }))
+    }
+
+    /// Whether it is told on the way.
+    pub fn is_live(&self) -> bool {
+        matches!(self, VehiclePath::Live(_))
+    }
+
     /// Pose and motion at `t_s`, in space axes.
     ///
     /// `step_middle_s` is the middle of the present integration step; it decides which interval of a linear table gives the
     /// velocities, and whether a held table already stands still. For output at an instant give `t_s` itself. The
-    /// answer depends on the two times alone, never on `cursor`. Outside the path's span (see
+    /// answer depends on the two times alone, never on `cursor`, but of a path that is told on the way. Outside the path's span (see
     /// `VehiclePath::check_span`) the vehicle coasts.
     pub fn motion(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> FrameMotion {
         match self {
@@ -118,6 +134,10 @@ impl VehiclePath {
             VehiclePath::Fixed(fixed) => fixed.motion,
             VehiclePath::Driven(driven) => driven.motion(t_s),
             VehiclePath::Own(own) => own.motion(t_s),
+            VehiclePath::Live(live) => match &cursor.live {
+                Some(frames) => frames.of(step_middle_s).motion(t_s),
+                None => live.motion(t_s),
+            },
         }
     }
 
@@ -151,6 +171,10 @@ impl VehiclePath {
             VehiclePath::Fixed(fixed) => fixed.pose(),
             VehiclePath::Driven(driven) => driven.pose(t_s),
             VehiclePath::Own(own) => own.pose(t_s),
+            VehiclePath::Live(live) => match &cursor.live {
+                Some(frames) => frames.of(t_s).pose(t_s),
+                None => live.pose(t_s),
+            },
         }
     }
 
@@ -170,7 +194,7 @@ impl VehiclePath {
             VehiclePath::Sensors(sensors) => sensors.check_span(start_s, end_s),
             VehiclePath::Driven(driven) => driven.check_span(start_s, end_s),
             VehiclePath::Own(own) => own.check_span(start_s, end_s),
-            VehiclePath::Pulse(_) | VehiclePath::Fixed(_) => Ok(()),
+            VehiclePath::Pulse(_) | VehiclePath::Fixed(_) | VehiclePath::Live(_) => Ok(()),
         }
     }
 
@@ -182,8 +206,8 @@ impl VehiclePath {
             VehiclePath::Pulse(pulse) => pulse.breaks_s(),
             VehiclePath::Sensors(sensors) => sensors.breaks_s(),
             VehiclePath::Own(own) => own.breaks_s(),
-            // accelerations are continuous
-            VehiclePath::Fixed(_) | VehiclePath::Driven(_) => Vec::new(),
+            // accelerations are continuous, or told when they come
+            VehiclePath::Fixed(_) | VehiclePath::Driven(_) | VehiclePath::Live(_) => Vec::new(),
         }
     }
 

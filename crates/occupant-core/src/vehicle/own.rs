@@ -80,6 +80,9 @@ pub trait VehicleMotion: Debug + Send + Sync {
     }
 }
 
+/// More breaks than this are steps of a grid, not jumps.
+const MOST_BREAKS: usize = 100_000;
+
 /// A path that a [`VehicleMotion`] computes. Two of them are equal if they are the same one, shared.
 #[derive(Clone, Debug)]
 pub struct OwnPath(Arc<dyn VehicleMotion>);
@@ -132,6 +135,11 @@ impl OwnPath {
             let expected =
                 format!("times from {first_s} s to {last_s} s, for which the program's own path has an answer");
             return Err(PathProblem::new(format!("the run lasts from {start_s} s to {end_s} s"), expected));
+        }
+        let breaks_s = self.breaks_s();
+        if breaks_s.len() > MOST_BREAKS || breaks_s.iter().any(|t_s| !t_s.is_finite()) {
+            let found = format!("the program's own path has {} times at which an acceleration jumps", breaks_s.len());
+            return Err(PathProblem::new(found, format!("at most {MOST_BREAKS}, all finite")));
         }
         let broken_s = [start_s, end_s].into_iter().find(|&t_s| !self.0.at(t_s).is_finite());
         match broken_s {

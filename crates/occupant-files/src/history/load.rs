@@ -222,7 +222,7 @@ fn fitting(model: &Model, name: &str) -> Vec<Channel> {
 }
 
 fn unknown(model: &Model, name: &str, others: &[&str]) -> Failure {
-    let nearest = if name.contains('*') { None } else { find(model, name).err().flatten() };
+    let nearest = if name.contains('*') { None } else { find(model, name).err().and_then(|unknown| unknown.nearest) };
     let inside = matching(model, &format!("*{name}*"));
     let help = match (nearest, inside.first()) {
         (Some(nearest), _) => format!("did you mean `{nearest}`?"),

@@ -86,10 +86,12 @@ impl Motion {
                 found => found,
             },
         };
-        let Some((_, first)) = found.first() else { return Ok(None) };
+        // of signals that end at other times the longest, so that what the others lack is told
+        let Some(time_s) = found.iter().map(|(_, signal)| &signal.time_s).reduce(longer) else { return Ok(None) };
         if placed.at.is_none() && kind == MotionKind::Accelerations {
             say_if_places_differ(recording, notes);
         }
+        notes.extend(found.iter().filter_map(|(name, signal)| doubled(recording, name, signal)));
         let column = |(name, signal): &(&'static str, &Signal)| {
             let (scale, unit) = signal.scale.zip(signal.unit.clone()).ok_or_else(|| without_unit(signal))?;
             if column_in(name, scale.dimension) != Some(*name) {
@@ -98,12 +100,12 @@ impl Motion {
                     "write the unit that it has, such as ax[g], wz[deg/s] or x[m]",
                 ));
             }
-            Ok(Column { name, unit, factor: scale.factor, values: at_times(signal, &first.time_s) })
+            Ok(Column { name, unit, factor: scale.factor, values: at_times(signal, time_s) })
         };
         let mut motion = Motion {
             kind,
             words,
-            time_s: first.time_s.clone(),
+            time_s: time_s.clone(),
             columns: found.iter().map(column).collect::<Result<_, Failure>>()?,
             signals: found.iter().map(|(_, signal)| signal.name.clone()).collect(),
         };
@@ -236,6 +238,12 @@ impl Motion {
     }
 }
 
+/// The times that span more; the first of two that span the same.
+fn longer<'a>(first: &'a Vec<f64>, other: &'a Vec<f64>) -> &'a Vec<f64> {
+    let span_s = |time_s: &[f64]| time_s.last().zip(time_s.first()).map_or(0.0, |(last, first)| last - first);
+    if span_s(other) > span_s(first) { other } else { first }
+}
+
 fn without_unit(signal: &Signal) -> Failure {
     Failure::with_help(
         format!("{}: {} has no unit that is known, and is to be the motion of the vehicle", signal.place, signal.name),
@@ -262,16 +270,42 @@ fn at_times(signal: &Signal, time_s: &[f64]) -> Vec<f64> {
     time_s.iter().map(|t_s| value(t_s).unwrap_or(f64::NAN)).collect()
 }
 
+fn is_named(signal: &Signal, name: &str) -> bool {
+    match signal.scale {
+        _ if signal.name == name => true,
+        Some(scale) => column_in(&signal.name, scale.dimension) == Some(name),
+        None => column_named(&signal.name) == Some(name),
+    }
+}
+
+/// What to know where another column than the one that was taken has the same name, and other values.
+fn doubled(recording: &Recording, name: &str, taken: &Signal) -> Option<String> {
+    let si = |signal: &Signal| -> Vec<f64> {
+        let factor = signal.scale.map_or(1.0, |scale| scale.factor);
+        signal.values.iter().map(|value| value * factor).collect()
+    };
+    let own = si(taken);
+    let most = own.iter().filter(|v| v.is_finite()).fold(0.0_f64, |most, v| most.max(v.abs()));
+    let differs = |other: &Signal| {
+        let far = |(a, b): (&f64, &f64)| (a - b).abs() > 0.02 * most;
+        other.values.len() != own.len() || own.iter().zip(&si(other)).any(far)
+    };
+    let is_other = |signal: &&Signal| !std::ptr::eq(*signal, taken) && is_named(signal, name) && differs(signal);
+    let others: Vec<&Signal> = recording.signals.iter().filter(is_other).collect();
+    let first = others.first().filter(|_| is_named(taken, name))?;
+    Some(format!(
+        "{} columns are {name} and differ: `{}` was taken, not `{}`; --columns says which is which",
+        others.len() + 1,
+        taken.name,
+        first.name
+    ))
+}
+
 /// Signals that say themselves which of the columns they are, by code or by heading and unit.
 fn plain(recording: &Recording) -> (MotionKind, Found<'_>, String) {
     let coded = |name: &str| {
         let of = |signal: &&Signal| signal.code.is_some_and(|code| code.sign_for(name, '0').is_some());
         recording.signals.iter().find(of)
-    };
-    let is_named = |signal: &Signal, name: &str| match signal.scale {
-        _ if signal.name == name => true,
-        Some(scale) => column_in(&signal.name, scale.dimension) == Some(name),
-        None => column_named(&signal.name) == Some(name),
     };
     let named = |name: &str| recording.signals.iter().find(|signal| is_named(signal, name));
     let of =
@@ -400,4 +434,56 @@ fn velocity_changes(recording: &Recording) -> Vec<(String, f64)> {
         found.push((place, sum * scale.factor));
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use super::*;
+    use crate::signals::scale_of;
+
+    /// The whole of what is recorded counts, whichever signal stands first.
+    #[test]
+    fn what_a_shorter_signal_lacks_is_told() {
+        let signal = |name: &str, count: usize| Signal {
+            name: name.to_owned(),
+            code: None,
+            unit: Some("g".to_owned()),
+            scale: scale_of("g"),
+            time_s: (0..count).map(|i| 1e-3 * i as f64).collect(),
+            values: vec![1.0; count],
+            place: String::new(),
+        };
+        for (ax, ay) in [(80, 100), (100, 80)] {
+            let signals = vec![signal("ax", ax), signal("ay", ay)];
+            let recording = Recording { path: PathBuf::from("r"), sha256: String::new(), signals, notes: Vec::new() };
+            let mut notes = Vec::new();
+            let motion = Motion::of(&recording, Placed::default(), &mut notes).ok().flatten().expect("a motion");
+            assert_eq!(motion.time_s.len(), 80);
+            assert!(notes.iter().any(|note| note.contains("80 of 100 times")), "{notes:?}");
+        }
+    }
+
+    /// Two columns of one name are one quantity in two units, or somebody wrote a heading twice.
+    #[test]
+    fn a_heading_that_stands_twice_is_said() {
+        let signal = |unit: &str, value: f64| Signal {
+            name: "ax".to_owned(),
+            code: None,
+            unit: Some(unit.to_owned()),
+            scale: scale_of(unit),
+            time_s: vec![0.0, 0.1, 0.2],
+            values: vec![value; 3],
+            place: String::new(),
+        };
+        let notes = |signals: Vec<Signal>| {
+            let recording = Recording { path: PathBuf::from("r"), sha256: String::new(), signals, notes: Vec::new() };
+            let mut notes = Vec::new();
+            assert!(Motion::of(&recording, Placed::default(), &mut notes).is_ok_and(|motion| motion.is_some()));
+            notes
+        };
+        assert_eq!(notes(vec![signal("g", -1.0), signal("m/s^2", -9.81)]), Vec::<String>::new());
+        assert!(notes(vec![signal("g", -1.0), signal("g", -3.0)])[0].contains("2 columns are ax and differ"));
+    }
 }

@@ -17,6 +17,8 @@ use crash_measures::signal::usual_interval;
 
 /// So many problems of a table are shown.
 const SHOWN: usize = 8;
+/// So many times that do not increase are shown each.
+const EACH: usize = 3;
 
 #[derive(Clone, Debug)]
 struct Heading {
@@ -256,13 +258,20 @@ impl Reader<'_> {
         if time_s.is_empty() {
             self.wrong(table.first, "headings without numbers", "a line for each time");
         }
-        for (i, (t, line)) in time_s.iter().zip(&table.lines).enumerate() {
-            let found = match i.checked_sub(1).map(|before| time_s[before]) {
-                _ if t.is_nan() => "a line without its time".to_owned(),
-                Some(before) if *t <= before => format!("time {t} s after {before} s"),
-                _ => continue,
-            };
-            self.wrong(*line, found, "times that increase");
+        let late = |i: usize| i > 0 && time_s[i] <= time_s[i - 1];
+        let timeless = (0..time_s.len()).find(|&i| time_s[i].is_nan());
+        if let Some(i) = timeless {
+            self.wrong(table.lines[i], "a line without its time", "times that increase");
+        }
+        let all: Vec<usize> = (0..time_s.len()).filter(|&i| late(i)).collect();
+        let goes_back =
+            (all.len() + 1 == time_s.len()).then_some("the table runs from its end to its beginning: turn it round");
+        // many are one mistake
+        let more = if all.len() > EACH { format!(" (and so in {} more)", all.len() - 1) } else { String::new() };
+        for &i in all.iter().take(if all.len() > EACH { 1 } else { EACH }) {
+            let found = format!("time {} s after {} s{more}", time_s[i], time_s[i - 1]);
+            let problem = Problem::error("", found, "times that increase").with_hint(goes_back);
+            self.report(table.lines[i], problem);
         }
     }
 

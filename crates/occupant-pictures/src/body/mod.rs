@@ -7,7 +7,7 @@
 mod snapshot;
 
 use nalgebra::Vector3;
-use occupant_core::body::{Body, Limb, Pair, Segment, SegmentProperties};
+use occupant_core::body::{Body, ContactSphere, Limb, Pair, Segment, SegmentProperties};
 
 pub use snapshot::{PATCH_M, Snapshot};
 
@@ -149,7 +149,29 @@ fn limb(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
     }
     let at = |&(z, r): &(f64, f64)| ball(on_axis(p, z), r);
     let along = stations.windows(2).map(|two| [at(&two[0]), at(&two[1])]);
-    along.chain(sole(p, radius)).collect()
+    let mut parts: Vec<_> = along.collect();
+    match sole(p, radius) {
+        Some(sole) => parts.push(sole),
+        None => parts.extend(beside(body, segment, &stations)),
+    }
+    parts
+}
+
+/// Spheres beside a limb's axis, such as the toes of a leg without a foot of its own, each with the place of the limb that it is nearest to.
+fn beside(body: &Body, segment: Segment, stations: &[(f64, f64)]) -> Vec<[Lump; 2]> {
+    let p = body.segment(segment);
+    let own = body.spheres.iter().filter(|s| s.segment == segment && !is_on_axis(s));
+    let capsule = |sphere: &ContactSphere| {
+        let centre_m = sphere_centre_m(body, sphere);
+        let apart = |station: &(f64, f64)| (station.0 - centre_m.z).abs();
+        let &(z, radius_m) = stations.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
+        Some([ball(on_axis(p, z), radius_m.min(sphere.radius_m)), ball(centre_m, sphere.radius_m)])
+    };
+    own.filter_map(capsule).collect()
+}
+
+fn is_on_axis(sphere: &ContactSphere) -> bool {
+    sphere.centre_from_lower_end_m.coords.xy().norm() < OFF_AXIS_M
 }
 
 /// What lies ahead of a segment that is longer ahead than it is high: a foot, from the heel to as far beyond its centre of gravity.
@@ -164,7 +186,7 @@ fn sole(p: &SegmentProperties, radius: f64) -> Option<[Lump; 2]> {
 fn stations(body: &Body, segment: Segment) -> Vec<(f64, f64)> {
     let cg = body.segment(segment).cg_from_lower_end_m;
     let own = body.spheres.iter().filter(|s| s.segment == segment);
-    let on_axis = own.filter(|s| s.centre_from_lower_end_m.coords.xy().norm() < OFF_AXIS_M);
+    let on_axis = own.filter(|s| is_on_axis(s));
     let mut stations: Vec<_> = on_axis.map(|s| (s.centre_from_lower_end_m.z - cg, s.radius_m)).collect();
     stations.sort_by(|a, b| a.0.total_cmp(&b.0));
     stations

@@ -5,7 +5,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use super::body::{BodyJointSection, BodySection, turned};
 use super::builder::Builder;
 use super::quantity::{all_si, point};
-use occupant_core::body::named::{NamedJoint, NamedLandmarks, tree};
+use occupant_core::body::named::{NamedJoint, NamedLandmarks, TreeProblem, tree};
 use occupant_core::body::{JointKind, JointPlace, JointSite, Tree};
 use occupant_core::motion::layout::MOST_OF_TREE;
 use placed_text::with_key;
@@ -46,9 +46,14 @@ pub(super) fn own_tree(b: &mut Builder, body: &BodySection, is_part: bool) -> Op
     };
     match tree(&joints.collect::<Vec<_>>(), &marks) {
         Ok(tree) => Some((tree, places)),
-        Err(missing) => {
-            let expected = format!("landmarks = {{ {} = \"a segment that a joint carries\" }}", missing.0);
-            b.error("body.landmarks", format!("no segment for the landmark `{}`", missing.0), expected);
+        Err(problem) => {
+            let expected = match problem {
+                TreeProblem::MissingLandmark(key) => {
+                    format!("landmarks = {{ {key} = \"a segment that a joint carries\" }}")
+                }
+                _ => "joints that hang each segment on one before it".to_owned(),
+            };
+            b.error("body.landmarks", problem.to_string(), expected);
             None
         }
     }

@@ -81,6 +81,7 @@ pub(crate) fn setup(
         chains,
         bags,
         columns,
+        own_forces: Vec::new(),
         path,
         scenery: drives.map_or_else(Vec::new, |drives| drive::scenery(explicit, drives)),
         facts: drives.map_or_else(Vec::new, drive::facts),

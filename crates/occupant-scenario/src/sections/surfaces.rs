@@ -90,8 +90,9 @@ pub(crate) enum FacingChoice {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ContactSection {
-    /// Where the in-plane force of a surface's edge acts on a sphere; "contact_point" if absent, as in all runs so far. "centre" is
-    /// better where bodies turn at edges: no energy is made there (solids have no such force).
+    /// Where the in-plane force of a surface's edge acts on a sphere; "centre" if absent: it is the slope of what the edge stores, which
+    /// knows the centre alone. "contact_point", as in the report and in runs of 0.1.0, makes energy where bodies turn at edges. Solids
+    /// have no such force.
     pub(crate) edge_force: Option<EdgeForce>,
     /// Name of the material of which the skins of several bodies are, where they have no other: spheres of two bodies that touch
     /// deform both skins in series.

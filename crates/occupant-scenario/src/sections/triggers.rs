@@ -82,6 +82,13 @@ pub(crate) enum TriggerSection {
     },
 }
 
+impl TriggerSection {
+    /// Whether it looks ahead along the path of the vehicle.
+    pub(crate) fn is_of_path(&self) -> bool {
+        matches!(self, TriggerSection::VehicleAcceleration { .. } | TriggerSection::DeltaV { .. })
+    }
+}
+
 /// When triggers fire.
 pub(super) struct Triggers<'s>(IndexMap<&'s str, Fires>);
 

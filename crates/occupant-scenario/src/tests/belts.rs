@@ -11,7 +11,7 @@ use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::Summarizer;
 use occupant_core::run::simulate::{resume, simulate};
 
-const DRIVER: &str = include_str!("../../../../scenarios/three-point.toml");
+const DRIVER: &str = include_str!("../../scenarios/three-point.toml");
 
 /// A scenario with these changes, or what is said of it.
 pub(super) fn changed(text: &str, changes: &[&str]) -> Result<(Model, String), String> {

@@ -8,7 +8,7 @@ use occupant_core::body::tti12;
 use occupant_core::model::setup::Integrator;
 
 fn cart(name: &str) -> Loaded {
-    read(&format!("{}/../../scenarios/{name}", env!("CARGO_MANIFEST_DIR")), name)
+    read(&format!("{}/scenarios/{name}", env!("CARGO_MANIFEST_DIR")), name)
 }
 
 fn read(path: &str, name: &str) -> Loaded {
@@ -34,7 +34,7 @@ fn each_gives_a_model_without_a_warning_but_of_the_lap_belts_steepness() {
 
 #[test]
 fn numbers_arrive_in_si() {
-    let place = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/carts/cart-lap-torso.toml");
+    let place = concat!(env!("CARGO_MANIFEST_DIR"), "/testdata/carts/cart-lap-torso.toml");
     let (setup, _) = read(place, "cart-lap-torso.toml").build().unwrap();
     // 173.55 lb over 386.04 in/s².
     let lbf_s2_per_in = 4.4482216152605 / 0.0254;

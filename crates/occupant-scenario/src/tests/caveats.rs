@@ -20,7 +20,7 @@ fn caveats_of(scenario: &str, changes: &[(&str, &str)]) -> (Summary, Vec<String>
     (summary, names)
 }
 
-const BELTED: &str = include_str!("../../../../tests/data/carts/cart-lap-torso.toml");
+const BELTED: &str = include_str!("../../testdata/carts/cart-lap-torso.toml");
 
 #[test]
 fn a_neck_beyond_its_stop_takes_the_neck_figures_with_it_and_no_others() {
@@ -43,7 +43,7 @@ fn a_neck_beyond_its_stop_takes_the_neck_figures_with_it_and_no_others() {
 
 #[test]
 fn a_head_that_flies_through_a_seat_takes_its_figures_with_it() {
-    let seat = include_str!("../../../../scenarios/rear-seat.toml");
+    let seat = include_str!("../../scenarios/rear-seat.toml");
     let lap = &seat[seat.find("[belts.lap]").unwrap()..seat.find("[materials]").unwrap()];
     let (summary, _) = caveats_of(&seat.replace(lap, ""), &[]);
     let head = summary.caveats.iter().find(|caveat| caveat.name == "head_passed").unwrap();
@@ -57,7 +57,7 @@ fn a_head_that_flies_through_a_seat_takes_its_figures_with_it() {
 /// A figure belongs to the steps: how often a run is recorded makes no difference to it.
 #[test]
 fn figures_do_not_know_how_often_a_run_is_recorded() {
-    let unbelted = include_str!("../../../../tests/data/carts/cart-unbelted.toml");
+    let unbelted = include_str!("../../testdata/carts/cart-unbelted.toml");
     for scenario in [BELTED, unbelted] {
         let of = |interval: &str| {
             let (summary, names) = caveats_of(scenario, &[("output.interval", interval)]);
@@ -82,7 +82,7 @@ fn figures_do_not_know_how_often_a_run_is_recorded() {
 #[test]
 fn readings_too_coarse_say_so() {
     let steps = [("integrator.step", "2 ms"), ("output.interval", "2 ms")];
-    let (summary, _) = caveats_of(include_str!("../../../../tests/data/carts/cart-unbelted.toml"), &steps);
+    let (summary, _) = caveats_of(include_str!("../../testdata/carts/cart-unbelted.toml"), &steps);
     let coarse = summary.caveats.into_iter().find(|caveat| caveat.name == "readings_too_coarse").unwrap();
     assert!(coarse.touches("nij") && coarse.text.contains("readings every 2 ms"), "{coarse:?}");
 }

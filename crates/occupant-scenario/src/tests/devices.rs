@@ -11,7 +11,7 @@ use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::Summarizer;
 use occupant_core::run::batch::{Job, Kernel, simulate_many};
-use occupant_core::run::simulate::simulate;
+use occupant_core::run::simulate::attempt;
 use std::ops::ControlFlow;
 
 const WEBBING: &str = "webbings.w={ strain = [0, 0.05, 0.1], force = [0, 4000, 12000], returned = 0.6 }";
@@ -29,7 +29,7 @@ fn belted(changes: &[&str]) -> Model {
 /// it says, to 1 %.
 fn run(model: &Model, mut look: impl FnMut(f64, &[StrapAction<f64>])) {
     let (mut booked, mut lost, mut greatest) = (0.0, 0.0, 0.0_f64);
-    let outcome = simulate(
+    let outcome = attempt(
         model,
         Watch(|s: &Sample<'_>| {
             let straps = &s.actions.chains;
@@ -268,14 +268,14 @@ fn a_run_ends_where_a_curve_is_not_known_further() {
     for (curve, why, caveat) in SHORT_CURVES {
         for integrator in INTEGRATORS {
             let mut summarizer = Summarizer::new();
-            let outcome = simulate(&short_curved(curve, ", beyond = \"limits\"", integrator), &mut summarizer).unwrap();
+            let outcome = attempt(&short_curved(curve, ", beyond = \"limits\"", integrator), &mut summarizer).unwrap();
             let Status::Failed(StepError::Unsolved { why: said, time_s, .. }) = outcome.status else {
                 panic!("{curve} {integrator}: {:?}", outcome.status)
             };
             assert!(said.contains(why) && time_s > 0.0, "{curve} {integrator}: {said}");
             assert!(summarizer.summary(None).unwrap().caveats.iter().any(|caveat| caveat.name == "run_failed"));
             // where the last line goes on the run does too, with a caveat
-            let outcome = simulate(&short_curved(curve, "", integrator), &mut summarizer).unwrap();
+            let outcome = attempt(&short_curved(curve, "", integrator), &mut summarizer).unwrap();
             assert_eq!(outcome.status, Status::Completed, "{curve}");
             let caveats = summarizer.summary(None).unwrap().caveats;
             assert!(caveats.iter().any(|found| found.name == caveat), "{caveat}: {caveats:?}");
@@ -294,7 +294,7 @@ fn a_run_that_ends_early_ends_alone_among_its_lanes() {
         };
         [0.2, 0.02, 0.3, 0.25].map(model)
     };
-    let alone = jobs().map(|model| simulate(&model, ()).unwrap());
+    let alone = jobs().map(|model| attempt(&model, ()).unwrap());
     assert_eq!(alone.each_ref().map(|o| o.status == Status::Completed), [true, false, true, true], "{alone:?}");
     for kernel in [Kernel::Scalar, Kernel::Lanes4].into_iter().filter(|kernel| kernel.is_available()) {
         let jobs = (0..).zip(jobs()).map(|(tag, model)| Job { tag, model, recorder: () });

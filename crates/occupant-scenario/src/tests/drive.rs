@@ -34,7 +34,7 @@ fn driven(text: &str) -> Drives {
 }
 
 fn ditch() -> Loaded {
-    let file = format!("{}/../../scenarios/ditch.toml", env!("CARGO_MANIFEST_DIR"));
+    let file = format!("{}/scenarios/ditch.toml", env!("CARGO_MANIFEST_DIR"));
     let draft = Draft::read(&std::fs::read_to_string(file).unwrap(), Format::Toml, "ditch.toml").unwrap();
     draft.load(&|name| Err(format!("no file {name}"))).unwrap_or_else(|e| panic!("{e}"))
 }

@@ -28,7 +28,7 @@ const BACK: [&str; 2] = ["mount.roll=0", "mount.pitch=180"];
 /// Channels of a scenario of the program's with other values.
 fn series_of(text: &str, set: &[&str], channels: &str) -> Series {
     let file = |name: &str| -> Result<Vec<u8>, String> {
-        let scenarios = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
+        let scenarios = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");
         std::fs::read(scenarios.join(name)).map_err(|e| e.to_string())
     };
     let mut draft = Draft::read(text, Format::Toml, "s.toml").unwrap();
@@ -41,7 +41,7 @@ fn series_of(text: &str, set: &[&str], channels: &str) -> Series {
 
 /// The neck's bend (rad) and the moment about the condyles in its sense (N·m) over time (s).
 fn bent(set: &[&str], sense: f64) -> [Vec<f64>; 3] {
-    let series = series_of(include_str!("../../../../scenarios/neck-pendulum.toml"), set, "*neck*");
+    let series = series_of(include_str!("../../scenarios/neck-pendulum.toml"), set, "*neck*");
     let moment = series.of("neck.moment.y").unwrap().iter().map(|m| sense * m).collect();
     let angle = series.of("joint.neck.angle").unwrap().to_vec();
     [series.time_s, angle, moment]
@@ -122,7 +122,7 @@ fn the_neck_of_the_reports_time_bends_when_it_must() {
         let found_ms = 1e3 * time_s[found];
         assert!((found_ms - asked_ms).abs() <= 2.0 + 0.08 * asked_ms, "{found_ms} ms, {asked_ms} is asked");
     }
-    let g = series_of(include_str!("../../../../scenarios/neck-pendulum.toml"), &set, "head.acceleration.*");
+    let g = series_of(include_str!("../../scenarios/neck-pendulum.toml"), &set, "head.acceleration.*");
     assert!(greatest(g.of("head.acceleration.resultant").unwrap()) < 26.0 * 9.80665);
 }
 
@@ -130,7 +130,7 @@ fn the_neck_of_the_reports_time_bends_when_it_must() {
 /// condyles and at T1 (N·m) of a person driven at T1.
 fn driven(rows: &str) -> [f64; 7] {
     let set: Vec<&str> = if rows.is_empty() { vec![] } else { vec![rows] };
-    let series = series_of(include_str!("../../../../scenarios/neck-sled.toml"), &set, "*");
+    let series = series_of(include_str!("../../scenarios/neck-sled.toml"), &set, "*");
     let turn = |name: &str| -> Vec<f64> {
         let rate = series.of(&format!("{name}.angular_velocity.y")).unwrap();
         let mut angle = vec![0.0];
@@ -173,7 +173,7 @@ fn the_neck_of_a_person_driven_at_t1_neither_folds_nor_stands() {
 
 /// Peak (g) and time above 100 g (ms) of a head that falls onto steel, without accelerations to the side and with one hump.
 fn fallen(set: &[&str]) -> (f64, f64) {
-    let series = series_of(include_str!("../../../../scenarios/head-drop.toml"), set, "head.acceleration.*");
+    let series = series_of(include_str!("../../scenarios/head-drop.toml"), set, "head.acceleration.*");
     let g = |axis: &str| -> Vec<f64> {
         series.of(&format!("head.acceleration.{axis}")).unwrap().iter().map(|a| a / 9.80665).collect()
     };

@@ -14,7 +14,7 @@ const OFFSET_M: Vector3<f64> = Vector3::new(-0.35, 0.10, 0.05);
 const RATE: f64 = 200.0;
 
 fn folder() -> String {
-    format!("{}/../../scenarios", env!("CARGO_MANIFEST_DIR"))
+    format!("{}/scenarios", env!("CARGO_MANIFEST_DIR"))
 }
 
 fn scenario(name: &str) -> Loaded {
@@ -84,7 +84,7 @@ fn the_sensors_give_the_path_back() {
     let (original, _) = path("side-slope.toml");
     let (again, _) = path("side-slope-sensors.toml");
     let (mut place_m, mut turn_rad, mut speed_m_s) = (0.0f64, 0.0f64, 0.0f64);
-    let mut cursors = [PathCursor::default(); 2];
+    let mut cursors = [PathCursor::default(), PathCursor::default()];
     for i in 0..=2400 {
         let t_s = f64::from(i) * 1e-3;
         let [first, second] = &mut cursors;

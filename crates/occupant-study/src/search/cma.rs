@@ -50,6 +50,31 @@ struct Constants {
     chi: f64,
 }
 
+/// What no descent can begin from or learn from.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BadDescent {
+    /// A mean of so many coordinates.
+    #[error("a mean of {0} coordinates, of which not all are finite; expected at least one, all finite")]
+    Mean(usize),
+    /// A first step.
+    #[error("a step of {0}; expected a positive one")]
+    Step(f64),
+    /// A generation of another size.
+    #[error("{points} points and {values} values; expected {expected} of both")]
+    Generation {
+        /// Points that were told.
+        points: usize,
+        /// Values that were told.
+        values: usize,
+        /// Points of a generation.
+        expected: usize,
+    },
+}
+
+/// More points than this in a generation are a slip.
+const MOST_POINTS: usize = 1_000_000;
+
 /// Why a descent has ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
@@ -122,12 +147,22 @@ impl Constants {
 }
 
 impl Cma {
-    /// A descent of `population` ≥ 4 points a generation from `mean`, with steps of the length `step` in all directions at
-    /// first. `seed` and `descent` name its random numbers.
-    pub fn new(mean: Vec<f64>, step: f64, population: usize, seed: u64, descent: u64) -> Self {
+    /// A descent of `population` points a generation from `mean`, 4 at least and a million at most, with steps of the length
+    /// `step` in all directions at first. `seed` and `descent` name its random numbers.
+    ///
+    /// # Errors
+    /// No coordinate; a mean that is not finite; a step that is not positive.
+    pub fn new(mean: Vec<f64>, step: f64, population: usize, seed: u64, descent: u64) -> Result<Self, BadDescent> {
         let n = mean.len();
-        Cma {
-            constants: Constants::new(n, population.max(4)),
+        if n == 0 || !mean.iter().all(|x| x.is_finite()) {
+            return Err(BadDescent::Mean(n));
+        }
+        if !(step > 0.0 && step.is_finite()) {
+            return Err(BadDescent::Step(step));
+        }
+        let population = population.clamp(4, MOST_POINTS);
+        Ok(Cma {
+            constants: Constants::new(n, population),
             seed,
             descent,
             generation: 0,
@@ -140,7 +175,7 @@ impl Cma {
             path: vec![0.0; n],
             least: Vec::new(),
             last: Vec::new(),
-        }
+        })
     }
 
     /// How many points a generation has.
@@ -161,8 +196,15 @@ impl Cma {
         (0..n).map(|i| self.mean[i] + self.step * dot((0..n).map(|j| (self.axes[(i, j)], drawn[j])))).collect()
     }
 
-    /// Learns from the values of the points that [`Cma::ask`] gave.
-    pub fn tell(&mut self, points: &[Vec<f64>], values: &[f64]) {
+    /// Learns from the values of the points that [`Cma::ask`] gave; one that is not a number is the worst.
+    ///
+    /// # Errors
+    /// Other than a generation of points, or a value for each: nothing is learnt then.
+    pub fn tell(&mut self, points: &[Vec<f64>], values: &[f64]) -> Result<(), BadDescent> {
+        let (expected, n) = (self.population(), self.mean.len());
+        if points.len() != expected || values.len() != expected || points.iter().any(|point| point.len() != n) {
+            return Err(BadDescent::Generation { points: points.len(), values: values.len(), expected });
+        }
         let mut order: Vec<usize> = (0..points.len()).collect();
         order.sort_by(|a, b| values[*a].total_cmp(&values[*b]).then(a.cmp(b)));
         let steps: Vec<Vec<f64>> = order
@@ -178,6 +220,7 @@ impl Cma {
         self.decompose();
         self.least.push(order.first().map_or(f64::INFINITY, |k| values[*k]));
         self.last = values.to_vec();
+        Ok(())
     }
 
     /// Mean, paths and step (41 to 45).

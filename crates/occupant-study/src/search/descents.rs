@@ -93,7 +93,10 @@ fn one<E>(
     evaluate: &mut Evaluate<'_, E>,
 ) -> Result<Descent, E> {
     let mut best = Point { at: start.clone(), value: f64::INFINITY };
-    let mut cma = Cma::new(start, FIRST_STEP, population, how.seed, number as u64);
+    // without a coordinate there is nothing to search
+    let Ok(mut cma) = Cma::new(start, FIRST_STEP, population, how.seed, number as u64) else {
+        return Ok(Descent { population, evaluations: 0, best, ending: Ending::Steps });
+    };
     let mut evaluations = 0;
     let mut generation = 0;
     let ending = loop {
@@ -104,7 +107,9 @@ fn one<E>(
         evaluations += points.len() as u64;
         generation += 1;
         let values: Vec<f64> = points.iter().map(|p| p.value).collect();
-        cma.tell(&asked, &values);
+        if cma.tell(&asked, &values).is_err() {
+            break Ending::Budget;
+        }
         best = points.into_iter().fold(best, Point::lower);
         if let Some(ending) = cma.ending(how.tolerance) {
             break ending;

@@ -17,7 +17,7 @@ fn evaluations(
     target: f64,
     seed: u64,
 ) -> Option<u64> {
-    let mut cma = Cma::new(start.to_vec(), step, population, seed, 0);
+    let mut cma = Cma::new(start.to_vec(), step, population, seed, 0).unwrap();
     let mut count = 0;
     while count < 100_000 {
         let points = cma.ask();
@@ -26,7 +26,7 @@ fn evaluations(
         if values.iter().any(|v| *v <= target) {
             return Some(count);
         }
-        cma.tell(&points, &values);
+        cma.tell(&points, &values).unwrap();
         if cma.ending(1e-12).is_some() {
             return None;
         }

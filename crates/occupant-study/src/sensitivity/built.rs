@@ -61,6 +61,11 @@ impl Built {
     /// # Errors
     /// Models beside the parameter's value that are refused or of another structure; a start that is not smooth.
     pub fn new(base: &Model, parameter: &Parameter<'_>) -> Result<Self, Trouble> {
+        if !(parameter.nominal.is_finite() && parameter.size > 0.0 && parameter.size.is_finite()) {
+            let (value, size) = (parameter.nominal, parameter.size);
+            let found = format!("`{}` has the value {value} and the size {size}", parameter.name);
+            return Err(Trouble::Parameter(found + "; expected a finite value and a size above 0"));
+        }
         let family = Family::new(base, parameter, STEP * parameter.size)?;
         let mut doubt = 0.0_f64;
         let mut slopes = |of: &dyn Fn(&Model) -> Vec<f64>| {
@@ -124,6 +129,13 @@ impl Built {
             return Err(Trouble::Rough { parameter: parameter.name.clone(), doubt });
         }
         Ok(Built { system, state, history, shifts, path: Path::new(base, family, parameter.size), doubt, notes })
+    }
+
+    /// Whether it is of a model of this structure.
+    pub(super) fn is_of(&self, model: &Model) -> bool {
+        let start = model.start();
+        let counts = [system_numbers(model.system()).len(), start.state.numbers().len()];
+        counts == [self.system.len(), self.state.len()] && remembered(&start.history.memory).len() == self.history.len()
     }
 
     /// How the end of a step at a time shifts, s per unit; of things that fall together the last in the order of the setup.

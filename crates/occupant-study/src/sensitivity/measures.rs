@@ -13,6 +13,7 @@ use super::parameter::{Family, Parameter};
 use super::trajectory::Trajectory;
 use super::trouble::Trouble;
 use occupant_core::model::Model;
+use occupant_core::results::Unknown;
 use occupant_core::results::channel::{Channel, Series, matches};
 use occupant_core::results::checkpoint::{Checkpoint, Progress};
 use occupant_core::results::energy::{EnergyStart, Greatest};
@@ -54,7 +55,7 @@ pub type Derivatives = Answers<Slope>;
 /// Derivatives by `parameter`, the one of number `k` of the trajectory.
 ///
 /// # Errors
-/// A derivative beyond all numbers; an output that cannot be evaluated.
+/// A parameter that the trajectory has not; a figure that no run of the model has; a derivative beyond all numbers; an output that cannot be evaluated.
 pub fn derivatives(
     model: &Model,
     parameter: &Parameter<'_>,
@@ -62,6 +63,10 @@ pub fn derivatives(
     k: usize,
     request: &Request,
 ) -> Result<Derivatives, Trouble> {
+    if k >= trajectory.parameters() {
+        let found = format!("parameter {k} of a trajectory with derivatives by {}", trajectory.parameters());
+        return Err(Trouble::Output(found));
+    }
     let reach = trajectory.reach(k);
     if !reach.is_finite() {
         return Err(Trouble::Output(format!("the derivative by `{}` grows beyond all numbers", parameter.name)));
@@ -123,7 +128,7 @@ impl Derivatives {
 /// Values of the plain run.
 ///
 /// # Errors
-/// An output that cannot be evaluated.
+/// A figure that no run of the model has, or a channel of another model; an output that cannot be evaluated.
 pub fn plain_values(model: &Model, trajectory: &Trajectory, request: &Request) -> Result<Values, Trouble> {
     values(model, trajectory, request, |output| trajectory.checkpoints[output].clone())
 }
@@ -161,6 +166,10 @@ fn values(
     let (summarizer, series) = recorder;
     let summary = summarizer.summary(None);
     let figures = summary.map_or_else(Vec::new, |s| s.figures(model));
+    let known = || figures.iter().map(|figure| figure.name.as_str());
+    if let Some(name) = request.figures.iter().find(|name| known().all(|own| own != **name)) {
+        return Err(Trouble::Unknown(Unknown::new("measure", name, known())));
+    }
     Ok(Values { figures: pick(&figures, &request.figures), channels: series.values })
 }
 

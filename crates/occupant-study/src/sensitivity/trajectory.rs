@@ -52,8 +52,11 @@ struct Displacement {
 /// Runs `model` with derivatives by the parameters that `built` is of. What `built` knows of the path is asked on the way.
 ///
 /// # Errors
-/// A run that does not come to its end.
+/// What was built of another model; a run that does not come to its end.
 pub fn follow(model: &Model, built: &mut [Built]) -> Result<Trajectory, Trouble> {
+    if built.iter().any(|built| !built.is_of(model)) {
+        return Err(Trouble::Parameter("derivatives of another model; expected `Built::new` of this one".to_owned()));
+    }
     let mut whole: Option<Trajectory> = None;
     for some in built.chunks_mut(OF_PARAMETERS) {
         let pass = pass::<SIDE_BY_SIDE>(model, some)?;
@@ -82,8 +85,9 @@ impl Recorder for Keeper {
 fn pass<const N: usize>(model: &Model, built: &mut [Built]) -> Result<Trajectory, Trouble> {
     let count = built.len().min(N - 1);
     let mut run = Run::new(model);
-    run.taken = Some(Vec::with_capacity(steps_to_an_output(model)));
-    let breaks_s = run.breaks_s.clone();
+    run.follow_steps(steps_to_an_output(model));
+    let mut taken: Vec<Step> = Vec::with_capacity(steps_to_an_output(model));
+    let breaks_s = run.breaks_s().to_vec();
     let mut keeper = Keeper(Vec::new());
     let mut tangent = Tangent::<N>::new(model, built)?;
     let mut slopes = vec![Vec::new(); count];
@@ -91,21 +95,20 @@ fn pass<const N: usize>(model: &Model, built: &mut [Built]) -> Result<Trajectory
     let mut lookout = Lookout::new(model);
     let failed = |e: &dyn std::fmt::Display| Trouble::Run(e.to_string());
     loop {
-        run.record(model, &mut keeper).map_err(|e| failed(&e))?;
-        tangent.output(run.time_s, &mut scene);
+        run.record(&mut keeper).map_err(|e| failed(&e))?;
+        tangent.output(run.time_s(), &mut scene);
         compare(&tangent, &run)?;
         for (k, slopes) in slopes.iter_mut().enumerate() {
             slopes.push(Displacement::of(&tangent, k));
         }
-        let Some(target_s) = run.next_output_s(model) else { break };
-        run.advance_to(model, target_s).map_err(|e| failed(&e))?;
-        let mut taken: Vec<Step> = run.taken.take().unwrap_or_default();
+        let Some(target_s) = run.next_output_s() else { break };
+        run.advance_to(target_s).map_err(|e| failed(&e))?;
+        taken = run.take_steps(taken);
         for step in taken.drain(..) {
             let stop_s = breaks_s.iter().copied().find(|&b| b > step.start_s);
             tangent.step(step, stop_s.unwrap_or(f64::INFINITY), &mut scene);
             lookout.look(model, &mut scene, tangent.latest());
         }
-        run.taken = Some(taken);
     }
     let outcome = run.end(Status::Completed, &mut keeper).map_err(|e| failed(&e))?;
     let (events, dropped_events) = lookout.events(count);
@@ -123,13 +126,13 @@ fn steps_to_an_output(model: &Model) -> usize {
 }
 
 /// Whether the values of the run in duals are, to the bit, those of the plain run.
-fn compare<const N: usize>(tangent: &Tangent<'_, N>, run: &Run) -> Result<(), Trouble> {
+fn compare<const N: usize>(tangent: &Tangent<'_, N>, run: &Run<'_>) -> Result<(), Trouble> {
     let values = tangent.state.numbers().iter().map(|x| x.value);
-    let state = values.zip(run.state.numbers()).all(|(a, b)| a.to_bits() == b.to_bits());
+    let state = values.zip(run.state().numbers()).all(|(a, b)| a.to_bits() == b.to_bits());
     let mut memory = true;
-    let mut plain = run.history.memory.clone();
+    let mut plain = run.history().memory.clone();
     tangent.history.memory.clone().each(&mut plain, &mut |a, b| memory &= a.value.to_bits() == b.to_bits());
-    if state && memory { Ok(()) } else { Err(Trouble::Apart { time_s: run.time_s }) }
+    if state && memory { Ok(()) } else { Err(Trouble::Apart { time_s: run.time_s() }) }
 }
 
 impl Displacement {
@@ -144,17 +147,23 @@ impl Displacement {
 }
 
 impl Trajectory {
-    /// Derivatives of the state by parameter `k` at an output, in the order of [`State::numbers`].
+    /// By how many parameters it has derivatives.
+    pub fn parameters(&self) -> usize {
+        self.slopes.len()
+    }
+
+    /// Derivatives of the state by parameter `k` at an output, in the order of [`State::numbers`]; none of a parameter or an
+    /// output that there is not.
     pub fn state_slopes(&self, k: usize, output: usize) -> &[f64] {
-        &self.slopes[k][output].state
+        self.slopes.get(k).and_then(|slopes| slopes.get(output)).map_or(&[], |slopes| &slopes.state)
     }
 
     /// How far the state goes with a unit of parameter `k`, at most: m, rad, and tenths of m/s and rad/s. Infinite where a
-    /// derivative is too large for a number.
+    /// derivative is too large for a number, 0 of a parameter that there is not.
     pub fn reach(&self, k: usize) -> f64 {
         // places, quaternions and hinges come first, then speeds, then work sums, which move nothing
         let (places, moving) = (self.shape.places(), self.shape.moving());
-        let outputs = self.slopes[k].iter();
+        let outputs = self.slopes.get(k).into_iter().flatten();
         let greatest = outputs.flat_map(|d| {
             let scaled = |(i, x): (usize, &f64)| if i < places { x.abs() } else { 0.1 * x.abs() };
             d.state[..moving].iter().enumerate().map(scaled)

@@ -1,12 +1,20 @@
 //! Why there is no derivative.
 
 use occupant_core::forces::Unlike;
+use occupant_core::results::Unknown;
 use occupant_core::results::recorder::RecorderError;
 use thiserror::Error;
 
 /// Why there is no derivative.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum Trouble {
+    /// A measure that no run of the model has.
+    #[error(transparent)]
+    Unknown(#[from] Unknown),
+    /// A parameter without a value or a size, or one of another model.
+    #[error("{0}")]
+    Parameter(String),
     /// No model a little to either side of a parameter's value.
     #[error("there is no scenario a little above or below the value of `{parameter}`: {reason}")]
     Refused {

@@ -100,7 +100,7 @@ fn a_tolerance_without_a_place_is_told() {
         occupant_scenario::Format::Toml,
         "study.toml",
     );
-    let free_fall = include_str!("../../../../scenarios/free-fall.toml");
+    let free_fall = include_str!("../../scenarios/free-fall.toml");
     let draft = occupant_scenario::Draft::read(free_fall, occupant_scenario::Format::Toml, "f.toml");
     let words = fixed.unwrap().bind(draft.unwrap(), &[], &super::no_files).unwrap_err().to_string();
     assert_eq!(

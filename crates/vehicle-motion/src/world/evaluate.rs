@@ -1,10 +1,11 @@
 //! Forces between all bodies of a world, and the rates that follow.
 
 use crate::V3;
-use crate::chassis::{Outside, Report, State, Work};
+use crate::chassis::Report;
 use crate::crush::touch::{Marks, Pose, Push};
 use crate::hull::Rub;
 use crate::integrate::Stack;
+use crate::state::{Outside, State, Work};
 use crate::world::Wrench;
 use crate::world::pulse::Pulse;
 use crate::world::setup::{Memories, Pair, Rails, Setup};

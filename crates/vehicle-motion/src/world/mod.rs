@@ -14,11 +14,11 @@ pub use damage::{Damage, Dent, Profile};
 use crate::V3;
 use crate::barrier::Barrier;
 use crate::car::{Car, CarError};
-use crate::chassis::State;
 use crate::driver::{Driver, Table};
 use crate::ground::Ground;
 use crate::integrate::Tolerance;
 use crate::ride::{Ride, Start};
+use crate::state::State;
 
 /// Vehicles and what they meet.
 #[derive(Clone, Debug)]

@@ -1,10 +1,10 @@
 //! An impact of a run: an impulse at once, or spread over a time.
 
 use crate::V3;
-use crate::chassis::State;
 use crate::crush::touch::{Pose, Push};
 use crate::impulse::{Planar, blow, cross};
 use crate::integrate::Stack;
+use crate::state::State;
 use crate::world::setup::Setup;
 use crate::world::{Contact, Impact, Partner};
 
@@ -129,6 +129,6 @@ impl Pulse {
 
 impl State {
     fn add_crush_j(&mut self, energy_j: f64) {
-        self.0[crate::chassis::MOTION + 6] += energy_j;
+        self.0[crate::state::MOTION + 6] += energy_j;
     }
 }

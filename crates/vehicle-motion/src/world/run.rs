@@ -1,10 +1,11 @@
 //! The run of a world: steps, first touches, what is remembered.
 
-use crate::chassis::{NUMBERS, Report, State};
+use crate::chassis::Report;
 use crate::crush::touch::Pose;
 use crate::hull::Rub;
 use crate::integrate::{Pair as Method, Stack, next_step};
 use crate::ride::Station;
+use crate::state::{NUMBERS, State};
 use crate::vehicle::Memory;
 use crate::world::contact::{Contact, ENDS_AFTER_S};
 use crate::world::evaluate::{Findings, NEAR_M};

@@ -2,13 +2,13 @@
 
 use crate::V3;
 use crate::barrier::Barrier;
-use crate::chassis::State;
 use crate::crush::law::{Law, Series};
 use crate::crush::outline::{Node, Outline, of_body};
 use crate::crush::touch::{NO_FACE, Pass, Pose, Shape};
 use crate::hull::{Hull, HullMemory};
 use crate::rail::{Beam, BeamMemory};
 use crate::slider::Slide;
+use crate::state::State;
 use crate::vehicle::{Memory, Vehicle};
 use crate::world::{Begin, Partner, World, WorldError};
 

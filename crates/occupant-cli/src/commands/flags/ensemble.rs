@@ -12,11 +12,11 @@ use placed_text::Value;
 
 use super::sweep::engine;
 use crate::base::{Existing, Failure, Units, note, refuse_input};
-use crate::files::scenario::{Opened, inputs};
-use crate::files::table::Form;
-use crate::jobs::ensemble::bands::{choose, refuse_too_much};
-use crate::jobs::ensemble::beside_run::{BandFile, Wanted};
-use crate::pictures::Format;
+use occupant_files::table::Form;
+use occupant_jobs::ensemble::bands::{choose, refuse_too_much};
+use occupant_jobs::ensemble::beside_run::{BandFile, Wanted};
+use occupant_jobs::files::scenario::{Opened, inputs};
+use occupant_pictures::Format;
 
 /// Flags of an ensemble.
 #[derive(Clone, Debug, clap::Args)]

@@ -2,7 +2,7 @@
 
 use occupant_scenario::kind::{KINDS, TIME};
 
-use crate::files::measured::MapArgument;
+use occupant_files::measured::MapArgument;
 
 /// The part of the time that is shown or compared, s.
 #[derive(Clone, Copy, Debug, clap::Args)]

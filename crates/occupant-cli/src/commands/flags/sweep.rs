@@ -10,10 +10,10 @@ use occupant_study::Keep;
 use occupant_study::engine::Engine;
 
 use crate::base::Failure;
-use crate::files::study_folder::manifest::Role;
-use crate::files::study_folder::shard::Shard;
-use crate::jobs::sweep::kept;
-use crate::jobs::sweep::plan::Plan;
+use occupant_jobs::files::study_folder::manifest::Role;
+use occupant_jobs::files::study_folder::shard::Shard;
+use occupant_jobs::sweep::kept;
+use occupant_jobs::sweep::plan::Plan;
 
 /// The part to compute, and the variable that says so.
 pub(crate) fn shard(given: Option<&str>) -> Result<(Shard, Option<&'static str>), Failure> {

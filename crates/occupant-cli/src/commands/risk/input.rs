@@ -10,11 +10,11 @@ use occupant_study::risk::{Preparation, Unprepared, VehicleSignals, prepare};
 
 use super::Args;
 use crate::base::{Failure, ending, input_file, note};
-use crate::files::mcap::StoredRun;
-use crate::files::measured::{self, Axes, Known, Motion, MotionKind, Placed, Reading, doubts, rounded_table};
-use crate::files::scenario::{self, ScenarioArgs, warn_of};
-use crate::jobs::import::PathFilter;
-use crate::jobs::risk::{PATH_INTERVAL_S, Subject};
+use occupant_files::mcap::StoredRun;
+use occupant_files::measured::{self, Axes, Known, Motion, MotionKind, Placed, Reading, doubts, rounded_table};
+use occupant_jobs::files::scenario::{self, ScenarioArgs, warn_of};
+use occupant_jobs::import::PathFilter;
+use occupant_jobs::risk::{PATH_INTERVAL_S, Subject};
 
 /// Length of the beginning of a record that says whether gravity is in it, s.
 const BEFORE_S: f64 = 0.01;
@@ -276,7 +276,7 @@ fn unprepared(name: &str, error: &Unprepared) -> Failure {
             "add the columns (zeros, if the vehicle did not turn), or leave --offset out"
         }
         Unprepared::Baseline(_) => "give the length of the rest, such as --baseline '50 ms'",
-        Unprepared::Window { .. } => "give --start and --end inside the record",
+        Unprepared::Window { .. } => "give --start and --to inside the record",
     };
     Failure::with_help(format!("{name} cannot be measured: {error}"), help)
 }

@@ -6,7 +6,7 @@ use occupant_study::risk::{Flight, Preparation, SensorErrors, VerticalGravity};
 
 use super::Args;
 use crate::base::Failure;
-use crate::jobs::import::PathFilter;
+use occupant_jobs::import::PathFilter;
 
 /// What is done with the record.
 pub(crate) fn preparation(args: &Args) -> Result<Preparation, Failure> {
@@ -21,7 +21,7 @@ pub(crate) fn preparation(args: &Args) -> Result<Preparation, Failure> {
         offset_m: offset(args.offset.as_deref())?,
         gravity: if args.gravity_included { VerticalGravity::Included } else { VerticalGravity::Removed },
         start_s: quantity("--start", TIME, &args.start)?,
-        end_s: quantity("--end", TIME, &args.end)?,
+        end_s: quantity("--to", TIME, &args.end)?,
     })
 }
 

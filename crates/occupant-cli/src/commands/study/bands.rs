@@ -5,12 +5,12 @@ use std::path::PathBuf;
 
 use occupant_core::run::batch::Kernel;
 
-use crate::base::{Existing, Failure, Interrupt, say};
+use crate::base::{Existing, Failure, listen, say};
 use crate::commands::flags::sweep::engine;
-use crate::files::study_folder::checksums::Checksums;
-use crate::jobs::ensemble::bands::choose;
-use crate::jobs::study::bands::StudyBands;
-use crate::jobs::sweep::stored::{MadeBy, open};
+use occupant_jobs::ensemble::bands::choose;
+use occupant_jobs::files::study_folder::checksums::Checksums;
+use occupant_jobs::study::bands::StudyBands;
+use occupant_jobs::sweep::stored::{MadeBy, open};
 
 /// Write the bands over time of a study with an ensemble: within which the members of each sample lie, and when they part
 ///
@@ -57,7 +57,7 @@ pub(crate) fn bands(args: &BandsArgs) -> Result<(), Failure> {
     for note in &opened.notes {
         say(note);
     }
-    let interrupt = Interrupt::listen("stopping; once more to stop at once");
+    let interrupt = listen("stopping; once more to stop at once");
     let bands = StudyBands {
         plan: &opened.plan,
         manifest_sha256: &opened.manifest_sha256,

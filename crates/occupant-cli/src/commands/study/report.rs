@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use crate::base::{Existing, Failure, FileProblem, UnitsArg, deliver, is_page, print, say};
-use crate::jobs::study::{Report, Tables, matrix_text, page, subject, write_tables};
-use crate::jobs::sweep::stored::{MadeBy, open};
-use crate::pictures::html::is_page_of;
+use occupant_jobs::study::{Report, Tables, matrix_text, page, subject, write_tables};
+use occupant_jobs::sweep::stored::{MadeBy, open};
+use occupant_pictures::html::is_page_of;
 
 /// Make a page of a study: what matters, how much, how sure that is, and the command that runs each worst case again
 ///

@@ -6,15 +6,15 @@ use std::sync::atomic::AtomicBool;
 
 use occupant_core::run::batch::Kernel;
 
-use crate::base::{Done, Failure, UnitsArg, quoted};
+use crate::base::{Done, Failure, UnitsArg, print, quoted};
 use crate::commands::flags::sweep::{engine, keep};
-use crate::files::study_folder::checksums::Checksums;
-use crate::files::study_folder::folder::Folder;
-use crate::files::study_folder::problem::Problem;
-use crate::jobs::sweep::results::refuse_gaps;
-use crate::jobs::sweep::stored::{MadeBy, Stored, open};
-use crate::jobs::sweep::words::{judged, tell, tell_damaged};
-use crate::jobs::sweep::{kept, results};
+use occupant_jobs::files::study_folder::checksums::Checksums;
+use occupant_jobs::files::study_folder::folder::Folder;
+use occupant_jobs::files::study_folder::problem::Problem;
+use occupant_jobs::sweep::results::refuse_gaps;
+use occupant_jobs::sweep::stored::{MadeBy, Stored, open};
+use occupant_jobs::sweep::words::{judged, tell, tell_damaged};
+use occupant_jobs::sweep::{kept, results};
 
 /// Make one table of a sweep's shards
 ///
@@ -69,9 +69,8 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     kept::write_missing(&plan, (&target, &sums), &journal, wanted, &engine, &AtomicBool::new(false))?;
     sums.close()?;
     let next = format!("occupant study report {}", quoted(target.path.display()));
-    if args.quiet {
-        Ok(judged(&found.census))
-    } else {
-        tell(&found, None, &next, args.units.or(Some(plan.study.base.units())))
+    if !args.quiet {
+        print(&tell(&found, None, &next, args.units.or(Some(plan.study.base.units()))))?;
     }
+    Ok(judged(&found.census))
 }

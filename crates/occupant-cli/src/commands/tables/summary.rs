@@ -13,7 +13,7 @@ use super::{elements, measures};
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, facts, number, table, without_zeros};
 use crate::base::{Units, quoted};
-use crate::jobs::run::recording::Written;
+use occupant_jobs::run::recording::Written;
 
 /// Figures that are not to be quoted as they stand: those that a caveat touches carry a `!`, those that are not stable in an
 /// ensemble a star.

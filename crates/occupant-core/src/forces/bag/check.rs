@@ -22,6 +22,10 @@ pub(super) fn data(bag: &Bag, body: &Body, problems: &mut Problems) {
         problems.error(at("mount"), "not finite numbers", "a point");
     }
     problems.check_positive(&at("deploy"), bag.deploy_s, "s");
+    let due_s = bag.inflators.iter().map(|one| one.due_s).chain(bag.vents.iter().map(|vent| vent.due_s));
+    if let Some(time_s) = [bag.fires_s].into_iter().chain(due_s).find(|time_s| !time_s.is_finite()) {
+        problems.error(at("trigger"), format!("{time_s} s"), "finite times; `chain::NEVER` for what does not happen");
+    }
     problems.check_positive(&at("ambient.pressure"), bag.ambient[0], "Pa");
     problems.check_positive(&at("ambient.temperature"), bag.ambient[1], "K");
     problems.check_at_least_zero(&at("heat_transfer"), bag.heat_w_m2_k, "W/(m^2*K)");
@@ -92,6 +96,9 @@ fn check_inflator(inflator: &Inflator, path: &str, ambient: [f64; 2], problems: 
     }
     if rows.windows(2).any(|pair| pair[1][0].partial_cmp(&pair[0][0]) != Some(std::cmp::Ordering::Greater)) {
         problems.error(format!("{path}.times"), "times that do not rise", "times that rise from row to row");
+    }
+    if rows.iter().any(|row| !row[0].is_finite()) {
+        problems.error(format!("{path}.times"), "a time that is not finite", "finite times");
     }
     if rows.iter().any(|row| !(row[1] >= 0.0 && row[1].is_finite())) {
         problems.error(format!("{path}.flow"), "a flow below 0", "flows of at least 0");

@@ -22,7 +22,7 @@ use crate::quantity::{Axes, FieldWords, Quantity};
 #[derive(Clone, Copy, Debug)]
 pub struct BagAction<S> {
     /// p − p_a, Pa.
-    pub(crate) pressure: S,
+    pub pressure: S,
     /// T, K.
     pub(crate) temperature: S,
     /// Of the gas, m³ and kg.
@@ -261,28 +261,48 @@ impl Reported for Bags {
         }
     }
 
+    const BY_STEPS: &'static [&'static str] = &[FIRES, OPENS, BOTTOMS, TOUCHED, UNFOLDED, LEFT];
+
+    /// In the order of [`Reported::track`]: how far it is unfolded, whether it is touched, whether it bottoms.
+    fn told(before: &[f64], now: &[f64], show: &mut dyn FnMut(&'static str)) {
+        for (at, from, what) in [(4, 0.0, BOTTOMS), (2, 0.0, TOUCHED), (1, WHOLE, UNFOLDED)] {
+            if before[at] <= from && now[at] > from {
+                show(what);
+            }
+        }
+        if before[2] > 0.0 && now[2] <= 0.0 {
+            show(LEFT);
+        }
+    }
+
     fn event<S: Scalar>(before: &BagAction<S>, now: &BagAction<S>) -> Option<(&'static str, Option<S>)> {
         let o = S::zero();
         let begins = |of: fn(&BagAction<S>) -> S| S::any(of(now).gt(o)) && !S::any(of(before).gt(o));
-        let whole = S::of(1.0 - 1e-9);
+        let whole = S::of(WHOLE);
         if begins(|b| b.fired) {
             return Some((FIRES, None));
         }
         if begins(|b| b.bottoms) {
-            return Some(("is pressed in as far as its mount or its middle", None));
+            return Some((BOTTOMS, None));
         }
         if S::any(now.opened.gt(before.opened)) {
             return Some((OPENS, None));
         }
         if begins(|b| b.covered) {
-            return Some(("is touched", None));
+            return Some((TOUCHED, None));
         }
         if S::any(now.share.gt(whole)) && !S::any(before.share.gt(whole)) {
-            return Some(("is unfolded", None));
+            return Some((UNFOLDED, None));
         }
-        (S::any(before.covered.gt(o)) && !S::any(now.covered.gt(o))).then_some(("is left", None))
+        (S::any(before.covered.gt(o)) && !S::any(now.covered.gt(o))).then_some((LEFT, None))
     }
 }
 
 const FIRES: &str = "fires";
 const OPENS: &str = "opens a vent";
+const BOTTOMS: &str = "is pressed in as far as its mount or its middle";
+const TOUCHED: &str = "is touched";
+const UNFOLDED: &str = "is unfolded";
+const LEFT: &str = "is left";
+/// From this part on it is unfolded.
+const WHOLE: f64 = 1.0 - 1e-9;

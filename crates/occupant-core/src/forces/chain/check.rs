@@ -1,6 +1,6 @@
 //! What is wrong with belts over several nodes: with their data, and with how they lie at the start.
 
-use super::data::{Chain, NEVER, Node, Rest, Site, Stroke, Track};
+use super::data::{Chain, Cue, NEVER, Node, Rest, Site, Stroke, Track};
 use super::law::Lies;
 use super::site::TrackLaw;
 use super::{ChainLaw, ChainPast, MOST_ARCS, MOST_NODES};
@@ -32,7 +32,8 @@ pub(super) fn data(chains: &[Chain], body: &Body, problems: &mut Problems) {
         match chain.rest {
             Rest::Length(length) => drop(problems.check_positive(&format!("{path}.length"), length, "m")),
             Rest::Pretension(tension) => problems.check_at_least_zero(&format!("{path}.pretension"), tension, "N"),
-            Rest::Slack(_) => {}
+            Rest::Slack(slack_m) if slack_m.is_finite() => {}
+            Rest::Slack(slack_m) => problems.error(format!("{path}.slack"), format!("{slack_m} m"), "a finite length"),
         }
     }
 }
@@ -138,7 +139,16 @@ fn device(chain: &Chain, path: &str, problems: &mut Problems) {
     for (law, key) in limiters.chain(second) {
         law.check(&format!("{path}.{key}"), Goes::NotDown, falls, problems);
     }
+    cue(&chain.release, &format!("{path}.release"), problems);
+    if let Some((_, by, over_s)) = &chain.device.second {
+        cue(by, &format!("{path}.second_limiter"), problems);
+        problems.check_at_least_zero(&format!("{path}.second_limiter.over"), *over_s, "s");
+    }
     let Some(reel) = &chain.device.reel else { return };
+    cue(&reel.lock, &format!("{path}.retractor.lock"), problems);
+    for (key, value, unit) in [("lock_after", reel.lock_after[0], "m"), ("lock_within", reel.lock_after[1], "s")] {
+        problems.check_at_least_zero(&format!("{path}.retractor.{key}"), value, unit);
+    }
     problems.check_positive(&format!("{path}.retractor.on_spool"), reel.on_spool_m, "m");
     if reel.tension_n.is_nan() || reel.tension_n < 0.1 {
         let found = format!("{} N", reel.tension_n);
@@ -158,6 +168,7 @@ fn device(chain: &Chain, path: &str, problems: &mut Problems) {
     }
     if let Some(pull) = &reel.pull {
         let path = format!("{path}.retractor.pretensioner");
+        cue(&pull.cue, &path, problems);
         if pull.by_force.is_none() {
             table(&pull.table, &path, problems);
         }
@@ -176,6 +187,14 @@ fn device(chain: &Chain, path: &str, problems: &mut Problems) {
     }
 }
 
+/// When something is set off: a time, [`NEVER`] if it is not known, or what is watched.
+fn cue(cue: &Cue, path: &str, problems: &mut Problems) {
+    let watched = cue.watch.iter().flat_map(|watch| [watch.threshold, watch.lasting_s, watch.delay_s]);
+    if let Some(number) = [cue.due_s].into_iter().chain(watched).find(|number| !number.is_finite()) {
+        problems.error(path, format!("{number}"), "finite numbers; `chain::NEVER` for what does not happen");
+    }
+}
+
 /// Belts as they lie at the start.
 pub(super) fn laid(
     law: &[ChainLaw<f64>],
@@ -187,6 +206,11 @@ pub(super) fn laid(
 ) {
     for ((law, chain), past) in law.iter().zip(data).zip(pasts) {
         let path = with_key("belts", &chain.belt);
+        let count = law.straps.starts.len();
+        if chain.straps.len() != count {
+            let found = format!("{} names of straps", chain.straps.len());
+            problems.error(format!("{path}.straps"), found, format!("{count}, one for each"));
+        }
         let mut lies = Lies::nowhere();
         let now = law.now(at, past, &mut lies, false);
         for (k, node) in chain.nodes.iter().enumerate() {

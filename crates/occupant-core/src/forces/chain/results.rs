@@ -304,6 +304,17 @@ impl Reported for Chains {
         }
     }
 
+    const BY_STEPS: &'static [&'static str] =
+        &[LOSES, COMES_ONTO, LEAVES, TIGHTENS, SLACKENS, PHASES[1], PHASES[2], PHASES[3], PHASES[4]];
+
+    fn told(before: &[f64], now: &[f64], show: &mut dyn FnMut(&'static str)) {
+        match [before[0] > 0.0, now[0] > 0.0] {
+            [false, true] => show(TIGHTENS),
+            [true, false] => show(SLACKENS),
+            _ => {}
+        }
+    }
+
     fn switched(
         law: &Vec<ChainLaw<f64>>,
         before: &[ChainPast<f64>],
@@ -349,8 +360,8 @@ impl Reported for Chains {
             std::cmp::Ordering::Equal => {}
         }
         match (S::any(before.force.gt(o)), S::any(now.force.gt(o))) {
-            (false, true) => Some(("tightens", None)),
-            (true, false) => Some(("goes slack", None)),
+            (false, true) => Some((TIGHTENS, None)),
+            (true, false) => Some((SLACKENS, None)),
             _ => None,
         }
     }
@@ -359,12 +370,14 @@ impl Reported for Chains {
 const LOSES: &str = "loses the node where it begins";
 const COMES_ONTO: &str = "comes onto a sphere of the body";
 const LEAVES: &str = "leaves a sphere of the body";
-
+const TIGHTENS: &str = "tightens";
+const SLACKENS: &str = "goes slack";
 /// What a device does when it comes into a phase.
+const PHASES: [&str; 5] = ["", "opens", "begins to lock", "is pulled in by its pretensioner", "locks"];
+
 fn phase_words<S: Scalar>(phase: S) -> &'static str {
-    let words = ["", "opens", "begins to lock", "is pulled in by its pretensioner", "locks"];
-    let place = (0..words.len()).find(|i| !S::any(phase.gt(S::of(*i as f64 + 0.5))));
-    words[place.unwrap_or(0)]
+    let place = (0..PHASES.len()).find(|i| !S::any(phase.gt(S::of(*i as f64 + 0.5))));
+    PHASES[place.unwrap_or(0)]
 }
 
 const _: () = assert!(MOST_ARCS < MOST_NODES);

@@ -158,13 +158,23 @@ impl Reported for Columns {
         Some(Table::new(Self::NAMES[0], &columns, shown.data.columns.iter().map(row)))
     }
 
+    const BY_STEPS: &'static [&'static str] = &[BOTTOMS];
+
+    fn told(before: &[f64], now: &[f64], show: &mut dyn FnMut(&'static str)) {
+        if before[3] <= 0.5 && now[3] > 0.5 {
+            show(BOTTOMS);
+        }
+    }
+
     fn event<S: Scalar>(before: &ColumnAction<S>, now: &ColumnAction<S>) -> Option<(&'static str, Option<S>)> {
         let begins = |of: fn(&ColumnAction<S>) -> S, from: f64| {
             S::any(of(now).gt(S::of(from))) && !S::any(of(before).gt(S::of(from)))
         };
         if begins(|c| c.bottoms, 0.5) {
-            return Some(("is at the end of its stroke", None));
+            return Some((BOTTOMS, None));
         }
         begins(|c| c.set, GIVEN_M).then_some(("gives way", None))
     }
 }
+
+const BOTTOMS: &str = "is at the end of its stroke";

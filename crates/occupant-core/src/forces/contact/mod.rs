@@ -327,12 +327,8 @@ impl ContactSystem<f64> {
         self.own.get(touch.pair).is_some()
     }
 
-    /// The solid of a touch and its place in what is remembered.
-    pub(crate) fn member(&self, touch: &Touch<f64>) -> Option<&Member> {
-        self.member_of(touch.pair, touch.part as usize)
-    }
-
-    fn member_of(&self, pair: usize, part: usize) -> Option<&Member> {
+    /// The solid of a part of a pair and its place in what is remembered.
+    pub(crate) fn member_of(&self, pair: usize, part: usize) -> Option<&Member> {
         let union = self.solids.pairs.get(pair.checked_sub(self.pairs.len())?)?;
         union.members.get(part)
     }

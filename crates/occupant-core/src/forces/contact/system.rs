@@ -24,12 +24,12 @@ use crate::motion::vector::V3;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(rename = "EdgeForceChoice"))]
 pub enum EdgeForce {
-    /// At the point of contact, like the rest of the contact force.
+    /// At the point of contact, like the rest of the contact force, as in the report.
     // A = centre − r N̂, the specification's words
-    #[default]
     #[serde(rename = "contact_point")]
     AtContactPoint,
     /// At the sphere's centre, where the edge force conserves energy on a turning segment too.
+    #[default]
     #[serde(rename = "centre")]
     AtCentre,
 }

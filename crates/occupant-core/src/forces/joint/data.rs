@@ -156,12 +156,13 @@ impl Joints {
         sum
     }
 
-    /// With another law in one joint; one of the other kind changes nothing.
+    /// With another law in one joint; one of the other kind, or of a joint that the tree has not, changes nothing.
     #[must_use]
     pub fn with(mut self, joint: Joint, law: impl Into<JointLaw>) -> Self {
         let law = law.into();
-        if self.tree[joint].is_hinge() == law.hinge().is_some() {
-            self.laws[joint.index()] = law;
+        if let Some(own) = self.laws.get_mut(joint.index()).filter(|own| own.hinge().is_some() == law.hinge().is_some())
+        {
+            *own = law;
         }
         self
     }
@@ -198,17 +199,17 @@ impl Joints {
         self.tree.joints().zip(&self.laws)
     }
 
-    /// The law of a ball joint, to change its numbers.
+    /// The law of a ball joint, to change its numbers; none of a hinge, or of a joint that the tree has not.
     pub fn ball_mut(&mut self, joint: Joint) -> Option<&mut BallJoint> {
-        match &mut self.laws[joint.index()] {
+        match self.laws.get_mut(joint.index())? {
             JointLaw::Ball(ball) => Some(ball),
             JointLaw::Hinge(_) => None,
         }
     }
 
-    /// The law of a hinge, to change its numbers.
+    /// The law of a hinge, to change its numbers; none of a ball joint, or of a joint that the tree has not.
     pub fn hinge_mut(&mut self, joint: Joint) -> Option<&mut HingeJoint> {
-        match &mut self.laws[joint.index()] {
+        match self.laws.get_mut(joint.index())? {
             JointLaw::Hinge(hinge) => Some(hinge),
             JointLaw::Ball(_) => None,
         }

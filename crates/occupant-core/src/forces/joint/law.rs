@@ -23,11 +23,18 @@ struct Limit<S> {
     begin: S,
     slope: S,
     rise: S,
+    /// Where it is full.
+    full: S,
 }
 
 impl<S: Copy> Limit<S> {
     fn zip<A: Copy, T>(&self, other: &Limit<A>, f: &impl Fn(S, A) -> T) -> Limit<T> {
-        Limit { begin: f(self.begin, other.begin), slope: f(self.slope, other.slope), rise: f(self.rise, other.rise) }
+        Limit {
+            begin: f(self.begin, other.begin),
+            slope: f(self.slope, other.slope),
+            rise: f(self.rise, other.rise),
+            full: f(self.full, other.full),
+        }
     }
 }
 
@@ -35,11 +42,12 @@ impl<S: Scalar> Limit<S> {
     /// `sign` is −1 for a stop met by falling angles.
     fn new(stop: Option<Stop>, damping: f64, sign: f64) -> Self {
         // far outside any angle where there is no stop
-        let none = Limit { begin: S::of(1e9), slope: S::one(), rise: S::zero() };
+        let none = Limit { begin: S::of(1e9), slope: S::one(), rise: S::zero(), full: S::of(1e9) };
         stop.map_or(none, |s| Limit {
             begin: S::of(sign * s.begin_rad),
             slope: S::of(1.0 / (sign * (s.full_rad - s.begin_rad)).max(1e-9)),
             rise: S::of(s.damping_n_m_s - damping),
+            full: S::of(sign * s.full_rad),
         })
     }
 
@@ -91,15 +99,17 @@ pub struct JointSystem<S> {
     epsilon_squared: S,
 }
 
-/// What a ball joint does at one instant.
+/// What a joint does at one instant.
 #[derive(Clone, Copy, Debug)]
-pub struct BallAction<S> {
+pub struct JointAction<S> {
     /// Moment on segment l (the opposite on k), space axes, N·m.
     pub moment: V3<S>,
     /// Energy stored in the spring, J.
     pub stored: S,
     /// Power dissipated by damper and stop, W.
     pub dissipated: S,
+    /// How far it is beyond the end of its stop while it moves into it; of a hinge beyond those of the upper and the lower one; rad.
+    pub(crate) beyond: [S; 2],
 }
 
 impl<S: Copy> Ball<S> {
@@ -170,14 +180,14 @@ impl<S: Scalar> JointSystem<S> {
         load
     }
 
-    /// Adds all joint moments and the power that they dissipate to `load` and shows what the ball joints do.
+    /// Adds all joint moments and the power that they dissipate to `load` and shows what the joints do, ball joints first.
     #[inline(always)]
     pub(crate) fn apply(
         &self,
         k: &Kinematics<S>,
         state: &State<S>,
         load: &mut Load<S>,
-        show: &mut impl FnMut(&BallAction<S>),
+        show: &mut impl FnMut(&JointAction<S>),
     ) {
         for ball in &self.balls {
             let action = ball.act(k, self.epsilon_squared);
@@ -193,15 +203,17 @@ impl<S: Scalar> JointSystem<S> {
             let (upper, lower) = hinge.segments;
             let torque = hinge.torque(angles[i], rates[i]); // β is α (72)
             let moment = k.hinge_axis[i] * torque;
+            let (stored, dissipated, beyond) = (S::zero(), -(torque * rates[i]), hinge.beyond(angles[i]));
+            show(&JointAction { moment, stored, dissipated, beyond });
             // R of elbows and knees (77)
             load.wrench[lower].moment += moment;
             load.wrench[upper].moment -= moment;
-            load.power_at(lower).sums[DAMPING] -= torque * rates[i];
+            load.power_at(lower).sums[DAMPING] += dissipated;
         }
     }
 
     /// What ball joint `i` of [`JointSystem::balls`] does.
-    pub fn ball(&self, i: usize, k: &Kinematics<S>) -> BallAction<S> {
+    pub fn ball(&self, i: usize, k: &Kinematics<S>) -> JointAction<S> {
         self.balls[i].act(k, self.epsilon_squared)
     }
 
@@ -210,6 +222,17 @@ impl<S: Scalar> JointSystem<S> {
         let (z_k, z_l) = self.balls[i].axes(k);
         let sine = (z_k.cross(z_l).norm_squared() + self.epsilon_squared).sqrt();
         sine.atan2(z_k.dot(z_l))
+    }
+
+    /// Proximal and distal segment of the joint of an action.
+    pub(super) fn segments(&self, number: usize) -> (usize, usize) {
+        let hinge = || self.hinges[number - self.balls.len()].segments;
+        self.balls.get(number).map_or_else(hinge, |ball| ball.segments)
+    }
+
+    /// The joint of each action.
+    pub(crate) fn joints(&self) -> impl Iterator<Item = Joint> + '_ {
+        self.balls.iter().map(|ball| ball.joint).chain(self.hinges.iter().map(|hinge| hinge.joint))
     }
 
     /// Energy stored in all springs, J.
@@ -235,7 +258,7 @@ impl<S: Scalar> Ball<S> {
 
     /// What it does.
     #[inline(always)]
-    fn act(&self, k: &Kinematics<S>, epsilon_squared: S) -> BallAction<S> {
+    fn act(&self, k: &Kinematics<S>, epsilon_squared: S) -> JointAction<S> {
         let joint = self;
         let (z_k, z_l) = joint.axes(k);
         let omega = k.omega[joint.segments.1] - k.omega[joint.segments.0];
@@ -271,7 +294,8 @@ impl<S: Scalar> Ball<S> {
             moment -= normal * (bent * inverse.sqrt());
             stored = S::of(0.5) * bent * (beta - joint.rest);
         }
-        BallAction { moment, stored, dissipated }
+        let beyond = [S::select(stopping, (beta - joint.stop.full).max(S::zero()), S::zero()), S::zero()];
+        JointAction { moment, stored, dissipated, beyond }
     }
 }
 
@@ -283,6 +307,12 @@ impl<S: Scalar> Hinge<S> {
         let upper = S::select(rate.gt(o), self.upper.extra(angle), o);
         let lower = S::select(rate.lt(o), self.lower.extra(-angle), o);
         -(self.damping + upper + lower) * rate
+    }
+
+    /// How far it is beyond the ends of the upper and the lower stop, rad.
+    #[inline(always)]
+    fn beyond(&self, angle: S) -> [S; 2] {
+        [angle - self.upper.full, -angle - self.lower.full].map(|beyond| beyond.max(S::zero()))
     }
 }
 

@@ -16,8 +16,9 @@ use crate::body::Body;
 use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkSum};
 use crate::forces::list::STORES;
 use crate::forces::rate::Rate;
-use crate::forces::shown::Reported;
+use crate::forces::shown::{Reported, Tracked, Tracker};
 use crate::forces::sphere::Site;
+use crate::forces::table::Column;
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::motion::skeleton::Skeleton;
@@ -55,7 +56,7 @@ impl Element for JointMoments {
     type Law<S> = JointSystem<S>;
     type Past<S> = ();
     type Hints<S: Scalar> = ();
-    type Action<S> = BallAction<S>;
+    type Action<S> = JointAction<S>;
 
     fn check(data: &Joints, _body: &Body, problems: &mut Problems) {
         check::check(data, problems);
@@ -82,7 +83,7 @@ impl Element for JointMoments {
     }
 
     fn most_actions<S>(law: &JointSystem<S>) -> usize {
-        law.balls.len()
+        law.balls.len() + law.hinges.len()
     }
 
     fn zip<S: Copy, A: Copy, T>(
@@ -104,7 +105,7 @@ impl Element for JointMoments {
         _past: &mut [()],
         _hints: &mut (),
         load: &mut Load<S>,
-        show: &mut impl FnMut(&BallAction<S>),
+        show: &mut impl FnMut(&JointAction<S>),
     ) {
         load.end_of_outer();
         law.apply(at.k, at.state, load, show);
@@ -114,19 +115,31 @@ impl Element for JointMoments {
         data: &Joints,
         _body: &Body,
         _at: &Instant<'_, f64>,
-        _actions: &[BallAction<f64>],
+        _actions: &[JointAction<f64>],
         mobility: &Mobility<'_>,
     ) -> Vec<Rate> {
         rates::rates(data, mobility)
     }
 
-    fn segment(law: &JointSystem<f64>, _spheres: &[Site<f64>], number: usize, _action: &BallAction<f64>) -> usize {
-        law.balls[number].segments.1
+    fn segment(law: &JointSystem<f64>, _spheres: &[Site<f64>], number: usize, _action: &JointAction<f64>) -> usize {
+        law.segments(number).1
     }
 
-    fn stored_j(actions: &[BallAction<f64>], stored_j: &mut [f64; STORES]) {
-        stored_j[Self::STORED[0].at] = actions.iter().map(|ball| ball.stored).sum();
+    fn stored_j(actions: &[JointAction<f64>], stored_j: &mut [f64; STORES]) {
+        stored_j[Self::STORED[0].at] = actions.iter().map(|joint| joint.stored).sum();
     }
 }
 
-impl Reported for JointMoments {}
+impl Reported for JointMoments {
+    const SHOWS_PEAKS: bool = false;
+    const PEAKS: &'static [Tracked] = &[Tracked {
+        column: Column::number("beyond_stop_rad", "beyond stop, rad", 3),
+        time: None,
+        at_least_zero: true,
+    }; 2];
+
+    #[inline(always)]
+    fn track<S: Scalar>(joint: &JointAction<S>, tracker: &mut impl Tracker<S>) {
+        joint.beyond.into_iter().for_each(|number| tracker.number(number));
+    }
+}

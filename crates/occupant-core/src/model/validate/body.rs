@@ -1,6 +1,7 @@
 //! Segments and spheres of the body.
 
-use crate::body::{Body, Place, SegmentProperties};
+use crate::body::{Body, JointKind, Place, SegmentProperties};
+use crate::motion::layout::{MOST_HINGES, MOST_SEGMENTS};
 use placed_text::{Problems, number};
 
 /// A sphere may lie this far beside even a short segment, m, and mass be spread so far.
@@ -15,7 +16,25 @@ pub(super) fn check_count(body: &Body, problems: &mut Problems) -> bool {
         let found = format!("{} segments and {} places of joints", body.segments.len(), body.places.len());
         problems.error("body", found, format!("{segments} segments and {joints} places, as many as its tree has"));
     }
+    let hinges: usize = body.tree.joint_rows().iter().map(|row| axes_of(row.kind)).sum();
+    let counts = [("segments", segments, MOST_SEGMENTS), ("axes of hinges", hinges, MOST_HINGES)];
+    // of several bodies together it is said with their names
+    let is_alone = body.tree.bodies().len() == 1;
+    let mut too_many = counts.into_iter().filter(|(_, found, most)| is_alone && found > most);
+    if let Some((what, found, most)) = too_many.next() {
+        problems.error("body", format!("{found} {what}"), format!("at most {most} {what}"));
+        return false;
+    }
     is_whole
+}
+
+/// Axes of hinges that a joint of a kind has.
+pub(super) fn axes_of(kind: JointKind) -> usize {
+    match kind {
+        JointKind::Hinge => 1,
+        JointKind::Universal => 2,
+        JointKind::Ball | JointKind::Fixed => 0,
+    }
 }
 
 pub(super) fn check_body(body: &Body, problems: &mut Problems) {
@@ -35,6 +54,9 @@ pub(super) fn check_body(body: &Body, problems: &mut Problems) {
         ("neck_height", body.neck_height_m),
     ] {
         problems.check_at_least_zero(&format!("body.{key}"), value, "m");
+    }
+    if body.condyles_m.is_some_and(|condyles| !condyles.sum().is_finite()) {
+        problems.error("body.condyles", "a place that is not finite", "finite coordinates");
     }
     problems.check_unique("body.spheres", "sphere", body.spheres.iter().map(|s| s.name.as_str()));
     check_spheres(body, problems);
@@ -82,6 +104,13 @@ fn check_segment(p: &SegmentProperties, path: &str, problems: &mut Problems) {
     if beside_m.is_nan() || beside_m > p.length_m.max(WIDEST_M) {
         let found = format!("a centre of gravity {beside_m} m beside a segment of {} m", p.length_m);
         problems.error(format!("{path}.cg_beside"), found, "a centre of gravity that is near its segment");
+    }
+    if !p.principal.coords.sum().is_finite() {
+        problems.error(
+            format!("{path}.inertia"),
+            "principal axes that are not finite",
+            "a turn into the segment's axes",
+        );
     }
     let inertia = p.inertia_kg_m2;
     let mut sound = true;

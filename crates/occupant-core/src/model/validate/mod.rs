@@ -3,11 +3,11 @@
 mod body;
 mod columns;
 mod path;
+mod references;
 mod time;
 
 use std::f64::consts::PI;
 
-use crate::body::JointKind;
 use crate::body::tti12::TTI12;
 use crate::forces::contact::FASTEST_M_S;
 use crate::model::seating::{InitialPosture, InitialVelocity, Seating, Settling};
@@ -18,11 +18,15 @@ use placed_text::{Problems, number};
 
 /// Reports every problem of the numbers of `setup`.
 pub(crate) fn check(setup: &Setup, problems: &mut Problems) {
-    if !setup.members.is_empty() {
-        return check_together(setup, problems);
-    }
     if !body::check_count(&setup.body, problems) {
         return;
+    }
+    references::check(setup, problems);
+    if problems.has_errors() {
+        return;
+    }
+    if !setup.members.is_empty() {
+        return check_together(setup, problems);
     }
     body::check_body(&setup.body, problems);
     columns::check(setup, problems);
@@ -31,6 +35,10 @@ pub(crate) fn check(setup: &Setup, problems: &mut Problems) {
     time::check_readings(setup.output.readings_s, &setup.time, problems);
     check_posture(&setup.posture, problems);
     check_coordinates(setup, problems);
+    check_gravity(setup, problems);
+}
+
+fn check_gravity(setup: &Setup, problems: &mut Problems) {
     if !(setup.gravity_m_s2 >= 0.0 && setup.gravity_m_s2.is_finite()) {
         problems.error(
             "gravity",
@@ -40,15 +48,21 @@ pub(crate) fn check(setup: &Setup, problems: &mut Problems) {
     }
 }
 
+/// What is wrong with the force elements of several bodies together, each of which is right alone.
+pub(super) fn check_whole(setup: &Setup, problems: &mut Problems) {
+    let mut found = Problems::new();
+    setup.forces(&[]).check(&setup.body, &mut found);
+    if found.has_errors() {
+        problems.extend(found);
+    }
+}
+
 /// How much of everything several bodies have together; each is looked at by itself.
 fn check_together(setup: &Setup, problems: &mut Problems) {
+    check_gravity(setup, problems);
     time::check_time(&setup.time, &setup.integrator, problems);
     time::check_readings(setup.output.readings_s, &setup.time, problems);
-    let hinges = setup.body.tree.joint_rows().iter().map(|row| match row.kind {
-        JointKind::Hinge => 1,
-        JointKind::Universal => 2,
-        JointKind::Ball | JointKind::Fixed => 0,
-    });
+    let hinges = setup.body.tree.joint_rows().iter().map(|row| body::axes_of(row.kind));
     let counts = [
         ("bodies", setup.members.len(), MOST_BODIES),
         ("segments", setup.body.segments.len(), MOST_SEGMENTS),

@@ -1,9 +1,9 @@
 //! Place and pace of the vehicle during the run.
 
 use crate::forces::contact::surface::Frame;
-use crate::model::setup::{STANDARD_GRAVITY_M_S2, Setup};
-use crate::vehicle::{FrameMotion, PathCursor};
-use placed_text::{Problem, Problems};
+use crate::model::setup::{STANDARD_GRAVITY_M_S2, Setup, TimeSpan};
+use crate::vehicle::{FrameMotion, PathCursor, VehiclePath};
+use placed_text::{Problem, Problems, with_key};
 
 /// What is usual of a vehicle, and what numbers can carry.
 struct Pace {
@@ -16,6 +16,9 @@ struct Pace {
     most: f64,
     slip: &'static str,
 }
+
+/// A place that leaps by less than this is one of rounded numbers, m.
+const LEAP_M: f64 = 0.01;
 
 const G: f64 = STANDARD_GRAVITY_M_S2;
 
@@ -52,9 +55,17 @@ pub(in crate::model) fn check_path(setup: &Setup, problems: &mut Problems) {
         return problems.error("path", problem.to_string(), "a path for the whole run");
     }
     check_jumps(setup, problems);
+    check_others(setup, problems);
     let mut cursor = PathCursor::default();
     let motions: Vec<(f64, FrameMotion)> =
         instants(setup).into_iter().map(|t_s| (t_s, path.motion(t_s, t_s, &mut cursor))).collect();
+    if let Some((t_s, motion)) = motions.iter().find(|(_, motion)| !motion.is_finite()) {
+        let found = format!("the vehicle's distance from the origin is {} m", motion.origin_m.norm());
+        let found =
+            if motion.origin_m.norm().is_finite() { "a motion with numbers that are not".to_owned() } else { found };
+        return problems.error("path", format!("{found} at t = {t_s} s"), "finite numbers all along the run");
+    }
+    check_leaps(setup, &motions, problems);
     for Pace { of, what, unit: (unit, si), usual, most, slip } in PACES {
         let greatest = motions.iter().map(|(t_s, motion)| (*t_s, of(motion))).max_by(|a, b| a.1.total_cmp(&b.1));
         let Some((t_s, value)) = greatest.filter(|(_, value)| value.is_nan() || *value > usual.min(most)) else {
@@ -70,11 +81,57 @@ pub(in crate::model) fn check_path(setup: &Setup, problems: &mut Problems) {
     }
 }
 
+/// Reports a program's own path that leaps: a place that its velocity does not lead to.
+fn check_leaps(setup: &Setup, motions: &[(f64, FrameMotion)], problems: &mut Problems) {
+    if !matches!(setup.path, VehiclePath::Own(_)) {
+        return;
+    }
+    let mut sorted: Vec<&(f64, FrameMotion)> = motions.iter().collect();
+    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let leap = sorted.windows(2).find(|pair| {
+        let ((t_0, a), (t_1, b)) = (pair[0], pair[1]);
+        let (dt_s, speed) = (t_1 - t_0, a.velocity_m_s.norm().max(b.velocity_m_s.norm()));
+        let most_m = speed * dt_s + a.acceleration_m_s2.norm().max(b.acceleration_m_s2.norm()) * dt_s * dt_s;
+        (b.origin_m - a.origin_m).norm() > 2.0 * most_m + LEAP_M
+    });
+    if let Some([(t_0, a), (t_1, b)]) = leap.map(|pair| [pair[0], pair[1]]) {
+        let found = format!(
+            "the vehicle moves {:.3e} m between t = {t_0} s and {t_1} s at speeds of {:.3e} and {:.3e} m/s",
+            (b.origin_m - a.origin_m).norm(),
+            a.velocity_m_s.norm(),
+            b.velocity_m_s.norm()
+        );
+        problems.error("path", found, "a place that changes as its velocity says");
+    }
+}
+
+/// Reports other frames whose path does not reach as far as the run, or has numbers that are not finite.
+fn check_others(setup: &Setup, problems: &mut Problems) {
+    let time = &setup.time;
+    for frame in &setup.frames {
+        let name = with_key("frames", &frame.name);
+        if let Err(problem) = frame.path.check_span(time.start_s, time.end_s) {
+            problems.error(name, problem.to_string(), "a path for the whole run");
+            continue;
+        }
+        let mut cursor = PathCursor::default();
+        let is_broken = |t_s: &f64| !frame.path.motion(*t_s, *t_s, &mut cursor).is_finite();
+        let mut spread = (0..=INSTANTS).map(|i| instant(time, i));
+        if let Some(t_s) = spread.find(is_broken) {
+            problems.error(name, format!("numbers that are not finite at t = {t_s} s"), "a path of finite numbers");
+        }
+    }
+}
+
+/// One of the instants spread over the run, s.
+fn instant(time: &TimeSpan, i: u32) -> f64 {
+    time.start_s + (time.end_s - time.start_s) * f64::from(i) / f64::from(INSTANTS)
+}
+
 /// Instants spread over the run, those in it at which the path is given, and the middles between all of them.
 fn instants(setup: &Setup) -> Vec<f64> {
     let time = &setup.time;
-    let spread =
-        (0..=INSTANTS).map(|i| time.start_s + (time.end_s - time.start_s) * f64::from(i) / f64::from(INSTANTS));
+    let spread = (0..=INSTANTS).map(|i| instant(time, i));
     let given = setup.path.given_s().into_iter().filter(|t_s| (time.start_s..=time.end_s).contains(t_s));
     let mut all: Vec<f64> = spread.chain(given).collect();
     all.sort_by(f64::total_cmp);

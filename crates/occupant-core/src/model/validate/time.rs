@@ -8,6 +8,11 @@ const MOST_STEPS: f64 = 1e9;
 /// More outputs or readings than this are, too.
 const MOST_OUTPUTS: f64 = 1e7;
 
+/// The smallest relative tolerance: of speeds, of numbers of the order of 1.
+const FINEST: f64 = 1e-13;
+/// The smallest step that can be told from none at times of the order of 1 s, s.
+const SHORTEST_S: f64 = 1e-15;
+
 /// An interval as long as this is no slip of the pen, however short the run, s.
 const LONGEST_ANYWAY_S: f64 = 10.0 * DEFAULT_OUTPUT_S;
 
@@ -28,10 +33,10 @@ pub(super) fn check_time(time: &TimeSpan, integrator: &Integrator, problems: &mu
         }
         Integrator::Adaptive { relative, absolute_m, absolute_m_s, min_step_s, max_step_s } => {
             at_most(problems, ("integrator.max_step", max_step_s), span_s, (MOST_STEPS, "steps"));
-            problems.check_positive("integrator.relative", relative, "");
-            problems.check_positive("integrator.absolute_length", absolute_m, "m");
-            problems.check_positive("integrator.absolute_speed", absolute_m_s, "m/s");
-            problems.check_positive("integrator.min_step", min_step_s, "s");
+            at_least(problems, ("integrator.relative", relative, ""), FINEST);
+            at_least(problems, ("integrator.absolute_length", absolute_m, "m"), 0.1 * FINEST);
+            at_least(problems, ("integrator.absolute_speed", absolute_m_s, "m/s"), FINEST);
+            at_least(problems, ("integrator.min_step", min_step_s, "s"), SHORTEST_S);
             if max_step_s < min_step_s {
                 problems.error(
                     "integrator.max_step",
@@ -40,6 +45,18 @@ pub(super) fn check_time(time: &TimeSpan, integrator: &Integrator, problems: &mu
                 );
             }
         }
+    }
+}
+
+/// Reports a number that is not positive, or so small that a run of numbers of 16 digits would not end.
+fn at_least(problems: &mut Problems, (path, value, unit): (&str, f64, &str), least: f64) {
+    if problems.check_positive(path, value, unit) && !(value >= least && value.is_finite()) {
+        let found = format!("{} {unit}", number(value));
+        problems.error(
+            path,
+            found.trim_end(),
+            format!("at least {least:.0e} {unit}, which numbers of 16 digits can tell"),
+        );
     }
 }
 

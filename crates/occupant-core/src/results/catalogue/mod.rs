@@ -17,9 +17,10 @@ use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::Arc;
 
+use crate::forces::own::ForceChannel;
 use crate::forces::{Listed, STORED, SUMS, StoredEnergy, Visitor, WorkSum, visit_kinds};
 use crate::model::Model;
-use crate::quantity::{Energy, Kind, Owner, Quantity, Value};
+use crate::quantity::{Axes, Energy, Kind, Owner, Quantity, Value};
 use crate::results::channel::{Channel, Component};
 use crate::results::energy::EnergyLedger;
 use crate::results::sample::Sample;
@@ -140,12 +141,13 @@ struct Place<'a> {
 #[derive(Default)]
 pub(super) struct Catalogue {
     pub(super) channels: Vec<Channel>,
+    of: u64,
     messages: Vec<Message>,
 }
 
 impl Catalogue {
     pub(super) fn of(model: &Model) -> Self {
-        let mut all = Catalogue::default();
+        let mut all = Catalogue { of: model.names_hash(), ..Catalogue::default() };
         all.vehicles(model);
         let tree = model.body().tree;
         for segment in tree.segments() {
@@ -178,6 +180,7 @@ impl Catalogue {
         }
         all.surfaces(model);
         visit_kinds(&mut Elements { model, all: &mut all });
+        all.own_forces(model);
         for joint in tree.joints() {
             let name = tree[joint].name;
             let (channel, words) = (format!("joint.{name}"), name.replace('_', " "));
@@ -227,6 +230,25 @@ impl Catalogue {
             let place = Place { message: "", topic: String::new(), name: &channel, words: &words };
             let carrier = setup.belongs_to(frame);
             self.add(&place, &surface::quantities(carrier), move |s| (s, i, carrier));
+        }
+    }
+
+    /// What a program's own forces show.
+    fn own_forces(&mut self, model: &Model) {
+        for (i, own) in model.setup().own_forces.iter().enumerate() {
+            for (k, ForceChannel { name, unit }) in own.force.channels().into_iter().enumerate() {
+                self.channels.push(Channel {
+                    name: format!("own_force.{}.{name}", own.name),
+                    unit,
+                    axes: Axes::None,
+                    meaning: format!("{} of the own force {}", name.replace('_', " "), own.name),
+                    source: Source::new(move |sample| {
+                        Value::Number(sample.actions.own.get(i).map_or(f64::NAN, |action| action.shown[k]))
+                    }),
+                    component: Component::X,
+                    of: self.of,
+                });
+            }
         }
     }
 
@@ -306,10 +328,10 @@ impl Catalogue {
         };
         let name = [place.name, words.name].into_iter().filter(|w| !w.is_empty()).collect::<Vec<_>>().join(".");
         let meaning = words.meaning.replace("{}", place.words);
-        let (unit, axes) = (quantity.unit, quantity.axes);
+        let (unit, axes, of) = (quantity.unit, quantity.axes, self.of);
         let channel = |name, axes, component| {
             let (meaning, source) = (meaning.clone(), source.clone());
-            Channel { name, unit, axes, meaning, source, component }
+            Channel { name, unit, axes, meaning, source, component, of }
         };
         if quantity.kind() == Kind::Vector {
             let components = Component::ALL.into_iter();

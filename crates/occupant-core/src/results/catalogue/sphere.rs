@@ -24,7 +24,7 @@ pub(super) const QUANTITIES: &[Of] = &[
         .channel("force", "all contact forces on the {}, belts apart")
         .field(3, "contact_force", "sum of contact and friction forces, belts apart (item 5)")
         .resultant(4, "contact_force", "its magnitude"),
-    Of::vector(Newton, Axes::Vehicle, |(s, i)| s.sphere_pull_n(*i, Some("belt")))
+    Of::vector(Newton, Axes::Vehicle, |(s, i)| s.pull_n(*i, |pull| pull.of == "belt"))
         .channel("belt_force", "belt forces on the {}")
         .field(5, "belt_force", "sum of the forces of belts"),
     Of::number(Metre, |(s, i)| s.penetration_m(*i)).channel("penetration", "greatest contact penetration of the {}"),
@@ -37,7 +37,7 @@ pub(super) const QUANTITIES: &[Of] = &[
 ];
 
 /// What a sphere feels of bags, where there are any.
-pub(super) const OF_BAGS: &[Of] = &[Of::vector(Newton, Axes::Vehicle, |(s, i)| s.sphere_pull_n(*i, Some("bag")))
+pub(super) const OF_BAGS: &[Of] = &[Of::vector(Newton, Axes::Vehicle, |(s, i)| s.pull_n(*i, |pull| pull.of == "bag"))
     .channel("bag_force", "bag forces on the {}")
     .field(8, "bag_force", "sum of the forces of bags")];
 

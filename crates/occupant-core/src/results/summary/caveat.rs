@@ -4,7 +4,7 @@ use crash_measures::injury::Measure;
 use crash_measures::measure::Dummy;
 use serde::Serialize;
 
-use super::{Exit, Peak, RunStatus, Summary, Throw, word};
+use super::{Ejection, Exit, Peak, RunStatus, Summary, Throw, word};
 use crate::body::{Body, Joint, Limb, Segment};
 use crate::forces::rate::Rate;
 use crate::model::settle::Settled;
@@ -33,6 +33,8 @@ impl Caveat {
     pub const BALANCE_LOST: &str = "energy_balance_lost";
     /// Name of the one on figures of a part of a run.
     pub const PART: &str = "part_of_a_run";
+    /// Name of the one on ejections of which one run alone tells.
+    pub const CHANCE: &str = "ejection_by_chance";
 
     fn new(name: impl Into<String>, text: String, figures: Vec<String>) -> Self {
         Caveat { name: name.into(), text, figures }
@@ -287,6 +289,18 @@ impl Caveat {
     pub(super) fn through(body: &Body, sphere: usize, solid: &str, depth: Peak) -> Self {
         let seen = format!("went through {solid} {} and was pushed out beyond", at(depth));
         Caveat::of_sphere(body, sphere, "through", seen)
+    }
+
+    /// Someone who left the compartment, and his figures from there on: a little at the start is much by then, and no energy balance shows it.
+    pub(super) fn by_chance(ejection: &Ejection, later: Vec<String>) -> Option<Self> {
+        let first = ejection.parts.first()?;
+        let text = format!(
+            "who leaves his seat tumbles: whether and what is ejected ({} first, at {:.1} ms), and what comes after, may be chance in one run; \
+             --estimate-error shows what is not determined, --ensemble what is stable",
+            first.part.rsplit('.').next().unwrap_or_default().replace('_', " "),
+            1e3 * first.time_s
+        );
+        Some(Caveat::new(Self::CHANCE, text, [owned(&["ejection*", "throw.*"]), later].concat()))
     }
 
     fn of_sphere(body: &Body, sphere: usize, sign: &str, seen: String) -> Self {

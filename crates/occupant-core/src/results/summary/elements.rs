@@ -13,7 +13,9 @@ pub(super) struct Elements(Vec<OfKind>);
 #[derive(Clone, Debug)]
 struct OfKind {
     of: &'static str,
+    /// None of a kind whose table is not shown.
     names: Vec<String>,
+    count: usize,
     /// How many peaks each element has.
     each: usize,
     /// Whether the summary tells of the kind.
@@ -30,14 +32,14 @@ impl Elements {
 
     /// How many peaks all of them have.
     pub(super) fn count(&self) -> usize {
-        self.0.iter().map(|kind| kind.names.len() * kind.each).sum()
+        self.0.iter().map(|kind| kind.count * kind.each).sum()
     }
 
     /// Those of `peaks`, of all of them, that are of a kind, by element.
     pub(super) fn of<'p>(&self, kind: &str, peaks: &'p [Peak]) -> impl Iterator<Item = &'p [Peak]> + use<'p> {
-        let before = self.0.iter().take_while(|own| own.of != kind).map(|own| own.names.len() * own.each).sum();
+        let before = self.0.iter().take_while(|own| own.of != kind).map(|own| own.count * own.each).sum();
         let own = self.0.iter().find(|own| own.of == kind);
-        let (count, each) = own.map_or((0, 1), |own| (own.names.len() * own.each, own.each));
+        let (count, each) = own.map_or((0, 1), |own| (own.count * own.each, own.each));
         peaks.get(before..before + count).unwrap_or_default().chunks(each)
     }
 
@@ -46,7 +48,7 @@ impl Elements {
         let mut rest = peaks;
         let mut tables = Tables::new();
         for kind in &self.0 {
-            let (own, others) = rest.split_at(rest.len().min(kind.names.len() * kind.each));
+            let (own, others) = rest.split_at(rest.len().min(kind.count * kind.each));
             rest = others;
             if kind.is_shown {
                 tables.insert(kind.of, (kind.table)(&kind.names, own));
@@ -62,9 +64,10 @@ impl Visitor for Begin<'_> {
     fn visit<E: Listed>(&mut self) {
         let ([one, of], each) = (E::NAMES, E::PEAKS.len());
         let names: Vec<String> = self.0.named(one).into_iter().map(|element| element.name.to_owned()).collect();
-        let is_shown = !E::OPTIONAL || !names.is_empty();
+        let is_shown = E::SHOWS_PEAKS && (!E::OPTIONAL || !names.is_empty());
+        let count = E::most_actions(E::law(&self.0.system().forces));
         if each > 0 {
-            self.1.push(OfKind { of, names, each, is_shown, table: table::<E> });
+            self.1.push(OfKind { of, names, count, each, is_shown, table: table::<E> });
         }
     }
 }

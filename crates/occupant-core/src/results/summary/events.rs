@@ -13,7 +13,7 @@ const MOST: usize = 100;
 /// What happened to a force element.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Event {
-    /// When, s: of what switches the end of the step in which it does, of all else the first output behind it.
+    /// When, s: the end of the step in which it happens; of what is seen at outputs alone, the first output behind it.
     pub time_s: f64,
     /// Name of the element.
     pub name: String,
@@ -108,14 +108,13 @@ impl Visitor for See<'_, '_> {
             return;
         }
         let now = E::actions(self.sample.actions);
-        let switched = || self.sample.switched.iter().filter(|one| one.of == E::NAMES[0]);
-        for one in switched() {
+        for one in self.sample.switched.iter().filter(|one| one.of == E::NAMES[0]) {
             self.seen.note(one.time_s, self.first + one.element, one.what);
         }
+        // files of 0.1.0 know no steps
+        let is_told = |what| E::BY_STEPS.contains(&what) && !self.sample.step_peaks.are_unknown();
         for (i, (before, now)) in E::actions(self.before).iter().zip(now).enumerate() {
-            if let Some((what, _)) = E::event(before, now)
-                && !switched().any(|one| one.element == i && one.what == what)
-            {
+            if let Some((what, _)) = E::event(before, now).filter(|(what, _)| !is_told(*what)) {
                 self.seen.note(self.sample.time_s, self.first + i, what);
             }
         }

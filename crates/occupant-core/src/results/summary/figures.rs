@@ -57,6 +57,11 @@ impl Summary {
         for body in model.body().tree.bodies().iter().filter(|_| model.setup().is_open()) {
             let prefix = if body.name.is_empty() { String::new() } else { format!("{}.", body.name) };
             list.throw(&prefix, self.throws.get(body.name));
+            let ejection = self.ejections.get(body.name);
+            list.add(format!("{prefix}ejection.parts"), One, ejection.map_or(0.0, |out| out.parts.len() as f64));
+            let first_s = ejection.and_then(|out| Some(out.parts.first()?.time_s));
+            list.add(format!("{prefix}ejection.first_time"), Second, first_s);
+            list.add(format!("{prefix}ejection.complete_time"), Second, ejection.and_then(|out| out.complete_s));
         }
         list.add("run.reached", Second, self.reached_s);
         list.add("energy.balance_error", One, self.energy.balance_error);

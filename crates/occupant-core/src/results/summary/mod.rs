@@ -18,7 +18,7 @@ mod strokes;
 mod summarizer;
 mod throw;
 
-use indexmap::IndexMap;
+use crate::forces::table::InOrder;
 use serde::Serialize;
 
 use crash_measures::injury::Measure;
@@ -74,14 +74,14 @@ pub struct Summary {
     /// Injury measures, unless asked otherwise for a Hybrid III 50M and unfiltered.
     pub measures: Vec<Measure>,
     /// The same of the other occupants, by their names.
-    #[serde(skip_serializing_if = "IndexMap::is_empty")]
-    pub others: IndexMap<&'static str, Person>,
+    #[serde(skip_serializing_if = "InOrder::is_empty")]
+    pub others: InOrder<&'static str, Person>,
     /// How bodies that were struck were thrown, by their names, where there are other frames than one vehicle's and space.
-    #[serde(skip_serializing_if = "IndexMap::is_empty")]
-    pub throws: IndexMap<&'static str, Throw>,
+    #[serde(skip_serializing_if = "InOrder::is_empty")]
+    pub throws: InOrder<&'static str, Throw>,
     /// What left the compartment of its vehicle, by the names of the bodies whose head, chest or pelvis did.
-    #[serde(skip_serializing_if = "IndexMap::is_empty")]
-    pub ejections: IndexMap<&'static str, Ejection>,
+    #[serde(skip_serializing_if = "InOrder::is_empty")]
+    pub ejections: InOrder<&'static str, Ejection>,
     /// Which figures are not to be quoted as they stand, and why.
     pub caveats: Vec<Caveat>,
     /// Energy balance.

@@ -8,11 +8,12 @@ use crate::body::{Body, Segment};
 use crate::forces::bag::Bag;
 use crate::forces::chain::Chain;
 use crate::forces::contact::{ContactSystem, Group, PASSED, Part, Plane, Touch};
-use crate::forces::joint::JointLaw;
+use crate::forces::joint::{JointLaw, Stop};
 use crate::model::Model;
 use crate::model::seating::InitialPosture;
 use crate::motion::frame::MOST_FRAMES;
 use crate::motion::vector::V3;
+use crate::results::peaks::Peaks;
 use crate::results::sample::{Contact, Sample};
 
 /// Spheres that overlap by less have grazed an edge, m; limbs whose spheres are nearer have not gone between them.
@@ -35,6 +36,8 @@ const CUSHION_M: f64 = 0.15;
 pub(super) struct Signs {
     /// By joint.
     joints: Vec<Turned>,
+    /// By joint that can move: its place among all, and its stops, of a hinge the upper and the lower one.
+    stops: Vec<(usize, [Option<Stop>; 2])>,
     /// By joint with elastic limits: its place among all, and how far it gives way at most, rad.
     limits: Vec<(usize, f64)>,
     /// By sphere: overlap without force, depth, and the surfaces where.
@@ -54,8 +57,6 @@ pub(super) struct Signs {
     /// By bag and by its spheres: when the sphere first touched what stands behind the bag, s, and what that was.
     behind: Vec<Vec<Option<(f64, usize)>>>,
     strokes: Strokes,
-    /// By what pairs remember, of bars and rims.
-    normals: Vec<Option<Bar>>,
     /// By segment: how far from its spheres it went through a surface.
     cuts: Vec<Sunk>,
     /// By pair: whether it had passed at the start, whether the sphere's limb went through it.
@@ -71,15 +72,6 @@ pub(super) struct Signs {
 struct Sunk {
     most: Peak,
     surface: usize,
-}
-
-/// A bar or a rim when a sphere touched it last.
-#[derive(Clone, Copy, Debug)]
-struct Bar {
-    normal: V3<f64>,
-    /// Whether the sphere's centre was within it.
-    inside: bool,
-    output: usize,
 }
 
 impl Sunk {
@@ -106,6 +98,13 @@ impl Signs {
         let spheres = vec![Sunk::NONE; body.spheres.len()];
         Signs {
             joints: vec![turned; body.tree.joints().len()],
+            stops: model
+                .system()
+                .forces
+                .joints
+                .joints()
+                .map(|of| (of.index(), stops(&model.setup().joints[of])))
+                .collect(),
             limits: limits(model),
             passed: spheres.clone(),
             bottomed: spheres.iter().map(|none| (*none, 0.0)).collect(),
@@ -116,7 +115,6 @@ impl Signs {
             bags: model.setup().bags.iter().map(|bag| vec![[None; 2]; bag.spheres.len()]).collect(),
             behind: model.setup().bags.iter().map(|bag| vec![None; bag.spheres.len()]).collect(),
             strokes: Strokes::new(model),
-            normals: vec![None; model.start().history.memory.contacts.len()],
             deep: spheres,
             cuts: vec![Sunk::NONE; body.tree.segments().len()],
             begun: vec![[false; 2]; model.system().forces.contacts.pairs.len()],
@@ -145,7 +143,6 @@ impl Signs {
             }
         }
         for touch in &sample.actions.contacts {
-            self.see_bar(sample, touch);
             self.see_last_point(sample, touch);
         }
         self.see_chains(sample);
@@ -160,8 +157,17 @@ impl Signs {
     }
 
     /// The same with the greatest values of steps, which elements track.
-    pub(super) fn with_steps(&self, elements: &Elements, peaks: &[Peak]) -> Self {
-        let mut signs = self.clone();
+    pub(super) fn with_steps(&self, elements: &Elements, all: &Peaks, body: &Body) -> Self {
+        let (mut signs, peaks) = (self.clone(), &all.elements);
+        for (part, own) in body.parts().zip(&all.parts) {
+            let sphere = body.spheres.iter().position(|sphere| sphere.part == part).unwrap_or(0);
+            signs.through[sphere] = Sunk { most: own.through, surface: own.bar };
+        }
+        for ((joint, stops), own) in self.stops.iter().zip(elements.of("joint dampers", peaks)) {
+            for (stop, beyond) in stops.iter().zip(own) {
+                signs.joints[*joint].see_stop(stop.as_ref(), *beyond);
+            }
+        }
         for ((joint, most_rad), own) in self.limits.iter().zip(elements.of("joints", peaks)) {
             signs.joints[*joint].see_limit(own[0].value, *most_rad, own[0].time_s);
         }
@@ -222,21 +228,6 @@ impl Signs {
                     *seen = seen.or(is(flags, i).then_some(sample.time_s));
                 }
             }
-        }
-    }
-
-    /// A sphere whose centre has gone through the axis of a bar or a rim since the output before: the normal has turned round
-    /// while the centre was within.
-    fn see_bar(&mut self, sample: &Sample<'_>, touch: &Touch<f64>) {
-        let contacts = &sample.model.system().forces.contacts;
-        let Some(member) = contacts.member(touch).filter(|member| contacts.solids.shapes[member.solid].is_bar()) else {
-            return;
-        };
-        let inside = touch.depth > sample.model.body().spheres[touch.sphere].radius_m;
-        let last = self.normals[member.past].replace(Bar { normal: touch.normal, inside, output: sample.index });
-        let turned = last.filter(|last| last.output + 1 == sample.index && last.normal.dot(touch.normal) < 0.0);
-        if turned.is_some_and(|last| last.inside || inside) {
-            self.through[touch.sphere].see(touch.depth, member.surface, sample.time_s);
         }
     }
 
@@ -371,17 +362,16 @@ fn limits(model: &Model) -> Vec<(usize, f64)> {
 
 impl Turned {
     fn see(&mut self, law: &JointLaw, angle_rad: f64, time_s: f64) {
-        let stops = match law {
-            JointLaw::Ball(ball) => [ball.stop, None],
-            JointLaw::Hinge(hinge) => [hinge.upper_stop, hinge.lower_stop],
-        };
-        for stop in stops.into_iter().flatten() {
-            // a lower stop ends below its begin
-            let beyond_rad = (angle_rad - stop.full_rad) * (stop.full_rad - stop.begin_rad).signum();
-            if self.beyond.see(beyond_rad, time_s) {
-                (self.angle_rad, self.stop_rad, self.is_elastic) = (angle_rad, stop.full_rad, false);
-            }
+        for stop in stops(law).iter().flatten() {
+            self.see_stop(Some(stop), Peak { value: (angle_rad - stop.full_rad) * sense(stop), time_s });
         }
+    }
+
+    /// The joint beyond the end of a stop.
+    fn see_stop(&mut self, stop: Option<&Stop>, beyond: Peak) {
+        let Some(stop) = stop.filter(|_| self.beyond.see(beyond.value, beyond.time_s)) else { return };
+        let angle_rad = stop.full_rad + sense(stop) * beyond.value;
+        (self.angle_rad, self.stop_rad, self.is_elastic) = (angle_rad, stop.full_rad, false);
     }
 
     /// An angle beyond an elastic limit, of which `most_rad` is the most that it gives way or the last that is known.
@@ -390,6 +380,19 @@ impl Turned {
             (self.angle_rad, self.stop_rad, self.is_elastic) = (excess_rad, most_rad, true);
         }
     }
+}
+
+/// The stops of a joint, of a hinge the upper and the lower one.
+fn stops(law: &JointLaw) -> [Option<Stop>; 2] {
+    match law {
+        JointLaw::Ball(ball) => [ball.stop, None],
+        JointLaw::Hinge(hinge) => [hinge.upper_stop, hinge.lower_stop],
+    }
+}
+
+/// 1 of a stop that is met by rising angles, −1 of a lower one.
+fn sense(stop: &Stop) -> f64 {
+    (stop.full_rad - stop.begin_rad).signum()
 }
 
 /// Both ends of an arm's or a leg's segment, space axes, m; none of the trunk's and the head's.

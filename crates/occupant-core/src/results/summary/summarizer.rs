@@ -1,6 +1,6 @@
 //! The recorder that makes a [`Summary`].
 
-use indexmap::IndexMap;
+use crate::forces::table::InOrder;
 
 use super::compartment::Compartment;
 use super::elements::Elements;
@@ -73,6 +73,7 @@ struct Case {
     unbalanced: Vec<(&'static str, Settled)>,
     integrator: &'static str,
     time: TimeSpan,
+    names_hash: u64,
 }
 
 impl Case {
@@ -112,17 +113,18 @@ impl Summarizer {
         let mut peaks = self.seen.clone();
         peaks.merge(&self.now);
         let people = self.persons(&peaks);
-        let signs = self.signs.with_steps(&self.elements, &peaks.elements);
+        let signs = self.signs.with_steps(&self.elements, &peaks, &case.body);
         let caveats = self.caveats(case, &signs, &people, outcome.time_s);
         let sphere_forces = sphere_forces(case, &peaks);
         let unbalanced = case.caveats_of_start(&people, &sphere_forces);
+        let ejections = self.ejections(case);
+        let by_chance = Self::by_chance(&people, &ejections);
         let mut people = people.into_iter().map(|(name, person, _)| (name, person));
         let (occupant, Person { accelerations, head_excursion, measures }) = people.next()?;
         let contacts = contacts(outcome, case);
-        let throws: IndexMap<_, _> =
+        let throws: InOrder<_, _> =
             self.flights.iter().filter_map(|flight| Some((flight.name, flight.throw(&case.body.spheres)?))).collect();
         let on_the_way = throws.iter().filter_map(|(name, throw)| Caveat::not_at_rest(name, throw));
-        let ejections = self.ejections(case);
         let (status, reason) = ending(&outcome.status);
         let summary = Summary {
             title: case.title.clone(),
@@ -148,6 +150,7 @@ impl Summarizer {
                 .chain(caveats)
                 .chain(unbalanced)
                 .chain(Self::unmet(case, &ejections))
+                .chain(by_chance)
                 .chain(on_the_way)
                 .collect(),
             throws,
@@ -180,13 +183,27 @@ impl Summarizer {
     }
 
     /// By body, what left the compartment that it started in.
-    fn ejections(&self, case: &Case) -> IndexMap<&'static str, Ejection> {
+    fn ejections(&self, case: &Case) -> InOrder<&'static str, Ejection> {
         let all = self.compartments.iter();
         all.filter_map(|of| Some((of.name, of.ejection(&case.body.spheres, &case.surfaces)?))).collect()
     }
 
+    /// What is to know of those who were ejected: their verdict, throw, and figures of later times.
+    fn by_chance(
+        people: &[(&'static str, Person, Signals)],
+        ejections: &InOrder<&'static str, Ejection>,
+    ) -> Vec<Caveat> {
+        let one = |(name, ejection): (&&'static str, &Ejection)| {
+            let from_s = ejection.parts.first()?.time_s;
+            let own = people.iter().filter(|(person, ..)| person == name);
+            let later = own.flat_map(|(_, person, _)| person.figures_when(|time_s| time_s >= from_s)).collect();
+            Some(Caveat::by_chance(ejection, later)?.of_occupant(name))
+        };
+        ejections.iter().filter_map(one).collect()
+    }
+
     /// Parts that left a compartment where there is nothing outside.
-    fn unmet(case: &Case, ejections: &IndexMap<&'static str, Ejection>) -> Vec<Caveat> {
+    fn unmet(case: &Case, ejections: &InOrder<&'static str, Ejection>) -> Vec<Caveat> {
         let all = ejections.values().filter(|_| !case.has_ground).flat_map(|ejection| &ejection.parts);
         let tree = &case.body.tree;
         let is_measured = |sphere: &ContactSphere| {
@@ -273,6 +290,7 @@ impl Recorder for Summarizer {
             unbalanced: unbalanced(model),
             integrator: setup.integrator.name(),
             time: setup.time,
+            names_hash: model.names_hash(),
         };
         let (elements, fine) = (Elements::new(model), Fine::new(model));
         let bodies = model.system().instruments.len();
@@ -296,6 +314,9 @@ impl Recorder for Summarizer {
     }
 
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        if self.case.as_ref().is_none_or(|case| case.names_hash != sample.model.names_hash()) {
+            return Err("a summarizer begins with the run that it sums up: `Recorder::begin`".into());
+        }
         self.outputs += 1;
         self.see_steps(sample);
         self.events.see(sample);

@@ -17,7 +17,7 @@ use crate::motion::integrate::rk4::Stages;
 use crate::motion::lanes::Lanes;
 use crate::motion::state::State;
 use crate::results::outcome::{RecordingFailed, Status};
-use crate::run::{Run, Step, broken};
+use crate::run::{Course, Step, broken};
 
 /// Runs side by side in lanes of `L`.
 pub(super) struct Group<L: Machine> {
@@ -58,7 +58,7 @@ impl<L: Machine> Group<L> {
     /// Gives the run of `model` place `i`, or runs it alone if it has no place among these.
     fn seat(&mut self, i: usize, model: Model, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         match model.setup().integrator {
-            Integrator::Rk4 { step_s } if self.make_room(i, &model) => {
+            Integrator::Rk4 { step_s } if !model.setup().path.is_live() && self.make_room(i, &model) => {
                 let mut place = Box::new(Place::new(model, step_s));
                 let next = place.begin(jobs.recorder(i));
                 self.go_on_or_end(i, place, next, jobs)
@@ -165,7 +165,7 @@ impl<L: Machine> Group<L> {
     }
 
     /// Brings the run in place `i` to where its latest step began.
-    fn fetch_start(&mut self, i: usize, run: &mut Run) {
+    fn fetch_start(&mut self, i: usize, run: &mut Course) {
         if let Some(rear) = self.bench.as_mut().and_then(|bench| bench.rear.as_mut()) {
             let Start { state, memory } = &mut *rear.latest;
             run.state = state.zip(&run.state, |lanes, _| lanes.lane(i));
@@ -175,7 +175,7 @@ impl<L: Machine> Group<L> {
     }
 
     /// Tells the run in place `i` where its latest step, just accepted, began.
-    fn fetch_rear(&mut self, i: usize, run: &mut Run, step: Step) {
+    fn fetch_rear(&mut self, i: usize, run: &mut Course, step: Step) {
         let lanes = self.bench.as_mut().and_then(|bench| bench.rear.as_mut());
         if let (Some(lanes), Some(rear)) = (lanes, &mut run.rear) {
             let Start { state, memory } = &mut *lanes.latest;
@@ -244,13 +244,13 @@ impl<L: Machine> Group<L> {
     }
 
     /// The state of `run`, which is in place `i`.
-    fn lane_state(&self, i: usize, run: &Run) -> State<f64> {
+    fn lane_state(&self, i: usize, run: &Course) -> State<f64> {
         let bench = self.bench.as_ref();
         bench.map_or(run.state, |bench| bench.state.zip(&run.state, |lanes, _| lanes.lane(i)))
     }
 
     /// Brings the history of the run in place `i` up to date.
-    fn fetch_history(&mut self, i: usize, run: &mut Run) {
+    fn fetch_history(&mut self, i: usize, run: &mut Course) {
         if let Some(bench) = &mut self.bench {
             let fetch = &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i);
             bench.around.history.memory.each(&mut run.history.memory, fetch);

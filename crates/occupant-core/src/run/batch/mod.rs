@@ -1,7 +1,7 @@
 //! Many runs on one thread, several at once side by side: the work of a sweep.
 //!
 //! [`simulate_many`] pulls its runs one by one, whenever one has ended, so that it holds a handful of models however long
-//! the list is. What every recorder sees, and every outcome, is to the bit what [`crate::run::simulate::simulate`] gives for
+//! the list is. What every recorder sees, and every outcome, is to the bit what [`attempt`] gives for
 //! that model alone, whichever [`Kernel`] computed it and whatever ran beside it.
 //!
 //! Side by side run models with the fixed-step integrator and the same structure: the same spheres on the same segments, the
@@ -28,7 +28,7 @@ use crate::forces::Unlike;
 use crate::model::Model;
 use crate::results::outcome::{Outcome, RecordingFailed};
 use crate::results::recorder::Recorder;
-use crate::run::simulate::simulate;
+use crate::run::simulate::attempt;
 
 /// A run to be done.
 #[derive(Clone, Debug)]
@@ -208,7 +208,7 @@ fn one_by_one(jobs: &mut dyn Jobs) -> ControlFlow<()> {
 
 /// The run of `model`, the job of `place`, with the scalar kernel.
 fn run_alone(place: usize, model: Model, jobs: &mut dyn Jobs) -> ControlFlow<()> {
-    let outcome = simulate(&model, jobs.recorder(place));
+    let outcome = attempt(&model, jobs.recorder(place));
     jobs.end(place, model, outcome, Kernel::Scalar)
 }
 

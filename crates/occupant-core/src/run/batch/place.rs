@@ -12,12 +12,12 @@ use crate::results::recorder::{Flow, Recorder};
 use crate::run::corner::Touching;
 use crate::run::observers::Meeting;
 use crate::run::simulate::go_on;
-use crate::run::{Run, Step, Stretch};
+use crate::run::{Course, Step, Stretch};
 
 /// A run in its place; the tag and the recorder of its job stay with the [`Jobs`](super::Jobs).
 pub(super) struct Place {
     pub model: Model,
-    pub run: Run,
+    pub run: Course,
     /// Steps to the next output.
     stretch: Stretch,
     step_s: f64,
@@ -47,7 +47,7 @@ impl Next {
 impl Place {
     /// A run of `model` at its start.
     pub(super) fn new(model: Model, step_s: f64) -> Self {
-        let run = Run::new(&model);
+        let run = Course::new(&model);
         let stretch = Stretch::new(run.time_s, run.time_s, step_s);
         let (whole, step) = (Step::default(), Step::default());
         let (frames, before) = (Frames::still(run.time_s), (stretch, [whole, step]));
@@ -177,6 +177,7 @@ impl<L: Lanes> Tracker<L> for &mut Witness<'_> {
                     velocity_m_s: vector(touch.velocity, i),
                     depth_m: touch.depth.lane(i),
                     force_n: vector(touch.force, i),
+                    normal: vector(touch.normal, i),
                 };
                 place.run.met.push(Touching { meeting });
             }

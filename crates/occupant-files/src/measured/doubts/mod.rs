@@ -1,16 +1,20 @@
 //! What speaks against a record: sensors at the end of their range, units and signs that cannot be, zero errors, drift, rounding. Each is said
 //! with the option that mends it; nothing is mended unasked.
 
+mod lost;
 mod places;
+mod slips;
 mod units;
 mod zero;
 
-use crash_measures::signal::{STANDARD_GRAVITY_MPS2 as G, plateau, usual_interval};
+use crash_measures::signal::plateau;
 use placed_text::number;
 
 use super::motion::{Column, Motion, MotionKind};
+use lost::{absurd, held};
 pub use places::rounded_table;
-use places::{late, rounded, smoothed, turned};
+use places::{across, late, rounded, smoothed, turned};
+use slips::slip;
 use units::{rough, slow, weak, wrong_unit};
 use zero::zero_errors;
 
@@ -27,8 +31,6 @@ pub struct Known {
     pub smoothed_hz: Option<f64>,
 }
 
-/// A slip of accelerations that is said, m/s².
-const SLIP_M_S2: f64 = 5.0 * G;
 /// A gain of speed that is said, m/s.
 const GAIN_M_S: f64 = 3.0;
 /// Shortest rest whose mean says something, and the longest that is looked at, s.
@@ -36,20 +38,26 @@ const REST_S: [f64; 2] = [0.01, 0.1];
 
 /// All that speaks against a record.
 pub fn doubts(motion: &Motion, known: Known) -> Vec<String> {
-    let mut said: Vec<String> = motion.columns.iter().filter_map(|column| slip(motion, column)).collect();
+    // what marks a missing value says nothing of units and signs
+    let (mad, sound): (Vec<&Column>, Vec<&Column>) =
+        motion.columns.iter().partition(|column| absurd(motion, column).is_some());
+    let mut said: Vec<String> = mad.iter().filter_map(|column| absurd(motion, column)).collect();
+    said.extend(sound.iter().filter_map(|column| slip(motion, column)));
+    let si = |name: &str| sound.iter().any(|column| column.name == name).then(|| motion.si(name)).flatten();
     match motion.kind {
         MotionKind::Accelerations => {
-            said.extend(motion.columns.iter().filter_map(|column| clipped(column, &motion.time_s)));
-            said.extend(motion.columns.iter().filter_map(|column| wrong_unit(column, &motion.time_s)));
+            said.extend(sound.iter().filter_map(|column| clipped(column, &motion.time_s)));
+            said.extend(held(motion));
+            said.extend(sound.iter().filter_map(|column| wrong_unit(column, &motion.time_s)));
             said.extend(weak(motion));
             said.extend(slow(motion));
             said.extend(rough(motion));
             zero_errors(motion, known, &mut said);
-            said.extend(motion.si("ax").and_then(|ax| struck_from_behind(&ax, &motion.time_s)));
-            said.extend(motion.si("ax").and_then(|ax| backwards(integral(&ax, &motion.time_s), known)));
+            said.extend(si("ax").and_then(|ax| struck_from_behind(&ax, &motion.time_s)));
+            said.extend(si("ax").and_then(|ax| backwards(integral(&ax, &motion.time_s), known)));
         }
         MotionKind::Changes => {
-            let changes = motion.si("dvx").unwrap_or_default();
+            let changes = si("dvx").unwrap_or_default();
             said.extend(gains_speed(&changes));
             said.extend(changes.last().and_then(|change| backwards(*change, known)));
         }
@@ -64,6 +72,7 @@ pub fn doubts(motion: &Motion, known: Known) -> Vec<String> {
             said.extend(rounded(motion, known));
             said.extend(smoothed(motion, known));
             said.extend(turned(motion));
+            said.extend(across(motion));
         }
     }
     said
@@ -90,39 +99,6 @@ fn clipped(column: &Column, time_s: &[f64]) -> Option<String> {
 /// ∫ v dt.
 fn integral(values: &[f64], time_s: &[f64]) -> f64 {
     time_s.windows(2).zip(values.windows(2)).map(|(t, v)| 0.5 * (t[1] - t[0]) * (v[0] + v[1])).sum()
-}
-
-/// A single value far from its neighbours, where no other is: a digit, a bit or a contact that slipped.
-fn slip(motion: &Motion, column: &Column) -> Option<String> {
-    let is_place = motion.kind == MotionKind::Places;
-    let apart = |v: &[f64]| match is_place {
-        // how far it lies from a cubic through its neighbours
-        true => ((v[0] + v[4] - 4.0 * (v[1] + v[3])) / 6.0 + v[2]).abs(),
-        // a step is no slip: it leaves one neighbour near
-        false if (v[2] - v[1]) * (v[2] - v[3]) > 0.0 => (v[2] - v[1]).abs().min((v[2] - v[3]).abs()),
-        false => 0.0,
-    };
-    let all: Vec<f64> = column.values.windows(5).map(apart).collect();
-    let at = (0..all.len()).max_by(|&a, &b| all[a].total_cmp(&all[b]))?;
-    let mut sorted = all.clone();
-    sorted.sort_unstable_by(|a, b| b.total_cmp(a));
-    // of places two neighbours to each side are bent with it
-    let usual = sorted.get(if is_place { 5 } else { 1 })?;
-    let least = match motion.kind {
-        MotionKind::Places => G * usual_interval(&motion.time_s).powi(2),
-        MotionKind::Changes => 1.0,
-        MotionKind::Accelerations if is_rate(column) => 1.0,
-        MotionKind::Accelerations => SLIP_M_S2,
-    };
-    (all[at] > 10.0 * usual && all[at] * column.factor > least).then(|| {
-        format!(
-            "{} jumps in one row, at {} s to {} {}: a slip? If so, take that value out, and --bridge bridges it",
-            column.name,
-            number(motion.time_s[at + 2]),
-            number(column.values[at + 2]),
-            column.unit
-        )
-    })
 }
 
 /// A vehicle that becomes faster.
@@ -166,6 +142,8 @@ fn backwards(change_m_s: f64, known: Known) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
+    use crash_measures::signal::STANDARD_GRAVITY_MPS2 as G;
+
     use super::*;
 
     /// Name, unit, factor and course of a column.
@@ -210,6 +188,41 @@ mod tests {
         let braking = said(&[("ax", "g", G, &|t| sound(t) - if t > 0.0 { 0.4 } else { 0.0 })]);
         assert_eq!(braking, "");
         assert!(drifting.contains("--baseline-end '50 ms'"), "{drifting}");
+    }
+
+    #[test]
+    fn what_a_recorder_put_in_the_place_of_lost_samples_is_said() {
+        let noise = |t: f64| 0.2 * (t * 12_345.0).sin();
+        let lost = |t: f64, put: f64| if (0.02..0.03).contains(&t) { put } else { pulse(t) + noise(t) };
+        let zeros = said(&[("ax", "g", G, &|t| lost(t, 0.0)), ("ay", "g", G, &|t| lost(t, 0.0))]);
+        assert!(zeros.contains("ax, ay are 0 from 0.02 s to 0.0299 s, 100 samples"), "{zeros}");
+        let last = said(&[("ax", "g", G, &|t| lost(t, -6.0)), ("wz", "deg/s", 0.01745, &|t| 9.0 * noise(t))]);
+        assert!(last.contains("ax stays at one value from 0.02 s"), "{last}");
+        let marked = said(&[("ax", "g", G, &|t| lost(t, 99_999.0))]);
+        assert!(marked.contains("ax is 99999 g at 0.02 s and 100 times beyond 2000 g"), "{marked}");
+        assert!(!marked.contains("becomes faster") && !marked.contains("m/s^2"), "{marked}");
+        // zeros before and behind, a drawn pulse with its top cut, and rounded samples are no loss
+        let drawn =
+            said(&[("ax", "g", G, &|t| pulse(t).max(-9.0)), ("ay", "g", G, &|t| if t > 0.3 { 0.0 } else { noise(t) })]);
+        assert!(!drawn.contains("were samples lost"), "{drawn}");
+        assert!(
+            !said(&[("ax", "g", G, &|t| (2.0 * (pulse(t) + noise(t))).round() / 2.0)]).contains("were samples lost")
+        );
+    }
+
+    #[test]
+    fn a_vehicle_that_goes_across_its_heading_is_asked_about() {
+        let goes = |yaw: &dyn Fn(f64) -> f64| {
+            let places: [Given<'_>; 3] = [
+                ("x", "m", 1.0, &|t| 0.000_013_7 * t),
+                ("y", "m", 1.0, &|t| 20.000_001_3 * t),
+                ("yaw", "deg", 0.017_453_292_519_943, yaw),
+            ];
+            doubts(&motion(MotionKind::Places, 4e-3, &places), Known::default()).join("\n")
+        };
+        assert!(goes(&|_| 0.0).contains("72 km/h, 90 deg beside where it points"), "{}", goes(&|_| 0.0));
+        assert_eq!(goes(&|t| 89.0 + 0.1 * t), "");
+        assert_eq!(goes(&|t| 450.0 + 0.1 * t), "");
     }
 
     #[test]

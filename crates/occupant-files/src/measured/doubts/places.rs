@@ -9,6 +9,8 @@ use super::Known;
 
 /// Noise of rounding that is said, m/s².
 const NOISE_M_S2: f64 = 0.1 * G;
+/// A vehicle faster than this, m/s, is doubted that goes by more than this beside its heading, deg.
+const ACROSS: (f64, f64) = (3.0, 30.0);
 /// Frequencies that are proposed, Hz.
 const CUTOFFS_HZ: [f64; 12] = [100.0, 60.0, 50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.0, 10.0, 8.0, 5.0];
 
@@ -125,5 +127,29 @@ pub(super) fn turned(motion: &Motion) -> Option<String> {
         && moved(0, part).min(moved(last - part, last)) > 3.0;
     (clear && turn * own < 0.0 && (turn + own).abs() < 0.5 * turn.abs()).then(|| {
         "yaw turns against the course of the places: are their axes others? --columns turns a sign, such as '-yaw[deg]'".to_owned()
+    })
+}
+
+/// A vehicle that moves across the way it points, or backwards.
+pub(super) fn across(motion: &Motion) -> Option<String> {
+    let (x, y) = (motion.si("x")?, motion.si("y")?);
+    let yaw = motion.si("yaw");
+    let part = (x.len() / 10).max(1);
+    let moved_m = (x[part] - x[0]).hypot(y[part] - y[0]);
+    let speed_m_s = moved_m / (motion.time_s[part] - motion.time_s[0]);
+    let heading = yaw.as_ref().map_or(0.0, |yaw| 0.5 * (yaw[0] + yaw[part]));
+    let turn = (y[part] - y[0]).atan2(x[part] - x[0]) - heading;
+    let beside = (turn.sin().atan2(turn.cos())).to_degrees();
+    (speed_m_s > ACROSS.0 && beside.abs() > ACROSS.1).then(|| {
+        let goes = format!(
+            "at its beginning the vehicle goes at {} km/h, {} deg beside where it points",
+            number((3.6 * speed_m_s).round()),
+            number(beside.abs().round())
+        );
+        let mend = match yaw {
+            None => "no column is its yaw: --columns names it, such as '…,yaw[deg]'",
+            Some(_) => "does it slide, or is its yaw counted from another axis? --columns exchanges x and y, or turns a sign, such as '-yaw[deg]'",
+        };
+        format!("{goes}; {mend}")
     })
 }

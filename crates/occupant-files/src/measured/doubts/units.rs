@@ -25,7 +25,8 @@ pub(super) fn wrong_unit(column: &Column, time_s: &[f64]) -> Option<String> {
     let (name, unit) = (column.name, &column.unit);
     if is_rate(column) {
         let turns = whole / std::f64::consts::TAU;
-        let other = if unit.to_lowercase().contains("rad") { "deg/s" } else { "another unit" };
+        let is_rad = unit.to_lowercase().contains("rad");
+        let (other, mend) = if is_rad { ("deg/s", "[deg/s]") } else { ("another unit", "[…]") };
         let fastest = column.factor * strongest(column, time_s);
         let why = match () {
             () if turns.abs() > MOST_TURNS => format!("turns the vehicle {} times", number(turns.round())),
@@ -34,7 +35,7 @@ pub(super) fn wrong_unit(column: &Column, time_s: &[f64]) -> Option<String> {
             }
             () => return None,
         };
-        return Some(format!("{name} in {unit} {why}: is it in {other}? --columns says so, such as '{name}[deg/s]'"));
+        return Some(format!("{name} in {unit} {why}: is it in {other}? --columns says so, such as '{name}{mend}'"));
     }
     let start = rest(time_s, None).map(|[from, to]| mean(&column.values[from..to]))?;
     let stands_at = |value: f64| (start.abs() / value - 1.0).abs() < 0.03;

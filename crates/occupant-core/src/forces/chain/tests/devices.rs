@@ -9,7 +9,7 @@ use crate::forces::element::Element;
 use crate::forces::function::Function;
 use crate::model::Model;
 use crate::results::outcome::StepError;
-use crate::run::Run;
+use crate::run::Course;
 use crate::tests::case_in_code::cart;
 use crate::tests::three_point;
 
@@ -167,7 +167,7 @@ fn a_run_without_tensions_ends_with_its_belt() {
     let mut setup = cart().unwrap();
     setup.chains.push(three_point(&setup.body, 0.0));
     let model = Model::new(setup).unwrap();
-    let mut run = Run::new(&model);
+    let mut run = Course::new(&model);
     run.history.memory.chains[0].nodes[0].unstretched = f64::NAN;
     let ended = run.advance_to(&model, 1e-3);
     let Err(StepError::Unsolved { time_s, why, .. }) = ended else { panic!("{ended:?}") };

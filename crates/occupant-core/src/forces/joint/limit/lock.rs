@@ -29,12 +29,14 @@ pub struct Lock<S> {
 /// What a lock remembers between steps; all 0 where there is none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LockPast<S> {
-    /// 1 if it is closed.
+    /// 1 if it is closed, −1 if it is open and the joint slow enough to close it, 0 if it is open and the joint fast.
     pub(super) closed: S,
     /// The posture that it holds.
     pub(super) held: Posture<S>,
     /// When it was last closed or turned fast, s.
     pub(super) restless: S,
+    /// How fast the joint turns while it is open, rad/s.
+    pub(super) speed: S,
     /// Lost in it since the start, J.
     pub(super) lost: S,
 }
@@ -71,6 +73,7 @@ impl<S> LockPast<S> {
             f(&mut a.z, &mut b.z);
         }
         f(&mut self.restless, &mut other.restless);
+        f(&mut self.speed, &mut other.speed);
         f(&mut self.lost, &mut other.lost);
     }
 }
@@ -82,16 +85,21 @@ impl<A: Copy> LockPast<A> {
         let Posture(M3 { x, y, z }) = self.held;
         let mut axis = |v: V3<A>| v3(f(v.x), f(v.y), f(v.z));
         let held = Posture(M3 { x: axis(x), y: axis(y), z: axis(z) });
-        LockPast { closed, held, restless: f(self.restless), lost: f(self.lost) }
+        LockPast { closed, held, restless: f(self.restless), speed: f(self.speed), lost: f(self.lost) }
     }
 }
 
 impl<S: Scalar<Mask = bool>> LockPast<S> {
-    /// Where between two times a lock that closes was due to; one that opens does not remember its moment.
-    pub(super) fn due(&self, now: &Self, times_s: [S; 2]) -> Option<S> {
-        let is_calm = !self.restless.lt(now.restless) && !now.restless.lt(self.restless);
-        let closes = self.closed.lt(now.closed) && is_calm;
-        closes.then(|| passes(self.restless + S::of(CALM_S), times_s[0], times_s[1]))
+    /// Where between two times a lock that closes was due to, or a joint to turn slow or fast; one that opens does not remember its
+    /// moment.
+    pub(super) fn due(&self, now: &Self, lock: &Lock<S>, times_s: [S; 2]) -> Option<S> {
+        let is_calm = |past: &Self| past.closed.lt(S::zero());
+        match [self.is_closed(), now.is_closed()] {
+            [false, true] if is_calm(self) => Some(passes(self.restless + S::of(CALM_S), times_s[0], times_s[1])),
+            [false, false] if is_calm(now) => Some(passes(-lock.relock_below, -self.speed, -now.speed)),
+            [false, false] => Some(passes(lock.relock_below, self.speed, now.speed)),
+            _ => None,
+        }
     }
 }
 
@@ -99,7 +107,7 @@ impl<S: Scalar> LockPast<S> {
     /// Of no lock.
     pub(super) fn none() -> Self {
         let (o, none) = (S::zero(), V3::zero());
-        LockPast { closed: o, held: Posture(M3 { x: none, y: none, z: none }), restless: o, lost: o }
+        LockPast { closed: o, held: Posture(M3 { x: none, y: none, z: none }), restless: o, speed: o, lost: o }
     }
 
     /// Closed where the joint is.
@@ -126,7 +134,7 @@ impl<S: Scalar> Lock<S> {
         action.lost += past.lost;
         if S::any(closed) {
             let (moment, stored) = self.respond(pair, past);
-            (action.lock, action.closed) = (moment, past.closed);
+            (action.lock, action.closed) = (moment, past.closed.max(S::zero()));
             action.stored += stored;
         }
         closed
@@ -146,11 +154,14 @@ impl<S: Scalar> Lock<S> {
             return;
         }
         past.lost = S::select(yields, past.lost + self.stored(angle), past.lost);
-        let is_fast = !length(pair.omega).lt(self.relock_below);
-        past.restless = S::select(closed | is_fast, pair.time, past.restless);
-        let closes = !closed & !(pair.time - past.restless).lt(S::of(CALM_S));
+        let (o, speed, was_calm) = (S::zero(), length(pair.omega), past.closed.lt(S::zero()));
+        let is_fast = !speed.lt(self.relock_below);
+        past.restless = S::select(is_fast | !was_calm, pair.time, past.restless);
+        let closes = was_calm & !is_fast & !(pair.time - past.restless).lt(S::of(CALM_S));
         past.held = Posture::new(k, l, V3::zero()).zip(&past.held, &|new, old| S::select(closes, new, old));
-        past.closed = S::select(yields, S::zero(), S::select(closes, S::one(), past.closed));
+        let stays = closes | closed & !yields;
+        past.closed = S::select(stays, S::one(), S::select(is_fast, o, -S::one()));
+        past.speed = S::select(stays, o, speed);
     }
 
     /// Moment on the outer segment, space axes, and what is stored; nothing where the lock is open.

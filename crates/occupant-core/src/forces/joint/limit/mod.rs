@@ -168,7 +168,7 @@ impl Element for JointLimits {
     }
 
     fn is_possible(_: &Self::Law<f64>, _: usize, past: &LimitHistory<f64>) -> bool {
-        past.stops.iter().all(|stop| stop.greatest >= 0.0) && [0.0, 1.0].contains(&past.lock.closed)
+        past.stops.iter().all(|stop| stop.greatest >= 0.0) && [-1.0, 0.0, 1.0].contains(&past.lock.closed)
     }
 
     fn confine(past: &mut LimitHistory<f64>) {
@@ -185,13 +185,13 @@ impl Element for JointLimits {
     }
 
     fn due<S: Scalar<Mask = bool>>(
-        _law: &Vec<LimitLaw<S>>,
-        _number: usize,
+        law: &Vec<LimitLaw<S>>,
+        number: usize,
         before: &LimitHistory<S>,
         now: &LimitHistory<S>,
         times_s: [S; 2],
     ) -> Option<S> {
-        before.lock.due(&now.lock, times_s)
+        before.lock.due(&now.lock, law.get(number)?.lock.as_ref()?, times_s)
     }
 
     #[inline(always)]

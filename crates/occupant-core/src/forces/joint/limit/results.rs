@@ -123,13 +123,14 @@ impl Reported for JointLimits {
 }
 
 /// Numbers of a lock.
-const LOCK: usize = 12;
+const LOCK: usize = 13;
 
 /// Exchanges what locks remember; nothing is written where there is none.
 fn keep_locks(past: &[LimitHistory<f64>], is_step: bool, file: &mut dyn Archive) -> Vec<f64> {
     let number = if is_step { 49 } else { 48 };
-    let meaning = "of each joint with limits, if any has a lock: whether it is closed, the posture that it holds (axes of the \
-                   outer segment in the inner one, nine numbers), when it was last closed or turned fast (s), energy lost (J)";
+    let meaning = "of each joint with limits, if any has a lock: 1 if it is closed, -1 if it is open and the joint slow, 0 if it is open; \
+                   the posture that it holds (axes of the outer segment in the inner one, nine numbers), when it was last closed or \
+                   turned fast (s), how fast it turns while it is open (rad/s), energy lost (J)";
     let mut list = Vec::new();
     for joint in past {
         joint.lock.map(&mut |x| list.push(x));

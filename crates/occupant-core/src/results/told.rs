@@ -1,0 +1,59 @@
+//! What happened to force elements in a run, as plain numbers: words are told by their places.
+
+use super::sample::Switched;
+use crate::forces::{Forces, Listed, Visitor, visit_kinds};
+
+/// Of each event three numbers: the place of its kind, that of its element, and that of its words.
+pub(crate) fn to_indices(list: &[Switched]) -> Vec<u32> {
+    let kinds = kinds();
+    let number = |one: &Switched| {
+        let (kind, (_, words)) = kinds.iter().enumerate().find(|(_, (of, _))| *of == one.of)?;
+        let what = words.iter().position(|words| *words == one.what)?;
+        Some([kind as u32, one.element as u32, what as u32])
+    };
+    list.iter().filter_map(number).flatten().collect()
+}
+
+/// From such numbers, with times, s; none where they are not of this program.
+pub(crate) fn from_indices(times_s: &[f64], indices: &[u32]) -> Option<Vec<Switched>> {
+    let kinds = kinds();
+    let (rows, rest) = indices.as_chunks();
+    let event = |(&[kind, element, what], &time_s): (&[u32; 3], &f64)| {
+        let (of, words) = kinds.get(kind as usize)?;
+        let what = words.get(what as usize)?;
+        Some(Switched { time_s, of, element: element as usize, what })
+    };
+    let fits = rest.is_empty() && rows.len() == times_s.len() && times_s.iter().all(|time_s| time_s.is_finite());
+    rows.iter().zip(times_s).map(event).collect::<Option<_>>().filter(|_| fits)
+}
+
+/// Whether all are of elements that `forces` has.
+pub(crate) fn fit(list: &[Switched], forces: &Forces<f64>) -> bool {
+    let mut counts = Counts(forces, Vec::new());
+    visit_kinds(&mut counts);
+    list.iter().all(|one| counts.1.contains(&(one.of, one.element)))
+}
+
+struct Counts<'a>(&'a Forces<f64>, Vec<(&'static str, usize)>);
+
+impl Visitor for Counts<'_> {
+    fn visit<E: Listed>(&mut self) {
+        let count = if E::BY_STEPS.is_empty() { 0 } else { E::most_actions(E::law(self.0)) };
+        self.1.extend((0..count).map(|element| (E::NAMES[0], element)));
+    }
+}
+
+/// What elements of each kind are called, and what can happen to them at steps.
+fn kinds() -> Vec<(&'static str, &'static [&'static str])> {
+    let mut words = Words(Vec::new());
+    visit_kinds(&mut words);
+    words.0
+}
+
+struct Words(Vec<(&'static str, &'static [&'static str])>);
+
+impl Visitor for Words {
+    fn visit<E: Listed>(&mut self) {
+        self.0.push((E::NAMES[0], E::BY_STEPS));
+    }
+}

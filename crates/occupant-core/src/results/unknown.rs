@@ -1,0 +1,31 @@
+//! A name or an index that a model has not.
+
+use std::fmt::Display;
+
+use placed_text::nearest;
+
+/// A name or an index that a model has not, with what may have been meant.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no {what} `{asked}`{}", meant(self.nearest.as_deref()))]
+#[non_exhaustive]
+pub struct Unknown {
+    /// What was asked for, in a word: a channel, a sphere.
+    pub what: &'static str,
+    /// The name or index.
+    pub asked: String,
+    /// The nearest name that there is, if one is near.
+    pub nearest: Option<String>,
+}
+
+impl Unknown {
+    /// `asked` is none of `names`.
+    pub fn new<'n>(what: &'static str, asked: impl Display, names: impl Iterator<Item = &'n str>) -> Self {
+        let asked = asked.to_string();
+        let nearest = nearest(&asked, names).map(str::to_owned);
+        Unknown { what, asked, nearest }
+    }
+}
+
+fn meant(nearest: Option<&str>) -> String {
+    nearest.map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
+}

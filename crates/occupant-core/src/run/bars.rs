@@ -1,0 +1,53 @@
+//! Spheres whose centres go through the axis of a bar or a rim between accepted steps: the normal turns round while the centre is
+//! within.
+
+use super::corner::Touching;
+use crate::model::Model;
+use crate::motion::vector::V3;
+
+/// What spheres touched of bars and rims.
+#[derive(Clone)]
+pub(super) struct Bars {
+    /// By what pairs remember; empty where there is no bar.
+    last: Vec<Option<Touched>>,
+    /// How many steps were looked at.
+    steps: u64,
+}
+
+/// A bar or a rim when a sphere touched it last.
+#[derive(Clone, Copy)]
+struct Touched {
+    normal: V3<f64>,
+    /// Whether the sphere's centre was within it.
+    inside: bool,
+    step: u64,
+}
+
+impl Bars {
+    /// Of a run of `model` that has seen nothing.
+    pub(super) fn new(model: &Model) -> Self {
+        let shapes = &model.system().forces.contacts.solids.shapes;
+        let count =
+            if shapes.iter().any(|shape| shape.is_bar()) { model.start().history.memory.contacts.len() } else { 0 };
+        Bars { last: vec![None; count], steps: 0 }
+    }
+
+    /// Looks at what touches at an accepted step; `tell` is told sphere, depth (m) and surface of each passage.
+    pub(super) fn see(&mut self, model: &Model, met: &[Touching], mut tell: impl FnMut(usize, f64, usize)) {
+        self.steps += 1;
+        if self.last.is_empty() {
+            return;
+        }
+        let contacts = &model.system().forces.contacts;
+        for meeting in met.iter().map(|one| one.meeting) {
+            let member = contacts.member_of(meeting.pair, meeting.part);
+            let Some(member) = member.filter(|member| contacts.solids.shapes[member.solid].is_bar()) else { continue };
+            let inside = meeting.depth_m > model.body().spheres[meeting.sphere].radius_m;
+            let touched = Touched { normal: meeting.normal, inside, step: self.steps };
+            let last = self.last[member.past].replace(touched).filter(|last| last.step + 1 == self.steps);
+            if last.is_some_and(|last| last.normal.dot(meeting.normal) < 0.0 && (last.inside || inside)) {
+                tell(meeting.sphere, meeting.depth_m, member.surface);
+            }
+        }
+    }
+}

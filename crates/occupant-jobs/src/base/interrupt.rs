@@ -1,0 +1,42 @@
+//! Work that is asked to stop, and stops at its next output.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::results::sample::Sample;
+
+use super::Failure;
+
+/// Whether the work was asked to stop; as a recorder it stops the run then.
+#[derive(Clone, Debug, Default)]
+pub struct Interrupt {
+    /// Set by whoever asks.
+    pub asked: Arc<AtomicBool>,
+}
+
+impl Interrupt {
+    /// Whether it was asked to stop.
+    pub fn is_asked(&self) -> bool {
+        self.asked.load(Ordering::Relaxed)
+    }
+
+    /// Ends the work once it was asked to.
+    ///
+    /// # Errors
+    /// Interrupted, and what was done before.
+    pub fn refuse(&self, done: &str) -> Result<(), Failure> {
+        if self.is_asked() { Err(Interrupt::failure(done)) } else { Ok(()) }
+    }
+
+    /// Interrupted, and what was done before.
+    pub fn failure(done: &str) -> Failure {
+        Failure::BrokeOff("error: interrupted".to_owned()).with_done(done)
+    }
+}
+
+impl Recorder for Interrupt {
+    fn record(&mut self, _sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        Ok(if self.is_asked() { Flow::Stop } else { Flow::Continue })
+    }
+}

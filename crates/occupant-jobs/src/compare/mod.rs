@@ -1,0 +1,173 @@
+//! How well a run follows a test, or another run: its channels rated against the signals that belong to them.
+
+mod couples;
+mod rating;
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use crate::base::text_table::Align::{Left, Right};
+use crate::base::text_table::{NONE, Table, facts};
+use crate::base::{Failure, file_name, program};
+use crate::files::history::{Treatment, class_name};
+use couples::{Couple, couples};
+use occupant_files::measured::MapArgument;
+use occupant_files::results::Results;
+use rating::{Rating, rate};
+
+pub use rating::{RATE_HZ, Track, Window, overlap, sampled};
+
+/// What is compared, and how.
+pub struct Request<'a> {
+    pub computed: &'a Path,
+    pub measured: &'a Path,
+    /// Names and patterns; all that both have if empty.
+    pub channels: &'a [String],
+    pub map: &'a [MapArgument],
+    /// Position of the occupant in ISO-MME codes.
+    pub seat: char,
+    pub window: Window,
+    pub treatment: Treatment,
+    /// The filter in words.
+    pub filter: String,
+}
+
+/// The ratings, as `--json` prints them.
+#[derive(Serialize)]
+pub struct Comparison {
+    program: String,
+    computed: Source,
+    measured: Source,
+    filter: String,
+    shift_s: f64,
+    pairs: Vec<RatedPair>,
+    pub notes: Vec<String>,
+    /// Why the results of a run that is compared mean nothing, by run.
+    #[serde(skip)]
+    pub worthless: Vec<String>,
+}
+
+/// What a comparison is summed up by: name, key of the metric and of its score.
+const METRICS: [(&str, &str, &str); 3] = [
+    ("ISO/TS 18571", "iso18571", "overall"),
+    ("CORA", "cora", "overall"),
+    ("Sprague–Geers", "sprague_geers", "combined"),
+];
+
+/// A file that was read, and its SHA-256.
+#[derive(Serialize)]
+pub struct Source {
+    pub file: String,
+    pub sha256: String,
+}
+
+#[derive(Serialize)]
+struct RatedPair {
+    channel: String,
+    signal: String,
+    filter: String,
+    #[serde(flatten)]
+    rating: Rating,
+}
+
+/// What was seen on the way to the ratings.
+#[derive(Default)]
+struct Remarks {
+    notes: Vec<String>,
+    worthless: Vec<String>,
+}
+
+impl Remarks {
+    /// By the one rule of what a run came to: one that failed or is out of balance has no results.
+    fn judge(&mut self, run: &Results) {
+        let name = run.path.display();
+        if let Some(reason) = run.ending().and_then(|ending| ending.reason()) {
+            self.worthless.push(format!("{name}: {reason}"));
+        }
+    }
+}
+
+/// Rates all pairs.
+///
+/// # Errors
+/// Files that cannot be read, no signal in common, a pair without a common time.
+pub fn compare(request: &Request<'_>) -> Result<Comparison, Failure> {
+    let mut remarks = Remarks::default();
+    let (couples, sha256) = couples(request, &mut remarks)?;
+    if couples.is_empty() {
+        return Err(nothing_common(request));
+    }
+    let rated = |couple: Couple| {
+        let ours = Track { time_s: &couple.time_s, values: &couple.values };
+        let theirs = Track { time_s: &couple.measured.time_s, values: &couple.measured.values };
+        let rating = rate(ours, theirs, request.window)
+            .map_err(|reason| Failure::plain(format!("{} cannot be compared: {reason}", couple.channel)))?;
+        let filter = class_name(couple.class);
+        Ok(RatedPair { channel: couple.channel, signal: couple.measured.signal, filter, rating })
+    };
+    let pairs = couples.into_iter().map(rated).collect::<Result<_, Failure>>()?;
+    let [computed, measured] = sha256;
+    let source = |path: &Path, sha256| Source { file: file_name(path), sha256 };
+    Ok(Comparison {
+        program: program(),
+        computed: source(request.computed, computed),
+        measured: source(request.measured, measured),
+        filter: request.filter.clone(),
+        shift_s: request.window.shift_s,
+        pairs,
+        notes: remarks.notes,
+        worthless: remarks.worthless,
+    })
+}
+
+fn nothing_common(request: &Request<'_>) -> Failure {
+    let (computed, measured) = (request.computed.display(), request.measured.display());
+    Failure::with_help(
+        format!("no signal of {measured} belongs to a channel of {computed}"),
+        "say which column is which channel: --map 'column[unit]=head.acceleration.x'; for another seat of an ISO-MME test --seat",
+    )
+}
+
+impl Comparison {
+    /// All pairs in one line, and of several a table with a line for each.
+    fn at_a_glance(&self) -> String {
+        let scores = |pair: &RatedPair| METRICS.map(|(_, metric, score)| pair.rating.score(metric, score));
+        let mean = |i: usize| {
+            let known: Vec<f64> = self.pairs.iter().filter_map(|pair| scores(pair)[i]).collect();
+            let sum: f64 = known.iter().sum();
+            (!known.is_empty()).then(|| format!("{} {:.3}", METRICS[i].0, sum / known.len() as f64))
+        };
+        let count =
+            if self.pairs.len() == 1 { "1 channel".to_owned() } else { format!("{} channels", self.pairs.len()) };
+        let means: Vec<String> = (0..METRICS.len()).filter_map(mean).collect();
+        let line =
+            format!("{count}; mean of {}\n", if means.is_empty() { "nothing".to_owned() } else { means.join(", ") });
+        if self.pairs.len() == 1 {
+            return line;
+        }
+        let mut table = Table::new(&[(Left, &["channel"]), (Right, &METRICS.map(|(name, ..)| name))]);
+        for pair in &self.pairs {
+            let shown = scores(pair).map(|score| score.map_or(NONE.to_owned(), |score| format!("{score:.3}")));
+            table.row(std::iter::once(pair.channel.clone()).chain(shown));
+        }
+        format!("{line}\n{}", table.text())
+    }
+
+    /// The ratings in words.
+    pub fn text(&self) -> String {
+        let mut text = format!(
+            "{} against {}; shift {} ms; all ratings at {} kHz\n",
+            self.computed.file,
+            self.measured.file,
+            self.shift_s * 1e3,
+            RATE_HZ / 1e3
+        );
+        text.push_str(&self.at_a_glance());
+        for pair in &self.pairs {
+            let lines = facts(&pair.rating.lines(&pair.filter));
+            text.push_str(&format!("\n{} against {}\n{lines}", pair.channel, pair.signal));
+        }
+        text
+    }
+}

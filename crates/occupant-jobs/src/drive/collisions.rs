@@ -1,0 +1,145 @@
+//! What a vehicle met, and what that did to it.
+
+use std::f64::consts::PI;
+
+use occupant_scenario::Drives;
+use serde::Serialize;
+use vehicle_motion::body::Side;
+use vehicle_motion::world::{Contact, Damage, Partner, Struck};
+
+use crate::base::Units;
+use crate::base::text_table::{Align, NONE, Table};
+
+/// A collision as one of the vehicles has it, SI.
+#[derive(Clone, Debug, Serialize)]
+pub struct Collision {
+    /// Name of the partner.
+    pub with: String,
+    /// First touch and last force, s.
+    pub from_s: f64,
+    pub until_s: f64,
+    /// Speed of the centres of gravity against each other at first touch, m/s.
+    pub closing_m_s: f64,
+    /// Greatest change of velocity, and that change along the vehicle's axes at first touch, m/s.
+    pub delta_v_m_s: f64,
+    pub delta_v_axes_m_s: [f64; 3],
+    /// Change of velocity by the impulse of the contact alone, without the tyres' share: what models of impact call Δv, m/s.
+    pub delta_v_contact_m_s: f64,
+    /// Where the impulse comes from, clockwise from ahead, -π to π, rad, and as the hour of a clock.
+    pub pdof_rad: f64,
+    pub clock: u8,
+    /// Speed of a barrier that absorbs as much as the vehicle did in it, m/s.
+    pub ees_m_s: f64,
+    /// Greatest acceleration, m/s².
+    pub peak_m_s2: f64,
+}
+
+/// A touch that changes the speed by less, by itself or with the tyres, is none, m/s: cars that lean on each other.
+const LEAST_M_S: f64 = 0.5;
+
+/// Collisions of a vehicle in the order of first touches.
+pub(super) fn of(drives: &Drives, number: usize) -> Vec<Collision> {
+    let all = drives.outcome.contacts.iter().filter_map(|contact| one(drives, contact, number));
+    all.filter(|own| own.delta_v_m_s.min(own.delta_v_contact_m_s) >= LEAST_M_S).collect()
+}
+
+fn one(drives: &Drives, contact: &Contact, number: usize) -> Option<Collision> {
+    let (struck, partner) = side_of(contact, number)?;
+    let speed = |car: usize| {
+        let stations = drives.outcome.rides[car].stations();
+        let at = stations.partition_point(|station| station.time_s < contact.from_s - 1e-12);
+        stations[at.min(stations.len() - 1)].velocity_m_s
+    };
+    let (with, closing) = match partner {
+        Partner::Car(other) => (drives.vehicles[other].name.clone(), speed(number) - speed(other)),
+        Partner::Barrier(barrier) => (drives.barriers[barrier].0.clone(), speed(number)),
+    };
+    // an impulse at once leaves no station within it
+    let is_at_once = contact.until_s <= contact.from_s;
+    let delta_v = if is_at_once { struck.by_contact_m_s } else { struck.delta_v_m_s };
+    let turn = (struck.pdof_rad + PI).rem_euclid(2.0 * PI) - PI;
+    Some(Collision {
+        with,
+        from_s: contact.from_s,
+        until_s: contact.until_s,
+        closing_m_s: closing.norm(),
+        delta_v_m_s: delta_v.norm(),
+        delta_v_axes_m_s: delta_v.into(),
+        delta_v_contact_m_s: struck.by_contact_m_s.norm(),
+        pdof_rad: turn,
+        clock: struck.clock,
+        ees_m_s: struck.ees_m_s,
+        peak_m_s2: struck.peak_m_s2,
+    })
+}
+
+/// What a contact did to a vehicle, and who its partner is; none if it has no part in it.
+fn side_of(contact: &Contact, number: usize) -> Option<(Struck, Partner)> {
+    let [first, second] = contact.struck;
+    match contact.partner {
+        partner if contact.car == number => Some((first?, partner)),
+        Partner::Car(other) if other == number => Some((second?, Partner::Car(contact.car))),
+        _ => None,
+    }
+}
+
+/// The collisions as a table.
+pub(super) fn text(collisions: &[Collision], units: Units) -> String {
+    let mut table = Table::new(&[
+        (Align::Left, &["collision with"]),
+        (Align::Right, &["from, s", "until, s", "closing speed", "Δv", "ahead", "to the right", "without tyres"]),
+        (Align::Right, &["PDOF, deg", "clock", "EES", "peak, g"]),
+    ]);
+    for own in collisions {
+        let speed = |m_s: f64| units.say(m_s, "m/s", 2);
+        table.row([
+            own.with.clone(),
+            format!("{:.3}", own.from_s),
+            format!("{:.3}", own.until_s),
+            speed(own.closing_m_s),
+            speed(own.delta_v_m_s),
+            speed(own.delta_v_axes_m_s[0]),
+            speed(own.delta_v_axes_m_s[1]),
+            speed(own.delta_v_contact_m_s),
+            format!("{:.0}", own.pdof_rad.to_degrees()),
+            own.clock.to_string(),
+            speed(own.ees_m_s),
+            format!("{:.1}", own.peak_m_s2 / vehicle_motion::GRAVITY_M_S2),
+        ]);
+    }
+    table.text()
+}
+
+/// Damage of a vehicle as a table: greatest and residual crush, then residual depths C1 to C6 at equal distances over each damaged side.
+pub(super) fn damage_text(damage: &Damage, units: Units) -> String {
+    let m = |value: f64| units.say(value, "m", 3);
+    let mut table = Table::new(&[
+        (Align::Left, &["damage"]),
+        (Align::Right, &["from", "to", "C1", "C2", "C3", "C4", "C5", "C6", "mean"]),
+    ]);
+    for own in &damage.profiles {
+        let cells = own.span_m.into_iter().chain(own.depths_m).chain([own.mean_m]).map(m);
+        table.row([side_name(own.side).to_owned()].into_iter().chain(cells));
+    }
+    if damage.profiles.is_empty() {
+        table.row(["none that stays".to_owned(), NONE.to_owned()]);
+    }
+    table.text()
+}
+
+/// The crush of a vehicle in words.
+pub(super) fn crush_words(damage: &Damage, units: Units) -> String {
+    let m = |value: f64| units.say(value, "m", 3);
+    let roof = if damage.roof_m > 0.0 { format!(", the roof by {}", m(damage.roof_m)) } else { String::new() };
+    let [most, stays, ees] = [m(damage.dynamic_m), m(damage.residual_m), units.say(damage.ees_m_s, "m/s", 2)];
+    format!("{most} while it lasts, {stays} stays{roof}; EES {ees}")
+}
+
+pub(super) fn side_name(side: Side) -> &'static str {
+    match side {
+        Side::Front => "front",
+        Side::Right => "right",
+        Side::Rear => "rear",
+        Side::Left => "left",
+    }
+}

@@ -1,0 +1,126 @@
+//! What a drive comes to: events, tyre marks, figures, tables.
+
+mod barriers;
+mod collisions;
+mod events;
+mod plan;
+mod slip;
+mod table;
+mod text;
+
+use occupant_scenario::Drives;
+use vehicle_motion::marks::{Mark, marks};
+use vehicle_motion::run::{Ride, Station};
+
+use crate::risk::{Figure, Figures, PATH_INTERVAL_S, Report, Subject};
+use barriers::Met;
+use collisions::Collision;
+use events::Event;
+use slip::{slip_rad, slips_rad};
+
+pub use plan::plan;
+pub use table::{columns, path_columns, write};
+pub use text::{json, text};
+
+/// Below this speed a vehicle is at rest, m/s.
+const REST_M_S: f64 = 0.05;
+
+/// A vehicle's drive and what there is to say of it.
+pub struct Driven {
+    /// The vehicle's number.
+    pub number: usize,
+    pub events: Vec<Event>,
+    pub marks: Vec<Mark>,
+    pub motion: Figurable,
+    /// What it met, in the order of first touches.
+    pub collisions: Vec<Collision>,
+    /// Barriers that it met.
+    pub barriers: Vec<Met>,
+    /// Measures of the risk to occupants.
+    pub risk: Vec<Figure>,
+}
+
+/// Extremes of a drive, SI.
+pub struct Figurable {
+    /// When it came to rest, s; none while it moves.
+    pub rest_s: Option<f64>,
+    /// Way of the centre of gravity, m.
+    pub distance_m: f64,
+    /// Yaw of the whole drive, turns counted, rad.
+    pub turned_rad: f64,
+    /// Greatest roll, pitch and slip angle with their times, rad and s.
+    pub roll: (f64, f64),
+    pub pitch: (f64, f64),
+    pub slip: (f64, f64),
+    /// Steepest ground under the centre of gravity, rise over run.
+    pub slope: (f64, f64),
+}
+
+impl Driven {
+    /// The drive of a vehicle.
+    pub fn of(drives: &Drives, number: usize) -> Self {
+        let ride = &drives.outcome.rides[number];
+        let collisions = collisions::of(drives, number);
+        Driven {
+            number,
+            events: events::of(ride, &drives.world.ground, &collisions),
+            marks: marks(ride, &drives.world.ground),
+            motion: Figurable::of(ride, drives),
+            risk: risk(drives, number, collisions.first().map_or(0.0, |first| first.from_s)),
+            collisions,
+            barriers: barriers::of(drives, number),
+        }
+    }
+}
+
+/// Measures of the risk to occupants by the motion of the compartment's origin, from a time on.
+fn risk(drives: &Drives, number: usize, from_s: f64) -> Vec<Figure> {
+    let ride = &drives.outcome.rides[number];
+    let end_s = ride.last().time_s;
+    let subject = Subject::path("", drives.path(number), [from_s, end_s], PATH_INTERVAL_S);
+    let report = subject.and_then(Report::of_path);
+    report.map(|report| Figures::of(&report).figures).unwrap_or_default()
+}
+
+impl Figurable {
+    fn of(ride: &Ride, drives: &Drives) -> Self {
+        let stations = ride.stations();
+        let most = |most: (f64, f64), x: (f64, f64)| if x.0.abs() > most.0.abs() { x } else { most };
+        let greatest = |of: &dyn Fn(&Station) -> f64| {
+            stations.iter().map(|station| (of(station), station.time_s)).fold((0.0, 0.0), most)
+        };
+        let slips = slips_rad(stations).into_iter().zip(stations);
+        let moving = stations.iter().rev().find(|station| station.velocity_m_s.norm() > REST_M_S);
+        let last_s = ride.last().time_s;
+        let after_s = moving.map_or(0.0, |station| station.time_s);
+        Figurable {
+            rest_s: (after_s < last_s - 0.1).then_some(after_s),
+            distance_m: stations.windows(2).map(|pair| (pair[1].position_m - pair[0].position_m).norm()).sum(),
+            turned_rad: turned(stations),
+            roll: greatest(&|station| station.state.yaw_pitch_roll_rad()[2]),
+            pitch: greatest(&|station| station.state.yaw_pitch_roll_rad()[1]),
+            slip: slips.map(|(slip, station)| (slip, station.time_s)).fold((0.0, 0.0), most),
+            slope: greatest(&|station| {
+                let normal = drives.world.ground.normal(station.position_m.y);
+                normal.y / normal.z
+            }),
+        }
+    }
+}
+
+/// Yaw from the first to the last station, rad.
+fn turned(stations: &[Station]) -> f64 {
+    let step = |pair: &[Station]| {
+        let turn = pair[1].state.yaw_pitch_roll_rad()[0] - pair[0].state.yaw_pitch_roll_rad()[0];
+        turn - std::f64::consts::TAU * (turn / std::f64::consts::TAU).round()
+    };
+    stations.windows(2).map(step).sum()
+}
+
+/// Names of wheels in channels, and in words.
+pub const WHEELS: [[&str; 2]; 4] = [
+    ["left_front", "left front wheel"],
+    ["right_front", "right front wheel"],
+    ["left_rear", "left rear wheel"],
+    ["right_rear", "right rear wheel"],
+];

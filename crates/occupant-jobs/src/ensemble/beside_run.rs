@@ -1,0 +1,103 @@
+//! The ensemble beside a run: its members after the run itself, their tables and files.
+
+use std::path::PathBuf;
+
+use occupant_core::results::channel::{Channel, Series};
+use occupant_core::results::summary::Summary;
+use occupant_study::engine::Engine;
+use occupant_study::{Study, Tolerances};
+use placed_text::shown;
+
+use super::{Bands, Left, Members, Report, plot};
+use crate::base::{Existing, Failure, Interrupt, Show, Units, program, write_whole};
+use crate::files::scenario::Opened;
+use occupant_files::table::{Form, TableFile};
+use occupant_pictures::Format;
+
+/// Pixels of a PNG for each unit of the drawing (1/96 inch).
+const PIXELS: f64 = 2.0;
+
+/// An ensemble that has been asked for.
+pub struct Wanted {
+    pub study: Study,
+    pub seed: u64,
+    pub changes: Tolerances,
+    /// Width of the middle 90 % that a stable figure may have, as a part of the median.
+    pub within: f64,
+    pub engine: Engine,
+    /// Whose histories are kept.
+    pub channels: Vec<Channel>,
+    pub files: Vec<(PathBuf, BandFile)>,
+    pub existing: Existing,
+    /// Of pictures.
+    pub units: Units,
+}
+
+/// What a file of bands holds.
+#[derive(Clone, Copy)]
+pub enum BandFile {
+    Table(Form),
+    Picture(Format),
+}
+
+impl Wanted {
+    /// Runs the members and judges them; `histories` and `summary` are those of the unchanged run.
+    ///
+    /// # Errors
+    /// Interrupted; a file that cannot be written.
+    pub fn run(
+        self,
+        opened: &Opened,
+        summary: &Summary,
+        histories: Series,
+        interrupt: &Interrupt,
+        show: Show,
+    ) -> Result<Report, Failure> {
+        let bar = show.bar(self.study.len() - 1, "members");
+        // what the scenario names was read with it and is not read again
+        let tables = opened.loaded.tables();
+        let resolver = |name: &str| match tables.iter().find(|(table, _)| *table == name) {
+            Some((_, text)) => Ok(text.as_bytes().to_vec()),
+            None => Err("it was not read with the scenario".to_owned()),
+        };
+        let members = Members {
+            study: &self.study,
+            // the unchanged run is done
+            runs: 1..self.study.len(),
+            resolver: &resolver,
+            channels: &self.channels,
+            interrupt,
+            bar: bar.as_deref(),
+        };
+        let others = members.run(&self.engine)?;
+        let time_s = histories.time_s.clone();
+        let nominal = Left::of(summary, &opened.model, histories);
+        let completed = others.iter().flatten().map(|left| left.values.as_slice());
+        let runs: Vec<&[Vec<f64>]> = std::iter::once(nominal.values.as_slice()).chain(completed).collect();
+        let bands = Bands::of(&self.channels, time_s, &runs, self.within);
+        let mut report = Report::of(&nominal, &others, self.within, bands, (self.seed, self.changes));
+        let title = shown(&summary.title);
+        let files = self.files.iter().map(|file| self.write(&report, file, &title));
+        report.files = files.collect::<Result<_, _>>()?;
+        Ok(report)
+    }
+
+    fn write(&self, report: &Report, (path, kind): &(PathBuf, BandFile), title: &str) -> Result<String, Failure> {
+        let words = format!("{} runs with small changes, seed {}", report.members, report.seed);
+        let written = match kind {
+            BandFile::Table(form) => {
+                let about = [("occupant.ensemble", format!("{}: {title}: {words}", program()))];
+                let mut table = TableFile::create(path.clone(), *form, self.existing, &Bands::columns(), &about)?;
+                report.bands.rows().try_for_each(|(_, row)| table.row(row))?;
+                table.publish()?
+            }
+            BandFile::Picture(format) => {
+                let drawing = plot::svg(&report.bands, title, &words, self.units);
+                let unmade = |e| Failure::broke_off(format!("{} cannot be made: {e}", path.display()));
+                let bytes = format.encode(&drawing, PIXELS).map_err(unmade)?;
+                write_whole(path, self.existing, &bytes).map_err(Failure::broke_off)?
+            }
+        };
+        Ok(written.display().to_string())
+    }
+}

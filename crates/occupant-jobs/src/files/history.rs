@@ -1,0 +1,18 @@
+//! Time histories as the library of files takes them from a run, and what is said of names that fit none.
+
+use occupant_core::model::Model;
+use occupant_core::results::channel::Channel;
+
+pub use occupant_files::history::*;
+
+use crate::base::{Failure, note};
+
+/// The channels that names and patterns ask for; patterns that fit none are told.
+///
+/// # Errors
+/// A name or pattern that fits no channel.
+pub fn choose(model: &Model, names: &[String]) -> Result<Vec<Channel>, Failure> {
+    let (channels, missing) = occupant_files::history::choose(model, names)?;
+    missing.iter().for_each(|name| note(&format!("no channel fits `{name}`")));
+    Ok(channels)
+}

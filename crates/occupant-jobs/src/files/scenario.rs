@@ -1,0 +1,38 @@
+//! Scenarios as the library of files opens them, and what is said of them.
+
+use occupant_scenario::{Drives, Loaded};
+use placed_text::Diagnostics;
+
+pub use occupant_files::scenario::*;
+
+use crate::base::{Failure, say};
+
+/// Says what a deck was taken to mean, and warnings.
+pub fn warn_of(opened: &Opened) {
+    opened.deck.iter().for_each(|deck| say(&deck.words));
+    warn(&opened.warnings);
+}
+
+/// Says warnings, with a blank line behind.
+pub fn warn(warnings: &Diagnostics) {
+    if !warnings.is_empty() {
+        say(&format!("{warnings}\n"));
+    }
+}
+
+/// Reads the scenario and drives what it drives, without people.
+///
+/// # Errors
+/// As [`open`]; a scenario in which nothing drives.
+pub fn drives(args: &ScenarioArgs) -> Result<(Loaded, Drives), Failure> {
+    let name = args.scenario.display().to_string();
+    let refuse = |problems: Diagnostics| refused(&name, &problems);
+    let loaded = source(args)?.draft.load(&files_beside(&args.scenario)).map_err(refuse)?;
+    let (drives, warnings) = loaded.drives().map_err(refuse)?;
+    warn(&warnings);
+    let drives = drives.ok_or_else(|| {
+        let help = "add [drive] with a vehicle, or write a scenario that has it with `occupant new NAME.toml --template drive`";
+        Failure::with_help(format!("{name} drives no vehicle"), help)
+    })?;
+    Ok((loaded, drives))
+}

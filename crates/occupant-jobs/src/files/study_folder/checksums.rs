@@ -1,0 +1,175 @@
+//! What the files of a folder were when they were complete: `SHA256SUMS`, as `sha256sum -c` reads it.
+//!
+//! A line is appended as soon as a file has its name; of two lines for one file the later holds. A file without a line was
+//! not complete when its process was killed, and is made again; one that is not what its line says is damaged.
+
+use std::collections::BTreeMap;
+use std::fs::{self, OpenOptions};
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard};
+
+use super::problem::Problem;
+use crate::base::names::stays_within;
+use crate::base::{Existing, sha256, write_whole};
+
+/// Letters of a checksum.
+const SUM: usize = 64;
+
+/// The name of the list.
+pub const SUMS: &str = "SHA256SUMS";
+
+/// The list of a folder, and which of its files are as they were written.
+#[derive(Debug)]
+pub struct Checksums {
+    folder: PathBuf,
+    /// By name, relative to the folder.
+    listed: Mutex<BTreeMap<String, Listed>>,
+}
+
+#[derive(Debug)]
+struct Listed {
+    sum: String,
+    /// Whether the file is as it was written; none if it is not there, or was not looked at.
+    sound: Option<bool>,
+}
+
+impl Checksums {
+    /// Reads the list of a folder and looks at those of its files whose names `wanted` says.
+    ///
+    /// # Errors
+    /// The operating system refuses.
+    pub fn open(folder: &Path, wanted: impl Fn(&str) -> bool) -> Result<Checksums, Problem> {
+        let path = folder.join(SUMS);
+        let text = match fs::read(&path) {
+            Err(error) if error.kind() == ErrorKind::NotFound => Vec::new(),
+            read => read.map_err(Problem::io("read", &path))?,
+        };
+        let text = String::from_utf8_lossy(&text);
+        // what a killed process has left of its last line has no end; the next one is appended to it and is lost as well
+        let lines = text.split_inclusive('\n').filter_map(|line| line.strip_suffix('\n')?.split_once("  "));
+        let listed = |(sum, name): (&str, &str)| (name.to_owned(), Listed { sum: sum.to_owned(), sound: None });
+        let ours = lines.filter(|(sum, name)| sum.len() == SUM && stays_within(name));
+        let mut listed: BTreeMap<String, Listed> = ours.map(listed).collect();
+        for (name, file) in listed.iter_mut().filter(|(name, _)| wanted(name)) {
+            file.sound = match fs::read(folder.join(name)) {
+                Err(error) if error.kind() == ErrorKind::NotFound => None,
+                read => Some(read.is_ok_and(|bytes| sha256(&bytes) == file.sum)),
+            };
+        }
+        Ok(Checksums { folder: folder.to_owned(), listed: Mutex::new(listed) })
+    }
+
+    fn listed(&self) -> MutexGuard<'_, BTreeMap<String, Listed>> {
+        self.listed.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+    }
+
+    fn name(&self, path: &Path) -> String {
+        let parts = path.strip_prefix(&self.folder).unwrap_or(path).components();
+        parts.map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/")
+    }
+
+    /// Files that are not what was written, and were not made again.
+    pub fn damaged(&self) -> Vec<PathBuf> {
+        let listed = self.listed();
+        let damaged = listed.iter().filter(|(_, file)| file.sound == Some(false));
+        damaged.map(|(name, _)| self.folder.join(name)).collect()
+    }
+
+    /// Whether a file is there as it was written.
+    pub fn holds(&self, path: &Path) -> bool {
+        path.exists() && self.listed().get(&self.name(path)).is_some_and(|file| file.sound == Some(true))
+    }
+
+    /// Lists a file that is complete.
+    ///
+    /// # Errors
+    /// The operating system refuses.
+    pub fn add(&self, path: &Path) -> Result<(), Problem> {
+        let sum = sha256(&fs::read(path).map_err(Problem::io("read", path))?);
+        let (name, list) = (self.name(path), self.folder.join(SUMS));
+        let mut listed = self.listed();
+        if listed.get(&name).is_none_or(|file| file.sum != sum) {
+            let appended = OpenOptions::new().create(true).append(true).open(&list);
+            let line = format!("{sum}  {name}\n");
+            appended.and_then(|mut file| file.write_all(line.as_bytes())).map_err(Problem::io("write", &list))?;
+        }
+        listed.insert(name, Listed { sum, sound: Some(true) });
+        Ok(())
+    }
+
+    /// Puts a damaged file aside, under a name that nobody reads: what it held is computed again.
+    ///
+    /// # Errors
+    /// The operating system refuses.
+    pub fn put_aside(&self, path: &Path) -> Result<(), Problem> {
+        match fs::rename(path, path.with_extension("damaged")) {
+            // another process was quicker
+            Err(error) if error.kind() == ErrorKind::NotFound => {}
+            renamed => renamed.map_err(Problem::io("rename", path))?,
+        }
+        self.listed().remove(&self.name(path));
+        Ok(())
+    }
+
+    /// Writes the list anew, a line for each file that is there.
+    ///
+    /// # Errors
+    /// Files that are damaged still; the operating system refuses.
+    pub fn close(self) -> Result<(), Problem> {
+        if let Some(path) = self.damaged().into_iter().next() {
+            return Err(Problem::Unmended { path });
+        }
+        let listed = self.listed();
+        let there = listed.iter().filter(|(name, _)| self.folder.join(name).exists());
+        let lines: String = there.map(|(name, file)| format!("{}  {name}\n", file.sum)).collect();
+        write_whole(&self.folder.join(SUMS), Existing::Replace, lines.as_bytes())?;
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Else `/dev/zero` would be read, and a file of somebody else put aside.
+    #[test]
+    fn only_files_of_the_folder_are_listed() {
+        let there = tempfile::tempdir().unwrap();
+        let outside = there.path().join("outside");
+        fs::write(&outside, "x").unwrap();
+        let folder = there.path().join("folder");
+        fs::create_dir_all(folder.join("runs")).unwrap();
+        let sum = "0".repeat(SUM);
+        let names = ["../outside", "runs/1.mcap/../../../outside", &outside.display().to_string(), "./x", ""];
+        let lines: String = names.map(|name| format!("{sum}  {name}\n")).concat();
+        fs::write(folder.join(SUMS), lines + &format!("short  runs/1.mcap\n{sum}  runs/2.mcap\n")).unwrap();
+        let sums = Checksums::open(&folder, |_| true).unwrap();
+        assert!(sums.damaged().is_empty());
+        assert_eq!(sums.listed().keys().collect::<Vec<_>>(), ["runs/2.mcap"]);
+    }
+
+    #[test]
+    fn a_changed_file_is_damaged_until_it_is_made_again_and_a_torn_line_lists_nothing() {
+        let there = tempfile::tempdir().unwrap();
+        let [a, b] = ["a", "b"].map(|name| there.path().join(name));
+        let open = || Checksums::open(there.path(), |_| true).unwrap();
+        for path in [&a, &b] {
+            fs::write(path, "whole").unwrap();
+            open().add(path).unwrap();
+        }
+        assert!(open().holds(&a) && open().damaged().is_empty());
+        fs::write(&a, "whola").unwrap();
+        let sums = open();
+        assert!(!sums.holds(&a) && sums.holds(&b));
+        assert_eq!(sums.damaged(), std::slice::from_ref(&a));
+        assert!(matches!(open().close(), Err(Problem::Unmended { .. })));
+        sums.add(&a).unwrap();
+        assert!(sums.holds(&a) && sums.damaged().is_empty());
+        sums.close().unwrap();
+        let list = fs::read_to_string(there.path().join(SUMS)).unwrap();
+        assert_eq!(list.lines().count(), 2);
+        fs::write(there.path().join(SUMS), &list[..list.len() - 1]).unwrap();
+        assert!(open().holds(&a) && !open().holds(&b));
+    }
+}

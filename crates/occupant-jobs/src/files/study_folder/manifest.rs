@@ -1,0 +1,185 @@
+//! What a folder of results is the sweep of: study, scenario, changes, program, columns.
+//!
+//! The manifest is written once, when the sweep begins. A process whose own manifest differs does not touch the folder.
+
+use serde::{Deserialize, Serialize};
+
+use super::texts::NamedBy;
+use crate::base::sha256;
+
+/// Number of this form of the folder.
+const FORM: u32 = 2;
+
+/// What a folder is the sweep of. Nothing in it depends on the day, the machine or the number of threads.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// Form of the folder.
+    pub form: u32,
+    /// The program and its version.
+    pub program: String,
+    /// Title of the study.
+    pub title: String,
+    pub samples: u64,
+    /// Changes from the command line.
+    pub overrides: Vec<String>,
+    /// Everything that was read; the first is the study, the second its scenario.
+    pub texts: Vec<Text>,
+    /// Columns of the table between `index` and `status`, and between `reason` and `wall_time_s`.
+    pub columns: Vec<Column>,
+}
+
+/// A file that the sweep was made from.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Text {
+    /// Who names it.
+    pub by: NamedBy,
+    /// As it is named there; the study without its folder.
+    pub name: String,
+    /// Where the folder holds a copy.
+    pub copy: String,
+    /// SHA-256 of its bytes.
+    pub sha256: String,
+}
+
+/// A column of the table.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Column {
+    pub name: String,
+    /// Unit; `1` for a plain number, empty for texts.
+    pub unit: String,
+    /// What stands in it.
+    pub role: Role,
+}
+
+/// What a column holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Role {
+    /// A number that the study varies.
+    Input,
+    /// A text that the study varies.
+    InputText,
+    /// A measure of the run.
+    Figure,
+}
+
+impl Manifest {
+    /// The manifest of a sweep with this program.
+    pub fn new(program: String, title: String, samples: u64, overrides: Vec<String>) -> Self {
+        Manifest { form: FORM, program, title, samples, overrides, texts: Vec::new(), columns: Vec::new() }
+    }
+
+    /// Its bytes.
+    ///
+    /// # Errors
+    /// None for a manifest that was made here.
+    pub fn to_bytes(&self) -> serde_json::Result<Vec<u8>> {
+        let mut bytes = serde_json::to_vec_pretty(self)?;
+        bytes.push(b'\n');
+        Ok(bytes)
+    }
+
+    /// Names it in every piece of the journal.
+    ///
+    /// # Errors
+    /// As [`Manifest::to_bytes`].
+    pub fn sha256(&self) -> serde_json::Result<String> {
+        self.to_bytes().map(|bytes| sha256(&bytes))
+    }
+
+    /// Where a measure stands among the columns.
+    pub fn figure(&self, name: &str) -> Option<usize> {
+        self.columns.iter().position(|c| c.role == Role::Figure && c.name == name)
+    }
+
+    /// A line for each thing that differs, `what: there → here`. `there` and `here` give the texts.
+    pub fn differences(
+        &self,
+        here: &Manifest,
+        text_there: impl Fn(&Text) -> Option<Vec<u8>>,
+        text_here: impl Fn(&Text) -> Option<Vec<u8>>,
+    ) -> Vec<String> {
+        let mut found = Vec::new();
+        let mut differ = |what: &str, there: String, here: String| {
+            if there != here {
+                found.push(format!("{what}: {there} → {here}"));
+            }
+        };
+        differ("form of the folder", self.form.to_string(), here.form.to_string());
+        differ("program", self.program.clone(), here.program.clone());
+        differ("samples", self.samples.to_string(), here.samples.to_string());
+        let listed = |overrides: &[String]| match overrides {
+            [] => "none".to_owned(),
+            some => some.join(", "),
+        };
+        differ("--set", listed(&self.overrides), listed(&here.overrides));
+        for (there, ours) in self.texts.iter().zip(&here.texts).filter(|(there, ours)| there.sha256 != ours.sha256) {
+            found.push(text_difference(&ours.name, text_there(there), text_here(ours)));
+        }
+        let more = self.texts.iter().skip(here.texts.len());
+        found.extend(more.map(|there| format!("{}: there, not here", there.name)));
+        let more = here.texts.iter().skip(self.texts.len());
+        found.extend(more.map(|ours| format!("{}: here, not there", ours.name)));
+        if found.is_empty() && self.columns != here.columns {
+            found.push("the measures of a run: other columns".to_owned());
+        }
+        found
+    }
+}
+
+/// The first line in which two texts differ.
+fn text_difference(name: &str, there: Option<Vec<u8>>, here: Option<Vec<u8>>) -> String {
+    let (Some(there), Some(here)) = (there, here) else {
+        return format!("{name}: another text");
+    };
+    let (there, here) = (String::from_utf8_lossy(&there), String::from_utf8_lossy(&here));
+    let same = there.lines().zip(here.lines()).take_while(|(there, here)| there == here).count();
+    let shown = |text: &str| match text.lines().nth(same) {
+        Some(line) => format!("`{}`", line.trim().chars().take(60).collect::<String>()),
+        None => "the end".to_owned(),
+    };
+    if [&there, &here].iter().all(|text| text.lines().count() == same) {
+        return format!("{name}: other line ends");
+    }
+    format!("{name}, line {}: {} → {}", same + 1, shown(&there), shown(&here))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn manifest(study: &str) -> Manifest {
+        let mut m = Manifest::new("occupant 1".to_owned(), String::new(), 10, Vec::new());
+        m.texts.push(Text {
+            by: NamedBy::CommandLine,
+            name: "study.toml".to_owned(),
+            copy: "inputs/0-study.toml".to_owned(),
+            sha256: sha256(study.as_bytes()),
+        });
+        m
+    }
+
+    #[test]
+    fn differences_are_named() {
+        let (old, new) = ("a = 1\nb = 2\n", "a = 1\nb = 3\n");
+        let there = manifest(old);
+        let mut here = manifest(new);
+        here.overrides.push("time.end=1".to_owned());
+        here.program = "occupant 2".to_owned();
+        let text = |t: &'static str| move |_: &Text| Some(t.as_bytes().to_vec());
+        let found = there.differences(&here, text(old), text(new));
+        assert_eq!(
+            found,
+            ["program: occupant 1 → occupant 2", "--set: none → time.end=1", "study.toml, line 2: `b = 2` → `b = 3`"]
+        );
+        assert!(there.differences(&manifest(old), text(old), text(old)).is_empty());
+    }
+
+    #[test]
+    fn a_manifest_is_read_as_it_was_written() {
+        let m = manifest("x");
+        let read: Manifest = serde_json::from_slice(&m.to_bytes().unwrap()).unwrap();
+        assert_eq!(read, m);
+        assert_eq!(read.sha256().unwrap(), m.sha256().unwrap());
+    }
+}

@@ -1,0 +1,90 @@
+//! What can go wrong with a folder of results.
+
+use std::io;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use super::finished::ranges_text;
+use super::folder::Holds;
+use super::shard::Shard;
+use crate::base::{Failure, FileProblem};
+
+/// So many ranges or shards are named.
+const SHOWN: usize = 20;
+
+/// What can go wrong with a folder of results, and how to mend it, where that can be said.
+#[derive(Debug, thiserror::Error)]
+pub enum Problem {
+    #[error(transparent)]
+    File(#[from] FileProblem),
+    #[error("{} exists and is not of this sweep\n = help: name a new folder, or an empty one", .path.display())]
+    Exists { path: PathBuf },
+    /// There are files, but none of ours.
+    #[error("{} holds files that are no {}'s\n = help: name a new folder, or an empty one", .folder.display(), .holds.word)]
+    NotOurs { folder: PathBuf, holds: &'static Holds },
+    /// The folder holds something else, or the same of another version; a line for each difference.
+    #[error(
+        "{} holds another {} (there → here):\n   {}\n = help: name another folder, or compute everything anew with \
+         --restart, which removes the results that are there",
+        .folder.display(), .holds.word, .differences.join("\n   ")
+    )]
+    Differs { folder: PathBuf, holds: &'static Holds, differences: Vec<String> },
+    /// A file of the folder is not what it should be.
+    #[error(
+        "{} {found}\n = help: give the same command of `occupant sweep` or `occupant fit` again: what is damaged is made \
+         again", .path.display()
+    )]
+    Damaged { path: PathBuf, found: String },
+    /// A file of results was damaged, and what came after has not made it again.
+    #[error(
+        "{} is not what was written and was not made again\n = help: remove the file, or compute everything anew with \
+         --restart", .path.display()
+    )]
+    Unmended { path: PathBuf },
+    #[error("another process is at work in {}: it {doing}\n = help: wait for it, or name another folder", .folder.display())]
+    Busy { folder: PathBuf, doing: String },
+    /// Samples are not finished; shards that have begun and how many samples each lacks.
+    #[error(
+        "{}\n = help: give the same command of `occupant sweep` again: it resumes with what is there",
+        incomplete(.gaps, .samples, .shards)
+    )]
+    Incomplete { gaps: Vec<Range<u64>>, samples: u64, shards: Vec<(Shard, u64)> },
+    /// Two results of one sample disagree.
+    #[error(
+        "sample {index} has one result in {} and another in {}\n = help: the results were computed by programs or \
+         machines that do not agree; compute them anew with --restart", .first.display(), .second.display()
+    )]
+    Disagree { index: u64, first: PathBuf, second: PathBuf },
+}
+
+impl Problem {
+    /// What the operating system said while something was done to a file.
+    pub fn io(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Problem {
+        let path = path.to_owned();
+        move |source| Problem::File(FileProblem::Io { doing, path, source })
+    }
+}
+
+/// Gaps among so many samples, and the shards that have begun and lack samples.
+fn incomplete(gaps: &[Range<u64>], samples: &u64, shards: &[(Shard, u64)]) -> String {
+    let missing: u64 = gaps.iter().map(|g| g.end - g.start).sum();
+    let mut text = format!("{missing} of {samples} samples are missing: {}", ranges_text(gaps, SHOWN));
+    for (shard, missing) in shards.iter().take(SHOWN) {
+        text += &format!("\n   shard {shard}: {missing}");
+    }
+    if shards.len() > SHOWN {
+        text += &format!("\n   and {} more shards", shards.len() - SHOWN);
+    }
+    text
+}
+
+impl From<Problem> for Failure {
+    fn from(problem: Problem) -> Self {
+        let message = format!("error: {problem}");
+        match problem {
+            Problem::Incomplete { .. } | Problem::Unmended { .. } => Failure::BrokeOff(message),
+            Problem::File(file) if file.broke_off() => Failure::BrokeOff(message),
+            _ => Failure::CouldNotRun(message),
+        }
+    }
+}

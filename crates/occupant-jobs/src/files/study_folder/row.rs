@@ -1,0 +1,142 @@
+//! One sample's line of the table, and of the journal.
+
+use occupant_core::results::summary::Caveat;
+use occupant_scenario::ending::Ending;
+use occupant_study::engine::Finished;
+use serde::{Deserialize, Serialize};
+
+use occupant_files::table::Cell;
+
+/// How a sample ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// At its end time.
+    Completed,
+    /// The integration failed.
+    Failed,
+    /// The scenario of the sample is refused: nothing was run.
+    Refused,
+    /// The program broke off: a defect.
+    Broken,
+}
+
+impl Status {
+    /// The word in the table.
+    pub fn word(self) -> &'static str {
+        match self {
+            Status::Completed => "completed",
+            Status::Failed => "failed",
+            Status::Refused => "refused",
+            Status::Broken => "broken",
+        }
+    }
+}
+
+/// One sample's line of the table.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// Number of the sample, from 0.
+    pub index: u64,
+    /// How it ended.
+    pub status: Status,
+    /// Why, where it did not complete; else empty.
+    pub reason: String,
+    /// The caveats on its figures, by blanks: the name of each and, in brackets, the figures that it spoils.
+    #[serde(default)]
+    pub caveats: String,
+    /// Values, by [`super::manifest::Column`]: inputs, then figures.
+    pub cells: Vec<Cell>,
+    /// Time it took, s. It differs from run to run.
+    pub wall_time_s: f64,
+    /// Which form of the kernel ran it. All give the same bits.
+    pub kernel: String,
+}
+
+impl Row {
+    /// The row of a run. One that is out of balance counts as completed here: its balance stands in the table.
+    pub fn of<R>(run: &Finished<R>, cells: Vec<Cell>) -> Row {
+        let (status, reason) = match &run.ending {
+            Ending::Completed | Ending::OutOfBalance(_) => (Status::Completed, String::new()),
+            Ending::Failed(reason) => (Status::Failed, reason.clone()),
+            Ending::Refused(reason) => (Status::Refused, reason.clone()),
+            Ending::Broken(reason) => (Status::Broken, reason.clone()),
+        };
+        let kernel = run.ran.as_ref().map_or("", |ran| ran.kernel.name()).to_owned();
+        Row { index: run.index, status, reason, caveats: String::new(), cells, wall_time_s: run.wall_time_s, kernel }
+    }
+
+    /// Takes over the caveats of its run.
+    pub fn warn_of(&mut self, caveats: &[Caveat]) {
+        let words = caveats.iter().map(|caveat| format!("{}({})", caveat.name, caveat.figures.join(";")));
+        self.caveats = words.collect::<Vec<_>>().join(" ");
+    }
+
+    /// The caveats, without their texts.
+    pub fn caveats(&self) -> impl Iterator<Item = Caveat> {
+        self.caveats.split_whitespace().map(|word| {
+            let (name, figures) = word.trim_end_matches(')').split_once('(').unwrap_or((word, ""));
+            let figures = figures.split(';').map(str::to_owned).collect();
+            Caveat { name: name.to_owned(), text: String::new(), figures }
+        })
+    }
+
+    /// Whether two rows are the same bits, wall time and kernel aside.
+    pub fn agrees(&self, other: &Row) -> bool {
+        let same = |(a, b): (&Cell, &Cell)| match (a, b) {
+            (Cell::Number(a), Cell::Number(b)) => a.to_bits() == b.to_bits(),
+            _ => a == b,
+        };
+        self.index == other.index
+            && (self.status, &self.reason, &self.caveats) == (other.status, &other.reason, &other.caveats)
+            && self.cells.len() == other.cells.len()
+            && self.cells.iter().zip(&other.cells).all(same)
+    }
+}
+
+#[cfg(test)]
+pub mod tests {
+    use super::*;
+
+    pub fn row(index: u64) -> Row {
+        Row {
+            index,
+            status: [Status::Completed, Status::Failed, Status::Refused, Status::Broken][(index % 4) as usize],
+            reason: "ä reason, \"quoted\"\nin two lines".repeat((index % 3) as usize),
+            caveats: "neck_beyond_stop(nij;neck_*)".repeat((index % 2) as usize),
+            cells: vec![
+                Cell::Number(index as f64 * 0.1),
+                Cell::Absent,
+                Cell::Text("50 kN/m".into()),
+                Cell::Number(-0.0),
+            ],
+            wall_time_s: 0.25,
+            kernel: "scalar".to_owned(),
+        }
+    }
+
+    #[test]
+    fn a_row_is_read_as_it_was_written_to_the_bit() {
+        let mut seed = 1_u64;
+        for index in [0, 1, 2, 3, 1 << 40] {
+            let mut written = row(index);
+            // any bits that are a number
+            written.cells.extend((0..200).map(|_| {
+                seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+                Cell::finite(f64::from_bits(seed.rotate_left(20)))
+            }));
+            let read: Row = serde_json::from_str(&serde_json::to_string(&written).unwrap()).unwrap();
+            assert!(read.agrees(&written));
+            assert_eq!(read, written);
+        }
+    }
+
+    #[test]
+    fn rows_agree_to_the_bit_and_whatever_the_clock_said() {
+        let mut other = row(1);
+        other.wall_time_s = 7.0;
+        assert!(other.agrees(&row(1)));
+        other.cells[3] = Cell::Number(0.0);
+        assert!(!other.agrees(&row(1)), "0 is not -0");
+    }
+}

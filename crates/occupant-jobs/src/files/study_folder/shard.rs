@@ -1,0 +1,173 @@
+//! Which part of a study one process computes.
+
+use std::fmt;
+use std::ops::Range;
+
+/// Part `number` of `count`, counted from 1; part 1 of 1 is everything.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Shard {
+    number: u64,
+    pub(super) count: u64,
+}
+
+impl Shard {
+    /// Everything.
+    pub const WHOLE: Shard = Shard { number: 1, count: 1 };
+
+    /// Reads `3/8`.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn parse(text: &str) -> Result<Shard, String> {
+        let form = "a part and how many there are, such as 3/8";
+        let (number, count) = text.split_once('/').ok_or_else(|| format!("`{text}` is no shard; expected {form}"))?;
+        let read = |word: &str| {
+            let word = word.trim();
+            word.parse::<u64>().map_err(|_| format!("`{word}` in `{text}` is no whole number; expected {form}"))
+        };
+        Shard::new(read(number)?, read(count)?)
+    }
+
+    fn new(number: u64, count: u64) -> Result<Shard, String> {
+        match number {
+            0 => Err(format!("there is no shard 0/{count}: shards are counted from 1, 1/{count} is the first")),
+            _ if number > count => Err(format!("there is no shard {number} of {count}: the last is {count}/{count}")),
+            _ => Ok(Shard { number, count }),
+        }
+    }
+
+    /// The shard that the environment names, and by which variable: `OCCUPANT_SHARD`, or else the Slurm job array that the
+    /// process is a task of.
+    ///
+    /// # Errors
+    /// Variables that name no shard.
+    pub fn from_environment(get: impl Fn(&str) -> Option<String>) -> Result<Option<(Shard, &'static str)>, String> {
+        if let Some(text) = get("OCCUPANT_SHARD") {
+            let shard = Shard::parse(&text).map_err(|e| format!("OCCUPANT_SHARD: {e}"))?;
+            return Ok(Some((shard, "OCCUPANT_SHARD")));
+        }
+        let number = |name: &str| {
+            let read =
+                |text: String| text.trim().parse::<u64>().map_err(|_| format!("{name}: `{text}` is no whole number"));
+            get(name).map(read).transpose()
+        };
+        let Some(id) = number("SLURM_ARRAY_TASK_ID")? else {
+            return Ok(None);
+        };
+        let count = number("SLURM_ARRAY_TASK_COUNT")?;
+        let count = count.ok_or("SLURM_ARRAY_TASK_ID is set, but not SLURM_ARRAY_TASK_COUNT")?;
+        let first = number("SLURM_ARRAY_TASK_MIN")?.unwrap_or(0);
+        let step = number("SLURM_ARRAY_TASK_STEP")?.unwrap_or(1);
+        let place = id.checked_sub(first).filter(|beyond| step > 0 && beyond % step == 0).map(|beyond| beyond / step);
+        let place = place.filter(|place| *place < count).ok_or_else(|| {
+            format!(
+                "task {id} of a Slurm array of {count} tasks from {first} in steps of {step} is no part of a study; use an array without gaps"
+            )
+        })?;
+        let shard = Shard::new(place + 1, count)?;
+        Ok(Some((shard, "SLURM_ARRAY_TASK_ID")))
+    }
+
+    /// All parts of so many.
+    pub fn all(count: u64) -> impl Iterator<Item = Shard> {
+        (1..=count).map(move |number| Shard { number, count })
+    }
+
+    /// Whether it is everything.
+    pub fn is_whole(self) -> bool {
+        self.count == 1
+    }
+
+    /// The samples of this part, of `samples` in all: an even share, next to each other.
+    pub fn range(self, samples: u64) -> Range<u64> {
+        let border = |part: u64| {
+            let at = u128::from(samples) * u128::from(part) / u128::from(self.count);
+            // no greater than `samples`
+            u64::try_from(at).unwrap_or(samples)
+        };
+        border(self.number - 1)..border(self.number)
+    }
+
+    /// The beginning of the names of its files.
+    pub fn file_stem(self) -> String {
+        format!("shard-{:04}-of-{:04}", self.number, self.count)
+    }
+
+    /// The shard that a file belongs to, by its name.
+    pub fn of_file(name: &str) -> Option<Shard> {
+        let (number, rest) = name.strip_prefix("shard-")?.split_once("-of-")?;
+        let count = rest.split_once('.')?.0;
+        Shard::new(number.parse().ok()?, count.parse().ok()?).ok()
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.number, self.count)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shards_cover_every_sample_once() {
+        for (samples, count) in [(0, 3), (1, 3), (10, 3), (7, 7), (5, 8), (1_000_000, 48)] {
+            let mut next = 0;
+            for number in 1..=count {
+                let range = Shard { number, count }.range(samples);
+                assert_eq!(range.start, next);
+                assert!(range.end - range.start <= samples / count + 1);
+                next = range.end;
+            }
+            assert_eq!(next, samples);
+        }
+    }
+
+    #[test]
+    fn a_file_name_tells_its_shard() {
+        let shard = Shard::parse(" 3/12").unwrap();
+        let name = format!("{}.000001.rows", shard.file_stem());
+        assert_eq!(Shard::of_file(&name), Some(shard));
+        assert_eq!(Shard::of_file("notes.txt"), None);
+    }
+
+    #[test]
+    fn what_is_no_shard_is_refused_in_words() {
+        let refused = |text| Shard::parse(text).unwrap_err();
+        assert!(refused("0/8").contains("counted from 1"));
+        assert!(refused("9/8").contains("the last is 8/8"));
+        assert!(refused("3").contains("such as 3/8"));
+        assert!(refused("x/8").contains("no whole number"));
+    }
+
+    fn environment<'a>(pairs: &'a [(&str, &str)]) -> impl Fn(&str) -> Option<String> + 'a {
+        move |name| {
+            let found = pairs.iter().find(|(key, _)| *key == name);
+            found.map(|(_, value)| (*value).to_owned())
+        }
+    }
+
+    #[test]
+    fn slurm_tells_the_shard_and_our_own_variable_goes_before() {
+        let slurm = [
+            ("SLURM_ARRAY_TASK_ID", "14"),
+            ("SLURM_ARRAY_TASK_COUNT", "3"),
+            ("SLURM_ARRAY_TASK_MIN", "10"),
+            ("SLURM_ARRAY_TASK_STEP", "2"),
+        ];
+        let third = Shard::parse("3/3").unwrap();
+        let found = Shard::from_environment(environment(&slurm));
+        assert_eq!(found, Ok(Some((third, "SLURM_ARRAY_TASK_ID"))));
+        let mut both = slurm.to_vec();
+        both.push(("OCCUPANT_SHARD", "1/2"));
+        let half = Shard::parse("1/2").unwrap();
+        let found = Shard::from_environment(environment(&both));
+        assert_eq!(found, Ok(Some((half, "OCCUPANT_SHARD"))));
+        assert_eq!(Shard::from_environment(|_| None), Ok(None));
+        for refused in [&slurm[..1], &[slurm[0], slurm[1]], &slurm[..3]] {
+            assert!(Shard::from_environment(environment(refused)).is_err(), "{refused:?}");
+        }
+    }
+}

@@ -1,0 +1,253 @@
+//! A scenario that stands for one test or several, with the parameters of the study in it.
+
+use std::path::PathBuf;
+
+use occupant_core::model::Model;
+use occupant_core::model::setup::Integrator;
+use occupant_core::results::channel::{Channel, Series};
+use occupant_core::results::recorder::Recorder;
+use occupant_core::run::simulate::attempt;
+use occupant_scenario::ending::Ending;
+use occupant_scenario::{Diagnostics, Loaded};
+use occupant_study::{Misfit, Study};
+
+use super::report::short;
+use super::{Accord, FAMILY, Target};
+use crate::compare::RATE_HZ;
+use crate::files::history::{Filter, Histories, Treatment, Untreated, asked, treated};
+use crate::files::scenario::Tables;
+
+/// A scenario with the parameters of the study.
+pub struct Experiment {
+    /// Path of the scenario, for messages and results.
+    pub scenario: PathBuf,
+    /// The file that it has with the fitted numbers.
+    pub fitted: String,
+    pub text: String,
+    /// The study with this scenario as its base.
+    pub study: Study,
+    /// Files that the scenario names.
+    pub tables: Tables,
+    /// The model without any parameter.
+    pub model: Model,
+    /// Measured channels, and of which test each is.
+    pub targets: Vec<(usize, Target)>,
+    groups: Vec<(Filter, Vec<Channel>)>,
+    pub recorded: Vec<Channel>,
+    /// Time between the outputs of its runs, s, where they are denser than the scenario's.
+    pub dense_s: Option<f64>,
+}
+
+/// What stands between a test and the truth: a time that is added to its clock, and its values over the true ones.
+#[derive(Clone, Copy, Debug)]
+pub struct Correction {
+    pub offset_s: f64,
+    pub gain: f64,
+}
+
+impl Experiment {
+    /// A scenario to which no test belongs yet.
+    ///
+    /// # Errors
+    /// What is wrong with the scenario.
+    pub fn new(
+        scenario: PathBuf,
+        text: String,
+        study: Study,
+        tables: Tables,
+    ) -> Result<(Experiment, Diagnostics), Diagnostics> {
+        let (_, model, warnings) = tables.open(study.base.clone())?;
+        let experiment = Experiment {
+            scenario,
+            fitted: String::new(),
+            text,
+            study,
+            tables,
+            model,
+            targets: Vec::new(),
+            groups: Vec::new(),
+            recorded: Vec::new(),
+            dense_s: None,
+        };
+        Ok((experiment, warnings))
+    }
+
+    /// Adds a measured channel of a test.
+    pub fn add(&mut self, test: usize, target: Target) {
+        let group = self.groups.iter().position(|(f, _)| *f == target.filter);
+        let group = group.unwrap_or_else(|| {
+            self.groups.push((target.filter, Vec::new()));
+            self.groups.len() - 1
+        });
+        let channels = &mut self.groups[group].1;
+        if channels.iter().all(|c| c.name != target.channel.name) {
+            channels.push(target.channel.clone());
+        }
+        self.targets.push((test, target));
+        self.recorded.clear();
+        for (filter, channels) in &self.groups {
+            for channel in asked(&self.model, channels, *filter) {
+                if self.recorded.iter().all(|c| c.name != channel.name) {
+                    self.recorded.push(channel);
+                }
+            }
+        }
+    }
+
+    /// Has the runs write outputs as densely as the tests were sampled: what is compared is then no chord between the
+    /// scenario's outputs. Not denser than 10 kHz, at which all is compared, nor than fixed steps are; a
+    /// study that varies integrator or outputs has them as it says. Gives the note of it.
+    pub fn write_densely(&mut self) -> Option<String> {
+        let interval_s = self.targets.iter().map(|(_, target)| target.interval_s()).fold(f64::INFINITY, f64::min);
+        let setup = self.model.setup();
+        let step_s = match setup.integrator {
+            Integrator::Rk4 { step_s } => step_s,
+            Integrator::Adaptive { .. } => 0.0,
+        };
+        let mut places = self.study.parameters.iter().flat_map(|p| &p.targets);
+        let is_varied = places.any(|t| t.path.starts_with("integrator") || t.path.starts_with("output"));
+        // what rounding has left in the times of a table is no interval
+        let dense_s = (1e7 * interval_s.max(1.0 / RATE_HZ).max(step_s)).round() / 1e7;
+        let own_s = setup.time.output_s;
+        if is_varied || dense_s > 0.99 * own_s {
+            return None;
+        }
+        self.dense_s = Some(dense_s);
+        Some(format!(
+            "note: the runs of this fit write outputs every {} ms, as the tests were sampled, not every {} ms as {} says: each takes \
+             longer",
+            short(1e3 * dense_s),
+            short(1e3 * own_s),
+            self.scenario.display()
+        ))
+    }
+
+    /// First and last output that can be compared, s.
+    pub fn run_s(&self) -> [f64; 2] {
+        let time = self.model.setup().time;
+        // the last output need not be a whole interval after the one before
+        let steps = crash_measures::signal::whole_steps(time.end_s - time.start_s, time.output_s);
+        [time.start_s, time.start_s + steps as f64 * time.output_s]
+    }
+
+    /// Scenario and model with these texts at these places.
+    ///
+    /// # Errors
+    /// What is wrong with the scenario then.
+    pub fn scenario_with(
+        &self,
+        changes: impl IntoIterator<Item = (impl AsRef<str>, impl AsRef<str>)>,
+    ) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
+        let mut draft = self.study.base.clone();
+        for (path, text) in changes {
+            draft.set_value(path.as_ref(), text.as_ref())?;
+        }
+        self.tables.open(draft)
+    }
+
+    /// The model of a run of the fit with these texts at these places: its outputs may be denser.
+    ///
+    /// # Errors
+    /// What is wrong with the scenario then.
+    pub fn model_with(
+        &self,
+        changes: impl IntoIterator<Item = (impl Into<String>, impl Into<String>)>,
+    ) -> Result<Model, Diagnostics> {
+        let dense = self.dense_s.map(|s| ("output.interval".to_owned(), format!("{s:?} s")));
+        let changes = changes.into_iter().map(|(path, text)| (path.into(), text.into())).chain(dense);
+        self.scenario_with(changes).map(|(_, model, _)| model)
+    }
+
+    /// The model with these values of all parameters, or without any.
+    ///
+    /// # Errors
+    /// What is wrong with the scenario then.
+    pub fn model_of(&self, values: Option<&[f64]>) -> Result<Model, Diagnostics> {
+        let assignments = values.map_or(Vec::new(), |v| self.study.assignments_of(v));
+        self.model_with(assignments.iter().map(|a| (&a.path, a.text())))
+    }
+
+    /// The recorded channels of a run of a model of it, which `also` sees too.
+    ///
+    /// # Errors
+    /// An integration that fails; a run whose results mean nothing.
+    pub fn run(&self, model: &Model, also: impl Recorder) -> Result<Series, String> {
+        let mut series = Series::new(self.recorded.clone());
+        let outcome = attempt(model, (&mut series, also)).map_err(|e| e.to_string())?;
+        match Ending::of(&outcome).and_then(|ending| ending.reason()) {
+            None => Ok(series),
+            Some(reason) => Err(reason),
+        }
+    }
+
+    /// The recorded channels with these values of all parameters, or without any.
+    ///
+    /// # Errors
+    /// A scenario that is refused; as [`Experiment::run`].
+    pub fn run_with(&self, values: Option<&[f64]>) -> Result<Series, String> {
+        self.run(&self.model_of(values).map_err(|e| e.to_string())?, ())
+    }
+
+    /// The histories of a run that count, by filter.
+    ///
+    /// # Errors
+    /// Outputs too far apart for a filter.
+    pub fn histories(&self, series: &Series) -> Result<Vec<(Filter, Histories)>, String> {
+        let of = |(filter, channels): &(Filter, Vec<Channel>)| {
+            let treatment = Treatment { filter: *filter, family: FAMILY, interval_s: None };
+            let histories = treated(&self.model, channels.clone(), series.clone(), treatment);
+            histories.map(|h| (*filter, h)).map_err(|e| match e {
+                Untreated::Run(reason) => reason,
+                Untreated::Channel { name, reason } => format!("{name}: {reason}"),
+            })
+        };
+        self.groups.iter().map(of).collect()
+    }
+
+    /// The misfit of each target of a run.
+    ///
+    /// # Errors
+    /// Histories that cannot be compared.
+    pub fn misfits(&self, misfit: Misfit, series: &Series, corrections: &[Correction]) -> Result<Vec<f64>, String> {
+        self.compared(series, corrections, |target, computed| target.misfit(misfit, computed))
+    }
+
+    /// How each target and a run go together.
+    ///
+    /// # Errors
+    /// Histories that cannot be compared.
+    pub fn accords(&self, series: &Series, corrections: &[Correction]) -> Result<Vec<Accord>, String> {
+        self.compared(series, corrections, |target, computed| Ok(Accord::of(&target.reference, computed)))
+    }
+
+    /// Computed less measured of each target, over the greatest measured value.
+    ///
+    /// # Errors
+    /// Histories that cannot be compared.
+    pub fn residuals(&self, series: &Series, corrections: &[Correction]) -> Result<Vec<Vec<f64>>, String> {
+        self.compared(series, corrections, |target, computed| {
+            let peak = target.reference.iter().fold(0.0, |g: f64, m| g.max(m.abs()));
+            let pairs = computed.iter().zip(&target.reference);
+            Ok(pairs.map(|(c, m)| (c - m) / peak).collect())
+        })
+    }
+
+    /// What a comparison says of each target, from the computed values on the grid of its measured ones.
+    fn compared<T>(
+        &self,
+        series: &Series,
+        corrections: &[Correction],
+        compare: impl Fn(&Target, &[f64]) -> Result<T, String>,
+    ) -> Result<Vec<T>, String> {
+        let histories = self.histories(series)?;
+        let of = |(test, target): &(usize, Target)| {
+            compare(target, &target.computed(in_group(&histories, target.filter)?, corrections[*test])?)
+        };
+        self.targets.iter().map(of).collect()
+    }
+}
+
+pub fn in_group(groups: &[(Filter, Histories)], filter: Filter) -> Result<&Histories, String> {
+    let found = groups.iter().find(|(f, _)| *f == filter);
+    found.map(|(_, histories)| histories).ok_or_else(|| "a channel without a history".to_owned())
+}

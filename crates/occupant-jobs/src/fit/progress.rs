@@ -1,0 +1,83 @@
+//! How far a fit is: without a terminal a line for each stage, and now and then one whenever the score has improved.
+
+use std::time::Duration;
+
+use occupant_study::search::Stage;
+
+use super::{Record, WORST};
+use crate::base::progress::{Runs, Show};
+
+/// At most a line so often where there is no terminal, stages apart.
+const LINE_EVERY: Duration = Duration::from_secs(2);
+
+#[derive(Debug)]
+pub struct Progress {
+    runs: Runs,
+    budget: u64,
+    evaluations: u64,
+    best: f64,
+    /// The best score that a line has said.
+    said: f64,
+    stage: &'static str,
+}
+
+impl Progress {
+    /// Of a search of so many evaluations.
+    pub fn new(budget: u64, show: Show) -> Self {
+        let runs = Runs::new(budget, "evaluations", LINE_EVERY, show);
+        Progress { runs, budget, evaluations: 0, best: f64::INFINITY, said: f64::INFINITY, stage: "" }
+    }
+
+    /// So many evaluations were there before.
+    pub fn from(self, before: u64) -> Self {
+        Progress { runs: self.runs.from(before), ..self }
+    }
+
+    /// What a batch came to.
+    pub fn see(&mut self, stage: Option<Stage>, records: &[Record]) {
+        self.evaluations += records.len() as u64;
+        let least = records.iter().map(|r| r.score).fold(f64::INFINITY, f64::min);
+        if stage.is_some() {
+            self.best = self.best.min(least);
+        }
+        let (name, words) = words_of(stage);
+        if let Some(bar) = self.runs.bar() {
+            bar.set_length(self.budget.max(self.evaluations));
+            bar.set_position(self.evaluations);
+            bar.set_message(format!(", {words}: score {:.5}", self.best));
+        } else if stage.is_none() {
+            self.runs.say(&format!("base scenario: {}", score(least)));
+        } else {
+            if name != self.stage || (self.best < self.said && self.runs.is_line_due()) {
+                let far = self.runs.words(self.evaluations);
+                self.runs.say(&format!("{far}, {words}: {}", score(self.best)));
+                self.said = self.best;
+            }
+            self.stage = name;
+        }
+    }
+
+    /// No more.
+    pub fn end(&self) {
+        self.runs.end();
+    }
+}
+
+/// A score in words.
+fn score(score: f64) -> String {
+    if score < WORST { format!("score {score:.5}") } else { "no run has completed".to_owned() }
+}
+
+/// A stage's name, and in words.
+pub fn words_of(stage: Option<Stage>) -> (&'static str, String) {
+    match stage {
+        None => ("base", "base scenario".to_owned()),
+        Some(Stage::Descent { number, generation }) => {
+            ("search", format!("descent {}, generation {}", number + 1, generation + 1))
+        }
+        Some(Stage::Refinement) => ("refinement", "refinement".to_owned()),
+        Some(Stage::Scan) => ("scan", "each parameter alone".to_owned()),
+        Some(Stage::Shape) => ("shape", "curvature".to_owned()),
+        Some(Stage::Profile) => ("intervals", "intervals".to_owned()),
+    }
+}

@@ -1,0 +1,293 @@
+//! The result of a fit, in the form of fit.json. Nothing in it depends on the day, the machine or the number of threads.
+
+use occupant_study::ApplyChoice;
+use occupant_study::search::Stage;
+use serde::Serialize;
+
+use super::verdict::verdicts;
+use super::{Accord, Answer, Fitted, FittedRuns, Fitting, Near, Record, Test, Verdict};
+use crate::compare::Source;
+use crate::files::history::class_name;
+
+/// Correlations beyond this say that two parameters compensate each other.
+pub const COMPENSATING: f64 = 0.9;
+
+/// All of fit.json.
+#[derive(Serialize)]
+pub struct FitResult {
+    pub program: String,
+    /// Title of the study.
+    pub title: String,
+    pub study: Source,
+    /// Changes from the command line.
+    pub overrides: Vec<String>,
+    /// What was made small.
+    pub objective: &'static str,
+    /// Names the random numbers.
+    pub seed: u64,
+    /// Evaluations that the global search could use.
+    pub budget: u64,
+    /// Scores of a descent that differ by less are the same.
+    pub tolerance: f64,
+    pub tests: Vec<Test>,
+    pub score: Score,
+    /// What the intervals hold.
+    pub near: NearOptimal,
+    pub parameters: Vec<ParameterEstimate>,
+    /// Correlations of near-optimal sets, each pair once; those with a parameter at a bound are missing.
+    pub correlations: Vec<Correlation>,
+    /// The numbers as they stand in the fitted scenarios.
+    pub written: Vec<Fitted>,
+    /// The descents of the global search.
+    pub descents: Vec<DescentResult>,
+    /// How many evaluations were made, and for what.
+    pub evaluations: Evaluations,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// Scores; 0 is a run that is the test.
+#[derive(Serialize)]
+pub struct Score {
+    /// Of the base scenario; none if it could not be run.
+    pub before: Option<f64>,
+    /// Of the fitted scenario, with the numbers as they are written.
+    pub after: f64,
+    pub channels: Vec<ChannelFit>,
+}
+
+/// A channel of a test.
+#[derive(Serialize)]
+pub struct ChannelFit {
+    pub test: String,
+    pub channel: String,
+    pub signal: String,
+    /// Filter of both.
+    pub filter: String,
+    /// How much it counts.
+    pub weight: f64,
+    /// First and last time compared, s.
+    pub window_s: [f64; 2],
+    /// Misfit of the base scenario.
+    pub before: Option<f64>,
+    /// Misfit of the fitted scenario.
+    pub after: f64,
+    /// How it and the fitted scenario go together.
+    #[serde(flatten)]
+    pub accord: Accord,
+}
+
+/// What the intervals hold.
+#[derive(Serialize)]
+pub struct NearOptimal {
+    /// Sets with a score up to this count as good as the best.
+    pub score: f64,
+    #[serde(flatten)]
+    pub near: Near,
+    /// How many of the evaluated sets are as good.
+    pub sets: usize,
+}
+
+/// A parameter. Numbers are SI, angles in rad.
+#[derive(Serialize)]
+pub struct ParameterEstimate {
+    pub name: String,
+    /// SI unit; empty for factors and plain numbers.
+    pub unit: &'static str,
+    /// The unit that tables show it in, and how many SI units that is.
+    #[serde(skip)]
+    pub shown: (String, f64),
+    /// What is done with the number.
+    pub apply: ApplyChoice,
+    /// Where it acts.
+    pub places: Vec<String>,
+    /// Between which ends it was looked for.
+    pub bounds: [f64; 2],
+    /// Whether equal ratios were equal steps.
+    pub log: bool,
+    /// What the base scenario says, where that is one number.
+    pub base: Option<f64>,
+    /// The fitted value.
+    pub value: f64,
+    /// Between these all other parameters can make up for it.
+    pub interval: [f64; 2],
+    /// Whether each end of the interval is a bound, of this or of another parameter, and not the score.
+    pub open: [bool; 2],
+    /// Between these it can go alone.
+    pub alone: [f64; 2],
+    /// Least and greatest among the evaluated sets that are as good as the best.
+    pub near_optimal: [f64; 2],
+    /// How well it is identified.
+    pub verdict: Verdict,
+    /// The same in words.
+    pub words: String,
+    /// Parameters that make up for it.
+    pub compensated_by: Vec<String>,
+    /// All parameters and the score at both ends of the interval.
+    pub ends: [IntervalEnd; 2],
+}
+
+/// An end of an interval.
+#[derive(Serialize)]
+pub struct IntervalEnd {
+    /// The values of all parameters there, in their order.
+    pub values: Vec<f64>,
+    pub score: f64,
+}
+
+#[derive(Serialize)]
+pub struct Correlation {
+    pub between: [String; 2],
+    /// From −1 to 1.
+    pub correlation: f64,
+}
+
+#[derive(Serialize)]
+pub struct DescentResult {
+    /// Candidates of a generation.
+    pub population: usize,
+    pub evaluations: u64,
+    /// Least score.
+    pub score: f64,
+    pub ended: &'static str,
+}
+
+/// How many evaluations were made.
+#[derive(Serialize, Default)]
+pub struct Evaluations {
+    /// By the global search.
+    pub search: usize,
+    /// By the local refinement.
+    pub refinement: usize,
+    /// For curvature and intervals.
+    pub intervals: usize,
+    /// All, the base scenario included.
+    pub all: usize,
+    /// Those that could not be run.
+    pub failed: usize,
+    /// Why not, of the first of them.
+    pub reason: Option<String>,
+}
+
+impl FitResult {
+    /// Puts everything together.
+    pub fn of(fitting: &Fitting, answer: &Answer, records: &[Record], fitted: FittedRuns) -> FitResult {
+        let (misfit, study) = (fitting.fit.misfit, &fitting.manifest.texts[0]);
+        let limit = misfit.of_cost(answer.best.value + answer.rise);
+        let sets: Vec<&Record> = records.iter().filter(|r| r.at.is_some() && r.score <= limit).collect();
+        let (parameters, evaluations) = (verdicts(fitting, answer, &sets), evaluations(records));
+        let channels = channels(fitting, answer, &fitted.parts);
+        let mut warnings = fitting.warnings.clone();
+        warnings.extend(remarks(fitting, answer, &parameters, &evaluations));
+        warnings.extend(channels.iter().filter_map(|c| c.accord.caution(&c.test, &c.channel)));
+        warnings.extend(fitted.caveats);
+        let after: Vec<f64> = fitted.parts.iter().map(|(misfit, _)| *misfit).collect();
+        let before = answer.before.reason.is_none().then_some(answer.before.score);
+        let descents = answer.global.descents.iter().map(|descent| DescentResult {
+            population: descent.population,
+            evaluations: descent.evaluations,
+            score: descent.best.value,
+            ended: descent.ending.words(),
+        });
+        FitResult {
+            program: fitting.manifest.program.clone(),
+            title: fitting.manifest.title.clone(),
+            study: Source { file: study.name.clone(), sha256: study.sha256.clone() },
+            overrides: fitting.overrides.clone(),
+            objective: misfit.name(),
+            seed: fitting.fit.seed,
+            budget: fitting.fit.budget,
+            tolerance: fitting.fit.tolerance,
+            tests: fitting.tests.clone(),
+            score: Score { before, after: fitting.score(&after), channels },
+            near: NearOptimal { score: limit, near: answer.near, sets: sets.len() },
+            parameters,
+            correlations: correlations(fitting, answer),
+            written: fitted.written,
+            descents: descents.collect(),
+            evaluations,
+            warnings,
+        }
+    }
+}
+
+fn channels(fitting: &Fitting, answer: &Answer, parts: &[(f64, Accord)]) -> Vec<ChannelFit> {
+    let channels = fitting.targets().zip(parts).enumerate();
+    let channels = channels.map(|(i, ((test, target), (after, accord)))| ChannelFit {
+        test: fitting.tests[*test].name.clone(),
+        channel: target.channel.name.clone(),
+        signal: target.measured.signal.clone(),
+        filter: class_name(target.class),
+        weight: target.weight,
+        window_s: target.window_s,
+        before: answer.before.parts.get(i).copied(),
+        after: *after,
+        accord: *accord,
+    });
+    channels.collect()
+}
+
+fn correlations(fitting: &Fitting, answer: &Answer) -> Vec<Correlation> {
+    let parameters = &fitting.parameters;
+    let pairs = (0..parameters.len()).flat_map(|a| (a + 1..parameters.len()).map(move |b| [a, b]));
+    let correlation = |[a, b]: [usize; 2]| {
+        let between = [a, b].map(|i| parameters[i].name.clone());
+        Some(Correlation { between, correlation: answer.shape.correlation(a, b)? })
+    };
+    pairs.filter_map(correlation).collect()
+}
+
+fn evaluations(records: &[Record]) -> Evaluations {
+    let mut count = Evaluations { all: records.len(), ..Evaluations::default() };
+    for record in records {
+        match record.stage {
+            None => {}
+            Some(Stage::Descent { .. }) => count.search += 1,
+            Some(Stage::Refinement) => count.refinement += 1,
+            Some(Stage::Scan | Stage::Shape | Stage::Profile) => count.intervals += 1,
+        }
+        if let Some(reason) = &record.reason {
+            count.failed += 1;
+            count.reason.get_or_insert_with(|| reason.clone());
+        }
+    }
+    count
+}
+
+/// What should be said of the answer.
+fn remarks(
+    fitting: &Fitting,
+    answer: &Answer,
+    parameters: &[ParameterEstimate],
+    evaluations: &Evaluations,
+) -> Vec<String> {
+    let mut all = Vec::new();
+    for parameter in parameters {
+        let bound = match parameter.verdict {
+            Verdict::AtLowerBound => "lower",
+            Verdict::AtUpperBound => "upper",
+            _ => continue,
+        };
+        all.push(format!("{} is at its {bound} bound: a wider range may fit better", parameter.name));
+    }
+    if evaluations.failed > 0 {
+        all.push(format!(
+            "{} of {} candidates could not be run and count as worst; the first: {}",
+            evaluations.failed,
+            evaluations.all,
+            evaluations.reason.as_deref().unwrap_or("no reason")
+        ));
+    }
+    if answer.before.reason.is_some() {
+        all.push("the base scenario itself could not be run".to_owned());
+    }
+    let misfit = fitting.fit.misfit;
+    let best = misfit.of_cost(answer.best.value);
+    let limit = misfit.of_cost(answer.best.value + answer.rise);
+    let descents = &answer.global.descents;
+    let same = descents.iter().filter(|d| d.best.value <= limit.max(best + fitting.fit.tolerance));
+    if descents.len() > 1 && same.count() < 2 {
+        all.push("only one descent has found this score: a greater budget may find a better one".to_owned());
+    }
+    all
+}

@@ -1,0 +1,148 @@
+//! The scenario with the numbers of a fit, as its author would have written it: comments, order and units stay.
+//!
+//! The numbers are put into the text itself. The text counts only if it says the same scenario as the program's own
+//! changes do; where it cannot (a list that only a preset has, a text in JSON), the scenario is written anew.
+
+use occupant_scenario::{Draft, Format, Scenario};
+use occupant_study::{Assignment, Parameter};
+use placed_text::{Step, parse_path};
+use serde::Serialize;
+use toml_edit::{DocumentMut, InlineTable, Item, Table, TableLike, Value, value};
+
+use super::Experiment;
+use crate::files::scenario::format_of;
+
+/// Significant digits of fitted numbers.
+const DIGITS: usize = 6;
+
+/// A number that a fit has put into a scenario.
+#[derive(Clone, Debug, Serialize)]
+pub struct Fitted {
+    /// The file of that scenario.
+    pub fitted: String,
+    pub path: String,
+    /// As it is written there.
+    pub text: String,
+    /// Which parameter it comes from.
+    #[serde(skip)]
+    pub parameter: usize,
+}
+
+/// The numbers that values of the parameters (SI) put into the scenario of an experiment, each in the unit of its place and
+/// rounded.
+///
+/// # Errors
+/// A place at which no number can be written.
+pub fn numbers(experiment: &Experiment, values: &[f64]) -> Result<Vec<Fitted>, String> {
+    let study = &experiment.study;
+    let of = |path: &str| {
+        let acts = |p: &Parameter| p.targets.iter().any(|t| t.path == path);
+        study.parameters.iter().rposition(acts).unwrap_or(0)
+    };
+    let number = |Assignment { path, value, .. }: Assignment| {
+        let occupant_study::Value::Number(si) = value else {
+            return Err(format!("`{path}` is no number"));
+        };
+        let text = study.base.written(&path, si, DIGITS);
+        let text = text.ok_or_else(|| format!("no number can stand at `{path}`"))?;
+        Ok(Fitted { fitted: experiment.fitted.clone(), parameter: of(&path), path, text })
+    };
+    study.assignments_of(values).into_iter().map(number).collect()
+}
+
+/// The scenario of an experiment with these numbers and their provenance, TOML, and whether the author's words were kept.
+///
+/// # Errors
+/// Numbers that the scenario refuses.
+pub fn fitted(
+    experiment: &Experiment,
+    numbers: &[&Fitted],
+    provenance: &[(String, String)],
+    head: &str,
+) -> Result<(String, bool), String> {
+    let changes = numbers.iter().map(|n| (&n.path, &n.text));
+    let (loaded, ..) = experiment.scenario_with(changes).map_err(|e| e.to_string())?;
+    let mut wanted = loaded.scenario;
+    wanted.provenance.extend(provenance.iter().cloned());
+    let format = format_of(&experiment.scenario);
+    let is_toml = format.unwrap_or_else(|| Format::of_text(&experiment.text)) == Format::Toml;
+    let edited = is_toml.then(|| edited(experiment, numbers, provenance)).flatten();
+    let (text, kept) = match edited.filter(|text| says(experiment, text, &wanted)) {
+        Some(text) => (text, true),
+        None => (wanted.to_toml().map_err(|e| e.to_string())?, false),
+    };
+    Ok((format!("{head}{text}"), kept))
+}
+
+/// Whether a text says this scenario.
+fn says(experiment: &Experiment, text: &str, wanted: &Scenario) -> bool {
+    let draft = Draft::read(text, Format::Toml, "fitted");
+    let found = draft.and_then(|draft| experiment.tables.open(draft));
+    found.is_ok_and(|(loaded, ..)| loaded.scenario == *wanted)
+}
+
+/// The author's text with everything put in that the study, the command line and the fit have changed.
+fn edited(experiment: &Experiment, numbers: &[&Fitted], provenance: &[(String, String)]) -> Option<String> {
+    let mut document: DocumentMut = experiment.text.parse().ok()?;
+    let changes = experiment.study.changes.iter();
+    let numbers = numbers.iter().map(|n| (&n.path, &n.text));
+    for (path, text) in changes.map(|(p, t)| (p, t)).chain(numbers) {
+        let new = text.parse().unwrap_or_else(|_| Value::from(text.as_str()));
+        // a path with wildcards stands for many places
+        let places = if path.contains('*') { experiment.study.base.places(path).ok()? } else { Vec::new() };
+        let mut paths: Vec<&str> = places.iter().map(|p| p.path.as_str()).collect();
+        if paths.is_empty() {
+            paths.push(path);
+        }
+        for path in paths {
+            put(document.as_item_mut(), &parse_path(path).ok()?, new.clone())?;
+        }
+    }
+    if !provenance.is_empty() {
+        let table = document.entry("provenance");
+        let table = table.or_insert(Item::Table(Table::new())).as_table_like_mut()?;
+        for (path, words) in provenance {
+            table.insert(path, value(words.as_str()));
+        }
+    }
+    Some(document.to_string())
+}
+
+/// Puts a value at a place, with the blanks and comments of the old one; none where the text has no such place and none can
+/// be made.
+fn put(item: &mut Item, steps: &[Step], mut new: Value) -> Option<()> {
+    let Some((step, rest)) = steps.split_first() else {
+        let old = item.as_value_mut()?;
+        *new.decor_mut() = old.decor().clone();
+        *old = new;
+        return Some(());
+    };
+    let inline = item.is_inline_table();
+    let next = match (step, item) {
+        (Step::Every, _) => return None,
+        (Step::Index(i), item) => item.get_mut(*i)?,
+        (Step::Key(name), Item::ArrayOfTables(tables)) => {
+            let named = |t: &Table| t.get("name").and_then(Item::as_str) == Some(name);
+            let place = tables.iter().position(named)?;
+            return put_in_table(tables.get_mut(place)?, false, rest, new);
+        }
+        (Step::Key(_), item) => return put_in_table(item.as_table_like_mut()?, inline, steps, new),
+    };
+    put(next, rest, new)
+}
+
+/// The same below a table, where what the place needs is made.
+fn put_in_table(table: &mut dyn TableLike, inline: bool, steps: &[Step], new: Value) -> Option<()> {
+    let (Step::Key(key), rest) = steps.split_first()? else {
+        return None;
+    };
+    if !table.contains_key(key) {
+        let blank = match (rest.is_empty(), inline) {
+            (true, _) => Item::Value(new.clone()),
+            (false, true) => value(InlineTable::new()),
+            (false, false) => Item::Table(Table::new()),
+        };
+        table.insert(key, blank);
+    }
+    put(table.get_mut(key)?, rest, new)
+}

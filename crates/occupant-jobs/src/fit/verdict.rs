@@ -1,0 +1,139 @@
+//! How well each parameter is identified, from the ends of its interval.
+
+use occupant_study::search::End;
+use occupant_study::{ApplyChoice, Bounds, Value};
+use serde::Serialize;
+
+use super::{Answer, COMPENSATING, Fitting, IntervalEnd, ParameterEstimate, Record};
+
+/// An interval of more than this part of the range, both ends of which are bounds, says nothing.
+const WIDE: f64 = 0.25;
+/// An interval of more than this part of the range says little.
+const VAGUE: f64 = 0.4;
+/// An interval of more than this part of the range says nothing.
+const EVERYTHING: f64 = 0.8;
+/// Nearer than this to a bound is at it.
+const AT: f64 = 1e-3;
+
+/// How well a parameter is identified.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// The score rises on both sides.
+    Identified,
+    /// The score rises on both sides, far away.
+    Weak,
+    /// The score rises on one side only.
+    OneSided,
+    /// The score would go on falling below the lower bound.
+    AtLowerBound,
+    /// The score would go on falling beyond the upper bound.
+    AtUpperBound,
+    /// The test does not say what it is.
+    NotIdentified,
+}
+
+/// All parameters with their verdicts; `sets` are the evaluated ones that are as good as the best.
+pub fn verdicts(fitting: &Fitting, answer: &Answer, sets: &[&Record]) -> Vec<ParameterEstimate> {
+    let parameters = 0..fitting.parameters.len();
+    parameters.map(|i| parameter(fitting, answer, sets, i)).collect()
+}
+
+fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> ParameterEstimate {
+    let (of, bounds) = (&fitting.parameters[i], fitting.bounds[i]);
+    let u = answer.best.at[i];
+    let ends = &answer.profiles.ends[i];
+    let open = [0, 1].map(|s| is_open(&ends[s], &answer.best.at));
+    let verdict = verdict(u, ends, open);
+    let compensated_by = partners(fitting, answer, i);
+    let misfit = fitting.fit.misfit;
+    let end = |end: &End| IntervalEnd { values: fitting.values(&end.point.at), score: misfit.of_cost(end.point.value) };
+    let [down, up] = answer.reaches[i];
+    let among = sets.iter().filter_map(|r| r.at.as_ref()).map(|at| at[i]);
+    let [least, most] = among.fold([u, u], |[l, m], v| [l.min(v), m.max(v)]);
+    ParameterEstimate {
+        name: of.name.clone(),
+        unit: of.unit,
+        shown: shown_unit(fitting, i),
+        apply: of.apply,
+        places: of.targets.iter().map(|t| t.path.clone()).collect(),
+        bounds: [bounds.from, bounds.to],
+        log: bounds.log,
+        base: match of.nominal() {
+            Value::Number(x) => Some(x),
+            _ => None,
+        },
+        value: bounds.value(u),
+        interval: [bounds.value(ends[0].at), bounds.value(ends[1].at)],
+        open,
+        alone: alone(bounds, u, [down.length, up.length]),
+        near_optimal: [bounds.value(least), bounds.value(most)],
+        words: words(verdict, &compensated_by),
+        verdict,
+        compensated_by,
+        ends: [end(&ends[0]), end(&ends[1])],
+    }
+}
+
+/// In which unit the values of a parameter are shown, and how many SI units it is: that of its place.
+fn shown_unit(fitting: &Fitting, i: usize) -> (String, f64) {
+    let parameter = &fitting.parameters[i];
+    let base = &fitting.experiments[0].study.base;
+    let place = parameter.targets.first();
+    match parameter.apply {
+        ApplyChoice::Factor => (String::new(), 1.0),
+        ApplyChoice::Value | ApplyChoice::Offset => {
+            place.and_then(|t| base.unit_at(&t.path)).unwrap_or((parameter.unit.to_owned(), 1.0))
+        }
+    }
+}
+
+fn alone(bounds: Bounds, u: f64, [down, up]: [f64; 2]) -> [f64; 2] {
+    [bounds.value((u - down).max(0.0)), bounds.value((u + up).min(1.0))]
+}
+
+/// Whether a bound, of this or of another parameter, ends the interval.
+fn is_open(end: &End, best: &[f64]) -> bool {
+    let at_bound = |u: f64| !(AT..=1.0 - AT).contains(&u);
+    let others = end.point.at.iter().zip(best);
+    end.open || others.into_iter().any(|(there, here)| at_bound(*there) && !at_bound(*here))
+}
+
+fn verdict(u: f64, ends: &[End; 2], open: [bool; 2]) -> Verdict {
+    let width = ends[1].at - ends[0].at;
+    match () {
+        () if width > EVERYTHING || (open == [true; 2] && width > WIDE) => Verdict::NotIdentified,
+        () if u < AT && ends[0].open => Verdict::AtLowerBound,
+        () if u > 1.0 - AT && ends[1].open => Verdict::AtUpperBound,
+        () if ends[0].open || ends[1].open => Verdict::OneSided,
+        () if width > VAGUE => Verdict::Weak,
+        () => Verdict::Identified,
+    }
+}
+
+/// The parameters that make up for this one.
+fn partners(fitting: &Fitting, answer: &Answer, i: usize) -> Vec<String> {
+    let parameters = fitting.parameters.iter().enumerate();
+    let makes_up = |j: usize| {
+        let correlation = answer.shape.correlation(i, j);
+        j != i && correlation.is_some_and(|c| c.abs() > COMPENSATING)
+    };
+    let partners = parameters.filter(|(j, _)| makes_up(*j));
+    partners.map(|(_, p)| p.name.clone()).collect()
+}
+
+fn words(verdict: Verdict, partners: &[String]) -> String {
+    let with = match partners {
+        [] => String::new(),
+        names => format!(": {} makes up for it", names.join(" or ")),
+    };
+    match verdict {
+        Verdict::Identified if partners.is_empty() => "identified".to_owned(),
+        Verdict::Identified => format!("identified, but not alone{with}"),
+        Verdict::Weak => format!("weakly identified{with}"),
+        Verdict::OneSided => format!("bounded on one side only{with}"),
+        Verdict::AtLowerBound => "at its lower bound".to_owned(),
+        Verdict::AtUpperBound => "at its upper bound".to_owned(),
+        Verdict::NotIdentified => format!("not identified{with}"),
+    }
+}

@@ -1,0 +1,88 @@
+//! The record of a test as files of this program: a path of a vehicle, curves to compare with, and a scenario that uses the path.
+
+mod curves;
+mod path;
+
+use occupant_scenario::kind::{KINDS, SPEED};
+
+use crate::base::Failure;
+use occupant_files::measured::{Axes, Imported};
+use occupant_files::signals::Recording;
+
+pub use path::{PathFilter, PathTable};
+
+/// What is asked for.
+#[derive(Clone, Debug)]
+pub struct Request<'a> {
+    /// Place of the vehicle's sensors; if absent the centre of gravity, or a typical place.
+    pub place: Option<&'a str>,
+    /// First and last time of what is written, s.
+    pub window_s: [Option<f64>; 2],
+    /// Speed when the path starts, as a scenario has it.
+    pub speed: Option<&'a str>,
+    /// Which way axes point, if it was said.
+    pub axes: Option<Axes>,
+    /// The longest hole that is bridged, s.
+    pub bridge_s: Option<f64>,
+    /// Rests at the beginning and at the end, as a scenario has them.
+    pub baseline: [Option<&'a str>; 2],
+    /// The low-pass of the path, if it was said.
+    pub filter: Option<PathFilter>,
+    /// How far the centre of gravity lies ahead of the point that a trajectory follows, as a scenario has it.
+    pub cg: Option<&'a str>,
+}
+
+/// What became of a record.
+#[derive(Debug)]
+pub struct Made {
+    /// The vehicle's path; none where the record has none.
+    pub path: Option<PathTable>,
+    /// The curves as a table, and how many they are; none where all is path.
+    pub curves: Option<(Vec<u8>, usize)>,
+    /// What to know of it.
+    pub notes: Vec<String>,
+}
+
+/// Makes path and curves of a record.
+///
+/// # Errors
+/// Signals of the path that have no unit, and a place or window without any.
+pub fn import(imported: &Imported, request: &Request) -> Result<Made, Failure> {
+    let recording = within(&imported.recording, request.window_s);
+    if recording.signals.is_empty() {
+        return Err(Failure::plain("no sample lies between --from and --to"));
+    }
+    let is_done = |note: &str| request.cg.is_some() && note.contains("--cg");
+    let mut notes: Vec<String> = recording.notes.iter().filter(|note| !is_done(note)).cloned().collect();
+    let path = path::of(&recording, imported, request, &mut notes)?;
+    let used = path.as_ref().map_or(&[][..], |path| &path.signals);
+    let others: Vec<_> = recording.signals.iter().filter(|signal| !used.contains(&signal.name)).collect();
+    let curves = if others.is_empty() { None } else { Some((curves::table(&others)?, others.len())) };
+    if path.is_none() && request.place.is_none() {
+        let names: Vec<String> = recording.signals.iter().take(12).map(|s| format!("`{}`", s.name)).collect();
+        notes.push(format!(
+            "no signal is the motion of the vehicle: no path and no scenario is written; the record has {}; --columns names them, such as \
+             't[ms],dvx[km/h]' or 't[s],ax[g],-,wz[deg/s]'",
+            names.join(", ")
+        ));
+    }
+    Ok(Made { path, curves, notes })
+}
+
+/// A speed in words, m/s.
+fn speed(text: &str) -> Result<f64, String> {
+    KINDS[SPEED].read(text).map_err(|error| error.found)
+}
+
+/// The samples between two times; signals without any are left out.
+fn within(recording: &Recording, [from_s, to_s]: [Option<f64>; 2]) -> Recording {
+    let mut recording = recording.clone();
+    let is_in = |t: f64| from_s.is_none_or(|from| t >= from) && to_s.is_none_or(|to| t <= to);
+    for signal in &mut recording.signals {
+        let kept = |(t, _): &(f64, f64)| is_in(*t);
+        let samples = signal.time_s.iter().copied().zip(signal.values.iter().copied()).filter(kept);
+        (signal.time_s, signal.values) = samples.unzip();
+    }
+    recording.signals.retain(|signal| !signal.time_s.is_empty());
+    recording
+}

@@ -1,0 +1,111 @@
+//! The time histories of the page, taken from the channels of the run.
+
+use crate::base::customary::*;
+use occupant_core::model::Model;
+use occupant_core::results::channel::{Channel, Series, channels, star};
+use serde::Serialize;
+
+use crate::base::Units;
+
+use super::array::Array;
+
+/// Spheres with the greatest contact forces that are plotted.
+const MOST_SPHERES: usize = 8;
+
+#[derive(Debug, Serialize)]
+pub struct Plot {
+    title: String,
+    unit: String,
+    curves: Vec<Curve>,
+}
+
+#[derive(Debug, Serialize)]
+struct Curve {
+    name: String,
+    meaning: String,
+    values: Array,
+}
+
+/// A plot: its title, the unit that its channels are shown in, and its channels.
+const RECIPES: [(&str, &str, &Curves); 9] = [
+    ("Resultant acceleration", "g", ACCELERATIONS),
+    ("Belt force", "kN", WEBBING),
+    (CONTACT_FORCE, "kN", CONTACTS),
+    ("Neck force on the head", "kN", NECK_FORCE),
+    ("Neck moment on the head", "N·m", NECK_MOMENT),
+    ("Femur axial force", "kN", FEMURS),
+    ("Vehicle acceleration", "g", VEHICLE),
+    // all but the last, the springs of the spine
+    ("Energy", "kJ", ENERGIES.split_at(7).0),
+    ("Energy balance error", "J", BALANCE),
+];
+const CONTACT_FORCE: &str = "Contact force";
+/// What each occupant's own channels show, by title: those of one of several have the occupant's name before theirs.
+const OWN: [&str; 4] = [RECIPES[0].0, RECIPES[3].0, RECIPES[4].0, RECIPES[5].0];
+
+/// A recorder of all channels that the plots need.
+pub fn series(model: &Model) -> Series {
+    let needed = |c: &Channel| {
+        let after = c.name.split_once('.').map_or("", |(_, after)| after);
+        RECIPES.iter().any(|(title, _, curves)| {
+            let is_in = |name: &str| curves.iter().any(|(pattern, _)| star(pattern, name).is_some());
+            is_in(&c.name) || OWN.contains(title) && is_in(after)
+        })
+    };
+    Series::new(channels(model).into_iter().filter(needed).collect())
+}
+
+/// The plots, without those that would be empty. Prefixes are what stands before the names of each occupant's channels.
+pub fn plots(series: &Series, prefixes: &[String], units: Units) -> Vec<Plot> {
+    let of_each = |recipe: (&'static str, _, _)| {
+        let prefixes = if OWN.contains(&recipe.0) { prefixes } else { &[String::new()] };
+        prefixes.iter().map(move |prefix| (recipe, prefix.clone())).collect::<Vec<_>>()
+    };
+    let plots = RECIPES.into_iter().flat_map(of_each).map(|((title, unit, wanted), prefix)| {
+        let mut found = find(wanted, &prefix, series);
+        if title == CONTACT_FORCE {
+            keep_greatest(&mut found);
+        }
+        let (per, shown) = units.over(unit);
+        let whose = prefix.strip_suffix('.').map_or(String::new(), |name| format!(", {}", name.replace('_', " ")));
+        Plot {
+            title: format!("{title}{whose}"),
+            unit: shown,
+            curves: found.into_iter().map(|f| curve(f, unit, per)).collect(),
+        }
+    });
+    plots.filter(|p| !p.curves.is_empty()).collect()
+}
+
+/// A curve under construction: its name, channel and values.
+type Found<'a> = (String, &'a Channel, &'a Vec<f64>);
+
+fn find<'a>(wanted: &Curves, prefix: &str, series: &'a Series) -> Vec<Found<'a>> {
+    let mut found = Vec::new();
+    for (pattern, label) in wanted {
+        for (channel, values) in series.channels.iter().zip(&series.values) {
+            if let Some(stood_for) = channel.name.strip_prefix(prefix).and_then(|name| star(pattern, name)) {
+                let name = label.replace('*', &stood_for.replace('_', " "));
+                found.push((name, channel, values));
+            }
+        }
+    }
+    found
+}
+
+/// The curve in a unit of which so many are one of what is shown.
+fn curve((name, channel, values): Found<'_>, unit: &'static str, per: f64) -> Curve {
+    let per_si = channel.unit.shown_in(unit).per_si() / per;
+    let mut shown = Array::default();
+    shown.float32(values.iter().map(|v| v * per_si));
+    Curve { name, meaning: format!("{}: {}", channel.name, channel.meaning), values: shown }
+}
+
+/// Leaves the spheres with the greatest forces, none that touched nothing, in the list's order.
+fn keep_greatest(found: &mut Vec<Found<'_>>) {
+    let peak = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+    let mut peaks: Vec<f64> = found.iter().map(|f| peak(f.2)).collect();
+    peaks.sort_by(|a, b| b.total_cmp(a));
+    let least = peaks.get(MOST_SPHERES - 1).copied().unwrap_or(0.0);
+    found.retain(|f| peak(f.2) > 0.0 && peak(f.2) >= least);
+}

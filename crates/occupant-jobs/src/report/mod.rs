@@ -1,0 +1,32 @@
+//! The report of a run: one HTML file that shows the motion, the time histories and the numbers, and needs no network.
+//!
+//! The page is drawn by JavaScript (`assets/viewer`, bundled with its libraries). Here the data are gathered from the
+//! run's samples and put into it.
+
+mod array;
+mod curves;
+mod data;
+mod measures;
+mod motion;
+mod page;
+mod provenance;
+mod ride_down;
+mod vehicles;
+
+use crate::base::{Failure, Units, program};
+use occupant_files::results::Results;
+
+pub use data::{Report, subject};
+
+/// So many runs have colours of their own on a page.
+pub const MOST_RUNS: usize = 4;
+
+/// The page of a run, or of several abreast.
+///
+/// # Errors
+/// None for files that were opened.
+pub fn page(runs: &[Results], units: Units) -> Result<String, Failure> {
+    let vehicles = vehicles::vehicles(runs, units);
+    let runs = runs.iter().map(|run| data::Run::of(run, units)).collect::<Result<_, _>>()?;
+    page::fill(&Report { program: program(), runs }, vehicles)
+}

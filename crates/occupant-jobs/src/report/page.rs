@@ -1,0 +1,81 @@
+//! The HTML file from its parts. No user text can leave its place: the title is escaped, and in the data every `<` is, so
+//! that no `</script>` ends them early.
+
+use super::data::Report;
+use crate::base::Failure;
+use occupant_pictures::html::about;
+use occupant_pictures::svg::escape;
+
+const PAGE: &str = include_str!("../../assets/viewer/src/page.html");
+const SCRIPT: &str = include_str!("../../assets/viewer/dist/viewer.js");
+const LICENSES: &str = include_str!("../../assets/viewer/LICENSES.md");
+const STYLE: &str = include_str!("../../assets/viewer/dist/viewer.css");
+
+/// The whole file; `vehicles` is HTML that stands below what the script draws.
+///
+/// # Errors
+/// Data that are no JSON, which those of a report always are.
+pub fn fill(report: &Report, vehicles: String) -> Result<String, Failure> {
+    let data =
+        serde_json::to_string(report).map_err(|e| Failure::plain(format!("the report's data are not JSON: {e}")))?;
+    let parts = [
+        ("about", about(&report.subject())),
+        ("title", escape(&report.title())),
+        ("style", STYLE.trim_end().to_owned()),
+        ("vehicles", vehicles),
+        ("data", harmless(&data)),
+        ("licenses", LICENSES.trim_end().to_owned()),
+        ("script", SCRIPT.trim_end().to_owned()),
+    ];
+    Ok(replace(PAGE, &parts))
+}
+
+/// JSON that may stand in a script element: `<` occurs in strings alone, where it can be written by its number.
+fn harmless(json: &str) -> String {
+    json.replace('<', "\\u003c")
+}
+
+/// Puts each part where `{{name}}` stands, once and in order: what a part holds is never searched.
+fn replace(page: &str, parts: &[(&str, String)]) -> String {
+    let mut out = String::with_capacity(page.len() + parts.iter().map(|p| p.1.len()).sum::<usize>());
+    let mut rest = page;
+    while let Some((before, after)) = rest.split_once("{{") {
+        out.push_str(before);
+        let Some((name, left)) = after.split_once("}}") else {
+            break;
+        };
+        if let Some((_, part)) = parts.iter().find(|p| p.0 == name) {
+            out.push_str(part);
+        }
+        rest = left;
+    }
+    out.push_str(rest);
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn data_cannot_end_their_element() {
+        let json = serde_json::to_string("</script><!-- <b>").unwrap();
+        let text = harmless(&json);
+        assert!(!text.contains('<'));
+        let back: String = serde_json::from_str(&text).unwrap();
+        assert_eq!(back, "</script><!-- <b>");
+    }
+
+    #[test]
+    fn a_part_is_never_searched() {
+        let parts = [("a", "{{b}}".to_owned()), ("b", "x".to_owned())];
+        assert_eq!(replace("1{{a}}2{{b}}3", &parts), "1{{b}}2x3");
+    }
+
+    #[test]
+    fn the_bundle_can_stand_in_a_page() {
+        assert!(!SCRIPT.contains("</script") && !SCRIPT.contains("<!--"));
+        assert!(!LICENSES.contains("</script") && !LICENSES.contains("<!--"));
+        assert!(!STYLE.contains("</style") && !STYLE.contains("url("));
+    }
+}

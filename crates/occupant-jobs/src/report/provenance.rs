@@ -1,0 +1,48 @@
+//! Where a run comes from: what the file says of itself, and how the run ended.
+
+use occupant_core::results::summary::{RunStatus, Summary};
+
+use crate::base::Units;
+use occupant_files::results::Results;
+
+/// The run in a line: how far it went, whose body it is, and what its integration is worth.
+pub fn facts(results: &Results, summary: &Summary, units: Units) -> String {
+    let body = results.run.get("body").map_or("a body", String::as_str);
+    let energy = &summary.energy;
+    format!(
+        "{:.1} to {:.1} ms; {}, {}; {}, {} steps, energy balance off by {:.1e} of the {}",
+        summary.start_s * 1e3,
+        summary.reached_s * 1e3,
+        body,
+        units.say(results.model.setup().body.mass_kg(), "kg", 1),
+        summary.solver.integrator,
+        summary.solver.steps,
+        energy.balance_error,
+        energy.reference
+    )
+}
+
+/// Key and value, in order.
+pub fn lines(results: &Results, summary: &Summary) -> Vec<[String; 2]> {
+    let mut lines = Vec::new();
+    let mut put = |key: &str, value: String| lines.push([key.to_owned(), value]);
+    let status = match summary.status {
+        RunStatus::Completed => "completed",
+        RunStatus::Interrupted => "interrupted",
+        RunStatus::Failed => "failed",
+    };
+    let reason = summary.reason.as_ref().map(|r| format!(": {r}"));
+    put("status", format!("{status}{}", reason.unwrap_or_default()));
+    put("reached", format!("{} s of {} s", summary.reached_s, summary.end_s));
+    put("steps", summary.solver.steps.to_string());
+    if summary.solver.rejected > 0 {
+        put("steps rejected", summary.solver.rejected.to_string());
+    }
+    put("outputs", results.checkpoints.len().to_string());
+    put("results", results.path.display().to_string());
+    put("results, SHA-256", results.sha256.clone());
+    for (key, value) in &results.run {
+        put(&key.replace('_', " "), value.clone());
+    }
+    lines
+}

@@ -1,0 +1,131 @@
+//! What a vehicle's motion alone says of the risk to its occupants: measures, limits, their table and JSON. Reads no file.
+
+mod columns;
+mod figures;
+mod intervals;
+mod json;
+mod page;
+mod plots;
+mod subject;
+mod table;
+
+use crash_measures::measure::limits::{Grade, Quantity, Rule};
+use crash_measures::signal::{CfcFamily, ChannelClass};
+use occupant_core::model::setup::Setup;
+use occupant_scenario::kind::UnitSystem;
+use occupant_study::risk::{
+    Attained, Flight, Judgement, Preparation, ROADSIDE_RULES, SensorErrors, VehicleRisk, VehicleSignals, attained,
+    judge, prepare,
+};
+
+pub use columns::columns;
+pub use figures::{Figure, Figures};
+pub use intervals::Intervals;
+pub use json::json;
+pub use page::{OWN_STYLE, page, sections};
+pub use subject::{PATH_INTERVAL_S, Subject, vehicles};
+pub use table::text;
+use table::{shown, unit_of};
+
+/// Everything that is reported.
+#[derive(Debug)]
+pub struct Report {
+    /// What was measured, and where it came from.
+    pub subject: Subject,
+    /// How it was prepared.
+    pub preparation: Preparation,
+    /// Where the occupant starts and how far it may fly.
+    pub flight: Flight,
+    /// What was measured on.
+    pub signals: VehicleSignals,
+    pub risk: VehicleRisk,
+    /// The measures against limits.
+    pub judgements: Vec<Judgement>,
+    /// What the errors of the sensors make of the measures, if they were told.
+    pub intervals: Option<Intervals>,
+    /// What to know of the record.
+    pub notes: Vec<String>,
+}
+
+/// An index that still has so much of its maximum at the end of the record may go beyond it.
+const LEFT_AT_END: f64 = 0.2;
+
+impl Report {
+    /// Measures, and judges by `rules`; by all of them if none is named.
+    pub fn new(
+        subject: Subject,
+        preparation: Preparation,
+        signals: VehicleSignals,
+        flight: Flight,
+        rules: &[Rule],
+    ) -> Self {
+        let risk = VehicleRisk::of(&signals, &flight);
+        let judgements = judge(&risk, if rules.is_empty() { &ROADSIDE_RULES } else { rules });
+        let left = risk.asi_left_at_end.filter(|left| *left > LEFT_AT_END).map(|left| {
+            format!(
+                "the record ends at {} s while the vehicle is still accelerated: ASI (2010) has {:.0} % of its maximum there, beyond its end the mean of the last \
+                 50 ms was taken to go on, and what a longer record would give is not known",
+                placed_text::number(signals.end_s()),
+                100.0 * left
+            )
+        });
+        let notes = left.into_iter().collect();
+        Report { subject, preparation, flight, signals, risk, judgements, intervals: None, notes }
+    }
+
+    /// Of a vehicle of a run by name, as `occupant risk` makes it of a run unless it is told otherwise; none of one that cannot be sampled.
+    pub fn of_run(name: &str, setup: &Setup, vehicle: Option<&str>) -> Option<Self> {
+        Report::of_path(Subject::of_run(name, setup, vehicle, PATH_INTERVAL_S).ok()??)
+    }
+
+    /// Of a path that was sampled, prepared and judged as `occupant risk` does unless it is told otherwise; none of one that cannot be prepared.
+    pub fn of_path(subject: Subject) -> Option<Self> {
+        let filter = ChannelClass::from_number(180).map(|class| (class, CfcFamily::Iso6487));
+        let preparation = Preparation { filter, ..Preparation::default() };
+        let signals = prepare(&subject.record, &preparation).ok()?;
+        let signals = VehicleSignals { initial: subject.initial, ..signals };
+        Some(Report::new(subject, preparation, signals, Flight::default(), &[]))
+    }
+
+    /// Names of the rules that are broken, each once.
+    pub fn broken(&self) -> Vec<&'static str> {
+        let mut rules: Vec<_> =
+            self.judgements.iter().filter(|j| j.breaks_the_rule()).map(|j| j.limit.rule.name()).collect();
+        rules.dedup();
+        rules
+    }
+
+    /// The class or level of each rule that has any: the rule, the class, and why.
+    pub fn classes(&self, units: Option<UnitSystem>) -> Vec<(&'static str, Option<&'static str>, String)> {
+        let mut rules: Vec<Rule> = self.judgements.iter().map(|judgement| judgement.limit.rule).collect();
+        rules.dedup();
+        let of = |rule: Rule| {
+            let bounds = |keep: &dyn Fn(&Judgement) -> bool| {
+                let own = self.judgements.iter().filter(|j| j.limit.rule == rule && keep(j));
+                let words = own.filter_map(|j| {
+                    let unit = unit_of(j.limit.quantity, units);
+                    let symbol =
+                        if j.limit.quantity == Quantity::Asi { String::new() } else { format!(" {}", unit.0.symbol()) };
+                    Some(format!("{} {} of {}{symbol}", j.measure, shown(j.value?, unit), shown(j.limit.most, unit)))
+                });
+                words.collect::<Vec<_>>().join(", ")
+            };
+            Some(match attained(rule, &self.judgements)? {
+                Attained::Grade(grade) => {
+                    (rule.name(), Some(grade.name()), bounds(&|j| [grade, Grade::Maximum].contains(&j.limit.grade)))
+                }
+                Attained::Beyond(limit) => (rule.name(), None, format!("beyond {}", bounds(&|j| j.limit == limit))),
+                Attained::NotMeasured(measure) => (rule.name(), None, format!("not known: {measure} was not measured")),
+            })
+        };
+        rules.into_iter().filter_map(of).collect()
+    }
+
+    /// With what errors of the sensors make of the measures.
+    pub fn with_errors(mut self, errors: SensorErrors) -> Self {
+        if !errors.is_none() {
+            self.intervals = Some(Intervals::of(&self.signals, &self.flight, errors));
+        }
+        self
+    }
+}

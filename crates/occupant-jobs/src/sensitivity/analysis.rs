@@ -1,0 +1,224 @@
+//! The work of `occupant sensitivity`.
+
+use std::collections::HashSet;
+use std::time::Instant;
+
+use occupant_core::model::Model;
+use occupant_core::results::outcome::Status;
+use occupant_core::results::summary::{Figure, Summarizer};
+use occupant_core::run::simulate::attempt;
+use occupant_scenario::{Draft, Resolver};
+use occupant_study::sensitivity::finite::{Neighbours, neighbours, tightly};
+use occupant_study::sensitivity::measures::{Derivatives, Request, Values, chosen, derivatives, pick, plain_values};
+use occupant_study::sensitivity::verdict::{Comparison, compare};
+use occupant_study::sensitivity::{Built, Parameter, Trajectory, follow, parameter};
+use placed_text::Problem;
+
+use crate::base::Failure;
+use crate::files::history::choose;
+use crate::files::scenario::counted;
+
+/// What is asked for, each name known.
+pub struct Asked<'a> {
+    pub parameters: Vec<Parameter<'a>>,
+    pub request: Request,
+    /// Units of the figures.
+    pub units: Vec<&'static str>,
+}
+
+/// The plain run, the run in dual numbers and the finite changes.
+pub struct Analysis {
+    /// The plain run's values.
+    pub values: Values,
+    pub trajectory: Trajectory,
+    /// What the models are built of, by parameter.
+    pub built: Vec<Built>,
+    pub derivatives: Vec<Derivatives>,
+    /// Runs with finite changes of the parameters.
+    pub neighbours: Neighbours,
+    /// By parameter, then by figure.
+    pub comparisons: Vec<Vec<Comparison>>,
+    /// Time of a plain run and of the run in duals beside it, s.
+    pub cost_s: [f64; 2],
+}
+
+/// Words of the command line.
+pub struct Words<'a> {
+    pub to: &'a [String],
+    pub of: &'a [String],
+    pub channels: &'a [String],
+}
+
+/// Finds what the words ask for.
+///
+/// # Errors
+/// Everything that is not there, at once.
+pub fn ask<'a>(
+    draft: &'a Draft,
+    model: &Model,
+    resolver: Resolver<'a>,
+    words: &Words<'_>,
+) -> Result<Asked<'a>, Failure> {
+    let mut wrong: Vec<String> = Vec::new();
+    let parameters = gather(words.of, &mut wrong, |path| {
+        parameter(draft, path, resolver).map(|one| vec![one]).map_err(|p| described("--of", &p))
+    });
+    let channels = gather(words.channels, &mut wrong, |name| {
+        choose(model, &[name.to_owned()])
+            .map_err(|refused| refused.words().replacen("error: ", "error: --channel: ", 1))
+    });
+    let figures = figures(model)?;
+    let names =
+        gather(words.to, &mut wrong, |name| chosen(&figures, name).map_err(|problem| described("--to", &problem)));
+    if !wrong.is_empty() {
+        let count = counted(wrong.len());
+        return Err(Failure::CouldNotRun(format!("{}\n\n{count}, nothing was computed", wrong.join("\n"))));
+    }
+    let parameters = distinct(parameters, |p| &p.name);
+    let channels = distinct(channels, |c| &c.name);
+    let names = distinct(names, |n| n);
+    let unit = |name: &String| figures.iter().find(|f| f.name == *name).map_or("1", |f| f.unit);
+    Ok(Asked { parameters, units: names.iter().map(unit).collect(), request: Request { figures: names, channels } })
+}
+
+/// What the items of lists name; what is wrong with an item goes to `wrong`.
+fn gather<T>(lists: &[String], wrong: &mut Vec<String>, named: impl Fn(&str) -> Result<Vec<T>, String>) -> Vec<T> {
+    let mut all = Vec::new();
+    for item in split(lists) {
+        match named(&item) {
+            Ok(more) => all.extend(more),
+            Err(message) => wrong.push(message),
+        }
+    }
+    all
+}
+
+/// The first of each name.
+fn distinct<T>(mut items: Vec<T>, name: impl Fn(&T) -> &String) -> Vec<T> {
+    let mut seen = HashSet::new();
+    items.retain(|item| seen.insert(name(item).clone()));
+    items
+}
+
+/// Lists with commas, several of them; a comma within double quotes belongs to a name.
+fn split(lists: &[String]) -> Vec<String> {
+    let mut items = Vec::new();
+    for list in lists {
+        let mut quoted = false;
+        let parts = list.split(|c: char| {
+            quoted ^= c == '"';
+            c == ',' && !quoted
+        });
+        items.extend(parts.map(|part| part.trim().to_owned()));
+    }
+    items
+}
+
+fn described(flag: &str, problem: &Problem) -> String {
+    let hint = problem.hint.iter().map(|hint| format!("\n = help: {hint}")).collect::<String>();
+    format!("error: {flag}: {}\n = expected: {}{hint}", problem.found, problem.expected)
+}
+
+/// The figures of the plain run.
+fn figures(model: &Model) -> Result<Vec<Figure>, Failure> {
+    let mut summarizer = Summarizer::new();
+    let broken = |e| Failure::broke_off(format!("the run broke off: {e}"));
+    let outcome = attempt(model, &mut summarizer).map_err(broken)?;
+    if let Status::Failed(reason) = outcome.status {
+        return Err(Failure::broke_off(format!("the run was not completed, so it has no derivative: {reason}")));
+    }
+    let summary = summarizer.summary(None);
+    Ok(summary.map_or_else(Vec::new, |s| s.figures(model)))
+}
+
+/// Computes all derivatives.
+///
+/// # Errors
+/// Every parameter that has none; a run that cannot be followed.
+pub fn analyse(model: &Model, asked: &Asked<'_>) -> Result<Analysis, Failure> {
+    let (mut built, mut wrong) = (Vec::new(), Vec::new());
+    for parameter in &asked.parameters {
+        match Built::new(model, parameter) {
+            Ok(one) => built.push(one),
+            Err(trouble) => wrong.push(format!("error: --of: {trouble}")),
+        }
+    }
+    if !wrong.is_empty() {
+        return Err(Failure::CouldNotRun(wrong.join("\n")));
+    }
+    let begun = Instant::now();
+    let figures = figures(model)?;
+    let plain_s = begun.elapsed().as_secs_f64();
+    let Request { figures: names, channels } = &asked.request;
+    let mut values = Values { figures: pick(&figures, names), ..Values::default() };
+    let (mut all, mut cost_s) = (vec![Derivatives::default(); asked.parameters.len()], [plain_s, 0.0]);
+    let mut trajectory = None;
+    if !names.is_empty() {
+        let finely: Vec<Parameter<'_>> = asked.parameters.iter().map(|p| p.of_models(tightly)).collect();
+        let request = Request { figures: names.clone(), channels: Vec::new() };
+        let model = tightly(model.clone());
+        let (found, of) = derive(&model, &finely, &mut built, &request, &mut cost_s[1])?;
+        all.iter_mut().zip(of).for_each(|(all, of)| all.figures = of.figures);
+        trajectory = Some(found);
+    }
+    if !channels.is_empty() {
+        let request = Request { figures: Vec::new(), channels: channels.clone() };
+        let (found, of) = derive(model, &asked.parameters, &mut built, &request, &mut cost_s[1])?;
+        values.channels = plain_values(model, &found, &request).map_err(Failure::broke_off)?.channels;
+        all.iter_mut().zip(of).for_each(|(all, of)| all.channels = of.channels);
+        trajectory = Some(found);
+    }
+    let Some(trajectory) = trajectory else { return Err(Failure::CouldNotRun("nothing is asked for".to_owned())) };
+    let checked: &[Parameter<'_>] = if names.is_empty() { &[] } else { &asked.parameters };
+    let neighbours = neighbours(model, checked, mean_step_s(model, &trajectory), names);
+    let compare = |(k, parameter): (usize, &Parameter<'_>)| {
+        let one = |i: usize| compare(&all[k].figures[i], parameter.size, &neighbours, k, i);
+        (0..names.len()).map(one).collect()
+    };
+    let comparisons = asked.parameters.iter().enumerate().map(compare).collect();
+    Ok(Analysis { values, trajectory, built, derivatives: all, neighbours, comparisons, cost_s })
+}
+
+/// The run in duals, and what follows of it by parameter; `cost_s` is the time of the former.
+fn derive(
+    model: &Model,
+    parameters: &[Parameter<'_>],
+    built: &mut [Built],
+    request: &Request,
+    cost_s: &mut f64,
+) -> Result<(Trajectory, Vec<Derivatives>), Failure> {
+    let begun = Instant::now();
+    let trajectory = follow(model, built).map_err(Failure::broke_off)?;
+    *cost_s = begun.elapsed().as_secs_f64();
+    let of = parameters.iter().enumerate().map(|(k, parameter)| derivatives(model, parameter, &trajectory, k, request));
+    let of = of.collect::<Result<_, _>>().map_err(Failure::broke_off)?;
+    Ok((trajectory, of))
+}
+
+fn mean_step_s(model: &Model, trajectory: &Trajectory) -> f64 {
+    (trajectory.outcome.time_s - model.setup().time.start_s) / trajectory.outcome.effort.steps.max(1) as f64
+}
+
+/// Relative sensitivity: parts of the figure per part of the parameter; none where one of them is 0.
+pub fn relative(derivative: f64, value: f64, nominal: f64) -> Option<f64> {
+    let relative = derivative * nominal / value;
+    (value != 0.0 && nominal != 0.0 && relative.is_finite()).then_some(relative)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_are_split_at_commas_outside_quotes() {
+        let lists = ["a.b, c".to_owned(), "surfaces.\"x, y\".k1".to_owned()];
+        assert_eq!(split(&lists), ["a.b", "c", "surfaces.\"x, y\".k1"]);
+    }
+
+    #[test]
+    fn nothing_is_relative_to_nothing() {
+        assert_eq!(relative(3.0, 2.0, 4.0), Some(6.0));
+        assert_eq!(relative(3.0, 0.0, 4.0), None);
+        assert_eq!(relative(3.0, 2.0, 0.0), None);
+    }
+}

@@ -1,0 +1,268 @@
+//! What a table of samples says of one response.
+
+use occupant_study::analysis::{
+    AnalysisError, Effect, RankCorrelation, Regression, SobolIndices, rank_correlation, regression, screening,
+    sobol_indices,
+};
+use occupant_study::spread::Spread;
+use occupant_study::{Block, Design, Role, Study};
+
+use super::samples::varies;
+use super::{Input, Samples};
+
+/// The regression of k parameters looks at no more than this over (k + 1)² rows, evenly taken: its intervals are those of
+/// a thousand resamples.
+const REGRESSION_WORK: usize = 1_000_000;
+/// Nor at more than these.
+const REGRESSION_ROWS: usize = 20_000;
+
+/// What a table of samples says of one response.
+#[derive(Clone, Debug)]
+pub struct Analysis {
+    /// Which response of the table.
+    pub response: usize,
+    /// How its values spread; none if no sample has one.
+    pub spread: Option<Spread>,
+    /// Why nothing can be said of what matters: it is the same everywhere.
+    pub constant: bool,
+    /// Rank correlation and regression.
+    pub linear: Linear,
+    /// What the design is made for.
+    pub by_design: ByDesign,
+    /// Parameters, those that matter most first.
+    pub order: Vec<usize>,
+}
+
+/// Rank correlation and regression.
+#[derive(Clone, Debug)]
+pub struct Linear {
+    /// Why there is none, if there is none at all.
+    pub without: Option<String>,
+    /// By parameter: its rank correlation, or why it has none.
+    pub ranks: Vec<Result<RankCorrelation, String>>,
+    /// The regression on these parameters, or why there is none.
+    pub regression: Result<(Vec<usize>, Regression), String>,
+}
+
+/// What a design is made for.
+#[derive(Clone, Debug)]
+pub enum ByDesign {
+    /// Nothing of its own.
+    Plain,
+    /// Sobol's indices, or why there are none.
+    Sobol(Result<SobolIndices, String>),
+    /// Morris's effects by parameter, or why there are none.
+    Morris(Result<Vec<Effect>, String>),
+    /// What each parameter alone does, or why that is not known.
+    OneAtATime(Result<Vec<Reach>, String>),
+}
+
+/// How far a response goes when one parameter alone is moved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reach {
+    /// The response of the base.
+    pub nominal: f64,
+    /// Value of the parameter and response, in the order of the design; those that have a value.
+    pub levels: Vec<(f64, f64)>,
+    /// Levels without a value.
+    pub missing: usize,
+    /// Whether the values of the parameter have an order; words have none.
+    ordered: bool,
+}
+
+impl Reach {
+    /// Least and greatest response, that of the base included.
+    pub fn range(&self) -> [f64; 2] {
+        let all = || self.levels.iter().map(|l| l.1).chain([self.nominal]);
+        [all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)]
+    }
+
+    /// The response at the least and at the greatest value of the parameter, if its values have an order.
+    pub fn ends(&self) -> Option<[f64; 2]> {
+        if !self.ordered {
+            return None;
+        }
+        let by_value = |a: &&(f64, f64), b: &&(f64, f64)| a.0.total_cmp(&b.0);
+        let least = self.levels.iter().min_by(by_value)?;
+        let greatest = self.levels.iter().max_by(by_value)?;
+        Some([least.1, greatest.1])
+    }
+}
+
+impl Analysis {
+    /// Analyses response number `response` of a table of samples of a study.
+    pub fn of(samples: &Samples, response: usize, study: &Study) -> Analysis {
+        let values = &samples.responses[response].values;
+        let seed = study.seed;
+        let by_design = match &study.design {
+            Design::Saltelli { .. } => ByDesign::Sobol(sobol(samples, values, seed)),
+            Design::Morris { .. } => ByDesign::Morris(morris(samples, values, seed)),
+            Design::OneAtATime { .. } => ByDesign::OneAtATime(reaches(samples, values)),
+            _ => ByDesign::Plain,
+        };
+        let linear = Linear::of(samples, values, study);
+        Analysis {
+            response,
+            spread: Spread::of(values),
+            constant: !varies(values),
+            order: order(samples.inputs.len(), &by_design, &linear),
+            linear,
+            by_design,
+        }
+    }
+}
+
+/// Parameters by how much they matter, as far as that is known.
+fn order(parameters: usize, by_design: &ByDesign, linear: &Linear) -> Vec<usize> {
+    let weight = |i: usize| -> f64 {
+        match by_design {
+            ByDesign::Sobol(Ok(found)) => found.total.get(i).map(|e| e.value),
+            ByDesign::Morris(Ok(found)) => found.get(i).map(|e| e.mean_magnitude.value),
+            ByDesign::OneAtATime(Ok(found)) => found.get(i).map(|r| {
+                let [low, high] = r.range();
+                high - low
+            }),
+            _ => {
+                let found = linear.ranks.get(i).and_then(|r| r.as_ref().ok());
+                found.map(|r| r.rho.value.abs())
+            }
+        }
+        .filter(|x| x.is_finite())
+        .unwrap_or(-1.0)
+    };
+    let mut order: Vec<usize> = (0..parameters).collect();
+    order.sort_by(|a, b| weight(*b).total_cmp(&weight(*a)));
+    order
+}
+
+impl Linear {
+    fn of(samples: &Samples, values: &[f64], study: &Study) -> Linear {
+        let without = match &study.design {
+            Design::Morris { .. } => {
+                "the runs of Morris’s trajectories depend on one another: rank correlation and regression would claim too much"
+            }
+            Design::OneAtATime { .. } => {
+                "one parameter at a time says nothing of them together: the tornado is all there is"
+            }
+            _ => "",
+        };
+        if !without.is_empty() {
+            let why = without.to_owned();
+            return Linear { without: Some(why.clone()), ranks: Vec::new(), regression: Err(why) };
+        }
+        let rows = independent(samples);
+        let taken = |column: &[f64]| -> Vec<f64> { rows.iter().map(|r| column[*r]).collect() };
+        let y = taken(values);
+        let rank = |input: &Input| {
+            if input.is_number() {
+                rank_correlation(&taken(&input.values), &y).map_err(|e| said(&e))
+            } else {
+                Err("words have no order".to_owned())
+            }
+        };
+        Linear {
+            without: None,
+            ranks: samples.inputs.iter().map(rank).collect(),
+            regression: fit(&samples.inputs, &rows, values, study.seed),
+        }
+    }
+}
+
+/// The regression on all parameters that are numbers and vary.
+fn fit(inputs: &[Input], rows: &[usize], values: &[f64], seed: u64) -> Result<(Vec<usize>, Regression), String> {
+    let among = |i: &usize| inputs[*i].is_number() && inputs[*i].varies();
+    let which: Vec<usize> = (0..inputs.len()).filter(among).collect();
+    if which.is_empty() {
+        return Err("no parameter is a number that varies".to_owned());
+    }
+    let most = (REGRESSION_WORK / (which.len() + 1).pow(2)).clamp(200, REGRESSION_ROWS);
+    let every = rows.len().div_ceil(most).max(1);
+    let taken = |column: &[f64]| -> Vec<f64> {
+        let rows = rows.iter().step_by(every);
+        rows.map(|r| column[*r]).collect()
+    };
+    let columns: Vec<Vec<f64>> = which.iter().map(|i| taken(&inputs[*i].values)).collect();
+    let found = regression(&columns, &taken(values), seed);
+    found.map(|found| (which, found)).map_err(|e| said(&e))
+}
+
+/// Rows whose parameters were drawn independently: of Saltelli's blocks those of A and B.
+fn independent(samples: &Samples) -> Vec<usize> {
+    let is_mixed =
+        |row: &usize| matches!(samples.roles[*row], Role::Saltelli { block: Block::Ab { .. } | Block::Ba { .. }, .. });
+    (0..samples.len()).filter(|row| !is_mixed(row)).collect()
+}
+
+/// Points of which every run is there; a run without a figure is NaN.
+fn sobol(samples: &Samples, values: &[f64], seed: u64) -> Result<SobolIndices, String> {
+    let (mut a, mut b, mut ab) = (Vec::new(), Vec::new(), vec![Vec::new(); samples.inputs.len()]);
+    let runs = samples.roles.iter().zip(values).filter_map(|(role, value)| match role {
+        Role::Saltelli { point, block } => Some((point, block, *value)),
+        _ => None,
+    });
+    for runs in runs.collect::<Vec<_>>().chunk_by(|one, next| one.0 == next.0) {
+        let of = |wanted: Block| runs.iter().find(|(_, block, _)| **block == wanted).map(|run| run.2);
+        let between: Option<Vec<f64>> = (0..ab.len()).map(|parameter| of(Block::Ab { parameter })).collect();
+        if let (Some(first), Some(between), Some(last)) = (of(Block::A), between, of(Block::B)) {
+            a.push(first);
+            b.push(last);
+            ab.iter_mut().zip(between).for_each(|(column, value)| column.push(value));
+        }
+    }
+    sobol_indices(&a, &b, &ab, seed).map_err(|e| match e {
+        AnalysisError::TooFew { found, needed } => {
+            format!("{found} complete points; at least {needed} are needed")
+        }
+        e => said(&e),
+    })
+}
+
+/// The effects of every step whose two runs are there.
+fn morris(samples: &Samples, values: &[f64], seed: u64) -> Result<Vec<Effect>, String> {
+    let mut effects: Vec<Vec<f64>> = vec![Vec::new(); samples.inputs.len()];
+    for (row, role) in samples.roles.iter().enumerate() {
+        let Role::Morris { changed: Some((parameter, step)), .. } = role else {
+            continue;
+        };
+        let before = samples.numbers[row].checked_sub(1);
+        let before = before.and_then(|number| samples.row_of(number));
+        let Some(before) = before else {
+            continue;
+        };
+        effects[*parameter].push((values[row] - values[before]) / step);
+    }
+    screening(&effects, seed).map_err(|e| match e {
+        AnalysisError::TooFew { found, needed } => {
+            format!("a parameter with {found} effects; at least {needed} are needed")
+        }
+        e => said(&e),
+    })
+}
+
+fn reaches(samples: &Samples, values: &[f64]) -> Result<Vec<Reach>, String> {
+    let base = samples.roles.iter().position(|r| *r == Role::Nominal);
+    let nominal = base.map(|row| values[row]).filter(|x| x.is_finite());
+    let nominal = nominal.ok_or("the run of the base has no such figure")?;
+    let none = |input: &Input| Reach { nominal, levels: Vec::new(), missing: 0, ordered: input.is_number() };
+    let mut reaches: Vec<Reach> = samples.inputs.iter().map(none).collect();
+    for (row, role) in samples.roles.iter().enumerate() {
+        let Role::Varied { parameter } = role else {
+            continue;
+        };
+        let reach = &mut reaches[*parameter];
+        if values[row].is_finite() {
+            reach.levels.push((samples.inputs[*parameter].values[row], values[row]))
+        } else {
+            reach.missing += 1
+        }
+    }
+    Ok(reaches)
+}
+
+fn said(error: &AnalysisError) -> String {
+    match error {
+        AnalysisError::Constant { parameter: Some(_) } => "a parameter is the same in all rows".to_owned(),
+        AnalysisError::Constant { parameter: None } => "the figure is the same in all rows".to_owned(),
+        e => e.to_string(),
+    }
+}

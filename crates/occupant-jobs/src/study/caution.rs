@@ -1,0 +1,221 @@
+//! When a sample is too small for what is read from it. A number that breaks a rule is marked, not hidden.
+//!
+//! The limits are ours. Each is the least with which the number can be quoted at all: an index to its first digit, a sign
+//! that is known, a linear model that explains most of what it is a model of.
+
+use occupant_study::Design;
+use occupant_study::analysis::{Effect, Estimate, RankCorrelation, Regression, SobolIndices, rank_correlation};
+use occupant_study::spread::Spread;
+
+use super::gather::Spoiled;
+use super::shown::part as shown_part;
+use super::{Gathered, Samples};
+use crate::sweep::Stored;
+
+/// A Sobol index is marked if its 95 % interval is wider.
+const INDEX_WIDTH: f64 = 0.1;
+/// A Sobol index is marked if fewer points carry it: of intervals carried by fewer than 5 one in five misses the truth.
+const CARRYING: f64 = 10.0;
+/// An effect that no point shows may be there in fewer than 3 of so many, with 95 % confidence.
+const UNSEEN: usize = 300;
+/// A regression is marked with fewer rows for each parameter.
+const ROWS_PER_PARAMETER: usize = 10;
+/// A regression is marked if it explains a smaller part of the variance.
+const EXPLAINED: f64 = 0.7;
+/// A rank correlation is marked with fewer rows.
+const RANKED_ROWS: usize = 20;
+/// Morris's effects are marked with fewer trajectories.
+const TRAJECTORIES: usize = 10;
+/// Everything is marked where a greater part of the runs has no figure.
+const MISSING: f64 = 0.05;
+/// Parameters with a stronger rank correlation are named.
+const TOGETHER: f64 = 0.3;
+/// At most so many pairs of them.
+const NAMED: usize = 3;
+
+/// The rules, for the page and the documentation.
+pub fn rules() -> [String; 8] {
+    [
+        format!("a Sobol index whose 95 % interval is wider than {INDEX_WIDTH}: its first digit is not known"),
+        format!(
+            "a Sobol index that fewer than {CARRYING} points carry: its interval does not know what they have missed"
+        ),
+        format!(
+            "a Morris effect with fewer than {TRAJECTORIES} trajectories, or whose interval is wider than the effect"
+        ),
+        format!("a rank correlation of fewer than {RANKED_ROWS} rows"),
+        format!(
+            "a regression of fewer than {ROWS_PER_PARAMETER} rows for each parameter, or one that explains less than {EXPLAINED} of the variance"
+        ),
+        format!(
+            "every number of a response that more than {:.0} % of the runs lack: runs seldom fail by chance",
+            100.0 * MISSING
+        ),
+        format!(
+            "every number of a response that caveats spoil in more than {:.0} % of the runs, and a worst or best run with a caveat on it",
+            100.0 * MISSING
+        ),
+        "the unfinished part of a study is not there: its design holds for the whole only".to_owned(),
+    ]
+}
+
+/// Why a rank correlation is marked.
+pub fn rank(found: &RankCorrelation) -> Option<String> {
+    (found.rows < RANKED_ROWS).then(|| format!("{} rows, fewer than {RANKED_ROWS}", found.rows))
+}
+
+/// Why the coefficients of a regression are marked.
+pub fn regression(found: &Regression) -> Option<String> {
+    let needed = ROWS_PER_PARAMETER * found.coefficients.len();
+    if found.rows < needed {
+        return Some(format!("{} rows, fewer than {needed}", found.rows));
+    }
+    (found.explained < EXPLAINED).then(|| format!("R² is below {EXPLAINED}"))
+}
+
+/// Why an index of a parameter is marked.
+pub fn index(index: &Estimate, parameter: usize, found: &SobolIndices) -> Option<String> {
+    if part(found.dropped, found.points + found.dropped) > MISSING {
+        let all = found.points + found.dropped;
+        return Some(format!("{} of {all} points have runs without a figure", found.dropped));
+    }
+    let unknown = !index.width().is_finite() || index.width() > INDEX_WIDTH;
+    if unknown {
+        return Some(format!("interval wider than {INDEX_WIDTH}"));
+    }
+    match found.carrying.get(parameter) {
+        Some(0.0) if found.points < UNSEEN => Some(format!("none of {} points shows an effect", found.points)),
+        Some(few) if (0.5..CARRYING).contains(few) => Some(format!("carried by {few:.0} of {} points", found.points)),
+        _ => None,
+    }
+}
+
+/// Why an effect is marked.
+pub fn effect(found: &Effect) -> Option<String> {
+    if found.effects < TRAJECTORIES {
+        return Some(format!("{} trajectories, fewer than {TRAJECTORIES}", found.effects));
+    }
+    let wide = found.mean_magnitude.width() > found.mean_magnitude.value;
+    wide.then(|| "interval wider than the effect".to_owned())
+}
+
+/// Why all numbers of a response are marked: samples without a value.
+pub fn lacking(spread: Option<&Spread>) -> Option<String> {
+    spread.and_then(|s| missing(s.missing, s.members + s.missing))
+}
+
+/// Why all numbers of a response are marked: caveats on it.
+pub fn spoiled(found: &Spoiled) -> Option<String> {
+    let Spoiled { runs, of, names } = found;
+    let names = || names.iter().map(String::as_str).collect::<Vec<_>>().join(", ");
+    (part(*runs, *of) > MISSING).then(|| format!("{runs} of {of} runs have caveats on this figure: {}", names()))
+}
+
+fn missing(missing: usize, rows: usize) -> Option<String> {
+    let most = part(missing, rows) > MISSING;
+    most.then(|| format!("{missing} of {rows} samples have no such figure: what is said holds for the others only"))
+}
+
+fn part(some: usize, all: usize) -> f64 {
+    some as f64 / all.max(1) as f64
+}
+
+/// What a reader should know of the whole study.
+pub fn of_the_study(opened: &Stored, gathered: &Gathered) -> Vec<String> {
+    let ends = &gathered.ends;
+    let mut notes = opened.notes.clone();
+    if ends.finished() < ends.planned {
+        notes.push(format!(
+            "The study is not finished: {} of {} runs. Numbers are those of the runs that are there.",
+            ends.finished(),
+            ends.planned
+        ));
+    }
+    let lost = ends.without_figures();
+    if lost as f64 > MISSING * ends.finished() as f64 {
+        notes.push(format!(
+            "{lost} of {} runs have no figures that count. Runs seldom fail by chance: what is said of the others need not hold for all.",
+            ends.finished()
+        ));
+    }
+    let caveats: Vec<String> = ends.caveats().collect();
+    if !caveats.is_empty() {
+        let help = "`occupant run` of such a run says what was seen and which figures it spoils.";
+        notes.push(format!("Caveats. {}. {help}", caveats.join("; ")));
+    }
+    let study = &opened.plan.study;
+    if !matches!(study.design, Design::Saltelli { .. } | Design::Morris { .. } | Design::OneAtATime { .. }) {
+        notes.extend(together(&gathered.samples));
+    }
+    if study.parameters.is_empty() && study.design == Design::Single {
+        notes.push(
+            "The study varies nothing but the small changes of its ensemble: there is no parameter to analyse."
+                .to_owned(),
+        );
+    }
+    notes
+}
+
+/// Parameters that go together, the strongest first: what one does cannot be separated from what the other does.
+fn together(samples: &Samples) -> Vec<String> {
+    let numbers: Vec<_> = samples.inputs.iter().filter(|i| i.is_number()).collect();
+    let mut pairs = Vec::new();
+    for (i, a) in numbers.iter().enumerate() {
+        for b in &numbers[..i] {
+            match rank_correlation(&b.values, &a.values) {
+                Ok(found) if found.rho.value.abs() > TOGETHER && found.rho.is_clear() => {
+                    pairs.push((found.rho.value, &b.name, &a.name));
+                }
+                _ => {}
+            }
+        }
+    }
+    pairs.sort_by(|a, b| b.0.abs().total_cmp(&a.0.abs()));
+    let words = |(rho, a, b): &(f64, &String, &String)| {
+        format!(
+            "The samples vary {a} and {b} together (rank correlation {}): what one does is partly counted for the other.",
+            shown_part(*rho)
+        )
+    };
+    pairs.iter().take(NAMED).map(words).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_is_marked_exactly_where_a_rule_says_so() {
+        let estimate = |low: f64, high: f64| Estimate { value: 0.5 * (low + high), low, high };
+        let found = |points, dropped| SobolIndices {
+            first: Vec::new(),
+            total: Vec::new(),
+            carrying: vec![20.0, 4.0, 0.0],
+            mean: 0.0,
+            variance: 1.0,
+            points,
+            dropped,
+        };
+        assert_eq!(index(&estimate(0.25, 0.35), 0, &found(100, 5)), None);
+        assert!(index(&estimate(0.25, 0.36), 0, &found(100, 0)).is_some());
+        assert!(index(&estimate(0.25, f64::NAN), 0, &found(100, 0)).is_some());
+        assert!(index(&estimate(0.3, 0.3), 0, &found(94, 6)).is_some());
+        assert_eq!(index(&estimate(0.0, 0.01), 1, &found(300, 0)).as_deref(), Some("carried by 4 of 300 points"));
+        assert!(index(&estimate(0.0, 0.0), 2, &found(299, 0)).is_some());
+        assert_eq!(index(&estimate(0.0, 0.0), 2, &found(300, 0)), None);
+        let effect_of = |effects, high| Effect {
+            mean: estimate(0.0, 0.0),
+            mean_magnitude: estimate(1.0, high),
+            deviation: 0.0,
+            effects,
+            dropped: 0,
+        };
+        assert_eq!(effect(&effect_of(10, 3.0)), None);
+        assert!(effect(&effect_of(9, 1.0)).is_some() && effect(&effect_of(10, 3.1)).is_some());
+        let fit = |rows, explained| Regression { coefficients: vec![estimate(0.0, 0.0); 3], explained, rows };
+        assert_eq!(regression(&fit(30, 0.7)), None);
+        assert!(regression(&fit(29, 0.9)).is_some() && regression(&fit(30, 0.69)).is_some());
+        assert_eq!(missing(5, 100), None);
+        assert!(missing(6, 100).is_some() && missing(0, 0).is_none());
+    }
+}

@@ -1,0 +1,71 @@
+//! The shell command that runs one sample again.
+//!
+//! It names the copies in the folder of the sweep, so that it gives the same figures wherever the folder is moved, and says
+//! the values themselves: factors and offsets stand as what they come to, in digits that give the same bits back.
+
+use std::path::Path;
+
+use crate::base::file_name;
+use crate::files::study_folder::{Manifest, NamedBy};
+use crate::sweep::Plan;
+
+/// The command that runs a run of the study again, given in the folder of the sweep. None where no shell can say it.
+pub fn command(plan: &Plan, manifest: &Manifest, run: u64) -> Option<String> {
+    let (args, _) = plan.command(run);
+    let base = manifest.texts.iter().find(|t| t.by == NamedBy::StudyAsBase)?;
+    let mut words = vec!["occupant".to_owned(), "run".to_owned(), base.copy.clone()];
+    for change in args.overrides.into_iter().chain(tables(plan, manifest, run)) {
+        words.extend(["--set".to_owned(), change]);
+    }
+    words.extend(["-o".to_owned(), format!("sample-{run:06}.mcap")]);
+    let quoted: Option<Vec<String>> = words.iter().map(|w| quoted(w)).collect();
+    quoted.map(|words| words.join(" "))
+}
+
+/// The files that the sample's scenario names, by the names of their copies, which stand beside that of the scenario.
+fn tables(plan: &Plan, manifest: &Manifest, run: u64) -> Vec<String> {
+    let named = plan.study.draft(run).map_or_else(|_| Vec::new(), |mut draft| draft.files());
+    let copied = |(path, name): (String, String)| {
+        let text = manifest.texts.iter().find(|t| t.by == NamedBy::Scenario && t.name == name)?;
+        let copy = file_name(Path::new(&text.copy));
+        Some(format!("{path}={}", serde_json::Value::from(copy)))
+    };
+    named.into_iter().filter_map(copied).collect()
+}
+
+/// A word as a POSIX shell reads it back unchanged; none if it holds a character that no argument can.
+pub fn quoted(word: &str) -> Option<String> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_./=,:@%+-".contains(c);
+    match word {
+        _ if word.contains('\0') => None,
+        _ if !word.is_empty() && word.chars().all(plain) => Some(word.to_owned()),
+        _ => Some(format!("'{}'", word.replace('\'', "'\\''"))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn a_shell_reads_back_what_was_quoted() {
+        let words = [
+            "a",
+            "joints.*.damping=2",
+            "it's $HOME `x` \"y\" \\ !",
+            "",
+            "two\nlines",
+            "é 20 N·m",
+            "a'b''c",
+            "~",
+            "#no",
+        ];
+        for word in words {
+            let script = format!("printf %s {}", quoted(word).unwrap());
+            let output = std::process::Command::new("sh").args(["-c", &script]).output();
+            assert_eq!(output.unwrap().stdout, word.as_bytes(), "{word}");
+        }
+        assert_eq!(quoted("a\0b"), None);
+        assert_eq!(quoted("speed=3.5").as_deref(), Some("speed=3.5"));
+    }
+}

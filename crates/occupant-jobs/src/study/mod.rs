@@ -1,0 +1,105 @@
+//! What a finished or growing study says: which parameter matters, how much, how sure that is, and how to run it again.
+//!
+//! ```text
+//! folder of a sweep ─ Stored ─ Samples (a table of inputs and responses) ─ Analysis of each response ─ numbers ─ page, Parquet
+//! ```
+
+pub mod analysis;
+pub mod bands;
+pub mod caution;
+mod command;
+mod describe;
+mod gather;
+mod matrix;
+mod matters;
+mod numbers;
+mod page;
+mod panels;
+mod pictures;
+mod plots;
+mod responses;
+pub mod samples;
+mod sections;
+mod shown;
+mod tables;
+
+pub use matrix::text as matrix_text;
+pub use page::{page, subject};
+pub use tables::{Tables, write as write_tables};
+
+use crate::base::{Failure, Units};
+use crate::sweep::Stored;
+use analysis::{Analysis, ByDesign, Linear};
+use gather::Gathered;
+use numbers::{Number, numbers};
+use samples::{Input, Response, Samples};
+
+/// Everything that a report says of a study.
+pub struct Report {
+    /// The folder it comes from.
+    pub opened: Stored,
+    gathered: Gathered,
+    /// By response: its analysis and all its numbers.
+    analyses: Vec<(Analysis, Vec<Number>)>,
+    /// What a reader should know before trusting any number of it.
+    pub notes: Vec<String>,
+}
+
+/// A response and what the study says of it.
+struct Finding<'a> {
+    samples: &'a Samples,
+    response: &'a Response,
+    analysis: &'a Analysis,
+    numbers: &'a [Number],
+}
+
+impl Finding<'_> {
+    /// Parameters, those that matter most first.
+    fn order(&self) -> impl Iterator<Item = usize> + Clone {
+        self.analysis.order.iter().copied()
+    }
+
+    fn number(&self, quantity: &str, parameter: usize) -> Option<&Number> {
+        self.numbers.iter().find(|n| n.quantity == quantity && n.parameter == Some(parameter))
+    }
+
+    /// The value of a quantity; NaN without one.
+    fn value(&self, quantity: &str, parameter: usize) -> f64 {
+        self.number(quantity, parameter).map_or(f64::NAN, |n| n.estimate.value)
+    }
+
+    /// Whether a rule of its own marks a number, not one that marks all of the response.
+    fn is_marked(&self, number: &Number) -> bool {
+        number.mark != caution::lacking(self.analysis.spread.as_ref())
+    }
+}
+
+impl Report {
+    /// Reads the rows and analyses the responses that `names` asks for, the customary ones for none.
+    ///
+    /// # Errors
+    /// A name that is none; a journal that cannot be read.
+    pub fn of(opened: Stored, names: &[String], units: Units) -> Result<Report, Failure> {
+        let candidates = responses::candidates(&opened.manifest, names)?;
+        let mut gathered = gather::gather(&opened, &candidates, units)?;
+        if names.is_empty() {
+            responses::keep_telling(&mut gathered);
+        }
+        let analyse = |i: usize| {
+            let analysis = Analysis::of(&gathered.samples, i, &opened.plan.study);
+            let numbers = numbers(&opened, &gathered, &analysis);
+            (analysis, numbers)
+        };
+        let analyses = (0..gathered.samples.responses.len()).map(analyse).collect();
+        Ok(Report { analyses, notes: caution::of_the_study(&opened, &gathered), gathered, opened })
+    }
+
+    /// What it says of each response.
+    fn findings(&self) -> impl Iterator<Item = Finding<'_>> {
+        let samples = &self.gathered.samples;
+        self.analyses.iter().map(move |(analysis, numbers)| {
+            let response = &samples.responses[analysis.response];
+            Finding { samples, response, analysis, numbers }
+        })
+    }
+}

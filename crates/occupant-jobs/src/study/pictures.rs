@@ -1,0 +1,76 @@
+//! The pictures of a response over its parameters.
+
+use occupant_study::spread::quantile;
+
+use super::{ByDesign, Finding, Input, Response, plots};
+use occupant_pictures::html::Html;
+
+/// At most so many scatter plots for each response.
+const SCATTERS: usize = 9;
+/// Pairs of this many parameters are mapped.
+const MAPPED: usize = 4;
+/// Maps need so many rows for five colours to say anything.
+const MAPPED_ROWS: usize = 10;
+
+/// A response over each parameter, and over two at a time.
+pub fn pictures(html: &mut Html, of: &Finding<'_>) {
+    let Finding { samples, response, analysis, .. } = of;
+    let drawn: Vec<&Input> =
+        analysis.order.iter().map(|i| &samples.inputs[*i]).filter(|input| input.varies()).collect();
+    if drawn.is_empty() {
+        return;
+    }
+    html.text("h3", "Over each parameter");
+    if drawn.len() > SCATTERS {
+        let words = format!("The {SCATTERS} that matter most of {}.", drawn.len());
+        html.text("p class=\"remark\"", &words);
+    }
+    if samples.len() > plots::MOST_DOTS {
+        let every = samples.len().div_ceil(plots::MOST_DOTS);
+        let words = format!("One of {every} samples is drawn; all of them count in the numbers.");
+        html.text("p class=\"remark\"", &words);
+    }
+    html.raw("<div class=\"grid\">\n");
+    for input in drawn.iter().take(SCATTERS) {
+        let picture = plots::scatter(input, response);
+        html.raw(&format!("<figure>{picture}</figure>\n"));
+    }
+    html.raw("</div>\n");
+    // one parameter at a time, no two are ever varied together
+    if !matches!(analysis.by_design, ByDesign::OneAtATime(_)) {
+        maps(html, &drawn, response);
+    }
+}
+
+fn maps(html: &mut Html, drawn: &[&Input], response: &Response) {
+    let Some(fifths) = fifths(&response.values) else {
+        return;
+    };
+    let few = &drawn[..drawn.len().min(MAPPED)];
+    if few.len() < 2 {
+        return;
+    }
+    html.text("h3", "Over two parameters");
+    if drawn.len() > MAPPED {
+        let words = format!("Pairs of the {MAPPED} that matter most.");
+        html.text("p class=\"remark\"", &words);
+    }
+    html.raw("<div class=\"grid\">\n");
+    for (i, up) in few.iter().enumerate() {
+        for across in &few[..i] {
+            let picture = plots::map(across, up, response, &fifths);
+            html.raw(&format!("<figure>{picture}</figure>\n"));
+        }
+    }
+    html.raw("</div>\n");
+}
+
+/// The bounds between the fifths of the values.
+fn fifths(values: &[f64]) -> Option<[f64; 4]> {
+    let there = values.iter().filter(|x| x.is_finite()).count();
+    if there < MAPPED_ROWS {
+        return None;
+    }
+    let bounds: Vec<f64> = [0.2, 0.4, 0.6, 0.8].iter().filter_map(|p| quantile(values, *p)).collect();
+    bounds.try_into().ok()
+}

@@ -1,0 +1,70 @@
+//! Which figures of the runs a report is about.
+
+use crate::base::customary::FIGURES;
+use occupant_core::results::channel::star;
+use placed_text::nearest;
+
+use super::Gathered;
+use super::samples::varies;
+use crate::base::Failure;
+use crate::ensemble::judge::is_result;
+use crate::files::study_folder::{Column, Manifest, Role};
+
+/// At most so many of the customary figures.
+const MOST: usize = 8;
+
+/// The columns of the figures that are asked for, or of all customary ones.
+///
+/// # Errors
+/// A name or pattern that fits no figure.
+pub fn candidates(manifest: &Manifest, names: &[String]) -> Result<Vec<usize>, Failure> {
+    let columns = &manifest.columns;
+    let fitting = |pattern: &str| -> Vec<usize> {
+        let is_it = |c: &Column| c.role == Role::Figure && star(pattern, &c.name).is_some();
+        (0..columns.len()).filter(|i| is_it(&columns[*i])).collect()
+    };
+    if names.is_empty() {
+        return Ok(FIGURES.iter().flat_map(|name| fitting(name)).collect());
+    }
+    let mut chosen: Vec<usize> = Vec::new();
+    for name in names.iter().flat_map(|n| n.split(',')).map(str::trim) {
+        let found = fitting(name);
+        if found.is_empty() {
+            return Err(unknown(manifest, name));
+        }
+        let new = found.into_iter().filter(|i| !chosen.contains(i));
+        chosen.extend(new.collect::<Vec<_>>());
+    }
+    Ok(chosen)
+}
+
+fn unknown(manifest: &Manifest, name: &str) -> Failure {
+    let figures = manifest.columns.iter().filter(|c| c.role == Role::Figure);
+    let names: Vec<&str> = figures.map(|c| c.name.as_str()).collect();
+    let help = match nearest(name, names.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => {
+            let results = names.iter().copied().filter(|n| is_result(n));
+            format!("the figures are {}", results.collect::<Vec<_>>().join(", "))
+        }
+    };
+    Failure::with_help(format!("--to: no figure is named `{name}`"), &help)
+}
+
+/// Of the customary figures leaves the first that vary, or the first of all where none does.
+pub fn keep_telling(gathered: &mut Gathered) {
+    let responses = &gathered.samples.responses;
+    let mut kept: Vec<usize> = (0..responses.len()).filter(|i| varies(&responses[*i].values)).take(MOST).collect();
+    if kept.is_empty() {
+        kept.extend((!responses.is_empty()).then_some(0));
+    }
+    keep(&mut gathered.samples.responses, &kept);
+    keep(&mut gathered.extremes, &kept);
+    keep(&mut gathered.spoiled, &kept);
+}
+
+/// Leaves the items at these places.
+fn keep<T>(list: &mut Vec<T>, places: &[usize]) {
+    let mut place = 0..;
+    list.retain(|_| place.next().is_some_and(|at: usize| places.contains(&at)));
+}

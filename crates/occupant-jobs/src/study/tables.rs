@@ -1,0 +1,109 @@
+//! The numbers of a report as Parquet: one table of all numbers, one of the samples that they are made of.
+
+use std::path::{Path, PathBuf};
+
+use super::{Finding, Number, Report};
+use crate::base::{Existing, Failure};
+use occupant_files::table::{Cell, Form, Kind, TableFile, columns};
+
+/// Where the tables of a report go.
+#[derive(Clone, Debug)]
+pub struct Tables {
+    pub numbers: PathBuf,
+    pub samples: PathBuf,
+}
+
+impl Tables {
+    /// Beside the page: `report.html` has `report.parquet` and `report-samples.parquet`.
+    pub fn beside(page: &Path) -> Self {
+        let stem = page.file_stem().unwrap_or_default().to_string_lossy();
+        Tables {
+            numbers: page.with_file_name(format!("{stem}.parquet")),
+            samples: page.with_file_name(format!("{stem}-samples.parquet")),
+        }
+    }
+}
+
+/// Writes the tables.
+///
+/// # Errors
+/// A file that is there and may not be replaced; the operating system refuses.
+pub fn write(report: &Report, tables: &Tables, existing: Existing) -> Result<(), Failure> {
+    let about = [
+        ("occupant.study", report.opened.manifest_sha256.clone()),
+        (
+            "occupant.units",
+            "{\"value\": \"column unit\", \"low\": \"column unit\", \"high\": \"column unit\"}".to_owned(),
+        ),
+    ];
+    let columns = columns(&[
+        (Kind::Text, &["response", "quantity", "parameter"]),
+        (Kind::MaybeNumber, &["run", "value", "low", "high"]),
+        (Kind::Text, &["unit"]),
+        (Kind::Count, &["rows"]),
+        (Kind::Text, &["mark", "command"]),
+        (Kind::Count, &["place"]),
+    ]);
+    let mut table = TableFile::create(tables.numbers.clone(), Form::Parquet, existing, &columns, &about)?;
+    for finding in report.findings() {
+        finding.numbers.iter().try_for_each(|number| table.row(row(&finding, number)))?;
+    }
+    table.publish()?;
+    samples(report, &tables.samples, existing)
+}
+
+fn row(of: &Finding<'_>, number: &Number) -> Vec<Cell> {
+    let (e, run) = (&number.estimate, number.run.as_ref());
+    let mut row = vec![
+        Cell::text(&of.response.name),
+        Cell::text(number.quantity),
+        Cell::text(number.parameter.map_or("", |i| &of.samples.inputs[i].name)),
+        run.map_or(Cell::Absent, |run| Cell::count(run.number)),
+    ];
+    row.extend([e.value, e.low, e.high].map(Cell::finite));
+    row.extend([
+        Cell::text(if number.in_unit { &of.response.unit.si } else { "1" }),
+        Cell::count(number.rows as u64),
+        Cell::text(number.mark.as_deref().unwrap_or_default()),
+        Cell::text(run.and_then(|run| run.command.as_deref()).unwrap_or_default()),
+        Cell::count(run.map_or(0, |run| run.place)),
+    ]);
+    row
+}
+
+fn samples(report: &Report, path: &Path, existing: Existing) -> Result<(), Failure> {
+    let samples = &report.gathered.samples;
+    let mut columns = vec![("sample".to_owned(), Kind::Count)];
+    let mut units = serde_json::Map::new();
+    for input in &samples.inputs {
+        let kind = if input.is_number() { Kind::MaybeNumber } else { Kind::Text };
+        let name = format!("input.{}", input.name);
+        let unit = if input.unit.si.is_empty() && input.is_number() { "1" } else { &input.unit.si };
+        units.insert(name.clone(), unit.into());
+        columns.push((name, kind));
+    }
+    for response in &samples.responses {
+        units.insert(response.name.clone(), response.unit.si.clone().into());
+        columns.push((response.name.clone(), Kind::MaybeNumber));
+    }
+    let about = [
+        ("occupant.study", report.opened.manifest_sha256.clone()),
+        ("occupant.units", serde_json::Value::Object(units).to_string()),
+    ];
+    let mut table = TableFile::create(path.to_owned(), Form::Parquet, existing, &columns, &about)?;
+    for (i, number) in samples.numbers.iter().enumerate() {
+        let mut row = vec![Cell::count(*number)];
+        for input in &samples.inputs {
+            let value = input.values[i];
+            let word = |words: &Vec<String>| words.get(value as usize).filter(|_| !value.is_nan()).cloned();
+            row.push(match &input.words {
+                None => Cell::finite(value),
+                Some(words) => Cell::text(&word(words).unwrap_or_default()),
+            });
+        }
+        let values = samples.responses.iter();
+        row.extend(values.map(|response| Cell::finite(response.values[i])));
+        table.row(row)?;
+    }
+    table.publish().map(|_| ())
+}

@@ -1,0 +1,279 @@
+//! From the name of a study to samples that can be run.
+
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
+
+use occupant_core::model::Model;
+use occupant_core::results::summary::{Figure, Summarizer};
+use occupant_core::run::simulate::attempt;
+use occupant_scenario::{Diagnostics, Draft, Loaded, names_file};
+use occupant_study::{Design, Law, Parameter, Setting, Study, StudyText, Value};
+use placed_text::Value as Written;
+
+use crate::base::{Failure, file_name};
+use crate::files::scenario::{Opened, ScenarioArgs, Tables, format_of, refused, retitle};
+use crate::files::study_folder::{Column, Manifest, NamedBy, Role, Texts};
+use crate::risk::columns as vehicle_columns;
+use crate::run::FirstOutput;
+use occupant_files::table::Cell;
+
+/// So many samples, spread over a study, are looked at before it is run, if the first are refused.
+const LOOKED_AT: u64 = 32;
+
+/// So many samples are tried to find the columns where the base scenario itself cannot be run.
+const TRIED: u64 = 16;
+
+/// A study and everything it needs. Shared by all threads.
+pub struct Plan {
+    pub study: Study,
+    /// Path of the scenario that is varied, for messages and results.
+    scenario: PathBuf,
+    bytes: Vec<u8>,
+    /// Changes of the study and of the command line that are the same in all samples.
+    changes: Vec<String>,
+    /// What the scenarios of the samples name.
+    pub tables: Tables,
+    /// What the folder of the sweep will hold.
+    pub manifest: Manifest,
+    /// Bytes of the manifest's texts.
+    pub texts: Vec<Vec<u8>>,
+    /// Warnings about study and scenario.
+    pub warnings: Diagnostics,
+}
+
+impl Plan {
+    /// Reads a study and all that it names; `name` is what messages call it.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, in words.
+    pub fn open(name: &Path, overrides: &[String], texts: &Texts, program: String) -> Result<Plan, Failure> {
+        let text = study_text(name, texts)?;
+        let shown = name.display().to_string();
+        let scenario = name.parent().unwrap_or(Path::new("")).join(text.base());
+        let bytes = texts.get(NamedBy::StudyAsBase, text.base());
+        let bytes = bytes.map_err(|e| {
+            refused(&shown, &unread(&text, "base", &format!("the scenario {}", scenario.display()), &e))
+        })?;
+        let scenario_name = scenario.display().to_string();
+        let draft = Draft::read_bytes(&bytes, format_of(&scenario), &scenario_name)
+            .map_err(|problems| refused(&scenario_name, &problems))?;
+        let beside = |file: &str| texts.get(NamedBy::Study, file);
+        let study = text.bind(draft, overrides, &beside).map_err(|problems| refused(&shown, &problems))?;
+        let mut changes = changes_of(&text);
+        changes.extend(overrides.iter().cloned());
+        let title = text.section.title.clone().unwrap_or_default();
+        let manifest = Manifest::new(program, title, study.len(), overrides.to_vec());
+        let mut plan = Plan {
+            warnings: study.warnings.clone(),
+            study,
+            scenario,
+            bytes,
+            changes,
+            tables: Tables::default(),
+            manifest,
+            texts: Vec::new(),
+        };
+        plan.take_tables(texts);
+        plan.manifest.columns = plan.columns()?;
+        (plan.manifest.texts, plan.texts) = texts.all();
+        Ok(plan)
+    }
+
+    /// The values of a sample, by the columns that are inputs.
+    pub fn inputs(&self, index: u64) -> Vec<Cell> {
+        let columns = &self.manifest.columns;
+        let cell = |(at, setting): (usize, &Setting)| {
+            let is_text = columns.get(at).is_some_and(|c| c.role == Role::InputText);
+            match &setting.value {
+                Value::Number(x) if is_text => Cell::Text(x.to_string().into()),
+                Value::Number(x) => Cell::Number(*x),
+                Value::Text(text) => Cell::Text(text.as_str().into()),
+                Value::Truth(b) => Cell::Text(b.to_string().into()),
+                Value::Base => Cell::Absent,
+            }
+        };
+        let settings = self.study.sample(index);
+        let mut cells: Vec<Cell> = settings.iter().enumerate().map(cell).collect();
+        if self.study.members() > 1 {
+            let (sample, member) = self.study.sample_and_member(index);
+            cells.extend([sample, member].map(|n| Cell::Number(n as f64)));
+        }
+        cells
+    }
+
+    /// The model of a sample.
+    ///
+    /// # Errors
+    /// What is wrong with its scenario.
+    pub fn open_sample(&self, index: u64) -> Result<Opened, Diagnostics> {
+        let (loaded, model, warnings) = self.model(Some(index))?;
+        // only a run that is kept needs the bytes
+        Ok(Opened { bytes: Vec::new(), loaded, model, warnings, deck: None })
+    }
+
+    /// Refuses a study of which every sample that is looked at is refused, such as one of a key without meaning in its scenario.
+    ///
+    /// # Errors
+    /// What is wrong with the first of them.
+    pub fn refuse_hopeless(&self) -> Result<(), Failure> {
+        let samples = self.study.len();
+        let spread = (0..LOOKED_AT).map(|i| i * samples / LOOKED_AT).chain([samples.saturating_sub(1)]);
+        let mut first = None;
+        for index in spread.filter(|index| *index < samples && !self.study.assignments(*index).is_empty()) {
+            match self.open_sample(index) {
+                Ok(_) => return Ok(()),
+                Err(problems) => first = first.or(Some((index, problems))),
+            }
+        }
+        first.map_or(Ok(()), |(index, problems)| {
+            let found = format!("every sample that was looked at is refused, sample {index} for this:\n{problems}");
+            Err(Failure::with_help(found, "nothing was run; vary what the base scenario has a use for"))
+        })
+    }
+
+    /// The same of a sample whose run is kept, as `occupant run` has it: its title says what was changed.
+    ///
+    /// # Errors
+    /// What is wrong with its scenario.
+    pub fn open_kept(&self, index: u64) -> Result<(Opened, ScenarioArgs), Diagnostics> {
+        let (args, bytes) = self.command(index);
+        let mut draft = self.study.base.clone();
+        self.study.apply(index, &mut draft)?;
+        retitle(&mut draft, &args.overrides);
+        let (loaded, model, warnings) = self.tables.open(draft)?;
+        Ok((Opened { bytes, loaded, model, warnings, deck: None }, args))
+    }
+
+    /// The words with which `occupant run` runs a sample, and the scenario's bytes.
+    pub fn command(&self, index: u64) -> (ScenarioArgs, Vec<u8>) {
+        let mut overrides = self.changes.clone();
+        let assignments = self.study.assignments(index);
+        overrides.extend(assignments.iter().map(|a| format!("{}={}", a.path, a.text())));
+        (ScenarioArgs { scenario: self.scenario.clone(), overrides }, self.bytes.clone())
+    }
+
+    /// The model of a sample, or of the base scenario.
+    fn model(&self, index: Option<u64>) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
+        let mut draft = self.study.base.clone();
+        if let Some(index) = index {
+            self.study.apply(index, &mut draft)?;
+        }
+        self.tables.open(draft)
+    }
+
+    /// Reads what the scenario names, and what those of the samples name where a study varies the name of a file.
+    fn take_tables(&mut self, texts: &Texts) {
+        let mut names: Vec<String> = self.study.base.clone().files().into_iter().map(|(_, name)| name).collect();
+        let varied = self.study.parameters.iter().any(|p| p.targets.iter().any(|t| names_file(&t.path)));
+        for index in (0..self.study.len()).filter(|_| varied) {
+            for assignment in &self.study.assignments(index) {
+                if let (true, Value::Text(name)) = (names_file(&assignment.path), &assignment.value)
+                    && !names.contains(name)
+                {
+                    names.push(name.clone());
+                }
+            }
+        }
+        for name in names {
+            // one that cannot be read is a refusal of the samples that name it
+            if let Ok(bytes) = texts.get(NamedBy::Scenario, &name) {
+                self.tables.0.push((name, bytes));
+            }
+        }
+    }
+
+    /// Inputs as the study names them, figures as the base scenario has them.
+    fn columns(&self) -> Result<Vec<Column>, Failure> {
+        let number = |name: &str, unit: &str| Column {
+            name: format!("input.{name}"),
+            unit: if unit.is_empty() { "1" } else { unit }.to_owned(),
+            role: Role::Input,
+        };
+        let input = |(at, parameter): (usize, &Parameter)| {
+            let column = number(&parameter.name, parameter.unit);
+            if has_texts(&self.study, at) {
+                return Column { unit: String::new(), role: Role::InputText, ..column };
+            }
+            column
+        };
+        let parameters = self.study.parameters.iter().enumerate();
+        let mut columns: Vec<Column> = parameters.map(input).collect();
+        if self.study.members() > 1 {
+            columns.push(number("ensemble.sample", ""));
+            columns.push(number("ensemble.member", ""));
+        }
+        let figure = |f: Figure| Column { name: f.name, unit: f.unit.to_owned(), role: Role::Figure };
+        columns.extend(self.figures()?.into_iter().map(figure));
+        Ok(columns)
+    }
+
+    /// The figures of the first scenario that can be run.
+    fn figures(&self) -> Result<Vec<Figure>, Failure> {
+        let tried = std::iter::once(None).chain((0..self.study.len().min(TRIED)).map(Some));
+        let mut first_refusal = None;
+        for index in tried {
+            match self.model(index) {
+                Ok((_, model, _)) => {
+                    let mut summarizer = Summarizer::new();
+                    // one output is enough to know them
+                    let stopped = attempt(&model, (&mut summarizer, FirstOutput));
+                    if let (Ok(_), Some(summary)) = (stopped, summarizer.summary(None)) {
+                        return Ok([summary.figures(&model), vehicle_columns(model.setup())].concat());
+                    }
+                }
+                Err(problems) => {
+                    first_refusal.get_or_insert(problems);
+                }
+            }
+        }
+        let scenario = self.scenario.display().to_string();
+        Err(refused(&scenario, &first_refusal.unwrap_or_else(Diagnostics::new)))
+    }
+}
+
+/// The text of a study; `name` is what messages call it.
+///
+/// # Errors
+/// One that cannot be read; everything that is wrong with its words.
+pub fn study_text(name: &Path, texts: &Texts) -> Result<StudyText, Failure> {
+    let shown = name.display().to_string();
+    let bytes = texts.get(NamedBy::CommandLine, &file_name(name));
+    let bytes = bytes.map_err(|e| Failure::plain(format!("the study {shown} cannot be read: {e}")))?;
+    StudyText::read_bytes(&bytes, format_of(name), &shown).map_err(|problems| {
+        // a key of scenarios that no study has
+        let draft = Draft::read_bytes(&bytes, format_of(name), &shown);
+        if draft.is_ok_and(|mut draft| draft.get("time").is_ok() && draft.get("base").is_err()) {
+            let help = format!("occupant run {shown} runs it; a study names it as its `base`");
+            return Failure::with_help(format!("{shown} is a scenario, not a study"), &help);
+        }
+        refused(&shown, &problems)
+    })
+}
+
+/// What is wrong with a study that names, at this place, a file that cannot be read.
+pub fn unread(text: &StudyText, at: &str, file: &str, error: &dyn Display) -> Diagnostics {
+    text.complaint(at, format!("{file} cannot be read: {error}"), "a file, by its path from that of the study", None)
+}
+
+/// What the study puts into its scenario in all samples, as `--set` writes it.
+fn changes_of(text: &StudyText) -> Vec<String> {
+    let change = |(path, value): (&String, &Written)| match value {
+        Written::Bool(b) => format!("{path}={b}"),
+        Written::Integer(i) => format!("{path}={i}"),
+        Written::Float(x) => format!("{path}={x:?}"),
+        Written::String(text) => format!("{path}={}", serde_json::Value::from(text.as_str())),
+        // the check has refused all others
+        Written::Null | Written::Array(_) | Written::Table(_) => format!("{path}="),
+    };
+    text.section.set.iter().map(change).collect()
+}
+
+/// Whether a parameter has values that are no numbers.
+fn has_texts(study: &Study, at: usize) -> bool {
+    let text = |value: &Value| matches!(value, Value::Text(_) | Value::Truth(_));
+    match (study.parameters.get(at).map(|p| &p.law), &study.design) {
+        (Some(Law::List(values)), _) => values.iter().any(text),
+        (Some(Law::Table), Design::Table { rows, .. }) => rows.iter().any(|row| row.get(at).is_some_and(text)),
+        _ => false,
+    }
+}

@@ -1,0 +1,92 @@
+//! One sample: scenario, model, run, figures, row.
+
+use occupant_core::model::Model;
+use occupant_core::results::summary::{Summarizer, Summary};
+use occupant_study::Keep;
+use occupant_study::engine::{Finished, NotBegun, Source};
+
+use super::Plan;
+use crate::base::{Existing, Failure};
+use crate::files::study_folder::{Checksums, Folder, Role, Row, Status};
+use crate::risk::columns;
+use crate::run::recording::{Recording, Written};
+use occupant_files::table::Cell;
+
+/// Runs the samples of a plan.
+pub struct Simulation<'a> {
+    pub plan: &'a Plan,
+    /// Of which samples the whole run is written.
+    pub keep: &'a Keep,
+    pub folder: &'a Folder,
+    pub sums: &'a Checksums,
+}
+
+/// Whether a keep says, beforehand, that the run of a sample is written.
+pub fn is_kept(keep: &Keep, index: u64) -> bool {
+    match keep {
+        Keep::All => true,
+        Keep::Indices(numbers) => numbers.binary_search(&index).is_ok(),
+        Keep::None | Keep::Worst { .. } => false,
+    }
+}
+
+impl Source for Simulation<'_> {
+    type Recorder = (Summarizer, Recording);
+    type Row = Row;
+    type Error = Failure;
+
+    fn begin(&self, index: u64) -> Result<(Model, Self::Recorder), NotBegun<Failure>> {
+        if !is_kept(self.keep, index) {
+            return Ok((self.plan.open_sample(index)?.model, (Summarizer::new(), Recording::none())));
+        }
+        let (opened, args) = self.plan.open_kept(index)?;
+        let name = self.folder.run(index);
+        let begun = Recording::begin(&name, Existing::Replace, &args, &opened, None);
+        let recording = begun.map_err(NotBegun::Error)?;
+        Ok((opened.model, (Summarizer::new(), recording)))
+    }
+
+    fn end(&self, run: Finished<Self::Recorder>) -> Result<Row, Failure> {
+        let mut cells = self.plan.inputs(run.index);
+        cells.resize(self.plan.manifest.columns.len(), Cell::Absent);
+        let mut row = Row::of(&run, cells);
+        if let Some(ran) = run.ran {
+            let (summarizer, recording) = ran.recorder;
+            if let Written::Complete(path) | Written::Partial(path) =
+                recording.close(row.status == Status::Completed)?
+            {
+                self.sums.add(&path)?;
+            }
+            if let Some(summary) = summarizer.summary(None) {
+                self.fill(&mut row, &summary, &ran.model);
+                row.warn_of(&summary.caveats);
+            }
+        }
+        Ok(row)
+    }
+
+    fn stopped(&self, (_, recording): Self::Recorder) -> Result<(), Failure> {
+        recording.close(false).map(|_| ())
+    }
+}
+
+impl Simulation<'_> {
+    /// Puts the figures into their columns. A run that failed has only those of its work: its peaks are those of numbers
+    /// that ran away.
+    fn fill(&self, row: &mut Row, summary: &Summary, model: &Model) {
+        let kept = &self.plan.manifest.columns;
+        let first = kept.iter().take_while(|c| c.role != Role::Figure).count();
+        for (i, figure) in [summary.figures(model), columns(model.setup())].concat().iter().enumerate() {
+            if row.status != Status::Completed && !figure.is_of_work() {
+                continue;
+            }
+            let is_it = |at: &usize| kept.get(*at).is_some_and(|c| c.name == figure.name);
+            // a sample whose belts or spheres are others has its figures in other places
+            let elsewhere = || (first..kept.len()).find(is_it);
+            let at = Some(first + i).filter(is_it).or_else(elsewhere);
+            if let (Some(at), Some(value)) = (at, figure.value) {
+                row.cells[at] = Cell::Number(value);
+            }
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! What a sweep says it came to.
+
+use std::path::PathBuf;
+
+use super::{Census, Ensembles, Results};
+use crate::base::text_table::Align::{Left, Right};
+use crate::base::text_table::{Table, facts};
+use crate::base::{Done, Units, say};
+use crate::ensemble::text::{figure_table, is_shown, ranged};
+use crate::files::study_folder::Held;
+
+/// Warns where a file system has no locks; `doing` is what two processes could be at in one folder.
+pub fn warn_unlocked(held: &Held, doing: &str, quiet: bool) {
+    if let (Some(reason), false) = (&held.unlocked, quiet) {
+        say(&format!(
+            "warning: this file system has no locks ({reason}): nothing but you keeps two processes from {doing}"
+        ));
+    }
+}
+
+/// Says which files of a folder were damaged. Nobody should overlook that, however quiet a command is to be.
+pub fn tell_damaged(files: &[PathBuf]) {
+    for file in files {
+        say(&format!("damaged: {} was not what had been written; it is made again", file.display()));
+    }
+}
+
+/// What it came to.
+pub fn tell(results: &Results, work: Option<String>, next: &str, units: Units) -> String {
+    let census = &results.census;
+    let mut ended = vec![format!("{} completed", census.completed)];
+    for (count, word) in
+        [(census.failed, "failed"), (census.refused, "refused"), (census.broken, "on which the program broke off")]
+    {
+        if count > 0 {
+            ended.push(format!("{count} {word}"));
+        }
+    }
+    let mut lines = vec![("samples", ended.join(", "))];
+    lines.extend(census.first.iter().map(|(index, reason)| ("", format!("{index}: {reason}"))));
+    if census.doubtful > 0 {
+        let found = "samples whose energy balance is off by more than 10 %: their figures mean nothing";
+        lines.push(("doubtful", format!("{} {found}", census.doubtful)));
+    }
+    lines.extend(census.caveats().map(|caveat| ("caveat", caveat)));
+    lines.extend(work.map(|work| ("computed", work)));
+    let names: Vec<String> = results.files.iter().map(|f| f.display().to_string()).collect();
+    lines.push(("written", names.join(", ")));
+    lines.push(("next", next.to_owned()));
+    let stable = results.ensembles.as_ref().map(|e| format!("\n{}", stable(e, units)));
+    let ranges = if census.completed > 1 { format!("\n{}", ranges(results, units)) } else { String::new() };
+    facts(&lines) + &ranges + &stable.unwrap_or_default()
+}
+
+/// Whether a study came to anything: one without a single figure that counts did not, which is said.
+pub fn judged(census: &Census) -> Done {
+    if census.finished() == 0 || census.without_figures() < census.finished() {
+        return Done::Well;
+    }
+    let why = census.first.first().map_or(String::new(), |(index, reason)| format!("; sample {index}: {reason}"));
+    let all = if census.refused == census.finished() {
+        "every sample is refused"
+    } else {
+        "no sample has figures that count"
+    };
+    say(&format!("error: {all}{why}\n = help: `occupant sweep STUDY --dry-run` tries the corners of the study"));
+    Done::Unwell
+}
+
+/// Least and greatest of each figure, and in which samples.
+fn ranges(results: &Results, units: Units) -> String {
+    let mut table =
+        Table::new(&[(Left, &["figure"]), (Right, &["least", "in sample", "greatest", "in sample"]), (Left, &[""])]);
+    for (name, unit, range) in &results.ranges {
+        if let (Some((least, first)), Some((greatest, last))) = (range.best.first(), range.worst.first()) {
+            let ([least, greatest], unit) = ranged([*least, *greatest], unit, units);
+            table.row([name.clone(), least, first.to_string(), greatest, last.to_string(), unit]);
+        }
+    }
+    table.text()
+}
+
+/// The ensembles of a study in words.
+fn stable(ensembles: &Ensembles, units: Units) -> String {
+    let failed = match ensembles.failed {
+        0 => String::new(),
+        n => format!("; {n} members did not complete, and no figure of their samples counts as stable"),
+    };
+    let samples = match ensembles.samples {
+        1 => "1 sample".to_owned(),
+        n => format!("{n} samples"),
+    };
+    let lines = [("ensembles", format!("{samples}{failed}"))];
+    let table = match ensembles.samples {
+        0 | 1 => figure_table(&ensembles.first, units),
+        _ => all_samples(ensembles),
+    };
+    format!("{}\n{table}", facts(&lines))
+}
+
+fn all_samples(ensembles: &Ensembles) -> String {
+    let mut table =
+        Table::new(&[(Left, &["figure"]), (Right, &["stable in", "NOT STABLE in", "too few members in", "absent in"])]);
+    for figure in ensembles.figures.iter().filter(|f| is_shown(&f.name)) {
+        let counts = [figure.stable, figure.unstable, figure.too_few, figure.absent];
+        table.row(std::iter::once(figure.name.clone()).chain(counts.map(|n| n.to_string())));
+    }
+    table.text()
+}

@@ -1,0 +1,139 @@
+//! One error for everything.
+
+use std::fmt;
+
+use occupant_core::model::Model;
+use occupant_core::results::Unknown;
+use occupant_core::results::outcome::{RecordingFailed, SimulationError};
+use occupant_core::run::RunError;
+use occupant_core::vehicle::PathProblem;
+use occupant_scenario::Diagnostics;
+use placed_text::Problems;
+
+/// What kind of error it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ErrorKind {
+    /// A text that is no scenario: [`Error::diagnostics`] has the places.
+    Text,
+    /// A case of which no model can be made: [`Error::problems`] has all that is wrong.
+    Case,
+    /// A name that nothing has.
+    Name,
+    /// An input that cannot be: a time, a frame of the vehicle, a number.
+    Input,
+    /// The integration could not go on.
+    Integration,
+    /// Results could not be recorded.
+    Recording,
+}
+
+/// What went wrong, in words that say what was found, what was expected and how to mend it.
+pub struct Error {
+    kind: ErrorKind,
+    source: Box<dyn std::error::Error + Send + Sync>,
+}
+
+impl Error {
+    /// Of a kind, in words or as another error says it.
+    pub fn new(kind: ErrorKind, source: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> Self {
+        Error { kind, source: source.into() }
+    }
+
+    /// What kind it is.
+    pub fn kind(&self) -> ErrorKind {
+        self.kind
+    }
+
+    /// What is wrong with a text, each with line and column.
+    pub fn diagnostics(&self) -> Option<&Diagnostics> {
+        self.source.downcast_ref()
+    }
+
+    /// What is wrong with a case, each with its path.
+    pub fn problems(&self) -> Option<&Problems> {
+        self.source.downcast_ref()
+    }
+
+    /// The name that nothing has, with the nearest that something has.
+    pub fn unknown(&self) -> Option<&Unknown> {
+        self.source.downcast_ref()
+    }
+}
+
+impl fmt::Debug for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // what `main` prints
+        write!(f, "{}", self.source)
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.source)
+    }
+}
+
+impl std::error::Error for Error {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        self.source.source()
+    }
+}
+
+/// `From` of errors of these kinds.
+macro_rules! from {
+    ($($Type:ty: $kind:ident),+ $(,)?) => {
+        $(impl From<$Type> for Error {
+            fn from(error: $Type) -> Self {
+                Error::new(ErrorKind::$kind, error)
+            }
+        })+
+    };
+}
+
+from! {
+    Diagnostics: Text,
+    Problems: Case,
+    Unknown: Name,
+    RecordingFailed: Recording,
+    PathProblem: Input,
+}
+
+impl From<Vec<PathProblem>> for Error {
+    fn from(problems: Vec<PathProblem>) -> Self {
+        let words: Vec<String> = problems.iter().map(ToString::to_string).collect();
+        Error::new(ErrorKind::Input, words.join("; "))
+    }
+}
+
+impl From<SimulationError> for Error {
+    fn from(error: SimulationError) -> Self {
+        let kind = match error {
+            SimulationError::Recording(_) => ErrorKind::Recording,
+            _ => ErrorKind::Integration,
+        };
+        Error::new(kind, error)
+    }
+}
+
+impl From<RunError> for Error {
+    fn from(error: RunError) -> Self {
+        let kind = match error {
+            RunError::Step(_) => ErrorKind::Integration,
+            RunError::Recording(_) => ErrorKind::Recording,
+            _ => ErrorKind::Input,
+        };
+        Error::new(kind, error)
+    }
+}
+
+/// A name that a model has not.
+pub(crate) fn unknown<'n>(what: &'static str, name: &str, names: impl Iterator<Item = &'n str>) -> Error {
+    Error::from(Unknown::new(what, name, names))
+}
+
+/// The channel of a name that a model has not.
+pub(crate) fn no_channel(model: &Model, name: &str) -> Error {
+    let all = occupant_core::results::channel::channels(model);
+    unknown("channel", name, all.iter().map(|channel| channel.name.as_str()))
+}

@@ -1,0 +1,67 @@
+//! Names of things of a case, each of its own type.
+
+use occupant_core::body::Segment;
+use occupant_core::forces::contact::surface::Frame;
+use occupant_core::forces::own::Place;
+
+/// Ids that are indices of one case.
+macro_rules! ids {
+    ($($(#[$words:meta])* $Id:ident),+ $(,)?) => {
+        $(
+            $(#[$words])*
+            #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+            pub struct $Id(pub(crate) usize);
+
+            impl $Id {
+                /// Its place in the lists of the [`Setup`](occupant_core::model::setup::Setup).
+                pub fn index(self) -> usize {
+                    self.0
+                }
+            }
+        )+
+    };
+}
+
+ids! {
+    /// A contact material of a case.
+    MaterialId,
+    /// A surface of a case.
+    SurfaceId,
+    /// A solid of a case.
+    SolidId,
+    /// A belt round one sphere.
+    BeltId,
+    /// A contact sphere of the body.
+    SphereId,
+    /// A frame besides space and the vehicle: another vehicle, a panel.
+    FrameId,
+}
+
+/// A segment of the body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SegmentId(pub(crate) Segment);
+
+impl SegmentId {
+    /// As the simulator calls it.
+    pub fn segment(self) -> Segment {
+        self.0
+    }
+
+    /// A point of it, from its lower end, segment axes, m.
+    pub fn point(self, from_lower_end_m: [f64; 3]) -> Place {
+        Place::Segment(self.0, from_lower_end_m.into())
+    }
+}
+
+impl FrameId {
+    /// As the simulator calls it.
+    pub fn frame(self) -> Frame {
+        Frame::Other(self.0)
+    }
+}
+
+impl From<SphereId> for Place {
+    fn from(sphere: SphereId) -> Self {
+        Place::Sphere(sphere.0)
+    }
+}
