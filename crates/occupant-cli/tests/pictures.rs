@@ -347,8 +347,8 @@ fn no_sphere_of_a_body_floats_beside_it() {
             .collect();
         let circles: Vec<[f64; 3]> = spheres
             .split("<circle")
-            .filter_map(|element| {
-                Some(["cx", "cy", "r"].map(|name| attribute(element, name)).map(|v| number(&v.unwrap_or("0".into()))))
+            .map(|element| {
+                ["cx", "cy", "r"].map(|name| attribute(element, name)).map(|v| number(&v.unwrap_or("0".into())))
             })
             .filter(|[.., radius]| *radius > 0.0)
             .collect();
