@@ -13,6 +13,8 @@ use occupant_core::run::simulate::simulate;
 use occupant_tests::cases::{rectangle, smooth, spring, straight};
 use occupant_tests::measure::{assert_below, assert_within};
 use occupant_tests::probe::{Probe, RADIUS_M, bead_among};
+use occupant_tests::rod;
+use occupant_tests::room::setup;
 
 const K: f64 = 2e4;
 
@@ -278,4 +280,11 @@ fn moments_rebuilt_from_the_contact_records_are_those_of_the_run() {
         // of some 10 N·m
         assert_below("moment less that of the records, N·m", off, 1e-9);
     }
+}
+
+#[test]
+fn a_scenario_that_does_not_say_has_the_edge_force_at_the_centre() {
+    let text = rod::text(1.0, 0.3, "", 0.1);
+    assert_eq!(setup(&text, &[]).edge_force, EdgeForce::AtCentre);
+    assert_eq!(setup(&text, &["contact.edge_force=contact_point"]).edge_force, EdgeForce::AtContactPoint);
 }

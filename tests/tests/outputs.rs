@@ -3,10 +3,13 @@
 use nalgebra::Vector3;
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Series, channels};
-use occupant_core::results::summary::Summarizer;
+use occupant_core::results::summary::{Summarizer, Summary};
 use occupant_core::run::simulate::simulate;
 use occupant_scenario::{Format, Scenario};
 use occupant_tests::measure::assert_below;
+use occupant_tests::rod::{Pin, Rod};
+use occupant_tests::room::setup;
+use occupant_tests::strap::{FALLS, Strap, mass_text};
 
 const TWO: &str = include_str!("../../scenarios/two-vehicles.toml");
 const LAP: &str = include_str!("../../scenarios/cart-lap.toml");
@@ -124,5 +127,62 @@ fn a_path_of_straight_lines_tells_its_acceleration() {
     for (t_s, a) in series.time_s.iter().zip(told).filter(|(t_s, _)| (0.004..0.076).contains(*t_s)) {
         let expected = -peak * (std::f64::consts::PI * t_s / length).sin();
         assert_below("acceleration, of the peak", (a - expected) / peak, 0.005);
+    }
+}
+
+/// The summary of a run with these outputs; the longest are longer than what happens.
+fn summary_at(model: impl Fn(&str) -> Model, interval: &str) -> Summary {
+    let mut summarizer = Summarizer::new();
+    simulate(&model(&format!("output.interval={interval:?}")), &mut summarizer).expect("a run");
+    summarizer.summary(None).expect("a summary")
+}
+
+const STEPS: [&str; 2] = ["integrator={ kind = \"adaptive\" }", "integrator={ kind = \"rk4\", step = \"0.1 ms\" }"];
+
+/// Webbing that tightens and goes slack several times.
+#[test]
+fn what_happens_to_belts_does_not_depend_on_the_outputs() {
+    for integrator in STEPS {
+        let case = Strap { is_fixed: true, speed_m_s: 2.0, gravity_m_s2: 100.0, end_s: 0.4, ..FALLS };
+        let [often, seldom] =
+            ["0.5 ms", "200 ms"].map(|at| summary_at(|interval| case.model(&[integrator, interval]), at).events);
+        assert_eq!(often.len(), seldom.len(), "{often:?} {seldom:?}");
+        assert!(often.len() > 4, "{often:?}");
+        for (one, other) in often.iter().zip(&seldom) {
+            assert_eq!((&one.name, one.what), (&other.name, other.what));
+            // ends of steps of fixed length count from the output before
+            assert!((one.time_s - other.time_s).abs() < 1e-12, "{one:?} {other:?}");
+        }
+        // they are told one after the other
+        assert!(often.windows(2).all(|two| two[0].time_s < two[1].time_s && two[0].what != two[1].what), "{often:?}");
+    }
+}
+
+/// A rod that goes 10° and more beyond a weak stop and comes back.
+#[test]
+fn a_joint_beyond_its_stop_is_marked_whatever_the_outputs() {
+    let pin = Pin::Stop { begin_rad: 1.0, full_rad: 1.1, damping: 0.02 };
+    let rod = Rod { mass_kg: 2.0, length_m: 0.4, pin, end_s: 1.2 };
+    for integrator in STEPS {
+        let [often, seldom] = ["1 ms", "1.2 s"].map(|at| {
+            let caveats = summary_at(|interval| rod.model(&[integrator, interval]), at).caveats;
+            caveats.into_iter().find(|caveat| caveat.name.ends_with("beyond_stop")).expect("a caveat").text
+        });
+        assert_eq!(often, seldom);
+    }
+}
+
+/// A ball that goes through the axis of a soft bar and out beyond it.
+#[test]
+fn a_bar_that_is_passed_is_marked_whatever_the_outputs() {
+    let text = mass_text([1.0, 0.0, 5.0, 0.0, 0.1])
+        + "[materials]\nsoft = { k1 = 100, mu1 = 1, friction = 0 }\n[solids.bar]\nkind = \"capsule\"\nmaterial = \"soft\"\n\
+           ends = [[-1, 0.001, 0.2], [1, 0.001, 0.2]]\nradius = 0.02\n";
+    for integrator in STEPS {
+        for at in ["1 ms", "0.1 s"] {
+            let model = |interval: &str| Model::new(setup(&text, &[integrator, interval])).expect("a model");
+            let caveats = summary_at(model, at).caveats;
+            assert!(caveats.iter().any(|caveat| caveat.text.contains("went through bar")), "{at}: {caveats:?}");
+        }
     }
 }

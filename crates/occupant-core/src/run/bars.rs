@@ -1,4 +1,4 @@
-//! Spheres whose centres go through the axis of a bar or a rim between accepted steps: the normal turns round while the centre is
+//! Spheres whose centres go through the axis of a bar or a rim, as accepted steps show it: the normal turns round while the centre is
 //! within.
 
 use super::corner::Touching;
@@ -17,6 +17,7 @@ pub(super) struct Bars {
 /// A bar or a rim when a sphere touched it last.
 #[derive(Clone, Copy)]
 struct Touched {
+    /// Of a centre within it the one by which it came in.
     normal: V3<f64>,
     /// Whether the sphere's centre was within it.
     inside: bool,
@@ -43,9 +44,12 @@ impl Bars {
             let member = contacts.member_of(meeting.pair, meeting.part);
             let Some(member) = member.filter(|member| contacts.solids.shapes[member.solid].is_bar()) else { continue };
             let inside = meeting.depth_m > model.body().spheres[meeting.sphere].radius_m;
-            let touched = Touched { normal: meeting.normal, inside, step: self.steps };
-            let last = self.last[member.past].replace(touched).filter(|last| last.step + 1 == self.steps);
-            if last.is_some_and(|last| last.normal.dot(meeting.normal) < 0.0 && (last.inside || inside)) {
+            let last = self.last[member.past].filter(|last| last.step + 1 == self.steps);
+            let is_through = |last: Touched| last.normal.dot(meeting.normal) < 0.0 && (last.inside || inside);
+            let stays = last.filter(|last| last.inside && inside && !is_through(*last));
+            let normal = stays.map_or(meeting.normal, |last| last.normal);
+            self.last[member.past] = Some(Touched { normal, inside, step: self.steps });
+            if last.is_some_and(is_through) {
                 tell(meeting.sphere, meeting.depth_m, member.surface);
             }
         }

@@ -129,11 +129,8 @@ impl Signs {
 
     pub(super) fn see(&mut self, sample: &Sample<'_>) {
         let (model, time_s) = (sample.model, sample.time_s);
-        for (turned, joint) in self.joints.iter_mut().zip(model.body().tree.joints()) {
-            turned.see(&model.setup().joints[joint], sample.joint_angle_rad(joint), time_s);
-        }
-        for (limited, (_, most_rad)) in sample.actions.limits.iter().zip(&self.limits) {
-            self.joints[limited.joint.index()].see_limit(limited.excess, *most_rad, time_s);
+        if sample.step_peaks.are_unknown() {
+            self.see_joints(sample);
         }
         for contact in sample.contacts() {
             if contact.surface < model.faces().len() {
@@ -153,6 +150,17 @@ impl Signs {
                 self.see_group(sample, group);
             }
             (self.is_begun, self.seen_s) = (true, time_s);
+        }
+    }
+
+    /// Joints of a run whose steps nobody has looked at.
+    fn see_joints(&mut self, sample: &Sample<'_>) {
+        let (model, time_s) = (sample.model, sample.time_s);
+        for (turned, joint) in self.joints.iter_mut().zip(model.body().tree.joints()) {
+            turned.see(&model.setup().joints[joint], sample.joint_angle_rad(joint), time_s);
+        }
+        for (limited, (_, most_rad)) in sample.actions.limits.iter().zip(&self.limits) {
+            self.joints[limited.joint.index()].see_limit(limited.excess, *most_rad, time_s);
         }
     }
 

@@ -94,10 +94,12 @@ impl<S: Scalar<Mask = bool>> LockPast<S> {
     /// moment.
     pub(super) fn due(&self, now: &Self, lock: &Lock<S>, times_s: [S; 2]) -> Option<S> {
         let is_calm = |past: &Self| past.closed.lt(S::zero());
+        let closes = || passes(self.restless + S::of(CALM_S), times_s[0], times_s[1]);
         match [self.is_closed(), now.is_closed()] {
-            [false, true] if is_calm(self) => Some(passes(self.restless + S::of(CALM_S), times_s[0], times_s[1])),
+            [false, true] if is_calm(self) => Some(closes()),
             [false, false] if is_calm(now) => Some(passes(-lock.relock_below, -self.speed, -now.speed)),
-            [false, false] => Some(passes(lock.relock_below, self.speed, now.speed)),
+            // it may have closed before it was fast
+            [false, false] => Some(passes(lock.relock_below, self.speed, now.speed).min(closes())),
             _ => None,
         }
     }
