@@ -8,6 +8,7 @@ mod bodies;
 mod cars;
 mod cart_cases;
 mod closed;
+mod closed_joints;
 mod columns;
 mod contact_scene;
 mod driver;
