@@ -135,8 +135,8 @@ fn a_failed_run_says_when_and_why() {
     let mut setup = setup();
     setup.integrator = Integrator::Adaptive {
         relative: 1e-12,
-        absolute_m: 1e-14,
-        absolute_m_s: 1e-14,
+        absolute_m: 1e-13,
+        absolute_m_s: 1e-13,
         min_step_s: 1e-3,
         max_step_s: 1e-3,
     };
