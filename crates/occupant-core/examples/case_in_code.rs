@@ -9,6 +9,7 @@ use std::error::Error;
 use nalgebra::Point3;
 use occupant_core::body::Body;
 use occupant_core::forces::belt::Belt;
+use occupant_core::forces::contact::EdgeForce;
 use occupant_core::forces::contact::material::Material;
 use occupant_core::forces::contact::surface::{Frame, Outline, Surface};
 use occupant_core::forces::joint::Joints;
@@ -47,6 +48,8 @@ pub(crate) fn cart() -> Result<Setup, Box<dyn Error>> {
     let body = Body::male50();
     let (pelvis, chest) = (body.sphere("pelvis").ok_or("no pelvis")?, body.sphere("chest").ok_or("no chest")?);
     let mut case = SetupBuilder::new("Cart, 20 mph, lap and torso belt", body, Joints::male50());
+    // as in the report, where all of a contact force acts there
+    case.setup.edge_force = EdgeForce::AtContactPoint;
     case.setup.gravity_m_s2 = 386.04 * INCH_M;
     case.setup.integrator = Integrator::Rk4 { step_s: 1e-4 };
 
