@@ -10,7 +10,7 @@ use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
 use occupant_core::results::outcome::Outcome;
 use occupant_core::results::recorder::Recorder;
-use occupant_core::run::simulate::simulate;
+use occupant_core::run::simulate::attempt;
 use occupant_scenario::{Format, Scenario};
 use prost_reflect::{DescriptorPool, DynamicMessage, ReflectMessage, Value};
 
@@ -51,10 +51,10 @@ pub fn recorder_into<W: Write + Seek + Send + 'static>(target: W) -> McapRecorde
     McapRecorder::new(target, about, options).unwrap()
 }
 
-/// Runs `model` with another recorder beside the file.
+/// Runs `model` as far as it goes, with another recorder beside the file.
 pub fn record(model: &Model, other: impl Recorder) -> (Vec<u8>, Outcome) {
     let mut file = recorder();
-    let outcome = simulate(model, (&mut file, other)).unwrap();
+    let outcome = attempt(model, (&mut file, other)).unwrap();
     (file.into_inner().unwrap().into_inner(), outcome)
 }
 
