@@ -297,8 +297,8 @@ mod tests {
         LiveFrame::new([1.0, 1.25], start.motion(), Attitude::default(), input).expect("a frame")
     }
 
-    fn inputs() -> [VehicleInput; 2] {
-        let end = VehicleState {
+    fn end() -> VehicleState {
+        VehicleState {
             pose: VehiclePose {
                 position_m: Vector3::new(4.9, 0.3, 0.0),
                 attitude: Attitude { roll_rad: 0.12, pitch_rad: -0.05, yaw_rad: 0.25 },
@@ -306,10 +306,13 @@ mod tests {
             velocity_m_s: Vector3::new(18.0, 2.0, 0.1),
             angle_rates_rad_s: Vector3::new(0.5, 0.1, 1.1),
             ..VehicleState::default()
-        };
+        }
+    }
+
+    fn inputs() -> [VehicleInput; 2] {
         let angular_rad_s2 = Vector3::new(2.0, 1.0, -3.0);
         let linear_m_s2 = Vector3::new(-80.0, 5.0, 1.0);
-        [VehicleInput::Acceleration { linear_m_s2, angular_rad_s2 }, VehicleInput::State(end)]
+        [VehicleInput::Acceleration { linear_m_s2, angular_rad_s2 }, VehicleInput::State(end())]
     }
 
     /// Velocities are the derivatives of places, accelerations those of velocities, by differences of 10 µs: 3e-9 measured.
@@ -339,9 +342,7 @@ mod tests {
     /// A state that is told is reached, and where the next frame begins.
     #[test]
     fn a_state_is_reached() {
-        let [_, input] = inputs();
-        let VehicleInput::State(end) = input else { unreachable!() };
-        let (reached, told) = (frame(&input).motion(1.25), end.motion());
+        let (reached, told) = (frame(&VehicleInput::State(end())).motion(1.25), end().motion());
         assert!((reached.origin_m - told.origin_m).norm() < 1e-14);
         assert!((reached.rotation - told.rotation).norm() < 1e-14);
         assert!((reached.velocity_m_s - told.velocity_m_s).norm() < 1e-13);
