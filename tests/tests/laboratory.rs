@@ -221,7 +221,8 @@ fn a_neck_of_a_person_moves_as_those_of_the_dead_struck_from_behind() {
         let ours: Vec<f64> = from.iter().map(|x| unit * (x - from[0])).collect();
         iso18571(&sampled(&time_s, measured, false), &sampled(&series.time_s, &ours, false), 1e-4).unwrap().overall
     };
-    let angle = rated("head.rotation.y", 180.0 / std::f64::consts::PI, &middle(["Head_T1_angle_lo", "Head_T1_angle_hi"]));
+    let angle =
+        rated("head.rotation.y", 180.0 / std::f64::consts::PI, &middle(["Head_T1_angle_lo", "Head_T1_angle_hi"]));
     let retraction = rated("head.level_position.x", 1e3, &middle(["retraction_lo", "retraction_hi"]));
     assert!(angle > 0.85 && retraction > 0.95, "{angle:.3} {retraction:.3}");
 }

@@ -162,7 +162,8 @@ fn bend_limit(b: &mut Builder, path: &str, section: &BendLimitSection) -> Bend<f
         (Some(azimuths), Some(angles)) => (azimuths, angles),
         (None, Some(angles)) => {
             let hint = Some(all_round(angles.len())).filter(|_| angles.len() >= 4);
-            let problem = Problem::error(with_key(path, "angles"), "`angles` without `azimuths`", "a direction for each");
+            let problem =
+                Problem::error(with_key(path, "angles"), "`angles` without `azimuths`", "a direction for each");
             b.report(problem.with_hint(hint));
             return Bend::new(Curve::constant(f64::NAN), torque);
         }

@@ -175,7 +175,8 @@ fn bent_by(moment_n_m: f64) -> f64 {
         "mount.pitch=10".to_owned(),
         "mount.posture={ neck = 0, head = -5 }".to_owned(),
         format!("muscles={{ neck = {muscle}, neck_base = {muscle} }}"),
-        // slow enough to come to rest
+        // it comes to rest beyond where it would in one slow pull if less came back than went in
+        "joints.*.limit.torque.returned=1".to_owned(),
         "joints.neck.damping=\"0.4 N m s/rad\"".to_owned(),
     ];
     let set: Vec<&str> = set.iter().map(String::as_str).collect();
