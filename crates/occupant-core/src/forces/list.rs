@@ -325,7 +325,7 @@ macro_rules! kinds {
                 let mut mask = S::truth(false);
                 $(
                     for (before, now) in self.$kind.iter().zip(&now.$kind) {
-                        let [before, now] = [before, now].map($Kind::switches::<S>);
+                        let (before, now) = ($Kind::switches::<S>(before), $Kind::switches::<S>(now));
                         mask = mask | before.lt(now) | now.lt(before);
                     }
                 )+
@@ -567,6 +567,20 @@ impl<S: Scalar> History<S> {
         self.hints = AllHints::new(forces);
         // no other kind bounds it
         self.hints.contacts.pace = pace;
+    }
+}
+
+#[cfg(any(target_arch = "x86_64", test))]
+impl History<f64> {
+    /// Remembers what `memory` does, of a later place. What is far from touching stays left out where no contact has begun or
+    /// ended meanwhile.
+    pub(crate) fn remember(&mut self, memory: &Memory<f64>) {
+        let contacts = self.memory.contacts.iter().zip(&memory.contacts);
+        let is_like = contacts.clone().all(|(own, other)| own.phase == other.phase);
+        self.memory.take_over(memory);
+        if !is_like {
+            self.look_again();
+        }
     }
 }
 

@@ -82,9 +82,14 @@ impl<S: Scalar> Carried<'_, S> {
     /// Iα + ω × Iω about the centre of gravity.
     #[inline(always)]
     fn spin(&self, m: usize) -> V3<S> {
-        let (axes, link) = (&self.k.axes[m], &self.skeleton.links[m]);
-        let by_inertia = |v: V3<S>| axes.out(link.central.mul(axes.into_frame(v)));
         let omega = self.k.omega[m];
-        by_inertia(self.accelerations.alpha[m]) + omega.cross(by_inertia(omega))
+        self.by_inertia(m, self.accelerations.alpha[m]) + omega.cross(self.by_inertia(m, omega))
+    }
+
+    /// I v.
+    #[inline(always)]
+    fn by_inertia(&self, m: usize, v: V3<S>) -> V3<S> {
+        let axes = &self.k.axes[m];
+        axes.out(self.skeleton.links[m].central.mul(axes.into_frame(v)))
     }
 }

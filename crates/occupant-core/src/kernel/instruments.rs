@@ -164,41 +164,49 @@ impl<S: Scalar> Instruments<S> {
 
     #[inline(always)]
     fn read(&self, system: &System<S>, from: &Carried<'_, S>, frames: &Frames<S>) -> Reading<S> {
-        let nothing = v3(S::of(f64::NAN), S::of(f64::NAN), S::of(f64::NAN));
         let k = from.k;
         let mut reading = [S::of(f64::NAN); READINGS];
-        let mut put = |at: usize, v: V3<S>| {
-            [reading[at], reading[at + 1], reading[at + 2]] = [v.x, v.y, v.z];
-        };
-        // segment axes (left, up) to SAE J211 axes (right, down)
-        let told = |n: usize, v: V3<S>| {
-            let v = k.axes[n].into_frame(v);
-            v3(v.x, -v.y, -v.z)
-        };
         for (i, segment) in self.accelerometers.iter().enumerate() {
-            put(3 * i, segment.map_or(nothing, |n| told(n, from.specific_force(n))));
+            if let Some(n) = segment {
+                put(&mut reading, 3 * i, told(k, *n, from.specific_force(*n)));
+            }
         }
         if let [Some(n), ..] = self.accelerometers {
-            put(9, told(n, k.omega[n]));
-            put(12, told(n, from.accelerations.alpha[n]));
+            put(&mut reading, 9, told(k, n, k.omega[n]));
+            put(&mut reading, 12, told(k, n, from.accelerations.alpha[n]));
         }
         if let Some(Neck { from: joint, head, condyles }) = &self.neck {
             let (force, moment) = joint.load(from);
-            put(NECK, told(*head, force));
-            put(NECK + 3, told(*head, moment - k.axes[*head].out(*condyles).cross(force)));
+            put(&mut reading, NECK, told(k, *head, force));
+            put(&mut reading, NECK + 3, told(k, *head, moment - k.axes[*head].out(*condyles).cross(force)));
         }
         if let Some(place) = self.head_in(system, k, frames) {
-            put(PLACE, place);
+            put(&mut reading, PLACE, place);
         }
         for (i, leg) in self.legs.iter().enumerate() {
             let Some(Leg { thigh, knee, shanks }) = leg else { continue };
             let mut along = from.knees[*knee];
-            shanks.iter().for_each(|shank| along -= shank.load(from).0);
+            for shank in shanks {
+                along -= shank.load(from).0;
+            }
             // Z of a thigh points from the knee to the hip: a force at the knee against it pulls
             reading[FEMURS + i] = -along.dot(k.axes[*thigh].z);
         }
         reading
     }
+}
+
+/// Puts a vector into a reading.
+#[inline(always)]
+fn put<S: Scalar>(reading: &mut Reading<S>, at: usize, v: V3<S>) {
+    [reading[at], reading[at + 1], reading[at + 2]] = [v.x, v.y, v.z];
+}
+
+/// From space axes to SAE J211 axes of a segment (right, down), whose own are left and up.
+#[inline(always)]
+fn told<S: Scalar>(k: &Kinematics<S>, n: usize, v: V3<S>) -> V3<S> {
+    let v = k.axes[n].into_frame(v);
+    v3(v.x, -v.y, -v.z)
 }
 
 impl<S: Scalar> System<S> {

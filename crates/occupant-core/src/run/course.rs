@@ -8,7 +8,7 @@ use super::{Front, Rear, Step, Stretch, Switches};
 
 use crate::forces::{Actions, History, Memory};
 use crate::kernel::carried::Carried;
-use crate::kernel::{Evaluation, Situation};
+use crate::kernel::{Evaluation, Scratch, Situation};
 use crate::model::Model;
 use crate::model::setup::Integrator;
 use crate::motion::frame::{Frames, Moving};
@@ -59,6 +59,8 @@ pub(crate) struct Course {
     /// By body.
     pub(super) masses_kg: Vec<f64>,
     pub(super) actions: Actions<f64>,
+    /// What the evaluation of an output writes on its way.
+    scratch: Box<Scratch<f64>>,
     /// Times at which the motion of the vehicle or an activation jumps, s.
     pub breaks_s: Vec<f64>,
     /// The accepted steps since it was last emptied, where somebody wants to follow them.
@@ -100,6 +102,7 @@ impl Course {
             rest: Rest::default(),
             masses_kg: model.masses_kg(),
             actions: Actions::with_room(&model.system().forces),
+            scratch: Box::new(Scratch::blank(model.system())),
             seen: Seen::new(model),
             met: Vec::with_capacity(start.history.memory.contacts.len()),
             felt: Felt::new(model),
@@ -290,7 +293,8 @@ impl Course {
             }
             self.actions.clear();
             let situation = Situation::accepted(&self.state, frames);
-            let evaluation = model.system().evaluate(situation, &mut self.history, &mut self.actions);
+            let (scratch, history) = (&mut self.scratch, &mut self.history);
+            let evaluation = model.system().evaluate_with(scratch, situation, history, &mut self.actions);
             if !self.take_back_from_output(model) {
                 if let Some(rear) = &mut self.rear {
                     let [before, now] = [rear.kept(), &self.history.memory];

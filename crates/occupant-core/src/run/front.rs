@@ -238,14 +238,17 @@ impl Front {
     /// State and history at `time_s` within the step; the history is that of the step's start, into which the present
     /// position is not yet taken over.
     pub(super) fn show(&self, time_s: f64, state: &mut State<f64>, history: &mut History<f64>) {
-        let h = self.step.length_s();
-        let Ahead { from, to, rates: [at_from, at_to], before, .. } = &self.ahead;
-        *state = if time_s >= self.step.end_s {
-            **to
-        } else {
-            within([from, at_from], [to, at_to], h, (time_s - self.step.start_s) / h)
-        };
-        history.take_over(before);
+        *state = self.state_at(time_s);
+        history.take_over(&self.ahead.before);
+    }
+
+    /// State at `time_s` within the step.
+    pub(super) fn state_at(&self, time_s: f64) -> State<f64> {
+        let (h, Ahead { from, to, rates: [at_from, at_to], .. }) = (self.step.length_s(), &self.ahead);
+        if time_s >= self.step.end_s {
+            return **to;
+        }
+        within([from, at_from], [to, at_to], h, (time_s - self.step.start_s) / h)
     }
 
     /// The start of the step, if it goes on beyond `time_s`.

@@ -169,12 +169,14 @@ impl<S: Scalar> EnvelopeLaw<S> {
     }
 
     /// The spheres whose centres are within the full envelope: the sum of 2^i of their places i.
+    #[inline(always)]
     pub(super) fn caught(&self, at: &Instant<'_, S>) -> S {
-        let o = S::zero();
-        self.spheres.iter().enumerate().fold(o, |sum, (i, (sphere, _))| {
+        let (o, mut sum) = (S::zero(), S::zero());
+        for (i, (sphere, _)) in self.spheres.iter().enumerate() {
             let distance = self.shape.near(self.seen(at, *sphere), S::one()).distance;
-            sum + S::select(distance.lt(o), flag(i), o)
-        })
+            sum += S::select(distance.lt(o), flag(i), o);
+        }
+        sum
     }
 
     /// A sphere's centre seen from the mount, in the axes of the frame, m.

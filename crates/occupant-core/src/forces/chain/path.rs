@@ -171,8 +171,8 @@ fn wrapped<S: Scalar>(place: &Place<S>, before: (V3<S>, S), next: (V3<S>, S)) ->
     let angle = S::select(angle.lt(S::zero()), angle + S::of(TAU), angle);
     let r = place.radius;
     let (one, inverse) = (S::one(), S::one() / pp.sqrt());
-    let cut = |cosine: S| cosine.max(-one).min(one);
-    let [cosine, other] = [cut((r - before.1) * inverse), cut((r - next.1) / qq.sqrt())];
+    let cosine = ((r - before.1) * inverse).max(-one).min(one);
+    let other = ((r - next.1) / qq.sqrt()).max(-one).min(one);
     let sine = (one - cosine * cosine).max(S::zero()).sqrt();
     Arc {
         wrap: S::of(TAU) - angle - cosine.acos() - other.acos(),

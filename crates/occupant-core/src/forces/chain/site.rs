@@ -209,6 +209,12 @@ impl<S: Copy> NodeLaw<S> {
     }
 }
 
+/// Where a point of a segment is, seen from its joint in the segment's axes; space axes.
+#[inline(always)]
+fn on_segment<S: Scalar>(at: &Instant<'_, S>, n: usize, offset: V3<S>) -> V3<S> {
+    at.k.joint[n] + at.k.axes[n].out(offset)
+}
+
 impl<S: Scalar> NodeLaw<S> {
     /// The segment that it is on.
     #[inline(always)]
@@ -253,7 +259,6 @@ impl<S: Scalar> NodeLaw<S> {
     /// Where it is in or on the body or in `frame`, space axes.
     #[inline(always)]
     pub(super) fn place(&self, at: &Instant<'_, S>, frame: &Moving<S>, way: S, past: &NodePast<S>) -> Place<S> {
-        let on_segment = |n: usize, offset: V3<S>| at.k.joint[n] + at.k.axes[n].out(offset);
         let (mut sense, none) = (V3::zero(), S::zero());
         let (centre, radius) = match &self.site {
             SiteLaw::Vehicle(point, stroke) => {
@@ -263,8 +268,8 @@ impl<S: Scalar> NodeLaw<S> {
                 }
                 (frame.origin + frame.axes.out(*point + pulled), none)
             }
-            SiteLaw::Segment(segment, offset, _) => (on_segment(*segment, *offset), none),
-            SiteLaw::Track(segment, track) => (on_segment(*segment, track.at(way).0), none),
+            SiteLaw::Segment(segment, offset, _) => (on_segment(at, *segment, *offset), none),
+            SiteLaw::Track(segment, track) => (on_segment(at, *segment, track.at(way).0), none),
             SiteLaw::Sphere(sphere) => {
                 let sphere = &at.spheres[*sphere];
                 sense = at.k.axes[sphere.segment].out(past.normal());

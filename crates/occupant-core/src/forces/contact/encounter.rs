@@ -219,7 +219,7 @@ pub(super) struct Aside<S> {
 
 impl<S: Scalar> Aside<S> {
     /// Puts aside what the segment of a sphere has.
-    #[cold]
+    #[inline(always)]
     pub(super) fn new(segments: [usize; 2], all: &mut AllLoads<S>) -> Self {
         let [own, _] = segments;
         let wrench = std::mem::replace(&mut all.wrench[own], Wrench::zero());
@@ -228,7 +228,7 @@ impl<S: Scalar> Aside<S> {
     }
 
     /// Puts the opposite on the segment that carries the faces; what one body gets the other gives.
-    #[cold]
+    #[inline(always)]
     pub(super) fn react(self, k: &Kinematics<S>, all: &mut AllLoads<S>) {
         let [own, carrier] = self.segments;
         let Wrench { force, moment } = all.wrench[own];

@@ -192,6 +192,7 @@ impl<'a> Witness<'a> {
     }
 
     /// What the instruments of a body read.
+    #[inline(never)]
     pub(super) fn feel<L: Lanes>(&mut self, of: usize, reading: &Reading<L>) {
         for (i, _, felt) in self.notes() {
             felt.readings[of] = reading.map(|number| number.lane(i));
@@ -199,13 +200,23 @@ impl<'a> Witness<'a> {
     }
 }
 
+// by themselves: what calls them is inlined then where lanes are computed
 impl<L: Lanes> Tracker<L> for &mut Witness<'_> {
+    #[inline(never)]
     fn number(&mut self, number: L) {
         for (i, _, felt) in self.notes() {
             felt.numbers.push(number.lane(i));
         }
     }
 
+    #[inline(never)]
+    fn numbers(&mut self, numbers: &[L]) {
+        for (i, _, felt) in self.notes() {
+            felt.numbers.extend(numbers.iter().map(|number| number.lane(i)));
+        }
+    }
+
+    #[inline(never)]
     fn touch(&mut self, touch: &Touch<L>) {
         let vector = |v: V3<L>, i: usize| v3(v.x.lane(i), v.y.lane(i), v.z.lane(i));
         for (i, met, _) in self.notes() {

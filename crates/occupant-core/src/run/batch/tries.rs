@@ -256,7 +256,8 @@ impl Place {
     fn show(&mut self, time_s: f64) {
         let run = &mut self.run;
         if let Some(front) = &run.front {
-            front.show(time_s, &mut run.state, &mut run.history);
+            run.state = front.state_at(time_s);
+            run.history.remember(&front.ahead.before.memory);
         }
         run.time_s = time_s;
     }
