@@ -15,6 +15,7 @@ pub mod extend;
 pub mod files;
 pub mod fit;
 pub mod import;
+pub mod instruments;
 pub mod plot;
 pub mod print;
 pub mod report;
