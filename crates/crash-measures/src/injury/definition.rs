@@ -132,7 +132,7 @@ impl Definition {
                 }
             }
             Err(Lack::Absent) => {
-                (measure.filter_class, measure.figure) = (0, None);
+                (measure.filter_class, measure.figure, measure.brief) = (0, None, false);
                 measure.remark = Some(self.absent?.to_owned());
             }
             Err(Lack::NotOfDummy) => measure.remark = Some(format!("the {} has no such criterion", dummy.name())),

@@ -42,9 +42,7 @@ pub(super) const HEAD_AND_NECK: &[Definition] = &[
     measure("nij", "Nij", One, Cfc1000, Readings::nij)
         .brief()
         .limited(Quantity::Nij)
-        .risks(&[("neck AIS2+", Ais2), ("neck AIS3+", Ais3), ("neck AIS4+", Ais4)], |nij, severity, _| {
-            nij_risk(nij, severity)
-        }),
+        .risks(&[("neck AIS2+", Ais2), ("neck AIS3+", Ais3), ("neck AIS4+", Ais4)], nij_risk),
     measure("neck_tension", "neck tension", Newton, Cfc1000, |r| r.towards(Extreme::Tension, 1.0, &own(&r.neck_n)?[2]))
         .brief()
         .limited(Quantity::NeckTension)

@@ -2,6 +2,7 @@
 //! lower legs.
 
 use crate::signal::ChannelClass::{self, Cfc60, Cfc180, Cfc600, Cfc1000};
+use occupant_units::unit::Unit;
 use std::fmt;
 
 /// A signal that only some bodies and tests read. Deflections are positive inward; forces, moments and accelerations have the
@@ -111,6 +112,20 @@ impl Special {
             .chain(several(3, Self::LowerNeckForce))
             .chain(several(2, Self::LowerNeckMoment))
             .chain(legs.flat_map(|site| [MomentX, MomentY, ForceZ].map(|load| Self::Tibia(site, load))))
+    }
+
+    /// Its unit.
+    #[must_use]
+    pub fn unit(self) -> Unit {
+        match self {
+            Self::ChestDeflection | Self::ChestPoint(_) | Self::Rib(_) | Self::AbdomenRib(_) | Self::PelvisPlace => {
+                Unit::Metre
+            }
+            Self::LowerSpine(_) | Self::T1 => Unit::MetrePerSecondSquared,
+            Self::HeadSpeed => Unit::MetrePerSecond,
+            Self::LowerNeckMoment(_) | Self::Tibia(_, MomentX | MomentY) => Unit::NewtonMetre,
+            _ => Unit::Newton,
+        }
     }
 
     /// The filter class of SAE J211 as its criterion uses it.

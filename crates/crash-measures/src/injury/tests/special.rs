@@ -37,6 +37,9 @@ fn measures_are_listed_where_their_signals_are() {
     let more = assess(&reads([(Special::ChestDeflection, pulse(0.04))]), &Options::default());
     let new: Vec<_> = names(&more).into_iter().filter(|name| !names(&bare).contains(name)).collect();
     assert_eq!(new, ["chest_compression", "deflection_rate", "viscous_criterion", "cti"]);
+    // short tables have no room for what is not there
+    let deflection = of(&bare, "chest_deflection");
+    assert!(!deflection.brief && deflection.figure.is_none() && of(&more, "chest_deflection").brief);
     // those of the bare one keep their values
     for own in bare.iter().filter(|m| m.name != "chest_deflection") {
         assert_eq!(of(&more, own.name), own);

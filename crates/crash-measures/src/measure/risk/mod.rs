@@ -32,7 +32,7 @@ pub enum Severity {
 pub use people::{BrokenRibs, even_odds_compression};
 pub use side::{abdomen_force_risk, pelvis_force_risk, rib_deflection_risk};
 
-use Dummy::{HybridIii5F, HybridIii50M, Thor50M};
+use Dummy::{HybridIii5F, HybridIii50M, HybridIii95M, Thor50M};
 use Severity::{Ais2, Ais3, Ais4, Ais5};
 
 /// Head risk from HIC15 (the same curve is used with HIC36), P = Φ((ln H − μ)/σ); AIS 2+, 3+, 4+.
@@ -57,11 +57,16 @@ pub fn hic_risk_prasad_mertz(hic: f64, severity: Severity) -> f64 {
     if hic > 0.0 { logistic(a + 200.0 / hic, b * hic) } else { 0.0 }
 }
 
-/// Neck risk from Nij; AIS 2+ to 5+.
+/// Neck risk from Nij: AIS 2+ to 5+ of a Hybrid III, AIS 2+ and 3+ of a THOR, whose Nij has other intercepts.
 #[must_use]
-pub fn nij_risk(nij: f64, severity: Severity) -> Option<f64> {
-    let of = [(Ais2, (2.054, 1.195)), (Ais3, (3.2269, 1.9688)), (Ais4, (2.693, 1.195)), (Ais5, (3.817, 1.195))];
-    let (a, b) = beside(&of, severity)?;
+pub fn nij_risk(nij: f64, severity: Severity, dummy: Dummy) -> Option<f64> {
+    let of_hybrid = [(Ais2, (2.054, 1.195)), (Ais3, (3.2269, 1.9688)), (Ais4, (2.693, 1.195)), (Ais5, (3.817, 1.195))];
+    let of_thor = [(Ais2, (5.819, 5.681)), (Ais3, (6.047, 5.44))];
+    let (a, b) = match dummy {
+        HybridIii50M | HybridIii5F | HybridIii95M => beside(&of_hybrid, severity)?,
+        Thor50M => beside(&of_thor, severity)?,
+        _ => return None,
+    };
     Some(logistic(a, b * nij))
 }
 
@@ -142,7 +147,8 @@ pub fn joint_risk(risks: &[f64]) -> f64 {
     1.0 - risks.iter().map(|p| 1.0 - p).product::<f64>()
 }
 
-/// Stars of the US frontal rating from the joint risk of head, neck, chest and femur.
+/// Stars of the US frontal rating from the joint risk of head, neck, chest and femur; the bounds of the side rating are the
+/// same, of head, chest, abdomen and pelvis.
 ///
 /// The relative risk is the joint risk over 0.15; five stars below 0.67, four below 1.00, three below
 /// 1.33, two below 2.67. None where the risk is not a probability.
@@ -184,8 +190,11 @@ mod tests {
         close(hic_risk(1000.0, Ais3).unwrap(), 0.230_894);
         close(hic_risk_prasad_mertz(1000.0, Ais3), 0.532_454);
         close(hic_risk_prasad_mertz(1000.0, Ais4), 0.169_384);
-        close(nij_risk(0.5, Ais3).unwrap(), 0.095_998);
-        close(nij_risk(1.0, Ais3).unwrap(), 0.221_301);
+        close(nij_risk(0.5, Ais3, HybridIii50M).unwrap(), 0.095_998);
+        close(nij_risk(1.0, Ais3, HybridIii5F).unwrap(), 0.221_301);
+        // of a THOR: one half at 6.047/5.44
+        close(nij_risk(6.047 / 5.44, Ais3, Thor50M).unwrap(), 0.5);
+        assert_eq!((nij_risk(1.0, Ais4, Thor50M), nij_risk(1.0, Ais3, Dummy::SidIis)), (None, None));
         close(chest_three_ms_risk(40.0 * STANDARD_GRAVITY_MPS2), 0.347_669);
         close(chest_three_ms_risk(60.0 * STANDARD_GRAVITY_MPS2), 0.652_648);
         close(chest_deflection_risk(0.040, HybridIii50M).unwrap(), 0.124_424);
@@ -213,7 +222,7 @@ mod tests {
         assert_eq!(hic_risk(0.0, Ais3), Some(0.0));
         assert_eq!(hic_risk_prasad_mertz(0.0, Ais1), 0.0);
         assert_eq!(hic_risk(700.0, Fatal), None);
-        close(nij_risk(0.0, Ais3).unwrap(), 0.038_166); // does not vanish
+        close(nij_risk(0.0, Ais3, HybridIii50M).unwrap(), 0.038_166); // does not vanish
         // age 35 is the curve without age
         let at_35 = chest_deflection_risk_at_age(0.040, 35.0);
         assert!((at_35 - chest_deflection_risk(0.040, HybridIii50M).unwrap()).abs() < 1e-5);
