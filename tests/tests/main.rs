@@ -31,6 +31,7 @@ mod obstacles;
 mod outputs;
 mod own_forces;
 mod own_runs;
+mod plates;
 mod reactions;
 mod reference;
 mod report_cases;

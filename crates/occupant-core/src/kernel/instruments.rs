@@ -2,6 +2,7 @@
 
 use crate::body::tree::{BodyRow, JointRow};
 use crate::body::{Body, Limb, Segment};
+use crate::forces::sphere::Use;
 use crate::kernel::carried::Carried;
 use crate::kernel::{Scratch, System};
 use crate::motion::frame::Frames;
@@ -157,7 +158,7 @@ impl<S: Scalar> Instruments<S> {
     /// The centre of the head's sphere in axes of the body's home.
     #[inline(always)]
     pub(crate) fn head_in(&self, system: &System<S>, k: &Kinematics<S>, frames: &Frames<S>) -> Option<V3<S>> {
-        let (_, centre, _) = system.spheres[self.head?].place(k);
+        let (_, centre, _) = system.spheres[self.head?].place(k, Use::Contact);
         let home = &frames[self.home];
         Some(home.axes.into_frame(centre - home.origin))
     }

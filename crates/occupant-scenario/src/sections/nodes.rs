@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::builder::Builder;
 use super::chains::Parts;
+use super::plates::{self, NodeRide};
 use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, point, si_or};
 use super::retractors::{StrokeSection, direction};
 use super::{Force, Length, Ratio, Speed};
@@ -43,6 +44,9 @@ pub(crate) struct NodeSection {
     pub(crate) tie: Option<bool>,
     /// Name of the retractor of the first node.
     pub(crate) retractor: Option<String>,
+    /// Of a point of a segment, how it goes along with plates of the body that give way: "chest", by its place on it, or shares by
+    /// the names of plates. A sphere's `ride` says so of a sphere. It does not if absent.
+    pub(crate) ride: Option<NodeRide>,
     /// Force at which the webbing comes out of it; never if absent.
     pub(crate) strength: Option<Force<POSITIVE>>,
     /// Pretensioner that pulls a point of the vehicle.
@@ -64,6 +68,7 @@ impl NodeSection {
             friction: None,
             tie: None,
             retractor: None,
+            ride: None,
             strength: None,
             pretensioner: None,
         }
@@ -74,7 +79,8 @@ impl Parts<'_> {
     pub(super) fn node(&self, b: &mut Builder, path: &str, i: usize, s: &NodeSection) -> Node {
         let name = s.name.clone().or_else(|| s.sphere.clone()).unwrap_or_else(|| (i + 1).to_string());
         let site = self.site(b, path, s);
-        Node { name, site, friction: si_or(&s.friction, 0.0), strength_n: si_or(&s.strength, NEVER) }
+        let ride = s.ride.as_ref().map_or_else(Vec::new, |ride| plates::node(b, path, ride, &site, self.body));
+        Node { name, site, friction: si_or(&s.friction, 0.0), strength_n: si_or(&s.strength, NEVER), ride }
     }
 
     fn site(&self, b: &mut Builder, path: &str, s: &NodeSection) -> Site {
