@@ -54,7 +54,7 @@ pub fn male50() -> Body {
         condyles_m: None,
         spheres: Vec::new(),
         plates: Vec::new(),
-        chest: None,
+        chests: Vec::new(),
     };
     body.spheres = body.standard_spheres(&radius_m);
     body
@@ -85,7 +85,7 @@ pub fn bead(inertia_kg_m2: f64) -> Body {
         condyles_m: None,
         spheres: Vec::new(),
         plates: Vec::new(),
-        chest: None,
+        chests: Vec::new(),
     }
 }
 

@@ -110,7 +110,7 @@ impl Golden {
             condyles_m: None,
             spheres: self.spheres.iter().map(sphere).collect(),
             plates: Vec::new(),
-            chest: None,
+            chests: Vec::new(),
         }
     }
 

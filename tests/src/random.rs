@@ -73,7 +73,7 @@ impl Random {
             condyles_m: None,
             spheres: Vec::new(),
             plates: Vec::new(),
-            chest: None,
+            chests: Vec::new(),
         };
         body.spheres = body.standard_spheres(&radius);
         body

@@ -159,8 +159,8 @@ pub struct Body {
     pub spheres: Vec<ContactSphere>,
     /// Parts that give way; none of a rigid trunk.
     pub plates: Vec<Plate>,
-    /// What of them is the chest that results tell of.
-    pub chest: Option<Chest>,
+    /// What of them are chests that results tell of, one of each body at most.
+    pub chests: Vec<Chest>,
 }
 
 impl Body {

@@ -35,7 +35,7 @@ impl Body {
             places: old.iter().map(|joint| self.place(*joint)).collect(),
             spheres: own.collect(),
             plates: plates.filter_map(|p| Some(Plate { segment: now(p.segment)?, ..p.clone() })).collect(),
-            chest: self.chest.clone().filter(|_| whole),
+            chests: self.chests.iter().filter(|_| whole).cloned().collect(),
             ..self.clone()
         }
     }

@@ -53,15 +53,28 @@ impl Ride {
     }
 }
 
+impl Chest {
+    /// The same among several bodies, of one with this name whose plates begin at `first`.
+    pub(crate) fn of_member(&self, name: &str, first: usize) -> Self {
+        let moved = |shares: &Shares| shares.iter().map(|(plate, share)| (first + plate, *share)).collect();
+        let points = self.points.iter().map(|(point, shares)| (point.clone(), moved(shares))).collect();
+        Chest { of: name.to_owned(), breastbone: first + self.breastbone, points, ..self.clone() }
+    }
+}
+
 /// A chest that is measured: whose, how deep, and where.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chest {
+    /// Name of the body among several; empty of one alone.
+    pub of: String,
     /// The set of plates that it was made from: `person`, `dummy50`, `dummy05f`, or `own`.
     pub preset: String,
     /// The plate of the breastbone (index).
     pub breastbone: usize,
     /// Depth that deflections are compared with, m.
     pub depth_m: f64,
+    /// Scale factor of the viscous criterion: 1.3 of dummies by SAE J1727, 1 of people.
+    pub viscous_scale: f64,
     /// Places whose deflections are told besides, as sums over plates: `upper_left`, `lower_right`.
     pub points: Vec<(String, Shares)>,
 }

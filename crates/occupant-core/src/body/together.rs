@@ -32,7 +32,7 @@ impl Body {
             condyles_m: None,
             spheres: Vec::new(),
             plates: Vec::new(),
-            chest: None,
+            chests: Vec::new(),
         }
     }
 
@@ -40,7 +40,7 @@ impl Body {
     pub(crate) fn together(all: &[(&str, &Body)]) -> Body {
         let trees: Vec<_> = all.iter().map(|(name, body)| (*name, body.tree)).collect();
         let mut first = 0;
-        let (mut spheres, mut plates) = (Vec::new(), Vec::<Plate>::new());
+        let (mut spheres, mut plates, mut chests) = (Vec::new(), Vec::<Plate>::new(), Vec::new());
         for (name, body) in all {
             spheres.extend(body.spheres.iter().map(|sphere| ContactSphere {
                 name: called(name, &sphere.name),
@@ -49,6 +49,7 @@ impl Body {
                 ride: sphere.ride.behind(plates.len()),
                 ..sphere.clone()
             }));
+            chests.extend(body.chests.iter().map(|chest| chest.of_member(name, plates.len())));
             plates.extend(body.plates.iter().map(|plate| Plate {
                 name: called(name, &plate.name),
                 segment: Segment(first + plate.segment.index()),
@@ -68,7 +69,7 @@ impl Body {
             condyles_m: all.first().and_then(|(_, body)| body.condyles_m),
             spheres,
             plates,
-            chest: None,
+            chests,
         }
     }
 }

@@ -111,6 +111,23 @@ pub(super) fn words(
     lines
 }
 
+/// The keys under `[body]` of flesh between a lap belt and the pelvis: all of its numbers are guesses within a factor of two, from no curve
+/// of a lap belt on a pelvis.
+pub(super) fn flesh(body: &Body) -> [String; 2] {
+    let Some(pelvis) = body.tree.landmarks().pelvis else { return [String::new(), String::new()] };
+    let radius_m = body.sphere("pelvis").map_or(0.1, |sphere| body.spheres[sphere].radius_m);
+    let plate = [
+        "[body.plates.flesh]".to_owned(),
+        format!("segment = {:?}", body.tree[pelvis].name),
+        format!("at = {}", list(&[0.7 * radius_m, 0.0, 0.7 * radius_m])),
+        "inward = [-1, 0, -1]".to_owned(),
+        "mass = 0.5".to_owned(),
+        "spring = { depth = [0, 0.02, 0.1], force = [0, 1200, 17200], returned = 0.3 }".to_owned(),
+        "damper = { linear = 500 }".to_owned(),
+    ];
+    ["pelvis.ride = { belt = { flesh = 1 } }".to_owned(), plate.join("\n")]
+}
+
 /// How the sphere of the chest rides; the lines before are those of `[body.spheres]`.
 fn ride(share: f64) -> String {
     format!(

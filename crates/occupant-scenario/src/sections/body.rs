@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::body_joints::own_tree;
 use super::builder::Builder;
-use super::plates::{self, BodyPlateSection, ChestChoice, LinkSection, RideSection};
+use super::plates::{self, BodyPlateSection, ChestChoice, LinkSection, PelvisChoice, RideSection};
 use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, point, si_or};
 use super::{Acceleration, Angle, Force, Inertia, Length, Mass, Ratio};
 use occupant_core::body::SphereRow;
@@ -65,8 +65,11 @@ pub(crate) struct BodySection {
     /// its own: a limb that lies flat is as many times stiffer as it has spheres there, whatever the area.
     pub(crate) sphere_set: Option<SphereSet>,
     /// Whose chest it is, which gives way: "person", fitted to hub tests of dead people and scaled by size; "dummy50", "dummy05f",
-    /// those of Hybrid III dummies; "rigid", none. "rigid" if absent.
+    /// those of Hybrid III dummies; "rigid", none. "rigid" if absent. A seat's back bears on the spine: there
+    /// the chest is rigid.
     pub(crate) chest: Option<ChestChoice>,
+    /// "flesh": what a lap belt presses gives way, by guessed numbers; "rigid" if absent.
+    pub(crate) pelvis: Option<PelvisChoice>,
     /// Parts that give way by name, or changes of those of `chest`: `sternum`, `left_ribs`, `right_ribs`.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) plates: IndexMap<String, BodyPlateSection>,
@@ -264,11 +267,11 @@ pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection,
         condyles_m: section.condyles.as_ref().map(all_si).map(|[ahead, above]| Vector3::new(ahead, 0.0, above)),
         spheres: Vec::new(),
         plates: Vec::new(),
-        chest: None,
+        chests: Vec::new(),
     };
     body.plates = plates::plates(b, section, &body);
     body.spheres = spheres(b, section, &body);
-    body.chest = plates::chest(b, section, &body);
+    body.chests.extend(plates::chest(b, section, &body));
     Some(body)
 }
 

@@ -68,7 +68,7 @@ use self::materials::MaterialSection;
 use self::mount::MountSection;
 use self::muscles::MuscleSection;
 use self::path::PathSection;
-pub(super) use self::plates::ChestChoice;
+pub(super) use self::plates::{ChestChoice, PelvisChoice};
 use self::posture::{InitialStateSection, PostureSection, SeatSection};
 use self::quantity::ANY;
 use self::retractors::RetractorSection;

@@ -257,7 +257,7 @@ impl Made<'_> {
             condyles_m: None,
             spheres: Vec::new(),
             plates: Vec::new(),
-            chest: None,
+            chests: Vec::new(),
         }
     }
 }

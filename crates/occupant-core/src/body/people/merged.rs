@@ -84,7 +84,7 @@ impl Stretch {
             condyles_m: Some(Vector3::new(-x(H, 0.83), 0.0, z(N, 2.99))),
             spheres: Vec::new(),
             plates: Vec::new(),
-            chest: None,
+            chests: Vec::new(),
         }
     }
 

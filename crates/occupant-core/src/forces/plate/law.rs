@@ -17,7 +17,7 @@ use crate::motion::layout::MOST_SLIDES;
 use crate::motion::scalar::Scalar;
 
 /// Part of a chest's depth beyond which no test has pressed one.
-const DEEP: f64 = 0.45;
+pub(crate) const DEEP: f64 = 0.45;
 
 /// Constants of the plates of all bodies.
 #[derive(Clone, Debug, Default)]

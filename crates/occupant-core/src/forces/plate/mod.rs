@@ -20,6 +20,7 @@ use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::quantity::energy;
 pub use data::{Band, Damper, PlateData};
+pub(crate) use law::DEEP;
 pub use law::PlateLaws;
 pub use past::BandPast;
 use placed_text::Problems;
