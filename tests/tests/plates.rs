@@ -110,3 +110,138 @@ fn a_hub_on_point_masses_goes_as_golden_numbers_say() {
     }
     assert_within("greatest speed, m/s", hub(&[])[3], [5.63, 5.65]);
 }
+
+const THREE_POINT: &str = include_str!("../../scenarios/three-point.toml");
+const CHEST_TEST: &str = include_str!("../../scenarios/impactor-chest.toml");
+
+/// A driver with the chest of a person and flesh under the lap belt.
+const GIVING: [&str; 4] = ["body.chest=person", "body.pelvis=flesh", "time.end=0.12", "output.interval=\"0.5 ms\""];
+
+/// Peak force, deflection and outer depth of a hub on the chest of one who sits, and the share of its work that is lost.
+fn in_place(set: &[&str]) -> [f64; 4] {
+    let sphere = "sphere.sitter.chest";
+    let names = [format!("{sphere}.force.x"), format!("{sphere}.penetration"), "sitter.chest.deflection".to_owned()];
+    let values = traced(CHEST_TEST, set, &names.each_ref().map(String::as_str));
+    let outer: Vec<f64> = values[1].iter().zip(&values[2]).map(|(skin, deflection)| skin + deflection).collect();
+    let (mut put_in, mut back) = (0.0, 0.0);
+    for i in 1..outer.len() {
+        let work = 0.5 * (values[0][i] + values[0][i - 1]).abs() * (outer[i] - outer[i - 1]);
+        *(if work > 0.0 { &mut put_in } else { &mut back }) += work.abs();
+    }
+    [greatest(&values[0]), greatest(&values[2]), greatest(&outer), 1.0 - back / put_in]
+}
+
+/// 572.34: 1160 to 1325 lbf, 2.50 to 2.86 in, 69 to 85 % lost.
+#[test]
+fn the_chest_of_dummy50_gives_way_as_572_34_asks() {
+    let skin = "materials.skin={ k1 = \"450 kN/m\", mu1 = 0.7, friction = 0.2 }";
+    let [force, deflection, _, lost] =
+        in_place(&["occupants.sitter.body.chest=dummy50", skin, "solids.face.material=skin"]);
+    assert_within("force, N", force, [5160.0, 5894.0]);
+    assert_within("deflection, m", deflection, [0.0635, 0.0726]);
+    assert_within("lost", lost, [0.69, 0.85]);
+}
+
+/// 572.134: 3.9 to 4.4 kN from 50 mm on, 50 to 58 mm, 69 to 85 % lost.
+#[test]
+fn the_chest_of_dummy05f_gives_way_as_572_134_asks() {
+    let set = [
+        "occupants.sitter.body.preset=female05",
+        "occupants.sitter.joints.preset=dummy05f-like",
+        "occupants.sitter.body.chest=dummy05f",
+        "materials.skin={ k1 = \"300 kN/m\", mu1 = 0.7, friction = 0.2 }",
+        "solids.face.material=skin",
+        "loose.hub.mass=13.97 kg",
+        "loose.hub.at=[0.013, 0, -0.43]",
+    ];
+    let [force, deflection, _, lost] = in_place(&set);
+    assert_within("force, N", force, [3900.0, 4600.0]);
+    assert_within("deflection, m", deflection, [0.050, 0.058]);
+    assert_within("lost", lost, [0.69, 0.85]);
+}
+
+/// Kroell 1971 at 7.15 m/s with 22.7 kg, which no number was fitted to: 4.02 to 4.62 kN, 72 to 110 mm, 90 to 99 % lost.
+#[test]
+fn the_chest_of_a_person_meets_kroell_blind() {
+    let set = [
+        "occupants.sitter.body.chest=person",
+        "materials.skin={ k1 = \"480 kN/m\", mu1 = 0.7, friction = 0.2 }",
+        "solids.face.material=skin",
+        "loose.hub.mass=22.7 kg",
+        "loose.hub.velocity=[-7.15, 0, 0]",
+    ];
+    let [force, _, outer, lost] = in_place(&set);
+    assert_within("force, N", force, [4020.0, 4620.0]);
+    assert_within("outer depth, m", outer, [0.072, 0.110]);
+    assert_within("lost", lost, [0.90, 0.99]);
+}
+
+/// A belted driver whose chest and pelvis give way: books close, what plates lose never comes back.
+#[test]
+fn the_books_of_a_driver_whose_trunk_gives_way_close() {
+    let model = Model::new(setup(THREE_POINT, &GIVING)).unwrap_or_else(|problems| panic!("{problems}"));
+    let known = channels(&model);
+    let wanted = |name: &str| known.iter().find(|c| c.name == name).unwrap_or_else(|| panic!("no {name}")).clone();
+    let names = ["energy.lost_plates", "chest.deflection", "plate.flesh.deflection", "chest.lower_left.deflection"];
+    let mut series = Series::new(names.map(wanted).to_vec());
+    let outcome = simulate(&model, &mut series).unwrap();
+    assert_eq!(outcome.status, Status::Completed);
+    assert_below("energy balance", outcome.energy.balance_error, 1e-5);
+    for pair in series.values[0].windows(2) {
+        assert!(pair[1] >= pair[0] - 1e-9, "lost {} then {}", pair[0], pair[1]);
+    }
+    assert_within("breastbone, m", greatest(&series.values[1]), [0.01, 0.12]);
+    assert_within("flesh, m", greatest(&series.values[2]), [0.005, 0.08]);
+}
+
+/// Plates as stiff as bone move as a rigid trunk.
+#[test]
+fn stiff_plates_move_as_a_rigid_trunk() {
+    let stiff: Vec<String> =
+        ["sternum", "left_ribs", "right_ribs"]
+            .iter()
+            .map(|plate| format!("body.plates.{plate}.spring={{ stiffness = \"1e9 N/m\" }}"))
+            .chain(["sternum", "left_ribs", "right_ribs"].map(|plate| {
+                format!("body.plates.{plate}.damper={{ linear = \"20 kN s/m\", outward = \"20 kN s/m\" }}")
+            }))
+            .collect();
+    let mut set: Vec<&str> = stiff.iter().map(String::as_str).collect();
+    let places = ["head.position.x", "head.position.z", "upper_torso.position.x"];
+    let common = ["time.end=0.08", "integrator={ kind = \"adaptive\" }"];
+    let rigid = traced(THREE_POINT, &common, &places);
+    set.extend(common);
+    set.insert(0, "body.chest=person");
+    let giving = traced(THREE_POINT, &set, &places);
+    let off = rigid.iter().zip(&giving).flat_map(|(a, b)| a.iter().zip(b)).map(|(a, b)| (a - b).abs());
+    assert_below("apart, m", off.fold(0.0, f64::max), 2e-5);
+}
+
+#[test]
+fn drivers_whose_trunks_give_way_end_alike_side_by_side() {
+    ends_alike_side_by_side(|i| {
+        let share = format!("body.spheres.chest.ride.belt.sternum={}", 0.2 + 0.05 * f64::from(i));
+        let set = ["body.chest=person", "body.pelvis=flesh", "time.end=0.06", "output.interval=\"2 ms\"", &share];
+        Model::new(setup(THREE_POINT, &set)).unwrap_or_else(|problems| panic!("{problems}"))
+    });
+}
+
+/// A loop with a constant pull round a chest that is held: s = w F/k.
+#[test]
+fn a_belt_at_rest_presses_a_plate_in_by_its_share() {
+    let (before, _) = HUB.split_once("[loose.hub]").unwrap();
+    let text = format!(
+        "{before}\n[belts.strap]\nsphere = \"front\"\nanchors = [[-0.3, -0.3, 0], [-0.3, 0.3, 0]]\nlength = 1\nk1 = \"20 kN/m\"\n"
+    );
+    let set = [
+        "mount.let_go=null",
+        "body.spheres.front.ride.belt={ sternum = 0.35 }",
+        "body.plates.sternum.spring={ stiffness = \"50 kN/m\" }",
+        "body.plates.sternum.damper={ linear = \"200 N s/m\", outward = \"200 N s/m\" }",
+        "time.end=\"0.4 s\"",
+        "output.interval=\"1 ms\"",
+    ];
+    let values = traced(&text, &set, &["plate.sternum.deflection", "sphere.front.belt_force.x"]);
+    let (deflection, force) = (values[0].last().unwrap(), values[1].last().unwrap());
+    assert_within("force, N", -force, [100.0, 1e5]);
+    assert_below("s over wF/k", deflection / (0.35 * -force / 50e3) - 1.0, 1e-6);
+}
