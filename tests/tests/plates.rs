@@ -220,7 +220,14 @@ fn stiff_plates_move_as_a_rigid_trunk() {
 fn drivers_whose_trunks_give_way_end_alike_side_by_side() {
     ends_alike_side_by_side(|i| {
         let share = format!("body.spheres.chest.ride.belt.sternum={}", 0.2 + 0.05 * f64::from(i));
-        let set = ["body.chest=person", "body.pelvis=flesh", "time.end=0.06", "output.interval=\"2 ms\"", &share];
+        let set = [
+            "body.chest=person",
+            "body.pelvis=flesh",
+            "time.end=0.06",
+            "output.interval=\"2 ms\"",
+            &share,
+            "integrator={ kind = \"rk4\", step = \"0.1 ms\" }",
+        ];
         Model::new(setup(THREE_POINT, &set)).unwrap_or_else(|problems| panic!("{problems}"))
     });
 }

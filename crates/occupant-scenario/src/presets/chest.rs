@@ -2,7 +2,7 @@
 //!
 //! `person`: breastbone and skin fitted to frontal hub tests (Lebarbé and Petit 2012, 4.3 and 6.7 m/s; the damper's linear part by
 //! Kent 2004), the share of a belt from Kent 2004; lower ribs and links to means of Shaw 2009. `dummy50`, `dummy05f`: fitted to 49
-//! CFR 572.34 and 572.134, the share of a belt to vehicle test NHTSA 7292. Masses are guesses but the person's breastbone.
+//! CFR 572.34 and 572.134, the share of a belt to vehicle test NHTSA 7292. The mass of `dummy50` is a guess.
 
 use crate::sections::ChestChoice;
 use occupant_core::body::Body;
@@ -40,7 +40,7 @@ const DUMMY_50: Breastbone = Breastbone {
     share: 0.20,
 };
 const DUMMY_05F: Breastbone = Breastbone {
-    mass_kg: 0.5,
+    mass_kg: 0.2,
     spring: &[[0.0, 0.0], [0.04, 2000.0], [0.1, 12200.0]],
     returned: 0.7,
     damper: [440.0, 0.0, 440.0],
