@@ -31,6 +31,7 @@ mod obstacles;
 mod outputs;
 mod own_forces;
 mod own_runs;
+mod own_steps;
 mod plates;
 mod reactions;
 mod reference;

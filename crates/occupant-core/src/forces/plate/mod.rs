@@ -43,7 +43,7 @@ impl Element for Plates {
     const STORED: &'static [StoredEnergy] = &[StoredEnergy {
         at: 7,
         quantity: energy(21, "plates", "stored in plates of the trunk", "recoverable, in plates of the trunk"),
-        held_by: HeldBy::sum(WORK, 66, "start_plates_j", "stored in plates at the start of the run"),
+        held_by: HeldBy::sum(WORK, 69, "start_plates_j", "stored in plates at the start of the run"),
     }];
     const SUMS: &'static [WorkSum] = &[WorkSum {
         at: WORK,

@@ -68,7 +68,7 @@ impl Reported for Plates {
     }
 
     fn keep(past: &mut Vec<BandPast<f64>>, like: Option<&[BandPast<f64>]>, file: &mut dyn Archive) {
-        let number = if like.is_some() { 68 } else { 67 };
+        let number = if like.is_some() { 71 } else { 70 };
         let meaning = "of each spring of plates and of their links: greatest inward, then outward deflection that it remembers, m";
         let list = past.iter().flat_map(|band| band.greatest).collect();
         let list = file.numbers(FieldWords { number, stem: "plates", meaning }, list);
