@@ -136,7 +136,7 @@ fn start(sources: &mut Sources, section: &Node, key: &str) -> Option<Node> {
 }
 
 fn body(layers: &[Node]) -> Table {
-    let mut explicit = plain_keys(layers, &["segments", "joints", "spheres"]);
+    let mut explicit = plain_keys(layers, &["segments", "joints", "spheres", "plates", "plate_links"]);
     let parts = |key: &str| -> Vec<Node> { layers.iter().filter_map(|l| l.get(key).cloned()).collect() };
     let joints = parts("joints");
     let own: Vec<String> = other_names(&joints, &[]);
@@ -147,6 +147,10 @@ fn body(layers: &[Node]) -> Table {
     put(&mut explicit, "segments", &segments, all_members(&segments, &names));
     let spheres = parts("spheres");
     put(&mut explicit, "spheres", &spheres, all_members(&spheres, &shape::names(&TTI12)));
+    for key in ["plates", "plate_links"] {
+        let own = parts(key);
+        put(&mut explicit, key, &own, all_members(&own, &[]));
+    }
     explicit
 }
 

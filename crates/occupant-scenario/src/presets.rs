@@ -7,9 +7,11 @@ use nalgebra::{UnitQuaternion, Vector2};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
+mod chest;
+
 use super::expand::{expand, written};
-use super::sections::{BodySection, occupant};
-use occupant_core::body::people::{self, Person};
+use super::sections::{BodySection, ChestChoice, PelvisChoice, occupant};
+use occupant_core::body::people::{self, Division, Person};
 use occupant_core::body::tti12::TTI12;
 use occupant_core::body::{Body, Joint, JointKind};
 use occupant_core::forces::joint::Joints;
@@ -46,12 +48,41 @@ pub(super) fn base(section: &Node, key: &str) -> Option<(String, Document)> {
             let old = || (preset == Some(OLD)).then(|| preset_body(OLD)).flatten();
             let made = preset.and_then(|name| people::child(name, division)).or_else(old);
             let body = made.or_else(|| Some(person(section, preset)?.body(division).0))?;
-            let title = format!("body of {}", preset.unwrap_or("a person"));
-            let document = written(&title, &words(&body, section.get("joints").is_some()))?;
+            let mut text = words(&body, section.get("joints").is_some());
+            let mut title = format!("body of {}", preset.unwrap_or("a person"));
+            if let Some((more, name)) = giving(section, preset, &body, division) {
+                (text, title) = (text + "\n" + &more, format!("{title} with {name}"));
+            }
+            let document = written(&title, &text)?;
             Some((title, document))
         }
         _ => None,
     }
+}
+
+/// The words of what a body section asks to give way, and what it is called.
+fn giving(section: &Node, preset: Option<&str>, body: &Body, division: Division) -> Option<(String, String)> {
+    let own = BodySection::deserialize(section).ok()?;
+    let flesh = (own.pelvis == Some(PelvisChoice::Flesh)).then(|| chest::flesh(body));
+    let chest = chest_of(section, preset, body, division);
+    if flesh.is_none() && chest.is_none() {
+        return None;
+    }
+    let named = own.chest.filter(|_| chest.is_some()).map(|chest| format!("chest {}", chest.name()));
+    let name = [named, flesh.as_ref().map(|_| "flesh".to_owned())].into_iter().flatten().collect::<Vec<_>>();
+    // how spheres ride stands behind the table of spheres, plates after it
+    let [rides, plates] = flesh.unwrap_or_default();
+    let chest = chest.unwrap_or_default();
+    Some(([rides, chest.join("\n"), plates].join("\n"), name.join(" and ")))
+}
+
+/// The words of the chest that a body section asks for; none of a child, whom no test reaches.
+fn chest_of(section: &Node, preset: Option<&str>, body: &Body, division: Division) -> Option<Vec<String>> {
+    let choice = BodySection::deserialize(section).ok()?.chest.filter(|choice| *choice != ChestChoice::Rigid)?;
+    let is_old = preset == Some(OLD);
+    let own = if is_old { people::REFERENCE_PERSON } else { person(section, preset)? };
+    let reference = people::REFERENCE_PERSON.body(if is_old { Division::default() } else { division }).0;
+    Some(chest::words(choice, body, [own, people::REFERENCE_PERSON], &reference))
 }
 
 /// The preset whose body stands in a file.

@@ -11,6 +11,7 @@ use super::joint::limit::JointLimits;
 use super::joint::muscle::Muscles;
 use super::own::OwnForces;
 use super::pace::Pace;
+use super::plate::Plates;
 use super::rate::Rate;
 use super::shown::{Reported, Tracker};
 use super::stored::Archive;
@@ -465,6 +466,7 @@ macro_rules! kinds {
 }
 
 kinds! {
+    plates: Plates,
     contacts: Contacts,
     belts: Belts,
     chains: Chains,

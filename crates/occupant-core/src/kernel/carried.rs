@@ -70,7 +70,21 @@ impl<S: Scalar> Carried<'_, S> {
         let inertial = self.specific_force(m) * link.mass;
         let arm = k.axes[m].out(link.cg);
         let moment = self.spin(m) + arm.cross(inertial) - self.outer[m];
-        Wrench { force: inertial - self.wrench[m].force, moment }
+        let mut own = Wrench { force: inertial - self.wrench[m].force, moment };
+        if k.sliding > 0 {
+            self.slid(m, &mut own);
+        }
+        own
+    }
+
+    /// Adds what plates of a segment need beside what they would need had they not slid.
+    fn slid(&self, m: usize, own: &mut Wrench<S>) {
+        let up = v3(S::zero(), S::zero(), self.skeleton.gravity);
+        for (i, slide) in self.skeleton.slides.iter().enumerate().filter(|(_, slide)| slide.segment == m) {
+            let [now, rest] = self.accelerations.sliding(self.k, i, m).map(|a| (a + up) * slide.mass);
+            own.force += now - rest;
+            own.moment += self.k.slides[i].arm().cross(now) - self.k.slides[i].rest.cross(rest);
+        }
     }
 
     /// a + g Z′ of the centre of gravity: what an accelerometer reads there, space axes, m/s².

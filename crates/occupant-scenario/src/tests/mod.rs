@@ -18,6 +18,7 @@ mod messages;
 mod mount;
 mod muscles;
 mod overrides;
+mod plates;
 mod record_file;
 mod rigs;
 mod robustness;

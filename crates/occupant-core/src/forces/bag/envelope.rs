@@ -16,6 +16,7 @@ use super::shape::{ShapeLaw, displaced, size};
 use super::unfold::Unfolded;
 use crate::forces::decay::decay;
 use crate::forces::element::Instant;
+use crate::forces::sphere::Use;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
@@ -146,7 +147,7 @@ impl<S: Scalar> EnvelopeLaw<S> {
         if !S::any(touches | is_held) {
             return Pressed::none();
         }
-        let (_, centre, velocity) = site.place(at.k);
+        let (_, centre, velocity) = site.place(at.k, Use::Bag);
         let [area, volume] = displaced(S::select(is_held, held, depth).max(o), site.radius, self.shape.face());
         let relative = frame.axes.into_frame(velocity - frame.velocity_at(centre));
         let spread = unfolded.growth / (S::of(3.0) * unfolded.share) * (near.distance - near.gradient.dot(seen));
@@ -182,7 +183,7 @@ impl<S: Scalar> EnvelopeLaw<S> {
     /// A sphere's centre seen from the mount, in the axes of the frame, m.
     #[inline(always)]
     fn seen(&self, at: &Instant<'_, S>, sphere: usize) -> V3<S> {
-        at.centre_in(sphere, self.frame) - self.mount
+        at.centre_in(sphere, Use::Bag, self.frame) - self.mount
     }
 }
 

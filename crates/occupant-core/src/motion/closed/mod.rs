@@ -66,7 +66,7 @@ fn links<'a, S>(body: &'a Skeleton<S>, trunk: &Tree) -> &'a Links<S> {
 pub(crate) fn place<S: Scalar>(all: &mut Kinematics<S>, bodies: &Skeleton<S>, state: &State<S>, body: usize) {
     let trunk = &bodies.layout.trunks()[body];
     let links = links(bodies, trunk);
-    let Kinematics { axes: turns, omega, joint, joint_velocity, hinge_axis, hinge_sin_cos } = all;
+    let Kinematics { axes: turns, omega, joint, joint_velocity, hinge_axis, hinge_sin_cos, .. } = all;
     // known sizes save checks of indices
     let (first, hinge) = (trunk.first, trunk.hinge);
     let turned: &mut [M3<S>; SEGMENTS] = of(&mut turns[first..]);

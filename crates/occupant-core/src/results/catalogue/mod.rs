@@ -4,6 +4,7 @@
 //! Summaries, plots, exports, prints and studies take names, units, axes and values from here. It writes nothing.
 
 mod body;
+mod chest;
 mod drive;
 mod energy;
 mod joint;
@@ -183,6 +184,7 @@ impl Catalogue {
         all.surfaces(model);
         visit_kinds(&mut Elements { model, all: &mut all });
         all.own_forces(model);
+        model.body().chests.iter().for_each(|chest| all.chest(chest));
         for joint in tree.joints() {
             let name = tree[joint].name;
             let (channel, words) = (format!("joint.{name}"), name.replace('_', " "));

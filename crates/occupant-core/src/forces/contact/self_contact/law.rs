@@ -11,7 +11,7 @@ use crate::forces::contact::zip::OTHER_PAIRS;
 use crate::forces::contact::{FRICTION, MaterialLaw, OPEN, PASSED, PRESS, PairHistory, TOUCHING, Touch};
 use crate::forces::element::{Instant, Load, Unlike};
 use crate::forces::pace::Pace;
-use crate::forces::sphere::Site;
+use crate::forces::sphere::{Site, Use};
 use crate::motion::frame::SPACE;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
@@ -106,7 +106,7 @@ impl<S: Scalar> SelfPairs<S> {
             return;
         }
         for ((centre, velocity), site) in hints.centres.iter_mut().zip(&mut hints.velocities).zip(at.spheres) {
-            (_, *centre, *velocity) = site.place(at.k);
+            (_, *centre, *velocity) = site.place(at.k, Use::Contact);
         }
         hints.count = 0;
         for (i, pair) in self.pairs.iter().enumerate() {
@@ -132,7 +132,7 @@ impl<S: Scalar> SelfPair<S> {
     #[inline(always)]
     fn centres(&self, at: &Instant<'_, S>) -> [V3<S>; 2] {
         let [one, other] = self.spheres;
-        [at.spheres[one].place(at.k).1, at.spheres[other].place(at.k).1]
+        [at.spheres[one].place(at.k, Use::Contact).1, at.spheres[other].place(at.k, Use::Contact).1]
     }
 
     /// Δ and n̂ (6.4), space axes; spheres that are in the same place have a direction by rule.
@@ -232,7 +232,8 @@ impl<S: Scalar> SelfPair<S> {
     #[inline(always)]
     fn approach(&self, at: &Instant<'_, S>) -> Approach<S> {
         let [one, other] = self.spheres.map(|sphere| &at.spheres[sphere]);
-        let ((_, centre, velocity), (_, other_centre, other_velocity)) = (one.place(at.k), other.place(at.k));
+        let ((_, centre, velocity), (_, other_centre, other_velocity)) =
+            (one.place(at.k, Use::Contact), other.place(at.k, Use::Contact));
         let (omega, other_omega) = (at.k.omega[one.segment], at.k.omega[other.segment]);
         let carried = other_velocity + other_omega.cross(centre - other_centre);
         Approach { centre, velocity: velocity - carried, omega: omega - other_omega, radius: one.radius }
@@ -249,7 +250,7 @@ impl<S: Scalar> SelfPair<S> {
             let (arm, on) = (point - at.k.joint[segment], &mut load.wrench[segment]);
             on.force = V3::select(live, on.force + force, on.force);
             on.moment = V3::select(live, on.moment + arm.cross(force), on.moment);
-            load.press_knee(site, force, live);
+            load.press(site, Use::Contact, force, live);
         }
         let carried =
             at.k.joint_velocity[other.segment] + at.k.omega[other.segment].cross(point - at.k.joint[other.segment]);
