@@ -1,7 +1,7 @@
 //! What `body` and `joints` of a scenario start from: occupants that come with the program, in `presets` or made by
 //! [`occupant_core::body::people`]. Programs that do without a text get the same ones, read as a scenario's are.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use nalgebra::{UnitQuaternion, Vector2};
 use serde::Deserialize;
@@ -9,7 +9,7 @@ use serde::de::DeserializeOwned;
 
 use super::expand::{expand, written};
 use super::sections::{BodySection, occupant};
-use occupant_core::body::people::{self, Person};
+use occupant_core::body::people::{self, Division, Person};
 use occupant_core::body::tti12::TTI12;
 use occupant_core::body::{Body, Joint, JointKind};
 use occupant_core::forces::joint::Joints;
@@ -29,38 +29,66 @@ pub(crate) fn read(body: &str) -> Option<(Body, Joints)> {
 }
 
 /// The text that a section named `key` of a checked scenario starts from, and what messages call it.
-pub(super) fn base(section: &Node, key: &str) -> Option<(String, Document)> {
+pub(super) fn base(section: &Node, key: &str) -> Option<(String, Arc<Document>)> {
     let preset = section.get("preset").and_then(Node::as_str);
     match (key, preset) {
         ("joints", Some("male50")) => Some(("preset male50".to_owned(), male50()?.clone())),
         ("body", Some(OLD)) if section.get("joints").is_none() => Some(("preset male50".to_owned(), male50()?.clone())),
         ("joints", Some(name)) => {
             let at = ELASTIC.iter().position(|(known, _)| *known == name)?;
-            static READ: [OnceLock<Option<Document>>; ELASTIC.len()] = [const { OnceLock::new() }; ELASTIC.len()];
+            static READ: [Read; ELASTIC.len()] = [const { OnceLock::new() }; ELASTIC.len()];
             let title = format!("preset {name}");
-            let document = READ[at].get_or_init(|| written(&title, ELASTIC[at].1)).clone()?;
+            let document = READ[at].get_or_init(|| written(&title, ELASTIC[at].1).map(Arc::new)).clone()?;
             Some((title, document))
         }
-        ("body", _) => {
-            let division = BodySection::deserialize(section).ok()?.division().unwrap_or_default();
-            let old = || (preset == Some(OLD)).then(|| preset_body(OLD)).flatten();
-            let made = preset.and_then(|name| people::child(name, division)).or_else(old);
-            let body = made.or_else(|| Some(person(section, preset)?.body(division).0))?;
-            let title = format!("body of {}", preset.unwrap_or("a person"));
-            let document = written(&title, &words(&body, section.get("joints").is_some()))?;
-            Some((title, document))
-        }
+        ("body", _) => made(section, preset),
         _ => None,
     }
+}
+
+/// A text of the program, once it has been read.
+type Read = OnceLock<Option<Arc<Document>>>;
+
+/// What a body is made from: its preset, or the person, and how it is divided; and whether its joints are written.
+type Made = (Option<String>, Option<Person>, Division, bool);
+
+/// The text of a body that is made from a section. The samples of a study ask for the same ones again and again, so the latest
+/// are kept.
+fn made(section: &Node, preset: Option<&str>) -> Option<(String, Arc<Document>)> {
+    const KEPT: usize = 32;
+    static LATEST: Mutex<Vec<(Made, Arc<Document>)>> = Mutex::new(Vec::new());
+    let own = BodySection::deserialize(section).ok()?;
+    let from: Made = (
+        preset.map(str::to_owned),
+        person(&own, preset),
+        own.division().unwrap_or_default(),
+        section.get("joints").is_some(),
+    );
+    let title = format!("body of {}", preset.unwrap_or("a person"));
+    let latest = || LATEST.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, document)) = latest().iter().find(|(key, _)| *key == from) {
+        return Some((title, document.clone()));
+    }
+    let (_, person, division, has_joints) = from;
+    let old = || (preset == Some(OLD)).then(|| preset_body(OLD)).flatten();
+    let body = preset.and_then(|name| people::child(name, division)).or_else(old);
+    let body = body.or_else(|| Some(person?.body(division).0))?;
+    let document = Arc::new(written(&title, &words(&body, has_joints))?);
+    let mut latest = latest();
+    if latest.len() == KEPT {
+        latest.remove(0);
+    }
+    latest.push(((preset.map(str::to_owned), person, division, has_joints), document.clone()));
+    Some((title, document))
 }
 
 /// The preset whose body stands in a file.
 const OLD: &str = "male50-1970";
 
 /// The body of the first version and a starting set of joints.
-fn male50() -> Option<&'static Document> {
-    static READ: OnceLock<Option<Document>> = OnceLock::new();
-    READ.get_or_init(|| written("preset male50", include_str!("presets/male50-1970.toml"))).as_ref()
+fn male50() -> Option<&'static Arc<Document>> {
+    static READ: Read = OnceLock::new();
+    READ.get_or_init(|| written("preset male50", include_str!("presets/male50-1970.toml")).map(Arc::new)).as_ref()
 }
 
 /// Sections of a scenario that the library has entries for.
@@ -89,8 +117,7 @@ const ELASTIC: [(&str, &str); 6] = [
 
 /// The grown-up that a body section speaks of; the reference where it is too incomplete or out of reach, which is reported
 /// when the body is built.
-fn person(section: &Node, preset: Option<&str>) -> Option<Person> {
-    let own = BodySection::deserialize(section).ok()?;
+fn person(own: &BodySection, preset: Option<&str>) -> Option<Person> {
     let named = preset.and_then(Person::named);
     if named.is_none() && !own.describes_a_person() {
         return None;
