@@ -10,7 +10,9 @@ use occupant_core::motion::integrate::rk4;
 use occupant_core::motion::layout::Freedom;
 use occupant_core::motion::state::State;
 use occupant_core::results::summary::Summarizer;
+use occupant_core::run::Run;
 use occupant_core::run::simulate::simulate;
+use occupant_core::vehicle::{VehicleInput, VehiclePath, VehicleState};
 use occupant_tests::any_tree::{AnyTree, bare};
 use occupant_tests::cart::lap;
 use occupant_tests::random::Random;
@@ -93,4 +95,34 @@ fn a_summary_allocates_at_the_start_and_at_the_end_and_never_between() {
     };
     let few = run(0.05, 2e-4);
     assert_eq!((run(0.001, 2e-4), run(0.001, 1e-4)), (few, few));
+}
+
+/// A vehicle that is told 1000 times a second for ever: what a frame needs it has by the second second, and looks leave nothing
+/// behind.
+#[test]
+fn a_frame_that_is_told_allocates_nothing() {
+    for integrator in [Integrator::Rk4 { step_s: 5e-4 }, Integrator::default()] {
+        let mut setup = lap(integrator);
+        setup.path = VehiclePath::live(VehicleState::default());
+        setup.time.end_s = 10.0;
+        let model = Model::new(setup).unwrap();
+        let head = model.body().tree.segment(2);
+        let (mut run, mut frame, mut looked) = (Run::new(&model), 0, 0.0);
+        let mut frames = |count: u32| {
+            measure(|| {
+                for _ in 0..count {
+                    frame += 1;
+                    let until_s = 1e-3 * f64::from(frame);
+                    run.push(until_s, &VehicleInput::acceleration([0.0, 2.0 * (3.0 * until_s).sin(), 0.0])).unwrap();
+                    run.advance_to(until_s).unwrap();
+                    looked += run.look(|sample| sample.cg_m(head).x).unwrap();
+                }
+            })
+        };
+        let warm_up = frames(2100);
+        assert!(warm_up.count_total > 0);
+        let after = frames(2000);
+        assert_eq!((after.count_total, after.bytes_current), (0, 0), "{after:?}");
+        assert!(looked.is_finite());
+    }
 }

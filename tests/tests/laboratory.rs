@@ -190,3 +190,39 @@ fn a_person_on_a_sled_moves_as_the_dead_did() {
     // the finite-element model of the same test has 0.65
     assert!(mean > 0.70, "{mean:.3} {all:.2?}");
 }
+
+/// The isolated necks of the dead, driven at T1 from behind at 2.6 m/s (Stemper 2004): angle of the head against T1 and retraction of
+/// its centre, rated against the middle of the corridors. Both were in view when the neck of `person` was fitted.
+#[test]
+#[cfg_attr(not(crash_tests), ignore = "OCCUPANT_CRASH_TESTS names no folder of crash tests")]
+fn a_neck_of_a_person_moves_as_those_of_the_dead_struck_from_behind() {
+    let pulse = Curves::open("stemper2004-rear/t1-pulse.csv");
+    let rows: Vec<String> = pulse.rows.iter().map(|row| format!("[{}, {}, 0]", 1e-3 * row[0], row[1])).collect();
+    let set = [
+        format!("path.rows=[{}]", rows.join(", ")),
+        "path.speed=\"1 m/s\"".to_owned(),
+        "time.end=0.126".to_owned(),
+        "output.interval=\"1 ms\"".to_owned(),
+        "mount.pitch=25".to_owned(),
+        "mount.posture={ neck = 8, head = 0 }".to_owned(),
+    ];
+    let set: Vec<&str> = set.iter().map(String::as_str).collect();
+    let model = Model::new(setup(include_str!("../../scenarios/neck-sled.toml"), &set)).unwrap();
+    let mut series = Series::new(matching(&model, "*"));
+    simulate(&model, &mut series).unwrap();
+    let corridors = Curves::open("stemper2004-rear/corridors.csv");
+    let middle = |names: [&str; 2]| -> Vec<f64> {
+        let [low, high] = names.map(|name| corridors.column(name));
+        low.iter().zip(&high).map(|(low, high)| 0.5 * (low + high)).collect()
+    };
+    let time_s: Vec<f64> = corridors.column("t_ms").iter().map(|t| 1e-3 * t).collect();
+    let rated = |channel: &str, unit: f64, measured: &[f64]| {
+        let from: Vec<f64> = series.of(channel).unwrap().to_vec();
+        let ours: Vec<f64> = from.iter().map(|x| unit * (x - from[0])).collect();
+        iso18571(&sampled(&time_s, measured, false), &sampled(&series.time_s, &ours, false), 1e-4).unwrap().overall
+    };
+    let angle =
+        rated("head.rotation.y", 180.0 / std::f64::consts::PI, &middle(["Head_T1_angle_lo", "Head_T1_angle_hi"]));
+    let retraction = rated("head.level_position.x", 1e3, &middle(["retraction_lo", "retraction_hi"]));
+    assert!(angle > 0.85 && retraction > 0.95, "{angle:.3} {retraction:.3}");
+}

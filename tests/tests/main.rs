@@ -32,6 +32,7 @@ mod obstacles;
 mod outputs;
 mod own_forces;
 mod own_runs;
+mod own_steps;
 mod reactions;
 mod reference;
 mod report_cases;

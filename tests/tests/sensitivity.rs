@@ -526,7 +526,7 @@ fn after_contacts_the_derivative_is_what_small_finite_changes_do() {
 fn figures_beside(parameter: &Parameter<'_>, value: f64, wish: &Request) -> Vec<f64> {
     let model = (parameter.model_at)(value).unwrap();
     let interval_s = model.setup().time.output_s;
-    let mut here = parameter.of_models(move |model| model.with_outputs_every(interval_s));
+    let mut here = parameter.of_models(move |model| model.with_outputs_every(interval_s).unwrap());
     here.nominal = value;
     let trajectory = follow(&model, &mut [Built::new(&model, &here).unwrap()]).unwrap();
     plain_values(&model, &trajectory, wish).unwrap().figures
@@ -538,10 +538,11 @@ fn after_contacts_the_derivative_is_that_of_runs_on_the_same_steps() {
     for (text, end) in [(CART, "0.12"), (UNBELTED, "0.09")] {
         let draft = draft(text, &[&format!("time.end={end}")]);
         let interval_s = fine_interval_s(&model_of(&draft));
-        let model = model_of(&draft).with_outputs_every(interval_s);
+        let model = model_of(&draft).with_outputs_every(interval_s).unwrap();
         let paths = ["joints.neck.damping", "materials.seat.k1", "path.duration"];
         let own = paths.map(|p| parameter(&draft, p, &no_files).unwrap());
-        let parameters = own.each_ref().map(|p| p.of_models(move |model| model.with_outputs_every(interval_s)));
+        let parameters =
+            own.each_ref().map(|p| p.of_models(move |model| model.with_outputs_every(interval_s).unwrap()));
         let mut built = parameters.each_ref().map(|p| Built::new(&model, p).unwrap());
         let trajectory = follow(&model, &mut built).unwrap();
         // readings, which measures with windows are made of, have the precision of an f32: too little for so small a change
@@ -571,10 +572,10 @@ fn a_verdict_tells_a_smooth_measure_from_a_peak_at_a_corner() {
     let draft = draft(CART, &["time.end=0.12"]);
     let own_model = model_of(&draft);
     let interval_s = fine_interval_s(&own_model);
-    let model = own_model.clone().with_outputs_every(interval_s);
+    let model = own_model.clone().with_outputs_every(interval_s).unwrap();
     let paths = ["joints.neck.damping", "materials.seat.k1", "path.duration"];
     let own = paths.map(|p| parameter(&draft, p, &no_files).unwrap());
-    let parameters = own.each_ref().map(|p| p.of_models(move |model| model.with_outputs_every(interval_s)));
+    let parameters = own.each_ref().map(|p| p.of_models(move |model| model.with_outputs_every(interval_s).unwrap()));
     let mut built = parameters.each_ref().map(|p| Built::new(&model, p).unwrap());
     let trajectory = follow(&model, &mut built).unwrap();
     let wish = Request { figures: vec!["hic15".to_owned(), "head.peak".to_owned()], channels: Vec::new() };

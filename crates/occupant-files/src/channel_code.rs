@@ -21,6 +21,7 @@ use crash_measures::signal::ChannelClass;
 use occupant_core::model::Model;
 use occupant_core::results::channel::Channel;
 
+/// A channel code of 16 characters, ISO 13499.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Code([u8; 16]);
 
@@ -33,6 +34,7 @@ pub struct Place {
     pub webbing: Option<&'static str>,
     /// Physical dimension.
     pub dimension: &'static str,
+    /// Direction: X, Y, Z, R of a resultant, or 0.
     pub direction: char,
     /// Whether it belongs to the vehicle, not to the occupant.
     of_vehicle: bool,

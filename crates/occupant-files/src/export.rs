@@ -46,8 +46,10 @@ pub struct About {
     pub figures: Vec<Figure>,
 }
 
+/// What is known of a column.
 #[derive(Clone, Debug, Serialize)]
 pub struct ColumnAbout {
+    /// The channel.
     pub name: String,
     /// Unit of the values, in ASCII.
     pub unit: String,
@@ -55,6 +57,7 @@ pub struct ColumnAbout {
     pub frame: &'static str,
     /// Filter class applied.
     pub filter: String,
+    /// In words.
     pub meaning: String,
 }
 
@@ -133,8 +136,9 @@ impl About {
 /// a value that is no number.
 ///
 /// # Errors
-/// What the writer refuses, in its words.
+/// Histories of other lengths than their times; what the writer refuses, in its words.
 pub fn table(histories: &Histories, about: &About, units: UnitChoice, form: Form) -> io::Result<Vec<u8>> {
+    histories.check().map_err(|found| io::Error::new(io::ErrorKind::InvalidInput, found))?;
     let is_read = matches!(form, Form::Csv | Form::Xlsx);
     let named = |c: &ColumnAbout| if is_read { heading(c) } else { c.name.clone() };
     let columns: Vec<(String, Kind)> = about.columns.iter().map(|c| (named(c), Kind::Number)).collect();

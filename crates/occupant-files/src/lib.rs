@@ -36,8 +36,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-#![allow(missing_docs, reason = "fields and variants say by their names and units what they hold")]
-
 pub mod base;
 mod book;
 mod channel_code;

@@ -28,6 +28,7 @@ use crate::base::{Failure, input_file, program, sha256};
 
 /// A run that was recorded.
 pub struct Results {
+    /// The file.
     pub path: PathBuf,
     /// Its SHA-256.
     pub sha256: String,

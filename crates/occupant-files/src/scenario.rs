@@ -8,7 +8,7 @@ use placed_text::{Severity, Value};
 
 use super::deck::{FromDeck, from_deck, is_deck};
 use super::mcap::StoredRun;
-use super::mcap::about::RESOLVED;
+use super::mcap::about::{BEYOND, RESOLVED};
 use crate::base::{Failure, by_ending, ending, file_name, input_file, quoted};
 
 /// Which scenario, and what is changed in it.
@@ -31,6 +31,7 @@ pub struct Opened {
     pub bytes: Vec<u8>,
     /// The scenario, overrides included.
     pub loaded: Loaded,
+    /// Its model.
     pub model: Model,
     /// Warnings, with their places.
     pub warnings: Diagnostics,
@@ -41,6 +42,7 @@ pub struct Opened {
 /// The text of a scenario, with the changes applied.
 pub struct Source {
     bytes: Vec<u8>,
+    /// The text with the changes.
     pub draft: Draft,
     deck: Option<FromDeck>,
 }
@@ -150,6 +152,9 @@ pub struct Tables(pub Vec<(String, Vec<u8>)>);
 
 impl Tables {
     /// The bytes of a file, as resolvers of scenarios give them.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
     pub fn get(&self, name: &str) -> Result<Vec<u8>, String> {
         let found = self.0.iter().find(|(table, _)| table == name);
         found.map(|(_, bytes)| bytes.clone()).ok_or_else(|| "it was not there at the beginning".to_owned())
@@ -172,21 +177,20 @@ impl Tables {
 /// A file without it, or with one that this program cannot read.
 pub fn stored(file: &Path, run: &StoredRun) -> Result<(Loaded, Model, Diagnostics), Failure> {
     let name = file.display();
-    let bytes = run.attachments.get(RESOLVED);
-    let bytes = bytes.ok_or_else(|| Failure::plain(format!("{name} holds no scenario{}", run.because())))?;
+    let (is_resolved, format, bytes) = document(&name, run)?;
     let unreadable = |why: String| Failure::plain(format!("the scenario in {name} cannot be read:{why}"));
     input_file::scenario_fits(bytes).map_err(|error| unreadable(format!(" {error}")))?;
     let resolver = |table: &str| {
         let found = run.attachments.get(table).or_else(|| run.attachments.get(&file_name(Path::new(table))));
         found.cloned().ok_or_else(|| format!("{name} does not hold it"))
     };
-    let loaded = Draft::read_bytes(bytes, Some(Format::Toml), RESOLVED)
+    let loaded = Draft::read_bytes(bytes, format, RESOLVED)
         .and_then(|mut draft| {
-            // files of version 0.1.0 do not say it, and then it was false
-            if draft.get("posture.seat").is_ok() && draft.get("posture.settle").is_err() {
+            // what was resolved by version 0.1.0 does not say it, and then it was false
+            if is_resolved && draft.get("posture.seat").is_ok() && draft.get("posture.settle").is_err() {
                 draft.set_value("posture.settle", "false")?;
             }
-            if draft.get("surfaces").is_ok() && draft.get("contact.edge_force").is_err() {
+            if is_resolved && draft.get("surfaces").is_ok() && draft.get("contact.edge_force").is_err() {
                 draft.set_value("contact.edge_force", "contact_point")?;
             }
             draft.load(&resolver)
@@ -196,6 +200,24 @@ pub fn stored(file: &Path, run: &StoredRun) -> Result<(Loaded, Model, Diagnostic
     let (model, warnings) =
         model.map_err(|problems| Failure::plain(format!("the scenario in {name} is refused:\n{problems}")))?;
     Ok((loaded, model, warnings))
+}
+
+/// The scenario of a run in the file of this name: whether it is resolved, its format, its text.
+fn document<'r>(
+    name: &impl std::fmt::Display,
+    run: &'r StoredRun,
+) -> Result<(bool, Option<Format>, &'r [u8]), Failure> {
+    if let Some(beyond) = run.run.get(BEYOND) {
+        let found = format!("{name} is of a run with what no scenario says: {beyond}");
+        let help = "the program that ran it can look at it and go on with it; any reader of MCAP can plot its messages";
+        return Err(Failure::with_help(found, help));
+    }
+    if let Some(bytes) = run.attachments.get(RESOLVED) {
+        return Ok((true, Some(Format::Toml), bytes));
+    }
+    let as_read = run.run.get("scenario").and_then(|own| Some((own, run.attachments.get(own)?)));
+    let found = as_read.map(|(own, bytes)| (false, format_of(Path::new(own)), &bytes[..]));
+    found.ok_or_else(|| Failure::plain(format!("{name} holds no scenario{}", run.because())))
 }
 
 /// The format that the ending of the file name stands for, if any.

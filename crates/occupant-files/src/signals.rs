@@ -9,6 +9,7 @@ use super::channel_code::Code;
 /// All signals of a file or test.
 #[derive(Clone, Debug)]
 pub struct Recording {
+    /// The file.
     pub path: PathBuf,
     /// SHA-256 of the file; of the test's channel files one after the other.
     pub sha256: String,
@@ -18,6 +19,7 @@ pub struct Recording {
     pub notes: Vec<String>,
 }
 
+/// A measured signal.
 #[derive(Clone, Debug)]
 pub struct Signal {
     /// Column heading, or ISO-MME channel code; `2` for the second column of a table without headings.

@@ -27,9 +27,13 @@ const ROWS: [usize; 2] = [1024, 16_384];
 pub enum Kind {
     /// Whole numbers.
     Count,
+    /// Numbers.
     Number,
+    /// Numbers, some of which are absent.
     MaybeNumber,
+    /// Texts.
     Text,
+    /// Texts, some of which are absent.
     MaybeText,
 }
 
@@ -42,16 +46,21 @@ pub fn columns(lists: &[(Kind, &[&'static str])]) -> Vec<(&'static str, Kind)> {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Cell {
+    /// Nothing.
     Absent,
+    /// A number.
     Number(f64),
+    /// A text.
     Text(Box<str>),
 }
 
 impl Cell {
+    /// A text.
     pub fn text(text: &str) -> Self {
         Cell::Text(text.into())
     }
 
+    /// A whole number.
     pub fn count(n: u64) -> Self {
         Cell::Number(n as f64)
     }
@@ -61,6 +70,7 @@ impl Cell {
         if x.is_finite() { Cell::Number(x) } else { Cell::Absent }
     }
 
+    /// The number, if it is one.
     pub fn number(&self) -> Option<f64> {
         match self {
             Cell::Number(x) => Some(*x),
@@ -98,6 +108,7 @@ fn harmless(text: &str) -> String {
 pub enum Form {
     /// Text, with a line of headings.
     Csv,
+    /// Columns, packed.
     Parquet,
     /// A workbook of Excel.
     Xlsx,
@@ -139,7 +150,14 @@ enum Writer<W: Write + Send> {
 
 impl<W: Write + Send> Table<W> {
     /// Begins a table; `about` stands in the metadata of a Parquet file.
+    ///
+    /// # Errors
+    /// Two columns of one name; what the writer refuses.
     pub fn new(to: W, form: Form, columns: &[(impl AsRef<str>, Kind)], about: &[(&str, String)]) -> io::Result<Self> {
+        let mut names = std::collections::HashSet::new();
+        if let Some((name, _)) = columns.iter().find(|(name, _)| !names.insert(name.as_ref())) {
+            return Err(invalid(format!("two columns named `{}`; expected names of their own", name.as_ref())));
+        }
         let writer = match form {
             Form::Csv => {
                 let mut writer = csv::Writer::from_writer(to);
@@ -152,8 +170,21 @@ impl<W: Write + Send> Table<W> {
         Ok(Table { kinds: columns.iter().map(|(_, kind)| *kind).collect(), waiting: Vec::new(), writer })
     }
 
-    /// Adds a row, a cell for each column.
+    /// Adds a row, a cell for each column: a number, a text or nothing, as the column is of.
+    ///
+    /// # Errors
+    /// More or fewer cells than columns; a text among numbers; what the writer refuses.
     pub fn row(&mut self, cells: Vec<Cell>) -> io::Result<()> {
+        if cells.len() != self.kinds.len() {
+            let found = format!("a row of {} cells in a table of {} columns", cells.len(), self.kinds.len());
+            return Err(invalid(found + "; expected one for each"));
+        }
+        let is_number = |kind: &Kind| matches!(kind, Kind::Count | Kind::Number | Kind::MaybeNumber);
+        let misfit =
+            cells.iter().zip(&self.kinds).find(|(cell, kind)| is_number(kind) && matches!(cell, Cell::Text(_)));
+        if let Some((Cell::Text(text), _)) = misfit {
+            return Err(invalid(format!("the text {text:?} in a column of numbers; expected a number")));
+        }
         match &mut self.writer {
             Writer::Csv(writer) => writer.write_record(cells.iter().map(Cell::shown))?,
             Writer::Parquet(_) => {
@@ -177,6 +208,9 @@ impl<W: Write + Send> Table<W> {
     }
 
     /// Ends the table and gives back where it went.
+    ///
+    /// # Errors
+    /// What the writer refuses.
     pub fn finish(mut self) -> io::Result<W> {
         self.flush()?;
         match self.writer {
@@ -193,6 +227,10 @@ impl<W: Write + Send> Table<W> {
             _ => Ok(()),
         }
     }
+}
+
+fn invalid(what: String) -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidInput, what)
 }
 
 fn begin<W: Write + Send, N: AsRef<str>>(
@@ -290,7 +328,10 @@ impl TableFile {
         Ok(TableFile { path, table })
     }
 
-    /// Adds a row, a cell for each column.
+    /// Adds a row: [`Table::row`].
+    ///
+    /// # Errors
+    /// As of [`Table::row`].
     pub fn row(&mut self, cells: Vec<Cell>) -> Result<(), Failure> {
         self.table.row(cells).map_err(|e| unwritten(&self.path, &e))
     }
@@ -301,6 +342,9 @@ impl TableFile {
     }
 
     /// Gives the complete file its name.
+    ///
+    /// # Errors
+    /// What the writer or the operating system refuses.
     pub fn publish(self) -> Result<PathBuf, Failure> {
         let file = self.table.finish().map_err(|e| unwritten(&self.path, &e))?;
         file.publish().map_err(|e| broke_off(&e))

@@ -3,8 +3,31 @@
 //! A job takes what it needs as values and gives results and their words. It reads no command line and knows no terminal: the
 //! command, a notebook and a page use it alike. What it says while it works goes to the `log`; how far it is goes to the bar
 //! that the caller gives it ([`base::Show`]).
-
-#![allow(missing_docs, reason = "fields and variants say by their names and units what they hold")]
+//!
+//! What the motion of a car alone says of the risk to its occupants:
+//!
+//! ```
+//! use occupant_jobs::risk::Report;
+//! use occupant_scenario::{Format, Scenario};
+//!
+//! let text = r#"
+//!     title = "Stop"
+//!     time = { end = 0.3 }
+//!     path = { kind = "pulse", shape = "square", speed = "50 km/h", delta_v = "50 km/h", duration = "100 ms" }
+//!     body = { preset = "male50" }
+//!     joints = { preset = "male50" }
+//!     gravity = 0
+//!
+//!     [initial_state]
+//!     q     = [0, 0, 2,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0,  0, 0, 0,  0, 0, 0,  0, 0]
+//!     rates = [0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0,  0, 0, 0,  0, 0, 0,  0, 0]
+//! "#;
+//! let (setup, _) = Scenario::from_text(text, Format::Toml, "stop", &|file| Err(format!("no file {file}")))?.build()?;
+//! let report = Report::of_run("stop", &setup, None).ok_or("a path that cannot be sampled")?;
+//! let flail = report.risk.flail.expect("both accelerations are there");
+//! assert!((flail.oiv_x_mps - 12.9).abs() < 0.1); // √(2 · 0.6 m · 138.9 m/s²)
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod base;
 pub mod compare;

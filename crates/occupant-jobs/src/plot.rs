@@ -19,16 +19,21 @@ pub struct Request<'a> {
     pub channels: &'a [String],
     /// The channel across instead of the time.
     pub x: Option<&'a str>,
+    /// Limits to be drawn.
     pub limits: &'a [LimitArgument],
     /// Files of measured signals.
     pub tests: &'a [PathBuf],
+    /// Which signal is which channel.
     pub map: &'a [MapArgument],
     /// Position of the occupant in ISO-MME codes.
     pub seat: char,
     /// Added to the times of the tests.
     pub shift_s: f64,
+    /// Filter and interval.
     pub treatment: Treatment,
+    /// Units.
     pub units: UnitChoice,
+    /// Axes.
     pub axes: AxisChoice,
     /// First and last time drawn.
     pub window_s: [f64; 2],

@@ -28,7 +28,9 @@ const ENCODER: &str = "ffmpeg";
 /// Kinds of films.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Film {
+    /// A moving GIF.
     Gif,
+    /// H.264 in MP4, by an encoder of the machine.
     Mp4,
 }
 

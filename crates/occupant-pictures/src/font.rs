@@ -12,8 +12,10 @@ const BOLD: &[u8] = include_bytes!("../assets/fonts/DejaVuSans-Bold.ttf");
 /// Weight of a text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Weight {
+    /// Regular.
     #[default]
     Regular,
+    /// Bold.
     Bold,
 }
 

@@ -34,7 +34,9 @@ pub struct Html(String);
 /// A cell of a table.
 #[derive(Clone, Debug)]
 pub enum Cell {
+    /// Words, to the left.
     Words(String),
+    /// A number, to the right.
     Number(String),
     /// A number that a rule marks, and why.
     Marked(String, String),
@@ -72,6 +74,7 @@ impl Html {
         self.raw("</details>\n");
     }
 
+    /// Adds a table.
     pub fn table(&mut self, head: &[&str], rows: &[Vec<Cell>]) {
         self.table_under(&head.iter().map(|name| escape(name)).collect::<Vec<_>>(), rows);
     }
@@ -93,6 +96,7 @@ impl Html {
         self.raw("</table></div>\n");
     }
 
+    /// The page.
     pub fn finish(self) -> String {
         self.0
     }

@@ -9,8 +9,6 @@
 //! assert!(svg.finish().contains("<polyline"));
 //! ```
 
-#![allow(missing_docs, reason = "fields and variants say by their names and units what they hold")]
-
 pub mod body;
 pub mod film;
 pub mod font;

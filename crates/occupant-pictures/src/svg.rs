@@ -24,7 +24,9 @@ pub enum Anchor {
     /// Its begin.
     #[default]
     Start,
+    /// Its middle.
     Middle,
+    /// Its end.
     End,
 }
 
@@ -37,6 +39,7 @@ pub struct Text<'a> {
     pub fill: &'a str,
     /// What stands at the place.
     pub anchor: Anchor,
+    /// How bold.
     pub weight: Weight,
     /// Turn about the place, degrees clockwise.
     pub turn_deg: f64,
@@ -91,6 +94,7 @@ impl Svg {
         self.line(&format!("<polyline points=\"{}\" {attributes}/>", list(points)));
     }
 
+    /// Adds a polygon.
     pub fn polygon(&mut self, points: &[[f64; 2]], attributes: &str) {
         self.line(&format!("<polygon points=\"{}\" {attributes}/>", list(points)));
     }
@@ -101,6 +105,7 @@ impl Svg {
         self.line(&format!("<line x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\" {attributes}/>"));
     }
 
+    /// Adds a circle.
     pub fn circle(&mut self, centre: [f64; 2], radius: f64, attributes: &str) {
         let [x, y, r] = [centre[0], centre[1], radius].map(number);
         self.line(&format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" {attributes}/>"));

@@ -207,7 +207,7 @@ fn log_between(a: f64, b: f64, p: f64) -> f64 {
     match p {
         0.0 => a,
         1.0 => b,
-        _ => exp(between(ln(a), ln(b), p)).clamp(a.min(b), a.max(b)),
+        _ => held(exp(between(ln(a), ln(b), p)), a.min(b), a.max(b)),
     }
 }
 
@@ -219,7 +219,7 @@ fn truncated(mean: f64, sd: f64, [from, to]: [f64; 2], p: f64) -> f64 {
     } else {
         normal::quantile(between(normal::cumulative(a), normal::cumulative(b), p))
     };
-    (mean + sd * z).clamp(from, to)
+    held(mean + sd * z, from, to)
 }
 
 /// a + √(p(b − a)(c − a)) up to the mode c, b − √((1 − p)(b − a)(b − c)) beyond.
@@ -229,5 +229,10 @@ fn triangular(a: f64, c: f64, b: f64, p: f64) -> f64 {
     } else {
         b - ((1.0 - p) * (b - a) * (b - c)).sqrt()
     };
-    x.clamp(a, b)
+    held(x, a, b)
+}
+
+/// x between two ends; ends that are reversed or no numbers hold nothing.
+fn held(x: f64, from: f64, to: f64) -> f64 {
+    if from <= to { x.clamp(from, to) } else { x }
 }

@@ -180,7 +180,7 @@ impl Study {
 
     /// How many runs each sample has: members of the ensemble, or 1.
     pub fn members(&self) -> u64 {
-        self.ensemble.as_ref().map_or(1, |e| e.members)
+        self.ensemble.as_ref().map_or(1, |e| e.members.max(1))
     }
 
     /// Sample and member of a run: run = sample · members + member. Member 0 is the sample itself.

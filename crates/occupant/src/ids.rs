@@ -1,8 +1,22 @@
-//! Names of things of a case, each of its own type.
+//! Names of things of a case, each of its own type. Each knows the case that gave it.
+
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use occupant_core::body::Segment;
 use occupant_core::forces::contact::surface::Frame;
 use occupant_core::forces::own::Place;
+
+/// The number of a case, by which things of another are told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Origin(u64);
+
+impl Origin {
+    /// One that no case of the process has.
+    pub(crate) fn new() -> Self {
+        static NEXT: AtomicU64 = AtomicU64::new(0);
+        Origin(NEXT.fetch_add(1, Ordering::Relaxed))
+    }
+}
 
 /// Ids that are indices of one case.
 macro_rules! ids {
@@ -10,7 +24,7 @@ macro_rules! ids {
         $(
             $(#[$words])*
             #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-            pub struct $Id(pub(crate) usize);
+            pub struct $Id(pub(crate) usize, pub(crate) Origin);
 
             impl $Id {
                 /// Its place in the lists of the [`Setup`](occupant_core::model::setup::Setup).
@@ -39,7 +53,7 @@ ids! {
 
 /// A segment of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SegmentId(pub(crate) Segment);
+pub struct SegmentId(pub(crate) Segment, pub(crate) Origin);
 
 impl SegmentId {
     /// As the simulator calls it.

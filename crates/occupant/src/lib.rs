@@ -34,13 +34,16 @@ mod case;
 mod error;
 mod ids;
 mod measure;
+mod motion;
+mod occupant;
 mod results;
 mod text;
 
-pub use case::{Case, Occupant, Seat};
+pub use case::Case;
 pub use error::{Error, ErrorKind};
 pub use ids::{BeltId, FrameId, MaterialId, SegmentId, SolidId, SphereId, SurfaceId};
 pub use measure::*;
+pub use occupant::{Occupant, Seat};
 pub use results::{Log, Results, Simulate};
 pub use text::Scenario;
 

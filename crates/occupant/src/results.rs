@@ -26,7 +26,7 @@ impl Simulate for Model {
     fn simulate(&self) -> Result<Results, Error> {
         let mut log = Log::new(self);
         simulate(self, &mut log)?;
-        log.results(self)
+        log.results()
     }
 }
 
@@ -35,12 +35,14 @@ impl Simulate for Model {
 pub struct Log {
     summarizer: Summarizer,
     series: Series,
+    /// What is run, from its first output on.
+    model: Option<Model>,
 }
 
 impl Log {
     /// Keeps all channels.
     pub fn new(model: &Model) -> Self {
-        Log { summarizer: Summarizer::new(), series: Series::new(channels(model)) }
+        Log { summarizer: Summarizer::new(), series: Series::new(channels(model)), model: None }
     }
 
     /// Keeps the named channels alone.
@@ -49,34 +51,46 @@ impl Log {
     /// A name that no channel has.
     pub fn of(model: &Model, names: &[&str]) -> Result<Self, Error> {
         let chosen = names.iter().map(|name| find(model, name)).collect::<Result<Vec<_>, _>>()?;
-        Ok(Log { summarizer: Summarizer::new(), series: Series::new(chosen) })
+        Ok(Log { summarizer: Summarizer::new(), series: Series::new(chosen), model: None })
     }
 
     /// Ends a run that was recorded here, wherever it stands.
     ///
     /// # Errors
-    /// A run of which nothing was recorded here.
+    /// A run of which nothing was recorded here, or of which more was recorded than it has come to.
     pub fn end(mut self, run: Run<'_>) -> Result<Results, Error> {
-        let model = run.model().clone();
+        let is_own = self.model.as_ref().is_none_or(|model| model.setup() == run.model().setup());
+        if !is_own || self.series.time_s.last().is_some_and(|latest_s| *latest_s > run.time_s()) {
+            return Err(Error::new(
+                ErrorKind::Recording,
+                "another run than was recorded; expected the one of this log",
+            ));
+        }
         run.end(Status::Completed, &mut self)?;
-        self.results(&model)
+        self.results()
     }
 
-    fn results(self, model: &Model) -> Result<Results, Error> {
+    fn results(self) -> Result<Results, Error> {
         let none = || Error::new(ErrorKind::Recording, "a run of which nothing was recorded; expected `Run::record`");
         let summary = self.summarizer.summary(None).ok_or_else(none)?;
-        let figures = summary.figures(model);
-        Ok(Results { summary, figures, series: self.series, model: model.clone() })
+        let model = self.model.ok_or_else(none)?;
+        let figures = summary.figures(&model);
+        Ok(Results { summary, figures, series: self.series, model })
     }
 }
 
 impl Recorder for Log {
     fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
         self.summarizer.begin(model)?;
+        self.model = Some(model.clone());
         self.series.begin(model)
     }
 
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        let latest_s = self.series.time_s.last().copied();
+        if latest_s.is_some_and(|latest_s| latest_s > sample.time_s) {
+            return Err(format!("an output at {} s behind one at {latest_s:?} s: of another run", sample.time_s).into());
+        }
         self.series.record(sample)?;
         self.summarizer.record(sample)
     }

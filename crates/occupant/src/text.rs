@@ -52,10 +52,12 @@ impl Scenario {
         Ok(Scenario { draft: Draft::read(text, Format::Json, "scenario")?, files: Vec::new() })
     }
 
-    /// The same with the bytes of a file that it names, such as the table of its path.
+    /// The same with the bytes of a file that it names, such as the table of its path; in place of those that it had by that name.
     #[must_use]
     pub fn with_file(mut self, name: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Self {
-        self.files.push((name.into(), bytes.into()));
+        let name = name.into();
+        self.files.retain(|(own, _)| *own != name);
+        self.files.push((name, bytes.into()));
         self
     }
 

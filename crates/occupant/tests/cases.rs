@@ -84,7 +84,14 @@ fn triggers_that_look_ahead_are_refused() -> Result<(), Error> {
     text.set("triggers.crash", r#"{ kind = "vehicle_acceleration", threshold = "3 g" }"#)?;
     let mut case = Case::from_scenario(&text)?;
     let refused = case.live(VehicleState::default()).unwrap_err();
-    assert!(refused.kind() == ErrorKind::Case && refused.to_string().contains("crash"), "{refused}");
+    assert!(refused.kind() == ErrorKind::Case && refused.to_string().contains("triggers.crash"), "{refused}");
+    case.model()?;
+    // in whatever way the path is exchanged under them
+    case.path(VehiclePath::parked());
+    assert_eq!(case.model().unwrap_err().kind(), ErrorKind::Case);
+    let mut case = Case::from_scenario(&text)?;
+    case.setup_mut().path = VehiclePath::live(VehicleState::default());
+    assert_eq!(case.model().unwrap_err().kind(), ErrorKind::Case);
     Ok(())
 }
 

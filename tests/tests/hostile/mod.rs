@@ -1,6 +1,7 @@
 //! Calls that no sane program makes, in tables: nothing panics, nothing hangs, nothing gives nonsense without a word.
 
 mod calls;
+mod further;
 mod numbers;
 mod setups;
 mod steps;

@@ -26,6 +26,9 @@ impl<'a> Writer<'a> {
     }
 
     /// The text and the report; an error if the deck lacked a field that was asked for.
+    ///
+    /// # Errors
+    /// A text that is no scenario.
     pub fn finish(self) -> Result<Conversion, ConversionError> {
         match self.missing {
             Some(name) => Err(ConversionError::MissingField(name)),

@@ -20,6 +20,9 @@ use crate::signal::{SignalError, require_same_length, require_samples};
 
 /// Checks a pair of signals: equally long, at least `needed` samples, finite, a reference that is not
 /// zero throughout.
+///
+/// # Errors
+/// Histories of other lengths, fewer samples than are needed, an interval or samples that are no numbers.
 pub fn require_pair(reference: &[f64], computed: &[f64], dt_s: f64, needed: usize) -> Result<(), SignalError> {
     require_samples("reference signal", reference, dt_s, needed)?;
     require_samples("computed signal", computed, dt_s, needed)?;

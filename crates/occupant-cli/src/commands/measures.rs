@@ -85,10 +85,18 @@ impl Args {
 }
 
 /// Dummies, likewise.
-const DUMMIES: [(&str, &str, Dummy); 3] = [
+const DUMMIES: [(&str, &str, Dummy); 11] = [
     ("hybrid-iii-50m", "Hybrid III, 50th percentile male", Dummy::HybridIii50M),
     ("hybrid-iii-5f", "Hybrid III, 5th percentile female", Dummy::HybridIii5F),
     ("thor-50m", "THOR, 50th percentile male", Dummy::Thor50M),
+    ("hybrid-iii-95m", "Hybrid III, 95th percentile male", Dummy::HybridIii95M),
+    ("eurosid-1", "EuroSID-1, for the side", Dummy::EuroSid1),
+    ("es-2", "ES-2, for the side", Dummy::Es2),
+    ("es-2re", "ES-2re, for the side", Dummy::Es2Re),
+    ("sid-iis", "SID-IIs, 5th percentile female, for the side", Dummy::SidIis),
+    ("worldsid-50m", "WorldSID, 50th percentile male, for the side", Dummy::WorldSid50M),
+    ("worldsid-5f", "WorldSID, 5th percentile female, for the side", Dummy::WorldSid5F),
+    ("biorid-ii", "BioRID-II, for a blow from behind", Dummy::BioRidIi),
 ];
 
 #[derive(Serialize)]

@@ -40,7 +40,7 @@ pub trait Element: Copy + Debug {
     /// What one of them remembers between steps: numbers that change only at accepted steps.
     type Past<S>;
     /// What spares an evaluation needless work. No result depends on it.
-    type Hints<S: Scalar>: Hints;
+    type Hints<S: Scalar>: Hints<S>;
     /// What one of them does at one instant.
     type Action<S>;
 
@@ -188,18 +188,26 @@ pub(crate) fn passes<S: Scalar>(level: S, before: S, now: S) -> S {
 }
 
 /// What spares an evaluation needless work.
-pub trait Hints: Clone + Debug {
+pub trait Hints<S: Scalar>: Clone + Debug {
     /// Becomes what `other`, of the same elements, is; allocates nothing.
     fn take_over(&mut self, other: &Self);
 
-    /// Leaves nothing out until the next commit, as it must be where the remembered numbers are those of another place.
-    fn look_again(&mut self);
+    /// Leaves nothing out in these lanes until the next commit, as it must be where the remembered numbers are those of
+    /// another place.
+    fn look_again(&mut self, lanes: S::Mask);
+
+    /// Becomes what `other`, of the same elements, is in these lanes.
+    fn blend(&mut self, other: &Self, lanes: S::Mask);
 }
 
 /// No hints.
-impl Hints for () {
+impl<S: Scalar> Hints<S> for () {
+    #[inline(always)]
     fn take_over(&mut self, _other: &Self) {}
-    fn look_again(&mut self) {}
+    #[inline(always)]
+    fn look_again(&mut self, _lanes: S::Mask) {}
+    #[inline(always)]
+    fn blend(&mut self, _other: &Self, _lanes: S::Mask) {}
 }
 
 /// An energy that the elements of a kind hold, or have lost by what they remember.
@@ -263,6 +271,7 @@ impl<'a, S: Scalar> Instant<'a, S> {
     }
 
     /// A sphere's centre in the axes of a frame, m.
+    #[inline(always)]
     pub(crate) fn centre_in(&self, sphere: usize, frame: usize) -> V3<S> {
         let frame = self.frame(frame);
         let (_, centre, _) = self.spheres[sphere].place(self.k);

@@ -170,17 +170,28 @@ impl Model {
     }
 
     /// The same, integrated in another way.
-    #[must_use]
-    pub fn with_integrator(mut self, integrator: Integrator) -> Self {
+    ///
+    /// # Errors
+    /// Steps and tolerances that cannot be.
+    pub fn with_integrator(mut self, integrator: Integrator) -> Result<Self, Problems> {
         self.setup.integrator = integrator;
-        self
+        self.timed()
     }
 
     /// The same, recorded at other times.
-    #[must_use]
-    pub fn with_outputs_every(mut self, interval_s: f64) -> Self {
+    ///
+    /// # Errors
+    /// An interval that cannot be, or longer than the run.
+    pub fn with_outputs_every(mut self, interval_s: f64) -> Result<Self, Problems> {
         self.setup.time.output_s = interval_s;
-        self
+        self.timed()
+    }
+
+    /// This, if its times and its integrator can be.
+    fn timed(self) -> Result<Self, Problems> {
+        let mut problems = Problems::new();
+        validate::check_time(&self.setup.time, &self.setup.integrator, &mut problems);
+        if problems.has_errors() { Err(problems) } else { Ok(self) }
     }
 
     /// Number of outputs of a whole run.

@@ -311,6 +311,17 @@ pub struct Setup {
 }
 
 impl Setup {
+    /// What it has that no scenario can say, in words: what a program brings itself.
+    pub fn beyond_scenario(&self) -> Vec<String> {
+        let forces = self.own_forces.iter().map(|own| format!("the program's own force `{}`", own.name));
+        let path = match self.path {
+            VehiclePath::Own(_) => Some("a vehicle that the program moves"),
+            VehiclePath::Live(_) => Some("a vehicle that was told on its way how it moves"),
+            _ => None,
+        };
+        path.map(str::to_owned).into_iter().chain(forces).collect()
+    }
+
     /// The longest step that a fixed step comes to, s: none is longer than an output interval; none under error control.
     pub(crate) fn fixed_step_s(&self) -> Option<f64> {
         let longest_s = self.time.output_s.min(self.time.end_s - self.time.start_s);

@@ -42,10 +42,12 @@ impl Setup {
             hide(solid.frame, &mut solid.spheres);
             solid.frame = seen(solid.frame);
         }
-        if let Frame::Other(i) = home {
+        if let Frame::Other(i) = home
+            && let Some(frame) = self.frames.get_mut(i)
+        {
             // bags are the first vehicle's
             self.bags.clear();
-            std::mem::swap(&mut self.path, &mut self.frames[i].path);
+            std::mem::swap(&mut self.path, &mut frame.path);
             for OtherFrame { parent, .. } in &mut self.frames {
                 *parent = parent.map(|(frame, origin_m)| (seen(frame), origin_m));
             }
@@ -54,7 +56,8 @@ impl Setup {
     }
 
     /// The bodies `members` in the world of this setup, of which the body and what belongs to it count nothing. `pairs` are
-    /// spheres of two of them that meet, by member and index, `skins` the materials of members that say no other.
+    /// spheres of two of them that meet, by member and index, `skins` the materials of members that say no other; the first where
+    /// there are too few.
     #[must_use]
     pub fn together(self, members: Vec<Member>, pairs: &[[(usize, usize); 2]], skins: &[usize]) -> Setup {
         let mut all = Setup { body: bodies(&members), members, posture: InitialPosture::Together, ..self };
@@ -70,6 +73,7 @@ impl Setup {
             solid.spheres = Some(Vec::new());
         }
         bags.iter_mut().for_each(|bag| bag.spheres.clear());
+        let skins = skins.iter().chain(std::iter::repeat(&0));
         for (Member { name, home, meets, alone }, skin) in members.iter().zip(skins) {
             let count = alone.body.spheres.len();
             let met = |spheres: &Option<Vec<usize>>| -> Vec<usize> {
@@ -104,7 +108,9 @@ impl Setup {
             firsts.push(sphere);
             (segment, sphere) = (segment + alone.body.segments.len(), sphere + count);
         }
-        own.pairs.extend(pairs.iter().map(|pair| pair.map(|(member, i)| firsts[member] + i)));
+        // a member that there is not has no sphere: `Model::new` refuses it
+        let among_all = |(member, i): (usize, usize)| firsts.get(member).map_or(usize::MAX, |first| first + i);
+        own.pairs.extend(pairs.iter().map(|pair| pair.map(among_all)));
         own.pairs.sort_unstable();
         all.self_contact = (!own.pairs.is_empty()).then_some(own);
         all

@@ -6,6 +6,8 @@
 
 use std::array::from_fn;
 
+#[cfg(any(target_arch = "x86_64", test))]
+use crate::motion::lanes::Lanes;
 use crate::motion::layout::{Layout, MOST_BODIES, MOST_SEGMENTS};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{V3, v3};
@@ -367,6 +369,18 @@ impl<S: Scalar> State<S> {
         }
     }
 
+    /// Becomes the sum of factors times rates, of the same shape.
+    #[inline(always)]
+    pub(crate) fn sum<const N: usize>(&mut self, terms: &[(S, &Self); N]) {
+        for (i, x) in self.numbers_mut().iter_mut().enumerate() {
+            let mut sum = S::zero();
+            for (factor, rate) in terms {
+                sum += *factor * rate.numbers[i];
+            }
+            *x = sum;
+        }
+    }
+
     /// self + h·rate.
     #[inline(always)]
     pub(crate) fn advanced(&self, h: S, rate: &Self) -> Self {
@@ -392,6 +406,39 @@ impl<S: Scalar> State<S> {
             let q = self.orientation(slot);
             let k = S::one() / q.norm_squared().sqrt();
             self.set_orientation(slot, Quat { w: q.w * k, v: q.v * k });
+        }
+    }
+}
+
+#[cfg(any(target_arch = "x86_64", test))]
+impl<L: Scalar> State<L> {
+    /// Brings the state of lane `i`, of the same shape, to `alone`.
+    pub(crate) fn lane(&self, i: usize, alone: &mut State<f64>)
+    where
+        L: Lanes,
+    {
+        for (x, lanes) in alone.numbers_mut().iter_mut().zip(self.numbers()) {
+            *x = lanes.lane(i);
+        }
+    }
+
+    /// Gives lane `i` another state, of the same shape.
+    pub(crate) fn set_lane(&mut self, i: usize, alone: &State<f64>)
+    where
+        L: Lanes,
+    {
+        for (lanes, x) in self.numbers_mut().iter_mut().zip(alone.numbers()) {
+            lanes.set_lane(i, *x);
+        }
+    }
+
+    /// Gives lane `i` that of `other`, of the same shape.
+    pub(crate) fn copy_lane(&mut self, i: usize, other: &Self)
+    where
+        L: Lanes,
+    {
+        for (lanes, from) in self.numbers_mut().iter_mut().zip(other.numbers()) {
+            lanes.set_lane(i, from.lane(i));
         }
     }
 }

@@ -123,6 +123,9 @@ pub fn star<'n>(pattern: &str, name: &'n str) -> Option<&'n str> {
     }
 }
 
+/// Outputs for which there is room from the start; a longer run takes more as it goes.
+const MOST_ROOM: usize = 1 << 16;
+
 /// A recorder that keeps the values of chosen channels at every output.
 #[derive(Clone, Debug, Default)]
 pub struct Series {
@@ -155,7 +158,8 @@ impl Recorder for Series {
                 format!("the channel {} was listed for another model; list those of this one", channel.name).into()
             );
         }
-        let outputs = model.output_count();
+        // a run that may go on for hours gets room as it needs it
+        let outputs = model.output_count().min(MOST_ROOM);
         self.time_s.clear();
         self.time_s.reserve(outputs);
         for values in &mut self.values {

@@ -12,7 +12,6 @@ use crate::kernel::{Evaluation, Situation};
 use crate::model::Model;
 use crate::model::setup::Integrator;
 use crate::motion::frame::{Frames, Moving};
-use crate::motion::integrate::bogacki_shampine::Tolerance;
 use crate::motion::kinematics::Kinematics;
 use crate::motion::layout::MOST_BODIES;
 use crate::motion::state::State;
@@ -322,15 +321,12 @@ impl Course {
         if target_s > known_s {
             return Err(StepError::NotTold { known_s, target_s });
         }
-        match model.setup().integrator {
-            Integrator::Rk4 { step_s } => {
-                let stretch = Stretch::new(self.time_s, target_s, step_s);
+        let integrator = &model.setup().integrator;
+        match Control::of(integrator) {
+            Some(control) => self.advance_adaptive(model, target_s, &control),
+            None => {
+                let stretch = Stretch::new(self.time_s, target_s, integrator.longest_step_s());
                 self.advance_rk4(model, None, stretch)
-            }
-            Integrator::Adaptive { relative, absolute_m, absolute_m_s, min_step_s, max_step_s } => {
-                let control =
-                    Control { tolerance: Tolerance { relative, absolute_m, absolute_m_s }, min_step_s, max_step_s };
-                self.advance_adaptive(model, target_s, &control)
             }
         }
     }

@@ -172,7 +172,9 @@ impl<'m> Run<'m> {
         seen.ok_or_else(|| RunError::input("a look that saw nothing", "a sample"))
     }
 
-    /// Hands the run as it stands to a recorder as its next output. The first output tells the recorder that the run begins.
+    /// Hands the run as it stands to a recorder as its next output. The first output tells the recorder that the run begins. From
+    /// then on what instruments read is kept until the next output, half a megabyte a second or so: who no longer wants outputs
+    /// of a long run goes on with a [`Run::load`] of it, or looks.
     ///
     /// # Errors
     /// What the recorder reports.

@@ -30,10 +30,7 @@ impl Run<'_> {
             .flat_map(|start| start.stored_j.into_iter().chain([start.mechanical_j]))
             .collect();
         let frames = course.cursor.live.as_ref().map_or_else(Vec::new, |frames| frames.numbers());
-        let own = course.history.memory.own.iter().flatten().copied().collect();
-        let step = checkpoint.under_way.iter().flat_map(|step| step.memory.own.iter().flatten().copied()).collect();
-        for list in [own, step, energies, course.breaks_s.clone(), frames, vec![f64::from(u8::from(self.is_recorded))]]
-        {
+        for list in [energies, course.breaks_s.clone(), frames, vec![f64::from(u8::from(self.is_recorded))]] {
             (&mut file as &mut dyn Archive).numbers(EXTRA, list);
         }
         Ok(file.0)
@@ -64,19 +61,15 @@ impl<'m> Run<'m> {
             return Err(wrong("a run of another model"));
         }
         let mut file = Reader { rest, is_sound: true };
-        let mut checkpoint = Checkpoint::stored(&mut file);
-        let mut lists = [const { Vec::new() }; 6];
+        let checkpoint = Checkpoint::stored(&mut file);
+        let mut lists = [const { Vec::new() }; 4];
         for list in &mut lists {
             *list = (&mut file as &mut dyn Archive).numbers(EXTRA, Vec::new());
         }
         if !file.is_sound || !file.rest.is_empty() {
             return Err(wrong("a saved run that breaks off or goes on"));
         }
-        let [own, step, energies, breaks_s, frames, is_recorded] = lists;
-        checkpoint.memory.own = own.as_chunks().0.to_vec();
-        if let Some(under_way) = &mut checkpoint.under_way {
-            under_way.memory.own = step.as_chunks().0.to_vec();
-        }
+        let [energies, breaks_s, frames, is_recorded] = lists;
         let mut course = Course::from_checkpoint(model, &checkpoint, false)?;
         take_energies(&mut course, &energies);
         if !breaks_s.is_sorted() {

@@ -4,6 +4,13 @@ use super::{Interpolation, PathCursor, VehiclePath};
 
 /// The motion is looked at so often, s (ours).
 const LOOK_S: f64 = 5e-5;
+/// So often at most: 1000 s.
+const MOST_LOOKS: f64 = 2e7;
+
+/// How often a span is looked at after its start.
+fn looks([start_s, end_s]: [f64; 2]) -> u64 {
+    ((end_s - start_s) / LOOK_S).min(MOST_LOOKS) as u64
+}
 
 impl VehiclePath {
     /// Whether its accelerations are known: a table that is read along straight lines has none.
@@ -12,15 +19,16 @@ impl VehiclePath {
     }
 
     /// The first time of a span, s, at which the acceleration of the vehicle's centre of gravity along its floor has been at
-    /// least `threshold_m_s2` for `for_s` without a break; none if it never is.
-    pub fn jolt_s(&self, [start_s, end_s]: [f64; 2], threshold_m_s2: f64, for_s: f64) -> Option<f64> {
+    /// least `threshold_m_s2` for `for_s` without a break; none if it never is within the first 1000 s.
+    pub fn jolt_s(&self, span_s: [f64; 2], threshold_m_s2: f64, for_s: f64) -> Option<f64> {
+        let start_s = span_s[0];
         let mut cursor = PathCursor::default();
         let mut excess = |t_s: f64| {
             let motion = self.motion(t_s, t_s, &mut cursor);
             motion.vector_to_frame(motion.acceleration_m_s2).xy().norm() - threshold_m_s2
         };
         let (mut before, mut since_s) = (-1.0, start_s);
-        for i in 0..=((end_s - start_s) / LOOK_S) as u64 {
+        for i in 0..=looks(span_s) {
             let t_s = start_s + i as f64 * LOOK_S;
             let now = excess(t_s);
             if before < 0.0 && now >= 0.0 && i > 0 {
@@ -35,15 +43,16 @@ impl VehiclePath {
     }
 
     /// The first time of a span, s, at which the change of speed along the vehicle's floor has reached `threshold_m_s` since
-    /// its acceleration last rose above `wake_m_s2`; none if it never does.
-    pub fn change_s(&self, [start_s, end_s]: [f64; 2], threshold_m_s: f64, wake_m_s2: f64) -> Option<f64> {
+    /// its acceleration last rose above `wake_m_s2`; none if it never does within the first 1000 s.
+    pub fn change_s(&self, span_s: [f64; 2], threshold_m_s: f64, wake_m_s2: f64) -> Option<f64> {
+        let start_s = span_s[0];
         let mut cursor = PathCursor::default();
         let mut acceleration = |t_s: f64| {
             let motion = self.motion(t_s, t_s, &mut cursor);
             motion.vector_to_frame(motion.acceleration_m_s2).xy()
         };
         let (mut before, mut change) = (acceleration(start_s), nalgebra::Vector2::zeros());
-        for i in 1..=((end_s - start_s) / LOOK_S) as u64 {
+        for i in 1..=looks(span_s) {
             let t_s = start_s + i as f64 * LOOK_S;
             let now = acceleration(t_s);
             let was = change.norm();

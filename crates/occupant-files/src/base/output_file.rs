@@ -44,21 +44,46 @@ pub struct PartialFile {
 /// Why a results file cannot be made.
 #[derive(Debug, thiserror::Error)]
 pub enum FileProblem {
+    /// It is there, and is not to be replaced.
     #[error("{} exists; --force replaces it, -o gives another name", .path.display())]
-    Exists { path: PathBuf },
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
     /// A provisional file is there.
     #[error("{} exists: a run that was interrupted or is still running; --force replaces it, -o gives another name", .path.display())]
-    PartialExists { path: PathBuf },
+    PartialExists {
+        /// The provisional file.
+        path: PathBuf,
+    },
     /// Something that is no ordinary file has that name: a folder, a device.
     #[error("{} is not an ordinary file; -o gives another name", .path.display())]
-    NotAFile { path: PathBuf },
+    NotAFile {
+        /// What has that name.
+        path: PathBuf,
+    },
+    /// The run reads it.
     #[error("{} is what the run reads and is not replaced; -o gives another name", .path.display())]
-    IsInput { path: PathBuf },
+    IsInput {
+        /// The file.
+        path: PathBuf,
+    },
     /// Somebody has removed it, or put another in its place.
     #[error("{} was removed or replaced while it was written", .path.display())]
-    Gone { path: PathBuf },
+    Gone {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The operating system refuses.
     #[error("cannot {doing} {}: {source}", .path.display())]
-    Io { doing: &'static str, path: PathBuf, source: io::Error },
+    Io {
+        /// What was tried.
+        doing: &'static str,
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        source: io::Error,
+    },
 }
 
 impl From<FileProblem> for Failure {

@@ -9,6 +9,7 @@ use crash_measures::signal::{CfcFamily, ChannelClass, SignalError, filter_cfc};
 pub enum Filter {
     /// No filter.
     None,
+    /// This class for all.
     Class(ChannelClass),
     /// Each channel the class that SAE J211 gives its quantity.
     J211,
@@ -49,6 +50,7 @@ impl Filter {
         }
     }
 
+    /// In words.
     pub fn words(self) -> String {
         match self {
             Filter::None => "none".to_owned(),

@@ -23,6 +23,7 @@ pub struct Treatment {
     pub family: CfcFamily,
 
     // the new interval, s; that of the outputs if absent
+    /// The new interval, s; that of the outputs if absent.
     #[cfg_attr(feature = "clap", arg(skip))]
     pub interval_s: Option<f64>,
 }
@@ -61,7 +62,16 @@ pub enum Untreated {
     /// None of them.
     Run(String),
     /// One of them.
-    Channel { name: String, reason: String },
+    Channel {
+        /// Which.
+        name: String,
+        /// Why.
+        reason: String,
+    },
+}
+
+fn not_given(name: &str) -> Untreated {
+    Untreated::Channel { name: name.to_owned(), reason: "its values are not among those given".to_owned() }
 }
 
 /// The channels whose values [`treated`] needs for these channels.
@@ -76,7 +86,7 @@ pub fn asked(model: &Model, channels: &[Channel], filter: Filter) -> Vec<Channel
 /// Histories of channels of a model from their values at the outputs.
 ///
 /// # Errors
-/// Outputs too far apart for the filter, or an interval that is none.
+/// Outputs too far apart for the filter, or an interval that is none; a channel that is not among the values.
 pub fn treated(
     model: &Model,
     channels: Vec<Channel>,
@@ -94,13 +104,13 @@ pub fn treated(
         let values = match (class, dt_s) {
             (Some(class), Some(dt_s)) => {
                 let apply = |name: &str| {
-                    let raw = series.of(name).unwrap_or_default();
+                    let raw = series.of(name).ok_or("its values are not among those given")?;
                     filtered(raw, dt_s, class, treatment.family)
                 };
                 let found = filtered_channel(model, &channel, &apply);
                 found.map_err(|reason| Untreated::Channel { name: channel.name.clone(), reason })?
             }
-            _ => series.of(&channel.name).unwrap_or_default().to_vec(),
+            _ => series.of(&channel.name).ok_or_else(|| not_given(&channel.name))?.to_vec(),
         };
         columns.push(Column { channel, class, values });
     }

@@ -17,6 +17,7 @@ pub use load::{Treatment, Untreated, asked, choose, load, treated};
 /// Channels of one run over common times.
 #[derive(Clone, Debug)]
 pub struct Histories {
+    /// Times, s.
     pub time_s: Vec<f64>,
     /// The channels in the order asked for.
     pub columns: Vec<Column>,
@@ -24,9 +25,27 @@ pub struct Histories {
     pub notes: Vec<String>,
 }
 
+impl Histories {
+    /// Whether every channel has a value for each time.
+    ///
+    /// # Errors
+    /// The first that has not, in words.
+    pub fn check(&self) -> Result<(), String> {
+        let count = self.time_s.len();
+        match self.columns.iter().find(|column| column.values.len() != count) {
+            Some(odd) => {
+                let (found, name) = (odd.values.len(), &odd.channel.name);
+                Err(format!("{found} values of {name} at {count} times; expected one for each"))
+            }
+            None => Ok(()),
+        }
+    }
+}
+
 /// One channel of a run.
 #[derive(Clone, Debug)]
 pub struct Column {
+    /// The channel.
     pub channel: Channel,
     /// The filter class that was applied.
     pub class: Option<ChannelClass>,

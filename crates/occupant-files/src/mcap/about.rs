@@ -20,6 +20,9 @@ pub const RESULT: &str = "occupant.result";
 /// Name of the attachment that is the scenario with all that was resolved and overridden.
 pub const RESOLVED: &str = "resolved.toml";
 
+/// Key of the first metadata record: what the run had that its scenario does not say.
+pub const BEYOND: &str = "beyond_scenario";
+
 /// A text that travels with the results.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Document {
@@ -62,6 +65,10 @@ pub fn run(about: &About, tables: &[Document], model: &Model) -> Metadata {
     put("start_s", setup.time.start_s.to_string());
     put("end_s", setup.time.end_s.to_string());
     put("output_s", setup.time.output_s.to_string());
+    let beyond = setup.beyond_scenario();
+    if !beyond.is_empty() {
+        put(BEYOND, beyond.join(", "));
+    }
     let offset = "log time 0 is the start of the run; add start_s for the scenario's time";
     put("time", offset.to_owned());
     put("edge_force", format!("{:?}", setup.edge_force));

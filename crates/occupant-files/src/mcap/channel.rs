@@ -23,6 +23,7 @@ pub struct Channel {
 }
 
 impl Channel {
+    /// The header of the next message, at a time in ns.
     pub fn next(&mut self, ns: u64) -> MessageHeader {
         let header = MessageHeader { channel_id: self.id, sequence: self.sequence, log_time: ns, publish_time: ns };
         self.sequence = self.sequence.wrapping_add(1);
@@ -30,6 +31,7 @@ impl Channel {
     }
 }
 
+/// The schemas of a file.
 #[derive(Debug)]
 pub struct Schemas {
     library: Vec<FileDescriptorProto>,
@@ -54,11 +56,17 @@ impl Schemas {
     }
 
     /// A channel of a Foxglove type.
+    ///
+    /// # Errors
+    /// What the writer reports.
     pub fn add_foxglove(&self, writer: &mut Writer<impl Write + Seek>, topic: &str, name: &str) -> McapResult<Channel> {
         add(writer, topic, &format!("foxglove.{name}"), &self.foxglove(name), &BTreeMap::new())
     }
 
     /// A channel of a message of the catalogue; its metadata say what each field means.
+    ///
+    /// # Errors
+    /// What the writer reports.
     pub fn add(&self, writer: &mut Writer<impl Write + Seek>, message: &Message) -> McapResult<Channel> {
         let fields = message.fields.iter().map(|f| described(f.number, &f.name, f.kind));
         let schema = descriptor::set(&descriptor::file(PACKAGE, message.name, fields.collect(), None), &self.library);

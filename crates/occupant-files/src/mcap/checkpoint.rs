@@ -10,6 +10,7 @@ use occupant_core::results::sample::Sample;
 
 use super::wire::{Rest, Wire};
 
+/// The topic of checkpoints.
 pub const TOPIC: &str = "/checkpoint";
 
 /// Message `occupant.Checkpoint`.
@@ -25,6 +26,9 @@ pub fn write(wire: &mut Wire, sample: &Sample<'_>) {
 }
 
 /// Reads the message back. A field that the file does not have leaves what it would tell blank.
+///
+/// # Errors
+/// Fields that cannot be, in words.
 pub fn read(bytes: &[u8]) -> Result<Checkpoint, String> {
     let mut reader = Reader { rest: Rest(bytes), trouble: None };
     let checkpoint = Checkpoint::stored(&mut reader);

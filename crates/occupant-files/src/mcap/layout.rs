@@ -10,6 +10,7 @@ use super::topics::{self, VEHICLE_FRAME};
 /// File name of the attachment.
 pub const NAME: &str = "layout.json";
 
+/// The layout that shows these messages.
 pub fn layout(messages: &[Message]) -> Value {
     let fields = |message: &str, field: &str| -> Vec<String> {
         let own = messages.iter().filter(|m| m.name == message);

@@ -33,6 +33,7 @@ impl Names {
         }
     }
 
+    /// A first touch in words.
     pub fn first_touch(&self, touch: &FirstTouch) -> String {
         format!(
             "{} touches {} first at t = {:.6} s, at {:.3} m/s, closing at {:.3} m/s",

@@ -14,19 +14,47 @@ const LARGEST_RATIO: u64 = 255;
 
 /// A record that counts for a reader of runs.
 pub enum Record<'a> {
-    Channel { id: u16, topic: String },
-    Message { channel: u16, data: &'a [u8] },
-    Metadata { name: String, entries: BTreeMap<String, String> },
-    Attachment { name: String, data: &'a [u8] },
+    /// A channel.
+    Channel {
+        /// Its number.
+        id: u16,
+        /// Its topic.
+        topic: String,
+    },
+    /// A message.
+    Message {
+        /// Number of its channel.
+        channel: u16,
+        /// Its bytes.
+        data: &'a [u8],
+    },
+    /// A metadata record.
+    Metadata {
+        /// Its name.
+        name: String,
+        /// Its entries.
+        entries: BTreeMap<String, String>,
+    },
+    /// An attachment.
+    Attachment {
+        /// Its name.
+        name: String,
+        /// Its bytes.
+        data: &'a [u8],
+    },
+    /// Records, unpacked.
     Chunk(Cow<'a, [u8]>),
+    /// Any other.
     Other,
 }
 
 /// What a record is, where it stands and where the next one begins.
 #[derive(Clone, Copy)]
 pub struct Frame<'a> {
+    /// What kind of record it is.
     pub opcode: u8,
     body: &'a [u8],
+    /// Where the next record begins.
     pub next: usize,
 }
 
@@ -67,6 +95,7 @@ impl<'a> Frame<'a> {
 pub struct Index {
     /// Places where records begin, in order.
     landmarks: Vec<usize>,
+    /// Channels: number and topic.
     pub channels: Vec<(u16, String)>,
 }
 

@@ -18,6 +18,7 @@ pub struct StoredRun {
     pub run: BTreeMap<String, String>,
     /// The entries of `occupant.result`; none if the run was cut off.
     pub result: Option<BTreeMap<String, String>>,
+    /// Attachments by name.
     pub attachments: BTreeMap<String, Vec<u8>>,
     /// Checkpoints in the file's order.
     pub checkpoints: Vec<Checkpoint>,

@@ -5,6 +5,7 @@ pub const SPACE_FRAME: &str = "space";
 /// The vehicle: X forward, Y right, Z down, origin at its centre of gravity.
 pub const VEHICLE_FRAME: &str = "vehicle";
 
+/// Frames of segments and vehicles.
 pub const TRANSFORMS: &str = "/tf";
 /// Surfaces, written once.
 pub const COMPARTMENT_SCENE: &str = "/scene/compartment";

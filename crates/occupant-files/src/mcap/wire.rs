@@ -11,6 +11,7 @@ use prost::encoding::{WireType, decode_key, decode_varint, double, encode_key, e
 /// Messages under construction, one behind the other.
 #[derive(Debug, Default)]
 pub struct Wire {
+    /// What was written.
     pub bytes: Vec<u8>,
 }
 

@@ -34,7 +34,9 @@ pub fn is_recording(path: &Path) -> bool {
 /// A test and what else its record says.
 #[derive(Clone, Debug)]
 pub struct Imported {
+    /// What the record says of the test.
     pub record: TestRecord,
+    /// Its signals.
     pub recording: Recording,
     /// Which way its axes point, where the kind of file says it.
     pub axes: Option<Axes>,
@@ -43,7 +45,9 @@ pub struct Imported {
 /// What is asked for where a file has several, or does not say it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Reading<'a> {
+    /// Which vehicle.
     pub vehicle: Option<u32>,
+    /// Which object.
     pub object: Option<&'a str>,
     /// Names and units of a table's columns in place of its headings.
     pub columns: Option<&'a str>,

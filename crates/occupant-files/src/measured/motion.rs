@@ -51,11 +51,13 @@ pub struct Column {
 /// The motion of a vehicle as it was recorded.
 #[derive(Clone, Debug)]
 pub struct Motion {
+    /// What kind it is.
     pub kind: MotionKind,
     /// What it is, in words.
     pub words: String,
     /// Times, s.
     pub time_s: Vec<f64>,
+    /// Its columns.
     pub columns: Vec<Column>,
     /// Names of the signals that it is made of.
     pub signals: Vec<String>,
@@ -128,10 +130,12 @@ impl Motion {
         Some(column.values.iter().map(|value| value * column.factor).collect())
     }
 
+    /// Whether it has a column of this name.
     pub fn has(&self, name: &str) -> bool {
         self.columns.iter().any(|column| column.name == name)
     }
 
+    /// Names of its columns.
     pub fn names(&self) -> Vec<&'static str> {
         self.columns.iter().map(|column| column.name).collect()
     }

@@ -14,6 +14,7 @@ use crate::base::{Failure, ending, input_file, sha256};
 /// What the record says of the test besides its curves.
 #[derive(Clone, Debug, Default)]
 pub struct TestRecord {
+    /// Its title.
     pub title: String,
     /// Speed of the vehicle before the crash, km/h.
     pub speed_km_h: Option<f64>,

@@ -18,6 +18,7 @@ use crate::signals::{Recording, Signal, scale_of};
 /// A channel that a signal may belong to.
 #[derive(Clone, Debug)]
 pub struct Wanted {
+    /// The channel of a run.
     pub name: String,
     /// What it measures and in which unit; none if it is itself measured and gives no unit.
     pub unit: Option<(Dimension, String)>,
@@ -80,6 +81,7 @@ pub struct Pair {
     pub channel: usize,
     /// Name of the signal.
     pub signal: String,
+    /// Times, s.
     pub time_s: Vec<f64>,
     /// Values, SI, in the channel's axes; NaN where missing.
     pub values: Vec<f64>,

@@ -16,7 +16,9 @@ use crate::history::{Column, Histories};
 pub struct Labels {
     /// Name of the test and of its files.
     pub name: String,
+    /// Its title.
     pub title: String,
+    /// The program that wrote it.
     pub program: String,
     /// Position code of the occupant.
     pub seat: char,
@@ -32,10 +34,11 @@ type NamedText = (PathBuf, String);
 /// The files of a test with their places in its folder, and the channels that the dictionary has no code for.
 ///
 /// # Errors
-/// Times that are not equally spaced, or no channel with a code.
+/// Times that are not equally spaced, channels without a value for each, or no channel with a code.
 pub fn files(model: &Model, histories: &Histories, labels: &Labels) -> Result<(Vec<NamedText>, Vec<String>), String> {
     let interval_s = uniform_interval(&histories.time_s)
         .map_err(|e| format!("ISO-MME channels need equally spaced samples ({e}); --interval makes them so"))?;
+    histories.check()?;
     let mut files = Vec::new();
     let mut without = Vec::new();
     let mut list = String::new();

@@ -11,6 +11,7 @@ use super::text_table::number;
 /// Units of what is printed or drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Units {
+    /// Which units.
     pub system: UnitSystem,
     /// Whether they were asked for, whatever the scenario says.
     is_asked: bool,

@@ -20,14 +20,19 @@ pub use rating::{RATE_HZ, Track, Window, overlap, sampled};
 
 /// What is compared, and how.
 pub struct Request<'a> {
+    /// Results of a run.
     pub computed: &'a Path,
+    /// What was measured.
     pub measured: &'a Path,
     /// Names and patterns; all that both have if empty.
     pub channels: &'a [String],
+    /// Which signal is which channel.
     pub map: &'a [MapArgument],
     /// Position of the occupant in ISO-MME codes.
     pub seat: char,
+    /// Which times.
     pub window: Window,
+    /// Filter and interval.
     pub treatment: Treatment,
     /// The filter in words.
     pub filter: String,
@@ -42,6 +47,7 @@ pub struct Comparison {
     filter: String,
     shift_s: f64,
     pairs: Vec<RatedPair>,
+    /// What a reader should know.
     pub notes: Vec<String>,
     /// Why the results of a run that is compared mean nothing, by run.
     #[serde(skip)]
@@ -58,7 +64,9 @@ const METRICS: [(&str, &str, &str); 3] = [
 /// A file that was read, and its SHA-256.
 #[derive(Serialize)]
 pub struct Source {
+    /// The file.
     pub file: String,
+    /// Its SHA-256.
     pub sha256: String,
 }
 

@@ -14,11 +14,15 @@ use crate::base::text_table::{Align, NONE, Table};
 /// A barrier as a vehicle met it, SI. Angles are those of the velocity to the line of a wall or rail.
 #[derive(Clone, Debug, Serialize)]
 pub struct Met {
+    /// Its name.
     pub name: String,
+    /// What kind it is.
     pub kind: &'static str,
     /// First touch and last force, s.
     pub from_s: f64,
+    /// Its end, s.
     pub until_s: f64,
+    /// Speed at the impact, m/s.
     pub impact_speed_m_s: f64,
     /// Towards it, rad.
     pub impact_angle_rad: Option<f64>,
@@ -30,6 +34,7 @@ pub struct Met {
     pub deflection_m: Option<f64>,
     /// Greatest tension of a rail, N, and posts that let it go.
     pub tension_n: Option<f64>,
+    /// How many posts have given way.
     pub released_posts: Option<usize>,
 }
 

@@ -17,16 +17,19 @@ pub struct Collision {
     pub with: String,
     /// First touch and last force, s.
     pub from_s: f64,
+    /// Its end, s.
     pub until_s: f64,
     /// Speed of the centres of gravity against each other at first touch, m/s.
     pub closing_m_s: f64,
     /// Greatest change of velocity, and that change along the vehicle's axes at first touch, m/s.
     pub delta_v_m_s: f64,
+    /// Change of velocity along x, y, z of the vehicle, m/s.
     pub delta_v_axes_m_s: [f64; 3],
     /// Change of velocity by the impulse of the contact alone, without the tyres' share: what models of impact call Δv, m/s.
     pub delta_v_contact_m_s: f64,
     /// Where the impulse comes from, clockwise from ahead, -π to π, rad, and as the hour of a clock.
     pub pdof_rad: f64,
+    /// Direction of the force by the clock, 12 from ahead.
     pub clock: u8,
     /// Speed of a barrier that absorbs as much as the vehicle did in it, m/s.
     pub ees_m_s: f64,

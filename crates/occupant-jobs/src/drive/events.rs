@@ -14,6 +14,7 @@ use super::{WHEELS, slips_rad};
 pub struct Event {
     /// When, s: the first station at which it is so, at most 10 ms late.
     pub time_s: f64,
+    /// In words.
     pub what: String,
 }
 

@@ -29,8 +29,11 @@ const REST_M_S: f64 = 0.05;
 pub struct Driven {
     /// The vehicle's number.
     pub number: usize,
+    /// What happened, in order of time.
     pub events: Vec<Event>,
+    /// Marks of tyres.
     pub marks: Vec<Mark>,
+    /// The motion, as channels.
     pub motion: Figurable,
     /// What it met, in the order of first touches.
     pub collisions: Vec<Collision>,
@@ -50,7 +53,9 @@ pub struct Figurable {
     pub turned_rad: f64,
     /// Greatest roll, pitch and slip angle with their times, rad and s.
     pub roll: (f64, f64),
+    /// Greatest pitch, rad, and when, s.
     pub pitch: (f64, f64),
+    /// Greatest slip angle, rad, and when, s.
     pub slip: (f64, f64),
     /// Steepest ground under the centre of gravity, rise over run.
     pub slope: (f64, f64),

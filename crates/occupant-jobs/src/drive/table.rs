@@ -88,6 +88,9 @@ pub fn columns() -> Vec<Column> {
 }
 
 /// Writes a vehicle's motion; places, accelerations and rates are those of the compartment's origin, without gravity.
+///
+/// # Errors
+/// What the writer reports.
 pub fn write(
     path: &Path,
     form: Form,

@@ -20,13 +20,17 @@ const CURVES: usize = 6;
 /// The bands of an ensemble; in JSON without their values.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Bands {
+    /// Times, s.
     #[serde(skip)]
     pub time_s: Vec<f64>,
+    /// The channels.
     pub channels: Vec<ChannelBand>,
 }
 
+/// The band of a channel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ChannelBand {
+    /// Its name.
     pub name: String,
     /// SI unit, as in the catalogue.
     pub unit: &'static str,
@@ -42,6 +46,7 @@ pub struct ChannelBand {
     pub lost_at_s: Option<f64>,
     /// Greatest width of the middle 90 %, in the unit, and when it is reached, s.
     pub widest: Option<f64>,
+    /// When it is widest, s.
     pub widest_at_s: Option<f64>,
 }
 

@@ -19,15 +19,21 @@ const PIXELS: f64 = 2.0;
 
 /// An ensemble that has been asked for.
 pub struct Wanted {
+    /// The study.
     pub study: Study,
+    /// Names the random numbers.
     pub seed: u64,
+    /// By how much starts differ.
     pub changes: Tolerances,
     /// Width of the middle 90 % that a stable figure may have, as a part of the median.
     pub within: f64,
+    /// What runs them.
     pub engine: Engine,
     /// Whose histories are kept.
     pub channels: Vec<Channel>,
+    /// The files.
     pub files: Vec<(PathBuf, BandFile)>,
+    /// Whether files are replaced.
     pub existing: Existing,
     /// Of pictures.
     pub units: Units,
@@ -36,7 +42,9 @@ pub struct Wanted {
 /// What a file of bands holds.
 #[derive(Clone, Copy)]
 pub enum BandFile {
+    /// A table.
     Table(Form),
+    /// A picture.
     Picture(Format),
 }
 

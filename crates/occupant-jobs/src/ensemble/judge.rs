@@ -6,11 +6,13 @@ use serde::Serialize;
 /// A figure and how its ensemble spreads, as tables and JSON have it; SI units.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Judged {
+    /// Its name.
     pub name: String,
     /// Its unit, `1` for a plain number.
     pub unit: String,
     /// Its value in the unchanged run.
     pub nominal: Option<f64>,
+    /// How its values are spread.
     #[serde(flatten)]
     pub spread: Spread,
     /// Width of the middle 90 % up to which it is stable, in its unit.

@@ -21,6 +21,7 @@ pub type Member = Result<Left, String>;
 /// Figures and histories of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Left {
+    /// The figures.
     pub figures: Vec<Figure>,
     /// By channel: a value for each output.
     pub values: Vec<Vec<f64>>,
@@ -46,6 +47,7 @@ impl Left {
 pub struct Members<'a> {
     /// The ensemble.
     pub study: &'a Study,
+    /// Numbers of the runs.
     pub runs: Range<u64>,
     /// The files that the scenario names.
     pub resolver: &'a (dyn Fn(&str) -> Result<Vec<u8>, String> + Sync),

@@ -12,6 +12,7 @@ use super::{Bands, Judged, Left, Member};
 pub struct Report {
     /// Runs, the unchanged one included.
     pub members: u64,
+    /// Runs that completed.
     pub completed: u64,
     /// What named the random numbers.
     pub seed: u64,
@@ -19,6 +20,7 @@ pub struct Report {
     pub changes: Tolerances,
     /// Width of the middle 90 % that a stable figure may have, as a part of the median.
     pub within: f64,
+    /// Runs that did not.
     pub failed: Vec<Failed>,
     /// All figures that some member has.
     pub figures: Vec<Judged>,
@@ -32,7 +34,9 @@ pub struct Report {
 /// A member that did not complete, and why.
 #[derive(Serialize)]
 pub struct Failed {
+    /// Number of the member.
     pub member: u64,
+    /// Why.
     pub reason: String,
 }
 

@@ -28,6 +28,7 @@ pub struct Record {
     pub stage: Option<Stage>,
     /// Where it stands between the bounds; none for the base scenario.
     pub at: Option<Vec<f64>>,
+    /// How good it is; less is better.
     pub score: f64,
     /// Misfit of each target, experiment by experiment; empty if it could not be run.
     pub parts: Vec<f64>,

@@ -23,6 +23,7 @@ pub struct Experiment {
     pub scenario: PathBuf,
     /// The file that it has with the fitted numbers.
     pub fitted: String,
+    /// The text.
     pub text: String,
     /// The study with this scenario as its base.
     pub study: Study,
@@ -33,6 +34,7 @@ pub struct Experiment {
     /// Measured channels, and of which test each is.
     pub targets: Vec<(usize, Target)>,
     groups: Vec<(Filter, Vec<Channel>)>,
+    /// The channels that runs record.
     pub recorded: Vec<Channel>,
     /// Time between the outputs of its runs, s, where they are denser than the scenario's.
     pub dense_s: Option<f64>,
@@ -41,7 +43,9 @@ pub struct Experiment {
 /// What stands between a test and the truth: a time that is added to its clock, and its values over the true ones.
 #[derive(Clone, Copy, Debug)]
 pub struct Correction {
+    /// Shift of time, s.
     pub offset_s: f64,
+    /// Factor on the measured values.
     pub gain: f64,
 }
 
@@ -247,6 +251,10 @@ impl Experiment {
     }
 }
 
+/// The histories of a filter.
+///
+/// # Errors
+/// A filter that none has.
 pub fn in_group(groups: &[(Filter, Histories)], filter: Filter) -> Result<&Histories, String> {
     let found = groups.iter().find(|(f, _)| *f == filter);
     found.map(|(_, histories)| histories).ok_or_else(|| "a channel without a history".to_owned())

@@ -19,7 +19,9 @@ const ON_TOP: u64 = 1 << 20;
 pub struct Fitting {
     /// What the study says of the fit.
     pub fit: Fit,
+    /// The experiments.
     pub experiments: Vec<Experiment>,
+    /// The tests.
     pub tests: Vec<Test>,
     /// What is looked for: the parameters of the study, then offsets and gains of tests.
     pub parameters: Vec<Parameter>,
@@ -35,6 +37,7 @@ pub struct Fitting {
     pub warnings: Vec<String>,
 }
 
+/// A test.
 #[derive(Clone, Debug, Serialize)]
 pub struct Test {
     /// Its name in results.

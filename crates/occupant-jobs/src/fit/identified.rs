@@ -27,6 +27,7 @@ pub struct Answer {
     pub best: Point,
     /// By how much the cost rises to where sets count as worse.
     pub rise: f64,
+    /// How near it lies to its bounds.
     pub near: Near,
     /// How far each parameter can go alone.
     pub reaches: Vec<[Reach; 2]>,
@@ -39,6 +40,7 @@ pub struct Answer {
 /// What says which sets are as good as the best.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Near {
+    /// Of what.
     pub by: &'static str,
     /// Residuals that are unrelated, where the likelihood says so.
     pub unrelated_residuals: Option<f64>,

@@ -19,6 +19,7 @@ use occupant_files::signals::Recording;
 
 /// Tests that the command line gives.
 pub struct Given<'a> {
+    /// The files.
     pub files: &'a [PathBuf],
     /// Which column is which channel, in all of them.
     pub maps: &'a [MapArgument],

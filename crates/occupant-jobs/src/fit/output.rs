@@ -13,8 +13,11 @@ use crate::files::study_folder::{Checksums, Folder};
 
 /// Writes the results of a fit.
 pub struct Output<'a> {
+    /// What is fitted.
     pub fitting: &'a Fitting,
+    /// The folder.
     pub folder: &'a Folder,
+    /// Checksums of what was read.
     pub sums: &'a Checksums,
 }
 
@@ -33,6 +36,9 @@ pub struct FittedRuns {
 
 impl Output<'_> {
     /// Fitted scenarios, history, plots, and fit.json last.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
     pub fn write(&self, answer: &Answer, records: &[Record]) -> Result<FitResult, Failure> {
         let values = self.fitting.values(&answer.best.at);
         let corrections = self.fitting.corrections(Some(&values));

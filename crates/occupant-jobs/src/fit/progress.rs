@@ -10,6 +10,7 @@ use crate::base::progress::{Runs, Show};
 /// At most a line so often where there is no terminal, stages apart.
 const LINE_EVERY: Duration = Duration::from_secs(2);
 
+/// How far a fit is.
 #[derive(Debug)]
 pub struct Progress {
     runs: Runs,

@@ -15,9 +15,11 @@ pub const COMPENSATING: f64 = 0.9;
 /// All of fit.json.
 #[derive(Serialize)]
 pub struct FitResult {
+    /// The program that computed it.
     pub program: String,
     /// Title of the study.
     pub title: String,
+    /// The study.
     pub study: Source,
     /// Changes from the command line.
     pub overrides: Vec<String>,
@@ -29,10 +31,13 @@ pub struct FitResult {
     pub budget: u64,
     /// Scores of a descent that differ by less are the same.
     pub tolerance: f64,
+    /// The tests.
     pub tests: Vec<Test>,
+    /// How good it is.
     pub score: Score,
     /// What the intervals hold.
     pub near: NearOptimal,
+    /// The parameters.
     pub parameters: Vec<ParameterEstimate>,
     /// Correlations of near-optimal sets, each pair once; those with a parameter at a bound are missing.
     pub correlations: Vec<Correlation>,
@@ -53,14 +58,18 @@ pub struct Score {
     pub before: Option<f64>,
     /// Of the fitted scenario, with the numbers as they are written.
     pub after: f64,
+    /// The channels.
     pub channels: Vec<ChannelFit>,
 }
 
 /// A channel of a test.
 #[derive(Serialize)]
 pub struct ChannelFit {
+    /// The test.
     pub test: String,
+    /// The channel.
     pub channel: String,
+    /// The measured signal.
     pub signal: String,
     /// Filter of both.
     pub filter: String,
@@ -82,6 +91,7 @@ pub struct ChannelFit {
 pub struct NearOptimal {
     /// Sets with a score up to this count as good as the best.
     pub score: f64,
+    /// How near it lies to its bounds.
     #[serde(flatten)]
     pub near: Near,
     /// How many of the evaluated sets are as good.
@@ -91,6 +101,7 @@ pub struct NearOptimal {
 /// A parameter. Numbers are SI, angles in rad.
 #[derive(Serialize)]
 pub struct ParameterEstimate {
+    /// Its name.
     pub name: String,
     /// SI unit; empty for factors and plain numbers.
     pub unit: &'static str,
@@ -132,23 +143,29 @@ pub struct ParameterEstimate {
 pub struct IntervalEnd {
     /// The values of all parameters there, in their order.
     pub values: Vec<f64>,
+    /// How good it is; less is better.
     pub score: f64,
 }
 
+/// How two parameters go together.
 #[derive(Serialize)]
 pub struct Correlation {
+    /// Names of both.
     pub between: [String; 2],
     /// From −1 to 1.
     pub correlation: f64,
 }
 
+/// What a descent came to.
 #[derive(Serialize)]
 pub struct DescentResult {
     /// Candidates of a generation.
     pub population: usize,
+    /// Runs that it took.
     pub evaluations: u64,
     /// Least score.
     pub score: f64,
+    /// Why it ended.
     pub ended: &'static str,
 }
 

@@ -20,6 +20,7 @@ const DIGITS: usize = 6;
 pub struct Fitted {
     /// The file of that scenario.
     pub fitted: String,
+    /// The path.
     pub path: String,
     /// As it is written there.
     pub text: String,

@@ -17,6 +17,7 @@ pub const FAMILY: CfcFamily = CfcFamily::Iso6487;
 /// A measured channel of a test.
 #[derive(Clone, Debug)]
 pub struct Target {
+    /// The channel.
     pub channel: Channel,
     /// Filter class of both sides.
     pub class: Option<ChannelClass>,

@@ -12,6 +12,7 @@ use super::array::Array;
 /// Spheres with the greatest contact forces that are plotted.
 const MOST_SPHERES: usize = 8;
 
+/// A plot.
 #[derive(Debug, Serialize)]
 pub struct Plot {
     title: String,

@@ -48,6 +48,7 @@ pub fn subject(labels: &[&str]) -> String {
     format!("Report of {}", labels.join(" against "))
 }
 
+/// A run of the page.
 #[derive(Debug, Serialize)]
 pub struct Run {
     label: String,

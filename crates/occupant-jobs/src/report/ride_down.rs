@@ -36,8 +36,11 @@ struct Part {
 /// Distances of a part, m.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stopped {
+    /// The part of the body.
     pub part: String,
+    /// Way while it was slowed, m.
     pub ride_down_m: f64,
+    /// The same as the vehicle sees it, m.
     pub in_vehicle_m: f64,
 }
 

@@ -12,30 +12,37 @@ use super::Report;
 /// A unit of the table, and the decimals worth printing in it.
 pub type Unit = (Shown, usize);
 
+/// m/s.
 pub fn m_s() -> Unit {
     (MetrePerSecond.shown(), 2)
 }
 
+/// km/h.
 pub fn km_h() -> Unit {
     (MetrePerSecond.shown_in("km/h"), 1)
 }
 
+/// ft/s.
 pub fn ft_s() -> Unit {
     (MetrePerSecond.shown_in("ft/s"), 1)
 }
 
+/// mph.
 pub fn mph() -> Unit {
     (MetrePerSecond.shown_in("mph"), 1)
 }
 
+/// Degrees.
 pub fn deg() -> Unit {
     (Radian.shown_in("deg"), 1)
 }
 
+/// Standard gravity.
 pub fn g() -> Unit {
     (MetrePerSecondSquared.shown_in("g"), 2)
 }
 
+/// None.
 pub fn plain() -> Unit {
     (One.shown(), 2)
 }
@@ -69,13 +76,17 @@ pub struct Figure {
 /// What was left out.
 #[derive(Clone, Debug, Serialize)]
 pub struct LeftOut {
+    /// The measure.
     pub measure: String,
+    /// Why.
     pub reason: String,
 }
 
 /// All measures, and those left out.
 pub struct Figures {
+    /// The figures.
     pub figures: Vec<Figure>,
+    /// Measures that were left out.
     pub left_out: Vec<LeftOut>,
     start_s: f64,
 }

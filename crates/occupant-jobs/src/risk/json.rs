@@ -8,6 +8,7 @@ use super::figures::{Figure, Figures};
 use super::table::{basis_name, filter_name, source_name, verdict_name};
 use occupant_study::risk::VerticalGravity;
 
+/// The report as JSON.
 pub fn json(report: &Report) -> Value {
     let figures = Figures::of(report);
     let (signals, preparation) = (&report.signals, &report.preparation);

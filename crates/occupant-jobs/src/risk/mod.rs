@@ -38,6 +38,7 @@ pub struct Report {
     pub flight: Flight,
     /// What was measured on.
     pub signals: VehicleSignals,
+    /// The measures.
     pub risk: VehicleRisk,
     /// The measures against limits.
     pub judgements: Vec<Judgement>,

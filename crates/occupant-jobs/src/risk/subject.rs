@@ -18,12 +18,14 @@ pub enum Source {
     PathOfStraightLines,
 }
 
+/// Whose risk it is.
 #[derive(Debug)]
 pub struct Subject {
     /// Its name: the file's.
     pub name: String,
     /// Where it comes from.
     pub source: Source,
+    /// Accelerations and rates.
     pub record: AccelerationRecord,
     /// Attitude of the vehicle at the first sample; level if it was not recorded.
     pub initial: Attitude,

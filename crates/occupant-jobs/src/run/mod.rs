@@ -27,12 +27,17 @@ use resume::{Resumption, WithEarlier};
 
 /// A run that was computed, and its file closed.
 pub struct Simulated {
+    /// Whether it reached its end.
     pub completed: bool,
+    /// Its summary.
     pub summary: Summary,
+    /// Where friction was unstable.
     pub friction: FrictionWatch,
+    /// Its histories.
     pub histories: Series,
     /// Where the head was at each output.
     pub head: Vec<Point3<f64>>,
+    /// What was written.
     pub written: Written,
 }
 

@@ -28,6 +28,7 @@ struct Open {
 pub enum Written {
     /// None was asked for.
     Nothing,
+    /// The whole run, in this file.
     Complete(PathBuf),
     /// The run did not complete; the file holds its outputs so far.
     Partial(PathBuf),
@@ -52,6 +53,7 @@ impl Written {
 }
 
 impl Recording {
+    /// No file.
     pub fn none() -> Self {
         Recording(None)
     }

@@ -182,7 +182,9 @@ fn same_scenario(file: &Path, stored: &StoredRun, opened: &Opened) -> Result<(),
 
 /// A recorder that sees the outputs of the earlier run first.
 pub struct WithEarlier<R> {
+    /// Outputs that there are already.
     pub earlier: Vec<Checkpoint>,
+    /// Who records the rest.
     pub recorder: R,
 }
 

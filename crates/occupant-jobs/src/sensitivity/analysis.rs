@@ -20,7 +20,9 @@ use crate::files::scenario::counted;
 
 /// What is asked for, each name known.
 pub struct Asked<'a> {
+    /// The parameters.
     pub parameters: Vec<Parameter<'a>>,
+    /// What is asked for.
     pub request: Request,
     /// Units of the figures.
     pub units: Vec<&'static str>,
@@ -30,9 +32,11 @@ pub struct Asked<'a> {
 pub struct Analysis {
     /// The plain run's values.
     pub values: Values,
+    /// The run with its derivatives.
     pub trajectory: Trajectory,
     /// What the models are built of, by parameter.
     pub built: Vec<Built>,
+    /// By parameter.
     pub derivatives: Vec<Derivatives>,
     /// Runs with finite changes of the parameters.
     pub neighbours: Neighbours,
@@ -44,8 +48,11 @@ pub struct Analysis {
 
 /// Words of the command line.
 pub struct Words<'a> {
+    /// Names of parameters.
     pub to: &'a [String],
+    /// Names of figures.
     pub of: &'a [String],
+    /// Names of channels.
     pub channels: &'a [String],
 }
 

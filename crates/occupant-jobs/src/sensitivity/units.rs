@@ -12,6 +12,7 @@ pub fn per(measure: &str, parameter: &str) -> String {
     }
 }
 
+/// A unit in ASCII.
 pub fn ascii(unit: &str) -> String {
     unit.replace('·', "*").replace('²', "^2")
 }

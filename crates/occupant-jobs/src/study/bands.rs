@@ -23,7 +23,9 @@ use occupant_files::table::{Cell, Form, Kind, TableFile, columns};
 /// What a file says of itself.
 const ABOUT: &str = "occupant.bands";
 
+/// The bands of a study.
 pub struct StudyBands<'a> {
+    /// What is to be run.
     pub plan: &'a Plan,
     /// What names its sweep.
     pub manifest_sha256: &'a str,
@@ -31,6 +33,7 @@ pub struct StudyBands<'a> {
     pub channels: &'a [String],
     /// Where the files go.
     pub folder: PathBuf,
+    /// What runs them.
     pub engine: &'a Engine,
     /// What stops it.
     pub interrupt: &'a Interrupt,

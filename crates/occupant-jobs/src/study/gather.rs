@@ -35,8 +35,11 @@ pub type RunWithCaveats = (u64, String);
 /// How many of the runs that have a figure have caveats on it, and which.
 #[derive(Clone, Debug, Default)]
 pub struct Spoiled {
+    /// How many runs there are.
     pub runs: usize,
+    /// Of how many.
     pub of: usize,
+    /// Their names.
     pub names: BTreeSet<String>,
 }
 

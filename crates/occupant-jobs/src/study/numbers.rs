@@ -28,6 +28,7 @@ pub struct Number {
 /// A run at an end of a response.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
+    /// Its number.
     pub number: u64,
     /// 0 for the greatest or least value, 1 for the next.
     pub place: u64,

@@ -20,6 +20,7 @@ pub struct Samples {
 /// A parameter's column.
 #[derive(Clone, Debug, Default)]
 pub struct Input {
+    /// Its name.
     pub name: String,
     /// Its SI unit is empty for plain numbers and words.
     pub unit: Told,
@@ -34,7 +35,9 @@ pub struct Input {
 /// A figure's column.
 #[derive(Clone, Debug, Default)]
 pub struct Response {
+    /// Its name.
     pub name: String,
+    /// Its unit.
     pub unit: Told,
     /// Its values, NaN where a run failed or has none.
     pub values: Vec<f64>,

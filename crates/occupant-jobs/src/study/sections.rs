@@ -4,6 +4,7 @@ use super::shown::{shown, shown_unit, with_unit};
 use super::{Finding, Report, describe, matters, pictures};
 use occupant_pictures::html::{Cell, Html};
 
+/// What the study is.
 pub fn study(html: &mut Html, report: &Report) {
     let opened = &report.opened;
     let (study, manifest) = (&opened.plan.study, &opened.manifest);
@@ -29,6 +30,7 @@ pub fn study(html: &mut Html, report: &Report) {
     html.facts(&facts);
 }
 
+/// What it varies.
 pub fn varied(html: &mut Html, report: &Report) {
     let study = &report.opened.plan.study;
     if study.parameters.is_empty() {

@@ -9,7 +9,9 @@ use occupant_files::table::{Cell, Form, Kind, TableFile, columns};
 /// Where the tables of a report go.
 #[derive(Clone, Debug)]
 pub struct Tables {
+    /// The table of numbers.
     pub numbers: PathBuf,
+    /// The table of samples.
     pub samples: PathBuf,
 }
 

@@ -37,6 +37,7 @@ pub struct Census {
 }
 
 impl Census {
+    /// Nothing counted yet.
     pub fn new(manifest: &Manifest) -> Self {
         Census { planned: manifest.samples, ..Census::default() }
     }

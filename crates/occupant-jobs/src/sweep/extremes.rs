@@ -12,6 +12,7 @@ pub struct Extremes<R> {
 }
 
 impl<R: Clone> Extremes<R> {
+    /// The worst so many; none yet.
     pub fn new(count: usize) -> Self {
         Extremes { count, worst: Vec::new(), best: Vec::new() }
     }

@@ -15,8 +15,11 @@ use crate::files::study_folder::{Checksums, Finished, Folder, Journal, JournalWr
 
 /// A sweep, or one part of it.
 pub struct Sweep {
+    /// What is to be run.
     pub plan: Plan,
+    /// The folder.
     pub folder: Folder,
+    /// Which part of the study.
     pub shard: Shard,
     /// Of which samples the whole run is written.
     pub keep: Keep,
@@ -24,10 +27,13 @@ pub struct Sweep {
     pub csv: bool,
     /// Whether results that are there are removed.
     pub restart: bool,
+    /// Who shows how far it is.
     pub show: Show,
     /// Of what is printed.
     pub units: Units,
+    /// What runs them.
     pub engine: Engine,
+    /// Whether to stop.
     pub interrupt: Interrupt,
 }
 

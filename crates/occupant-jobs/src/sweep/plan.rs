@@ -25,6 +25,7 @@ const TRIED: u64 = 16;
 
 /// A study and everything it needs. Shared by all threads.
 pub struct Plan {
+    /// The study.
     pub study: Study,
     /// Path of the scenario that is varied, for messages and results.
     scenario: PathBuf,

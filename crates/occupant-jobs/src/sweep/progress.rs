@@ -8,6 +8,7 @@ use crate::files::study_folder::{Row, Status};
 /// A line so often where there is no terminal.
 const LINE_EVERY: Duration = Duration::from_secs(10);
 
+/// How far a sweep is.
 #[derive(Debug)]
 pub struct Progress {
     runs: Runs,
@@ -25,6 +26,7 @@ impl Progress {
         Progress { runs, before, computed: 0, failed: 0 }
     }
 
+    /// Counts a row.
     pub fn see(&mut self, row: &Row) {
         self.computed += 1;
         self.failed += u64::from(row.status != Status::Completed);

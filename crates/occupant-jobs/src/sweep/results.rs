@@ -13,6 +13,7 @@ use occupant_files::table::{Cell, Form};
 
 /// What a sweep came to.
 pub struct Results {
+    /// How runs ended.
     pub census: Census,
     /// The samples with the greatest values of the measure that the keep names, greatest first.
     pub worst: Vec<u64>,

@@ -14,10 +14,13 @@ use occupant_files::table::Cell;
 
 /// Runs the samples of a plan.
 pub struct Simulation<'a> {
+    /// What is to be run.
     pub plan: &'a Plan,
     /// Of which samples the whole run is written.
     pub keep: &'a Keep,
+    /// The folder.
     pub folder: &'a Folder,
+    /// Checksums of what was read.
     pub sums: &'a Checksums,
 }
 

@@ -26,6 +26,7 @@ pub struct Ensembles {
     pub failed: u64,
     /// By figure that some sample has.
     pub figures: Vec<Counted>,
+    /// The first of them.
     pub first: Vec<Judged>,
     /// Files that were written.
     pub files: Vec<PathBuf>,

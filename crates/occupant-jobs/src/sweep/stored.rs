@@ -10,6 +10,7 @@ use crate::files::study_folder::{Checksums, Folder, Journal, Manifest, Problem, 
 pub struct Stored {
     /// What it is the sweep of.
     pub manifest: Manifest,
+    /// SHA-256 of the study as it was begun.
     pub manifest_sha256: String,
     /// The study, made from the copies.
     pub plan: Plan,
@@ -22,7 +23,9 @@ pub struct Stored {
 /// Whose sweep it may be.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum MadeBy {
+    /// Of this program alone.
     ThisProgram,
+    /// Of any program.
     AnyProgram,
 }
 
@@ -102,6 +105,9 @@ fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
 }
 
 /// What names a manifest.
+///
+/// # Errors
+/// A study that cannot be written as text.
 pub fn sha256_of(manifest: &Manifest) -> Result<String, Failure> {
     let sha256 = manifest.sha256();
     sha256.map_err(|error| Failure::plain(format!("the manifest cannot be written: {error}")))

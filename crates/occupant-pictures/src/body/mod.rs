@@ -41,6 +41,7 @@ pub struct Part {
     pub segment: Segment,
     /// What it wears.
     pub tone: Tone,
+    /// Its ends.
     pub ends: [Lump; 2],
 }
 

@@ -16,6 +16,7 @@ pub const PATCH_M: f64 = 3.0;
 /// The body, the contacts and other force elements at one output.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
+    /// When, s.
     pub time_s: f64,
     /// By segment: turns and moves from segment axes at the centre of gravity to vehicle axes.
     pub poses: Vec<Isometry3<f64>>,
@@ -34,6 +35,7 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
+    /// The body of a sample.
     pub fn of(sample: &Sample<'_>) -> Self {
         let sample = &sample.seen_by_vehicle();
         let pose = |segment| {

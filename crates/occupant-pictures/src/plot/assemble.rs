@@ -16,12 +16,14 @@ use occupant_files::signals::scale_of;
 pub struct RunCurves {
     /// Name; empty if the run is alone.
     pub label: String,
+    /// Its histories.
     pub histories: Histories,
 }
 
 /// A measured signal to draw over a channel.
 #[derive(Clone, Debug)]
 pub struct Overlay {
+    /// The channel.
     pub channel: String,
     /// Name of the file.
     pub file: String,
@@ -32,6 +34,7 @@ pub struct Overlay {
 /// `channel=value unit`: a level to draw where the channel is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LimitArgument {
+    /// The channel.
     pub channel: String,
     /// Level as written.
     pub text: String,
@@ -89,9 +92,11 @@ pub struct Material<'a> {
     pub runs: &'a [RunCurves],
     /// Measured signals.
     pub overlays: &'a [Overlay],
+    /// Limits to be drawn.
     pub limits: &'a [LimitArgument],
     /// Channel across; time if absent.
     pub x: Option<&'a str>,
+    /// Units.
     pub units: UnitChoice,
     /// First and last time drawn, s.
     pub window_s: [f64; 2],

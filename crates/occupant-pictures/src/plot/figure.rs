@@ -17,8 +17,10 @@ pub struct Figure {
     pub empty: String,
 }
 
+/// An axis.
 #[derive(Clone, Debug)]
 pub struct Axis {
+    /// What it shows.
     pub name: String,
     /// Symbol of the unit.
     pub unit: String,
@@ -59,6 +61,7 @@ pub struct Curve {
 }
 
 impl Curve {
+    /// A curve through points.
     pub fn new(label: impl Into<String>, style: Style, points: Vec<[f64; 2]>) -> Self {
         Curve { label: label.into(), style, points }
     }
@@ -72,6 +75,7 @@ impl Curve {
 /// How a curve is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Style {
+    /// As in CSS.
     pub colour: &'static str,
     /// SVG dash pattern; solid if empty.
     pub dash: &'static str,
@@ -87,6 +91,7 @@ pub enum Mark {
     /// A line through them.
     #[default]
     Line,
+    /// Points alone.
     Dots,
     /// They go round an area.
     Area,
@@ -104,9 +109,11 @@ pub struct Limit {
 /// Colours that most colour-blind people tell apart (Okabe and Ito, 2008), their yellow left out for white paper.
 const COLOURS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#666666"];
 const DASHES: [&str; 4] = ["", "7 3", "2 2.5", "9 3 2 3"];
+/// Of a limit.
 pub const LIMIT: Style = Style { colour: "#c00000", dash: "5 3", width: 1.1, mark: Mark::Line };
 
 impl Style {
+    /// How many colours there are.
     pub const COLOURS: usize = COLOURS.len();
     /// Dash patterns, the solid line counted.
     pub const DASHES: usize = DASHES.len();
@@ -129,10 +136,12 @@ impl Style {
         Style { colour, dash: "", width, mark: Mark::Line }
     }
 
+    /// Points of a diameter, in pixels.
     pub fn dots(colour: &'static str, diameter: f64) -> Self {
         Style { mark: Mark::Dots, ..Style::line(colour, diameter) }
     }
 
+    /// An area.
     pub fn area(colour: &'static str) -> Self {
         Style { mark: Mark::Area, ..Style::line(colour, 0.0) }
     }

@@ -25,6 +25,7 @@ const EDGE: f64 = 16.0;
 const TITLE: f64 = 18.0;
 const SMALL: f64 = 11.0;
 
+/// The sheet as SVG.
 pub fn sheet(sheet: &Sheet, figures: &[Figure]) -> String {
     let columns = sheet.columns.clamp(1, figures.len().max(1));
     let size = if figures.len() == 1 { ALONE } else { SIZE };

@@ -29,7 +29,9 @@ pub struct Plot {
 /// A channel with its name in the legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
+    /// The channel.
     pub channel: String,
+    /// What the legend says.
     pub label: String,
 }
 

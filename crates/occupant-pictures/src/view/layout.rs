@@ -39,6 +39,7 @@ pub struct Layout {
     /// Height of the sheet.
     pub height: f64,
     views: Vec<View>,
+    /// Width of a column.
     pub column: f64,
     columns: usize,
     block: f64,

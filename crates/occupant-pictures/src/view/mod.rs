@@ -19,6 +19,7 @@ use super::body::Snapshot;
 
 /// What is drawn.
 pub struct Strip<'a> {
+    /// The model.
     pub model: &'a Model,
     /// The moments, in order.
     pub moments: Vec<Snapshot>,

@@ -28,6 +28,7 @@ const SLENDER: f64 = 2.2;
 
 /// What a panel needs to know besides its moment.
 pub struct Pen<'a> {
+    /// The strip that it is of.
     pub strip: &'a Strip<'a>,
     /// The parts of the body.
     pub parts: &'a [Part],

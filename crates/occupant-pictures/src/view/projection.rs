@@ -15,6 +15,7 @@ pub enum View {
 }
 
 impl View {
+    /// As on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             View::Side => "side",

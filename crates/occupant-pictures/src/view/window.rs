@@ -21,6 +21,7 @@ pub struct Window {
 }
 
 impl Window {
+    /// What holds all panels of a strip.
     pub fn of(strip: &Strip<'_>) -> Self {
         let mut window = Window { low: Vector3::repeat(f64::INFINITY), high: Vector3::repeat(f64::NEG_INFINITY) };
         for moment in &strip.moments {

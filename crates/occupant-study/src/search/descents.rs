@@ -61,9 +61,10 @@ pub fn descend<E>(how: &Descents, evaluate: &mut Evaluate<'_, E>) -> Result<Glob
         let start = start(how, number);
         let descent = one(how, number, population, start, left, evaluate)?;
         left = left.saturating_sub(descent.evaluations);
-        let over = descent.ending == Ending::Budget;
+        // one that has asked for nothing would not ask the next time either
+        let over = descent.ending == Ending::Budget || descent.evaluations == 0;
         descents.push(descent);
-        population *= 2;
+        population = population.saturating_mul(2);
         if over || left < population as u64 {
             break;
         }

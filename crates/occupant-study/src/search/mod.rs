@@ -60,6 +60,12 @@ pub struct Point {
 }
 
 impl Point {
+    /// The same within the cube: what is no number stands in its middle.
+    fn in_cube(mut self) -> Point {
+        self.at.iter_mut().for_each(|u| *u = if u.is_nan() { 0.5 } else { u.clamp(0.0, 1.0) });
+        self
+    }
+
     /// The lower of the two; of equals this one.
     fn lower(self, other: Point) -> Point {
         if other.value < self.value { other } else { self }
@@ -80,7 +86,7 @@ fn eigen(matrix: DMatrix<f64>) -> SymmetricEigen<f64, Dyn> {
     }
 }
 
-/// Gives the values of a batch of points in their order, or says why the search must stop.
+/// Gives the values of a batch of points in their order, or says why the search must stop. A point of which it gives none has none.
 pub type Evaluate<'a, E> = dyn FnMut(Stage, &[Vec<f64>]) -> Result<Vec<f64>, E> + 'a;
 
 /// Values of points, kept with them.
@@ -90,5 +96,6 @@ fn evaluated<E>(stage: Stage, points: Vec<Vec<f64>>, evaluate: &mut Evaluate<'_,
     }
     let values = evaluate(stage, &points)?;
     let pair = |(at, value)| Point { at, value };
+    let values = values.into_iter().chain(std::iter::repeat(f64::NAN));
     Ok(points.into_iter().zip(values).map(pair).collect())
 }

@@ -56,7 +56,8 @@ struct Chain {
     done: bool,
 }
 
-/// The intervals of all coordinates of `centre`.
+/// The intervals of all coordinates of `centre`; they are open, and nothing is evaluated, where reaches or shape are of other
+/// coordinates.
 ///
 /// # Errors
 /// What `evaluate` reports.
@@ -67,6 +68,12 @@ pub fn profile<E>(
     rise: f64,
     evaluate: &mut Evaluate<'_, E>,
 ) -> Result<Profiles, E> {
+    let centre = &centre.clone().in_cube();
+    let n = centre.at.len();
+    if reaches.len() != n || !shape.is_of(n) {
+        let open = |at: &f64| [(); 2].map(|()| End { at: *at, open: true, point: centre.clone() });
+        return Ok(Profiles { ends: centre.at.iter().map(open).collect(), lowest: centre.clone() });
+    }
     let mut chains: Vec<Chain> =
         (0..centre.at.len()).flat_map(|i| [0, 1].map(|s| Chain::new(i, s, centre, &reaches[i], shape))).collect();
     for _ in 0..ROUNDS {
@@ -156,7 +163,7 @@ impl Chain {
         let room = room(side, centre.at[i]);
         let n = centre.at.len();
         let mut follow = vec![0.0; n];
-        let mut t = reaches[s].length;
+        let mut t = reaches[s].length.max(0.0);
         if let Some(k) = shape.place(i) {
             let c = &shape.covariance;
             for (l, j) in shape.free.iter().enumerate() {

@@ -108,7 +108,7 @@ pub fn lowest_step(slope: &[f64], curvature: &DMatrix<f64>, walls: &[[f64; 2]]) 
         let mut moved = 0.0_f64;
         for i in 0..n {
             let pull = (0..n).fold(slope[i], |sum, j| sum + curvature[(i, j)] * z[j]);
-            let next = (z[i] - pull / curvature[(i, i)]).clamp(walls[i][0], walls[i][1]);
+            let next = (z[i] - pull / curvature[(i, i)]).max(walls[i][0]).min(walls[i][1]);
             moved = moved.max((next - z[i]).abs());
             z[i] = next;
         }

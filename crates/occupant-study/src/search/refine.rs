@@ -15,13 +15,14 @@ const LITTLE: f64 = 1e-3;
 const PARTS: [f64; 4] = [0.3, 1.0, 1.7, 3.0];
 
 /// Walks from `centre` to the least value near it. `lengths` say how far each coordinate can go alone until the value has
-/// risen by `rise`: the size of what matters.
+/// risen by `rise`: the size of what matters; a length that is missing is that of the cube.
 ///
 /// # Errors
 /// What `evaluate` reports.
 pub fn refine<E>(centre: Point, lengths: &[f64], rise: f64, evaluate: &mut Evaluate<'_, E>) -> Result<Point, E> {
     let all: Vec<usize> = (0..centre.at.len()).collect();
-    let mut best = centre;
+    let lengths: Vec<f64> = all.iter().map(|i| lengths.get(*i).copied().unwrap_or(1.0)).collect();
+    let mut best = centre.in_cube();
     let mut scale = 1.0;
     for _ in 0..ROUNDS {
         let near: Vec<f64> = lengths.iter().map(|l| (l * scale).max(1e-9)).collect();

@@ -35,6 +35,7 @@ struct Chain {
 /// # Errors
 /// What `evaluate` reports.
 pub fn scan<E>(centre: &Point, rise: f64, evaluate: &mut Evaluate<'_, E>) -> Result<(Vec<[Reach; 2]>, Point), E> {
+    let centre = &centre.clone().in_cube();
     let mut chains: Vec<Chain> =
         (0..centre.at.len()).flat_map(|i| SIDES.map(|side| Chain::new(i, side, centre))).collect();
     let mut lowest = centre.clone();

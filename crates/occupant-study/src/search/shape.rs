@@ -35,6 +35,8 @@ impl Shape {
         rise: f64,
         evaluate: &mut Evaluate<'_, E>,
     ) -> Result<(Shape, Point), E> {
+        let centre = &centre.clone().in_cube();
+        let reaches = &reaches[..reaches.len().min(centre.at.len())];
         let lengths: Vec<f64> = reaches.iter().map(length).collect();
         let n = lengths.len();
         let free: Vec<usize> = (0..n).filter(|i| !at_wall(centre.at[*i])).collect();
@@ -57,6 +59,16 @@ impl Shape {
         let covariance =
             DMatrix::from_fn(n, n, |i, j| order.iter().fold(0.0, |sum, e| sum + along(*e, i) * along(*e, j)));
         Shape { free: bowl.free.clone(), lengths, curvature, covariance, directions }
+    }
+
+    /// Whether it is one of a cube of so many coordinates.
+    pub(super) fn is_of(&self, coordinates: usize) -> bool {
+        let n = self.free.len();
+        let is_square = |matrix: &DMatrix<f64>| matrix.shape() == (n, n);
+        self.lengths.len() == coordinates
+            && self.free.iter().all(|i| *i < coordinates)
+            && is_square(&self.curvature)
+            && is_square(&self.covariance)
     }
 
     /// The place of a coordinate among the free ones.

@@ -20,6 +20,8 @@ const STEPS: f64 = 4.0;
 const MOST: f64 = 0.2;
 /// Part of the tolerances and of the least step of the run itself, or of the default's where these are tighter.
 const TIGHTER: f64 = 0.01;
+/// But no finer than a model allows.
+const FINEST: [f64; 4] = [1e-13, 1e-14, 1e-13, 1e-15];
 
 /// What a run beside the value of a parameter comes to.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,9 +101,9 @@ pub fn neighbours(model: &Model, parameters: &[Parameter<'_>], step_s: f64, figu
 /// The same case at tolerances that leave no steps to be seen, recorded as often as figures to be differentiated ask for.
 pub fn tightly(model: Model) -> Model {
     let integrator = tight(&model.setup().integrator);
-    let model = model.with_integrator(integrator);
-    let interval_s = fine_interval_s(&model);
-    model.with_outputs_every(interval_s)
+    // what a model cannot have it keeps as it was
+    let model = model.clone().with_integrator(integrator).unwrap_or(model);
+    model.clone().with_outputs_every(fine_interval_s(&model)).unwrap_or(model)
 }
 
 /// A run at tight tolerances.
@@ -127,7 +129,8 @@ fn tight(own: &Integrator) -> Integrator {
             }
         }
         // where a force jumps the error goes with the step: a tighter tolerance needs a shorter one
-        [relative, absolute_m, absolute_m_s, min_step_s].into_iter().for_each(|x| *x *= TIGHTER);
+        let all = [relative, absolute_m, absolute_m_s, min_step_s].into_iter().zip(FINEST);
+        all.for_each(|(x, finest)| *x = (*x * TIGHTER).max(finest));
     }
     tight
 }

@@ -77,6 +77,9 @@ pub(super) struct Family {
 
 impl Family {
     /// Models of the structure and the times of `base` at steps of `h` about it.
+    ///
+    /// # Errors
+    /// A value that the scenario refuses to both sides.
     pub fn new(base: &Model, parameter: &Parameter<'_>, h: f64) -> Result<Self, Trouble> {
         let refused = |reason: String| Trouble::Refused { parameter: parameter.name.clone(), reason };
         let make = |side: Side| -> Result<Family, String> {

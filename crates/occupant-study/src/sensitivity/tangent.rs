@@ -54,6 +54,9 @@ struct Front<const N: usize> {
 
 impl<'a, const N: usize> Tangent<'a, N> {
     /// At the start of a run of `model`.
+    ///
+    /// # Errors
+    /// Parameters of another model.
     pub fn new(model: &'a Model, built: &'a mut [Built]) -> Result<Self, Trouble> {
         let system = dual_system(model, built)?;
         let state = dual_state(model, built);

@@ -150,8 +150,13 @@ impl<S: Scalar> EnvelopeLaw<S> {
         let [area, volume] = displaced(S::select(is_held, held, depth).max(o), site.radius, self.shape.face());
         let relative = frame.axes.into_frame(velocity - frame.velocity_at(centre));
         let spread = unfolded.growth / (S::of(3.0) * unfolded.share) * (near.distance - near.gradient.dot(seen));
-        let reaches = near.left.map_or(S::truth(false), |left| !depth.lt(left));
-        let is_lost = near.from_middle.map_or(S::truth(false), |part| part.lt(S::of(LOST)));
+        let (mut reaches, mut is_lost) = (S::truth(false), S::truth(false));
+        if let Some(left) = near.left {
+            reaches = !depth.lt(left);
+        }
+        if let Some(part) = near.from_middle {
+            is_lost = part.lt(S::of(LOST));
+        }
         let holds = S::select(is_held, held, S::select(is_lost, depth, o));
         Pressed {
             area: S::select(touches & !is_held, area.max(o) * reach, o),

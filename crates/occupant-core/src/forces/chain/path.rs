@@ -30,6 +30,7 @@ pub(super) struct Place<S> {
 }
 
 impl<S: Scalar> Place<S> {
+    #[inline(always)]
     pub(super) fn nowhere() -> Self {
         let (o, none) = (S::zero(), V3::zero());
         Place { centre: none, radius: o, is_sphere: false, rubs: false, may_leave: false, sense: none }
@@ -57,6 +58,7 @@ pub(super) struct Bend<S> {
 
 impl<S: Scalar> Bend<S> {
     /// That of no node.
+    #[inline(always)]
     pub(super) fn none() -> Self {
         let (o, none) = (S::zero(), V3::zero());
         Bend { span: o, arc: o, back: none, ahead: none, wrap: o, normal: none, touch: none, beside: o }

@@ -257,7 +257,10 @@ impl<S: Scalar> NodeLaw<S> {
         let (mut sense, none) = (V3::zero(), S::zero());
         let (centre, radius) = match &self.site {
             SiteLaw::Vehicle(point, stroke) => {
-                let pulled = stroke.as_ref().map_or(V3::zero(), |stroke| stroke.direction * way);
+                let mut pulled = V3::zero();
+                if let Some(stroke) = stroke {
+                    pulled = stroke.direction * way;
+                }
                 (frame.origin + frame.axes.out(*point + pulled), none)
             }
             SiteLaw::Segment(segment, offset, _) => (on_segment(*segment, *offset), none),

@@ -74,7 +74,12 @@ impl FlatFace {
             other => other,
         };
         // G from a point of the plane (87)
-        Some(FlatFace { frame: surface.frame, normal, offset_m: normal.dot(&point.coords), outline })
+        let offset_m = normal.dot(&point.coords);
+        if !point.coords.iter().all(|x| x.is_finite()) || !offset_m.is_finite() {
+            problems.error(path, format!("a point at {:?}", point.coords.as_slice()), "finite coordinates, m");
+            return None;
+        }
+        Some(FlatFace { frame: surface.frame, normal, offset_m, outline })
     }
 
     /// Axes u, v of the plane with u × v = N̂.

@@ -13,11 +13,12 @@ use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkS
 use crate::forces::list::STORES;
 use crate::forces::shown::{Named, OneOf, Reported};
 use crate::forces::sphere::Site;
+use crate::forces::stored::Archive;
 use crate::motion::frame::Frames;
 use crate::motion::kinematics::Kinematics;
 use crate::motion::scalar::Scalar;
 use crate::motion::state::State;
-use crate::quantity::{Quantity, energy};
+use crate::quantity::{FieldWords, Quantity, energy};
 use placed_text::Problems;
 
 /// Why a model with an own force has no place beside others and no derivatives.
@@ -273,6 +274,17 @@ impl Reported for OwnForces {
                 .channel("stored", "energy that the {} could give back, as it says")
                 .field(4, "stored", "energy that it could give back, as it says"),
         ];
+
+    fn keep(past: &mut Vec<[f64; MOST_MEMORY]>, like: Option<&[[f64; MOST_MEMORY]]>, file: &mut dyn Archive) {
+        let number = if like.is_some() { 68 } else { 67 };
+        let meaning = "what each of the program's own forces remembers, 16 numbers each";
+        let list = file.numbers(FieldWords { number, stem: "own_forces", meaning }, past.concat());
+        let (forces, rest) = list.as_chunks();
+        if !rest.is_empty() {
+            return file.refuse("a list of own forces with parts missing");
+        }
+        *past = forces.to_vec();
+    }
 
     fn named<'a>(data: Self::Data<'a>) -> Vec<Named<'a>> {
         data.forces.iter().map(|own| Named { name: &own.name, sphere: None }).collect()

@@ -15,6 +15,7 @@ use crate::model::setup::Setup;
 use crate::motion::layout::{MOST_BODIES, MOST_HINGES, MOST_SEGMENTS};
 pub(super) use path::check_path;
 use placed_text::{Problems, number};
+pub(super) use time::check_time;
 
 /// Reports every problem of the numbers of `setup`.
 pub(crate) fn check(setup: &Setup, problems: &mut Problems) {
@@ -31,7 +32,7 @@ pub(crate) fn check(setup: &Setup, problems: &mut Problems) {
     body::check_body(&setup.body, problems);
     columns::check(setup, problems);
     setup.forces(&[]).check(&setup.body, problems);
-    time::check_time(&setup.time, &setup.integrator, problems);
+    check_time(&setup.time, &setup.integrator, problems);
     time::check_readings(setup.output.readings_s, &setup.time, problems);
     check_posture(&setup.posture, problems);
     check_coordinates(setup, problems);
@@ -60,7 +61,7 @@ pub(super) fn check_whole(setup: &Setup, problems: &mut Problems) {
 /// How much of everything several bodies have together; each is looked at by itself.
 fn check_together(setup: &Setup, problems: &mut Problems) {
     check_gravity(setup, problems);
-    time::check_time(&setup.time, &setup.integrator, problems);
+    check_time(&setup.time, &setup.integrator, problems);
     time::check_readings(setup.output.readings_s, &setup.time, problems);
     let hinges = setup.body.tree.joint_rows().iter().map(|row| body::axes_of(row.kind));
     let counts = [

@@ -16,7 +16,7 @@ const SHORTEST_S: f64 = 1e-15;
 /// An interval as long as this is no slip of the pen, however short the run, s.
 const LONGEST_ANYWAY_S: f64 = 10.0 * DEFAULT_OUTPUT_S;
 
-pub(super) fn check_time(time: &TimeSpan, integrator: &Integrator, problems: &mut Problems) {
+pub(crate) fn check_time(time: &TimeSpan, integrator: &Integrator, problems: &mut Problems) {
     let span_s = time.end_s - time.start_s;
     if !(span_s > 0.0 && span_s.is_finite()) {
         problems.error(

@@ -10,6 +10,7 @@ mod joint;
 mod marker;
 mod sphere;
 mod surface;
+mod turn;
 mod vehicle;
 
 use std::borrow::Cow;
@@ -155,6 +156,7 @@ impl Catalogue {
             let topic = topic_of("segment", name);
             let place = Place { message: "SegmentState", topic, name, words: &name.replace('_', " ") };
             all.add(&place, body::SEGMENT, move |s| (s, segment));
+            all.add(&place, turn::SEGMENT, move |s| (s, segment));
         }
         for (of, row) in tree.bodies().into_iter().enumerate() {
             let instruments: Vec<_> = body::of_dummy(&row.landmarks).collect();
@@ -193,6 +195,7 @@ impl Catalogue {
             let topic = topic_of("joint", name);
             let place = Place { message: "JointLoad", topic, name: &channel, words: &words };
             all.add(&place, joint::LOAD, move |s| (s, joint));
+            all.add(&place, turn::JOINT, move |s| (s, joint));
         }
         all.markers(model);
         all.energies(model);

@@ -102,10 +102,14 @@ impl Watched {
     }
 }
 
+/// Samples for which there is room from the start, 100 s at 10 kHz; a longer run takes more as it goes.
+const MOST_ROOM: usize = 1_000_000;
+
 /// Signals with room for a whole run.
 fn begun(model: &Model, fine: &Fine) -> Signals {
     let mut signals = Signals { interval_s: fine.interval_s, ..Signals::new() };
-    signals.all_mut().for_each(|values| values.reserve(Fine::most(model).max(model.output_count())));
+    let room = Fine::most(model).max(model.output_count()).min(MOST_ROOM);
+    signals.all_mut().for_each(|values| values.reserve(room));
     signals
 }
 

@@ -35,8 +35,12 @@ impl Baseline {
         Ok(Baseline { first, last: Some(last) })
     }
 
-    /// Takes away what samples read at rest beyond what they should.
+    /// Takes away what samples read at rest beyond what they should; nothing of those at other times than it was made of.
     pub fn take(&self, time_s: &[f64], samples: &mut [f64], should_read: f64) {
+        let count = time_s.len();
+        if samples.len() != count || self.first > count || self.last.is_some_and(|last| last >= count) {
+            return;
+        }
         let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
         let (from_s, from) = (mean(&time_s[..self.first]), mean(&samples[..self.first]) - should_read);
         let slope = self

@@ -130,6 +130,7 @@ pub enum Tone {
 }
 
 impl Tone {
+    /// The part that a segment is of.
     pub fn of(tree: &Tree, segment: Segment) -> Self {
         let marks = tree.landmarks_at(segment);
         if Some(segment) == marks.pelvis || marks.legs().any(|leg| tree.is_of(segment, &leg)) {
@@ -143,6 +144,7 @@ impl Tone {
         }
     }
 
+    /// Its colour.
     pub fn color(self) -> Color {
         match self {
             Tone::Skin => SKIN,

@@ -32,6 +32,7 @@ const RUNS: &str = "runs";
 /// What a folder holds the results of.
 #[derive(Debug)]
 pub struct Holds {
+    /// What the folder is called.
     pub word: &'static str,
     manifest: &'static str,
     /// Files that are written into it, and into its folders those whose names end so.
@@ -39,6 +40,7 @@ pub struct Holds {
     folders: &'static [(&'static str, &'static str)],
 }
 
+/// A sweep.
 pub const SWEEP: &Holds = &Holds {
     word: "sweep",
     manifest: "sweep.json",
@@ -55,6 +57,7 @@ const FIT: &Holds = &Holds {
 /// The folder of a sweep, or of a fit.
 #[derive(Clone, Debug)]
 pub struct Folder {
+    /// The path.
     pub path: PathBuf,
     holds: &'static Holds,
 }
@@ -94,6 +97,7 @@ impl Folder {
         }
     }
 
+    /// The file of the rows so far.
     pub fn journal(&self) -> PathBuf {
         self.path.join(JOURNAL)
     }

@@ -19,6 +19,7 @@ pub struct Manifest {
     pub program: String,
     /// Title of the study.
     pub title: String,
+    /// How many samples there are.
     pub samples: u64,
     /// Changes from the command line.
     pub overrides: Vec<String>,
@@ -44,6 +45,7 @@ pub struct Text {
 /// A column of the table.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Column {
+    /// Its name.
     pub name: String,
     /// Unit; `1` for a plain number, empty for texts.
     pub unit: String,

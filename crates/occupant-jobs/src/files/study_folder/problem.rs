@@ -15,46 +15,91 @@ const SHOWN: usize = 20;
 /// What can go wrong with a folder of results, and how to mend it, where that can be said.
 #[derive(Debug, thiserror::Error)]
 pub enum Problem {
+    /// A file that cannot be written.
     #[error(transparent)]
     File(#[from] FileProblem),
+    /// Something of that name that is no folder of ours.
     #[error("{} exists and is not of this sweep\n = help: name a new folder, or an empty one", .path.display())]
-    Exists { path: PathBuf },
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
     /// There are files, but none of ours.
     #[error("{} holds files that are no {}'s\n = help: name a new folder, or an empty one", .folder.display(), .holds.word)]
-    NotOurs { folder: PathBuf, holds: &'static Holds },
+    NotOurs {
+        /// The folder.
+        folder: PathBuf,
+        /// What it holds.
+        holds: &'static Holds,
+    },
     /// The folder holds something else, or the same of another version; a line for each difference.
     #[error(
         "{} holds another {} (there → here):\n   {}\n = help: name another folder, or compute everything anew with \
          --restart, which removes the results that are there",
         .folder.display(), .holds.word, .differences.join("\n   ")
     )]
-    Differs { folder: PathBuf, holds: &'static Holds, differences: Vec<String> },
+    Differs {
+        /// The folder.
+        folder: PathBuf,
+        /// What it holds.
+        holds: &'static Holds,
+        /// In what, in words.
+        differences: Vec<String>,
+    },
     /// A file of the folder is not what it should be.
     #[error(
         "{} {found}\n = help: give the same command of `occupant sweep` or `occupant fit` again: what is damaged is made \
          again", .path.display()
     )]
-    Damaged { path: PathBuf, found: String },
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What was found.
+        found: String,
+    },
     /// A file of results was damaged, and what came after has not made it again.
     #[error(
         "{} is not what was written and was not made again\n = help: remove the file, or compute everything anew with \
          --restart", .path.display()
     )]
-    Unmended { path: PathBuf },
+    Unmended {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Another process is at work there.
     #[error("another process is at work in {}: it {doing}\n = help: wait for it, or name another folder", .folder.display())]
-    Busy { folder: PathBuf, doing: String },
+    Busy {
+        /// The folder.
+        folder: PathBuf,
+        /// What is being done.
+        doing: String,
+    },
     /// Samples are not finished; shards that have begun and how many samples each lacks.
     #[error(
         "{}\n = help: give the same command of `occupant sweep` again: it resumes with what is there",
         incomplete(.gaps, .samples, .shards)
     )]
-    Incomplete { gaps: Vec<Range<u64>>, samples: u64, shards: Vec<(Shard, u64)> },
+    Incomplete {
+        /// Runs that are missing.
+        gaps: Vec<Range<u64>>,
+        /// How many there should be.
+        samples: u64,
+        /// Parts that there are, and how many runs each has.
+        shards: Vec<(Shard, u64)>,
+    },
     /// Two results of one sample disagree.
     #[error(
         "sample {index} has one result in {} and another in {}\n = help: the results were computed by programs or \
          machines that do not agree; compute them anew with --restart", .first.display(), .second.display()
     )]
-    Disagree { index: u64, first: PathBuf, second: PathBuf },
+    Disagree {
+        /// Number of the sample.
+        index: u64,
+        /// One of the files.
+        first: PathBuf,
+        /// The other.
+        second: PathBuf,
+    },
 }
 
 impl Problem {

@@ -95,7 +95,7 @@ impl Row {
 }
 
 #[cfg(test)]
-pub mod tests {
+pub(crate) mod tests {
     use super::*;
 
     pub fn row(index: u64) -> Row {

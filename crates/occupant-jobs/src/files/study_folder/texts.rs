@@ -19,7 +19,9 @@ pub enum NamedBy {
     StudyAsBase,
     /// The study, as a table of samples, a test or the scenario of a test.
     Study,
+    /// The scenario.
     Scenario,
+    /// A test given on the command line.
     CommandLineTest,
 }
 
@@ -43,6 +45,7 @@ pub struct Texts {
 }
 
 impl Texts {
+    /// As files say it.
     pub fn of_files(study: &Path) -> Self {
         Texts::new(Source::Files { study: study.to_owned() })
     }
