@@ -1,5 +1,6 @@
 //! Proofs of the model, a module each, in one binary: linking each of them alone would cost more than running it.
 
+mod accuracy;
 mod any_tree;
 mod appendix3;
 mod bags;

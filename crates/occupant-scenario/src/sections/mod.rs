@@ -148,7 +148,7 @@ pub struct Scenario {
     pub(crate) time: TimeSection,
     /// What is recorded.
     pub(crate) output: Option<OutputSection>,
-    /// How the equations of motion are integrated; "adaptive" with its own defaults if absent.
+    /// How the equations of motion are integrated; "adaptive" with the accuracy "engineering" if absent.
     pub(crate) integrator: Option<IntegratorSection>,
     /// Vehicles that drive by themselves before people are looked at.
     pub(crate) drive: Option<DriveSection>,

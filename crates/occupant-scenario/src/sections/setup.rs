@@ -50,7 +50,7 @@ pub(crate) fn setup(
     let belts = belts::belts(b, explicit, &body);
     let (posture, velocity) = posture::posture(b, explicit, &body);
     let time = run::time(b, explicit);
-    let integrator = run::integrator(b, explicit);
+    let integrator = run::integrator(b, explicit, &time);
     let output = run::output(b, explicit, &body);
     let gravity_m_s2 = si_or(&explicit.gravity, STANDARD_GRAVITY_M_S2);
     let path = first_path(b, explicit, gravity_m_s2);
