@@ -69,15 +69,13 @@ fn so_do_drivers_with_three_point_belts() {
     differ_and_agree(&scenario(include_str!("../../scenarios/three-point.toml"), 6, 0.05));
 }
 
-/// Bags fire, vents open, spheres come to the middle.
+/// Bags would remember something as soon as one of any lane fires.
 #[test]
-fn so_do_drivers_with_air_bags() {
-    differ_and_agree(&scenario(include_str!("../../scenarios/airbag-driver.toml"), 6, 0.07));
-}
-
-#[test]
-fn so_do_drivers_with_columns() {
-    differ_and_agree(&scenario(include_str!("../../scenarios/column-driver.toml"), 5, 0.07));
+fn drivers_with_air_bags_run_alone() {
+    let cases = scenario(include_str!("../../scenarios/airbag-driver.toml"), 3, 0.03);
+    for kernel in kernels() {
+        assert!(compare(&cases, kernel).iter().all(|(_, used)| *used == Kernel::Scalar));
+    }
 }
 
 #[test]
@@ -124,7 +122,7 @@ fn a_run_that_fails_stops_or_breaks_leaves_its_neighbours_alone() {
     for kernel in kernels() {
         let mut cases: Vec<Case> = (0..10).map(controlled_cart).collect();
         // no step is short enough: at once, and at the first touch
-        for (i, least_s) in [(1, 1.9e-3), (4, 2e-4)] {
+        for (i, least_s) in [(1, 1.6e-3), (4, 1e-3)] {
             if let Integrator::Adaptive { min_step_s, .. } = &mut cases[i].setup.integrator {
                 *min_step_s = least_s;
             }

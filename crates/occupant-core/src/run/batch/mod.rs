@@ -8,7 +8,7 @@
 //! same surfaces by kind and corners, in the same seams and for the same spheres, belts round the same spheres, springs in the
 //! same joints ([`Unlike`] names what differs). All numbers may differ: masses, places, stiffnesses, paths, times,
 //! steps, tolerances, outputs. A model that has no place beside those under way is run alone at once; one with forces of a
-//! program's own, or with a path that is told on the way, always is.
+//! program's own, with a path that is told on the way, or with air bags under error control, always is.
 
 #[cfg(any(target_arch = "x86_64", test))]
 mod bench;
