@@ -89,8 +89,7 @@ fn left(segment: Segment, plates: &[Plate], body: &Body, problems: &mut Problems
     let name = body.tree[segment].name;
     let path = with_key("body.segments", name);
     let left_kg = whole.mass_kg - taken;
-    // NaN is wrong too
-    if !(left_kg >= LEAST_LEFT * whole.mass_kg) {
+    if left_kg.is_nan() || left_kg < LEAST_LEFT * whole.mass_kg {
         let found = format!("{} kg, of which its plates are {} kg", number(whole.mass_kg), number(taken));
         problems.error(path, found, "plates of at most a fifth of their segment's mass");
         return;
