@@ -144,10 +144,13 @@ impl Scenario {
         threads: Option<usize>,
     ) -> PyResult<Bound<'py, PyDict>> {
         if !self.forces.is_empty() {
-            return Err(plain("a batch of a scenario with forces of Python's; expected one without, or `run` for each"));
+            return Err(plain(
+                "a batch of a scenario with forces of Python's; expected one without, or `run` for each",
+            ));
         }
         let rows = matrix.try_iter()?.map(|row| cells(&row?, &paths)).collect::<PyResult<Vec<_>>>()?;
-        let texts = rows.iter().map(|row| row.iter().map(assigned).collect()).collect::<PyResult<Vec<Vec<String>>>>()?;
+        let texts =
+            rows.iter().map(|row| row.iter().map(assigned).collect()).collect::<PyResult<Vec<Vec<String>>>>()?;
         let base = self.draft.clone().prepared();
         let model = |index: u64| {
             let mut draft = base.clone();
