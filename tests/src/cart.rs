@@ -41,6 +41,8 @@ pub fn lap(integrator: Integrator) -> Setup {
         chains: Vec::new(),
         bags: Vec::new(),
         columns: Vec::new(),
+        bands: Vec::new(),
+        behind: Vec::new(),
         own_forces: Vec::new(),
         path: path(),
         posture: InitialPosture::Seated(seating()),

@@ -53,6 +53,8 @@ pub fn male50() -> Body {
         neck_height_m: 0.0,
         condyles_m: None,
         spheres: Vec::new(),
+        plates: Vec::new(),
+        chests: Vec::new(),
     };
     body.spheres = body.standard_spheres(&radius_m);
     body
@@ -82,6 +84,8 @@ pub fn bead(inertia_kg_m2: f64) -> Body {
         neck_height_m: 0.0,
         condyles_m: None,
         spheres: Vec::new(),
+        plates: Vec::new(),
+        chests: Vec::new(),
     }
 }
 
@@ -111,6 +115,8 @@ pub fn afloat(body: Body, end_s: f64, step_s: f64) -> Setup {
         chains: Vec::new(),
         bags: Vec::new(),
         columns: Vec::new(),
+        bands: Vec::new(),
+        behind: Vec::new(),
         own_forces: Vec::new(),
         path: parked(),
         posture: straight(Vector3::zeros(), Vector3::zeros()),

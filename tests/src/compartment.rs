@@ -103,6 +103,7 @@ impl Compartment {
             surfaces: &self.surfaces,
             faces: &faces,
             solids: &[],
+            behind: &[],
             self_contact: None,
             materials: &self.materials,
             edge_force: EdgeForce::AtContactPoint,
@@ -110,6 +111,7 @@ impl Compartment {
         };
         let skeleton = Skeleton::new(&system.body, -system.gravity.z);
         let forces = Forces {
+            plates: Default::default(),
             contacts: ContactSystem::new(&system.body, &data),
             belts: Vec::new(),
             chains: Vec::new(),

@@ -109,6 +109,8 @@ impl Golden {
             neck_height_m: 0.0,
             condyles_m: None,
             spheres: self.spheres.iter().map(sphere).collect(),
+            plates: Vec::new(),
+            chests: Vec::new(),
         }
     }
 

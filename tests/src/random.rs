@@ -72,6 +72,8 @@ impl Random {
             neck_height_m: 0.5 * shoulder_half_width_m,
             condyles_m: None,
             spheres: Vec::new(),
+            plates: Vec::new(),
+            chests: Vec::new(),
         };
         body.spheres = body.standard_spheres(&radius);
         body

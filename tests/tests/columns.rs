@@ -144,8 +144,11 @@ fn a_mass_that_stays_with_the_hub_is_stopped_by_the_plateau() {
 fn without_a_body_a_pulse_moves_the_hub_as_its_closed_form_says() {
     let stroke = |set: &[&str]| {
         let pulse = "path={ kind = \"pulse\", shape = \"square\", speed = \"20 m/s\", peak = \"200 m/s^2\", duration = \"50 ms\" }";
-        let set =
-            [&[pulse, "time.end=120 ms", "output.interval=20 us", "integrator={ kind = \"adaptive\" }"], set].concat();
+        let set = [
+            &[pulse, "time.end=120 ms", "output.interval=20 us", "integrator={ kind = \"adaptive\", relative = 3e-8 }"],
+            set,
+        ]
+        .concat();
         figures(space("", &set))
     };
     let held = stroke(&["frames.column.force=[\"0 N\", \"1300 N\", \"1300 N\"]"]);
@@ -280,7 +283,7 @@ fn a_column_has_the_same_bits_in_lanes_and_after_a_checkpoint() {
         Model::new(driver(&[&steps[..], &[&mass, &force]].concat())).unwrap()
     };
     ends_alike_side_by_side(model);
-    for integrator in [steps[0], "integrator={ kind = \"adaptive\" }"] {
+    for integrator in [steps[0], "integrator={ kind = \"adaptive\", relative = 3e-8 }"] {
         let model = Model::new(driver(&[integrator, steps[1], steps[2]])).unwrap();
         let mut all = Vec::new();
         simulate(&model, Watch(|s: &Sample<'_>| all.push(s.checkpoint()))).unwrap();

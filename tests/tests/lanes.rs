@@ -18,12 +18,12 @@ use occupant_tests::room::setup;
 
 /// Everything in the outputs of a run as text, which shows every bit.
 #[derive(Clone, Default)]
-struct Texts {
+pub(crate) struct Texts {
     outputs: Vec<String>,
     /// The run stops after this output.
-    stop_at: Option<usize>,
+    pub(crate) stop_at: Option<usize>,
     /// The recorder breaks at this output.
-    break_at: Option<usize>,
+    pub(crate) break_at: Option<usize>,
 }
 
 impl Recorder for Texts {
@@ -43,13 +43,13 @@ impl Recorder for Texts {
 
 /// A run to be done: a setup, and what its recorder is told.
 #[derive(Clone)]
-struct Case {
-    setup: Setup,
-    texts: Texts,
+pub(crate) struct Case {
+    pub(crate) setup: Setup,
+    pub(crate) texts: Texts,
 }
 
 /// What a run came to.
-type Result_ = (Result<Outcome, String>, Vec<String>);
+pub(crate) type Result_ = (Result<Outcome, String>, Vec<String>);
 
 fn alone(case: &Case) -> Result_ {
     let model = Model::new(case.setup.clone()).unwrap();
@@ -75,13 +75,13 @@ fn together(kernel: Kernel, cases: &[Case]) -> Vec<(Result_, Kernel)> {
     results.into_iter().map(Option::unwrap).collect()
 }
 
-fn kernels() -> Vec<Kernel> {
+pub(crate) fn kernels() -> Vec<Kernel> {
     let all = [Kernel::Scalar, Kernel::Lanes4, Kernel::Lanes8];
     all.into_iter().filter(|k| k.is_available()).collect()
 }
 
 /// A cart with lap and torso belt, every number of it its own.
-fn cart(i: usize) -> Case {
+pub(crate) fn cart(i: usize) -> Case {
     cart_of(i, include_str!("../data/carts/cart-lap-torso.toml"))
 }
 
@@ -117,7 +117,7 @@ fn carts(count: usize) -> Vec<Case> {
     (0..count).map(cart).collect()
 }
 
-fn compare(cases: &[Case], kernel: Kernel) -> Vec<(Result_, Kernel)> {
+pub(crate) fn compare(cases: &[Case], kernel: Kernel) -> Vec<(Result_, Kernel)> {
     let results = together(kernel, cases);
     for (i, (case, (result, _))) in cases.iter().zip(&results).enumerate() {
         let expected = alone(case);

@@ -1,5 +1,6 @@
 //! Proofs of the model, a module each, in one binary: linking each of them alone would cost more than running it.
 
+mod accuracy;
 mod any_tree;
 mod appendix3;
 mod bags;
@@ -31,6 +32,8 @@ mod obstacles;
 mod outputs;
 mod own_forces;
 mod own_runs;
+mod own_steps;
+mod plates;
 mod reactions;
 mod reference;
 mod report_cases;

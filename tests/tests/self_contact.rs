@@ -98,7 +98,7 @@ fn the_summary_tells_which_parts_met() {
 
 #[test]
 fn a_run_resumed_while_the_body_touches_itself_has_the_bits_of_the_whole_run() {
-    for set in [&[][..], &["integrator={ kind = \"adaptive\" }"]] {
+    for set in [&[][..], &["integrator={ kind = \"adaptive\", relative = 3e-8 }"]] {
         let model = Model::new(clap(set)).unwrap();
         let mut checkpoints: Vec<(bool, Checkpoint)> = Vec::new();
         let look = |s: &Sample<'_>| checkpoints.push((s.contacts().next().is_some(), s.checkpoint()));

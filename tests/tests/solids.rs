@@ -71,7 +71,7 @@ fn a_fall_through_a_room_of_solids_keeps_its_energy() {
 
 #[test]
 fn among_solids_a_run_resumed_from_a_checkpoint_has_the_bits_of_the_whole_run() {
-    for set in [&[][..], &["integrator={ kind = \"adaptive\" }"]] {
+    for set in [&[][..], &["integrator={ kind = \"adaptive\", relative = 3e-8 }"]] {
         let model = Model::new(room(&[set, &["time.end=0.45"]].concat())).unwrap();
         let mut checkpoints: Vec<Checkpoint> = Vec::new();
         let whole = simulate(&model, Watch(|s: &Sample<'_>| checkpoints.push(s.checkpoint()))).unwrap();

@@ -23,7 +23,7 @@
 //! | room | holds |
 //! |---|---|
 //! | [`signal`] | filters by channel class, integrals, resultants, resampling |
-//! | [`measure`] | HIC, 3 ms levels, Nij, chest, femur, OIV, ORA, THIV, PHD, ASI, OLC; limits and risk curves |
+//! | [`measure`] | HIC, 3 ms levels, Nij, chest, side, whiplash, legs, OIV, ORA, THIV, PHD, ASI, OLC; limits and risk curves |
 //! | [`injury`] | all measures of an occupant from his instruments at once |
 //! | [`correlation`] | ISO 18571, CORA, Sprague and Geers, ANOVA |
 

@@ -66,7 +66,13 @@ pub(crate) fn three_point(body: &Body, due_s: f64) -> Chain {
         |share: f64, beyond: f64, up: f64| Point3::new(0.5 * up * r, share * centre.y + beyond * r, centre.z + up * r);
     let points_m = [at(0.3, 0.0, 0.9), at(0.7, 0.0, 0.9), at(1.0, 0.9, -0.3)];
     let track = Track { points_m, friction: 0.3, drag_n_s_m: 100.0 };
-    let node = |name: &str, site, friction| Node { name: name.to_owned(), site, friction, strength_n: NEVER };
+    let node = |name: &str, site, friction| Node {
+        name: name.to_owned(),
+        site,
+        friction,
+        strength_n: NEVER,
+        ride: Vec::new(),
+    };
     let cue = |due_s| Cue { due_s, watch: None };
     let lines = |points: &[[f64; 2]], returned| Function::lines(points.to_vec(), returned);
     let way = vec![[0.0, 0.0], [8e-3, 0.1]];

@@ -146,6 +146,20 @@ fn place_of_name(name: &str) -> Option<Place> {
         "neck.moment" => ("NECKUP00", "MO", false, false),
         "right_femur" => ("FEMRRI00", "FO", false, false),
         "left_femur" => ("FEMRLE00", "FO", false, false),
+        "chest" if component == "deflection" => ("CHST0000", "DS", false, false),
+        "lower_spine.acceleration" => ("THSP1200", "AC", false, false),
+        "t1.acceleration" => ("THSP0100", "AC", false, false),
+        "lower_neck.force" => ("NECKLO00", "FO", false, false),
+        "lower_neck.moment" => ("NECKLO00", "MO", false, false),
+        "pubic" if component == "force" => ("PUBC0000", "FO", false, false),
+        "right_tibia.upper.moment" => ("TIBIRIUP", "MO", false, false),
+        "right_tibia.upper.force" => ("TIBIRIUP", "FO", false, false),
+        "right_tibia.lower.moment" => ("TIBIRILO", "MO", false, false),
+        "right_tibia.lower.force" => ("TIBIRILO", "FO", false, false),
+        "left_tibia.upper.moment" => ("TIBILEUP", "MO", false, false),
+        "left_tibia.upper.force" => ("TIBILEUP", "FO", false, false),
+        "left_tibia.lower.moment" => ("TIBILELO", "MO", false, false),
+        "left_tibia.lower.force" => ("TIBILELO", "FO", false, false),
         "vehicle.acceleration" => ("VEHCCG00", "AC", false, true),
         "vehicle.velocity" => ("VEHCCG00", "VE", false, true),
         "vehicle.angular_velocity" => ("VEHCCG00", "AV", false, true),
@@ -153,13 +167,15 @@ fn place_of_name(name: &str) -> Option<Place> {
         _ => return None,
     };
     let direction = match component {
-        "x" | "roll" => 'X',
-        "y" | "pitch" => 'Y',
+        "x" | "roll" | "deflection" => 'X',
+        "y" | "pitch" | "force" => 'Y',
         "z" | "yaw" | "axial" => 'Z',
         "resultant" => 'R',
         _ => return None,
     };
-    let sign = if turned && matches!(direction, 'Y' | 'Z') { -1.0 } else { 1.0 };
+    // a deflection is inward, the breastbone's way along X is not
+    let is_against = (turned && matches!(direction, 'Y' | 'Z')) || dimension == "DS";
+    let sign = if is_against { -1.0 } else { 1.0 };
     Some(Place { location, webbing: None, dimension, direction, of_vehicle, sign })
 }
 
@@ -192,6 +208,18 @@ mod tests {
         assert_eq!(sign("11HEADCG00H3AC3A", "head.acceleration.z"), None);
         assert_eq!(sign("13HEADCG00H3ACXA", "head.acceleration.x"), None);
         assert_eq!(sign("11NECKLO00H3FOZB", "neck.force.z"), None);
+    }
+
+    #[test]
+    fn chests_and_legs_are_known_too() {
+        let sign = |text: &str, name| code(text).sign_for(name, '1');
+        assert_eq!(sign("11CHST0000H3DSXC", "chest.deflection"), Some(-1.0));
+        assert_eq!(sign("11CHST0000H3DSXC", "chest.deflection.x"), None);
+        assert_eq!(sign("11TIBILEUPH3MOYB", "left_tibia.upper.moment.y"), Some(1.0));
+        assert_eq!(sign("11TIBILEUPH3MOYB", "left_tibia.lower.moment.y"), None);
+        assert_eq!(sign("11PUBC0000ERFOYB", "pubic.force"), Some(1.0));
+        assert_eq!(sign("11THSP0100BRACXD", "t1.acceleration.x"), Some(1.0));
+        assert_eq!(sign("11NECKLO00BRMOYB", "lower_neck.moment.y"), Some(1.0));
     }
 
     #[test]

@@ -38,6 +38,7 @@ pub mod extend;
 pub mod files;
 pub mod fit;
 pub mod import;
+pub mod instruments;
 pub mod plot;
 pub mod print;
 pub mod report;

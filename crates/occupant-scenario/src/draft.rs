@@ -1,16 +1,19 @@
 //! A scenario text that has been read but not yet checked: the place to apply overrides.
 
+use std::sync::Arc;
+
 use super::check::{check_words, references, units_of};
 use super::expand::expand;
 use super::kind::UnitSystem;
 use super::loaded::{Loaded, Resolver};
 use super::overrides::{needs_explicit, put};
+use super::ready::{Ready, shares};
 use super::sections::schema;
 use occupant_core::body::shape;
 use occupant_core::body::tti12::TTI12;
 use placed_text::{
-    Diagnostics, Document, Format, Node, SourceId, Step, Value, follow, parse_path, parse_value, refuse, targets,
-    to_text,
+    Diagnostics, Document, Entry, Format, Node, SourceId, Step, Value, follow, parse_path, parse_value, refuse,
+    targets, to_text,
 };
 
 /// Where a scenario names files.
@@ -30,6 +33,8 @@ pub fn names_file(path: &str) -> bool {
 #[derive(Clone, Debug)]
 pub struct Draft {
     pub(super) document: Document,
+    /// What it was before it was changed, if that has been looked at.
+    ready: Option<Arc<Ready>>,
 }
 
 impl Draft {
@@ -38,7 +43,7 @@ impl Draft {
     /// # Errors
     /// Everything that is wrong with its syntax.
     pub fn read(text: &str, format: Format, name: &str) -> Result<Draft, Diagnostics> {
-        Document::read(text, format, name).map(|document| Draft { document })
+        Document::read(text, format, name).map(Draft::of)
     }
 
     /// Reads bytes that should be UTF-8 text; [`Format::of_text`] says the format unless it is given.
@@ -46,7 +51,35 @@ impl Draft {
     /// # Errors
     /// The place of the first byte that is not UTF-8; else as [`Draft::read`].
     pub fn read_bytes(bytes: &[u8], format: Option<Format>, name: &str) -> Result<Draft, Diagnostics> {
-        Document::read_bytes(bytes, format, name).map(|document| Draft { document })
+        Document::read_bytes(bytes, format, name).map(Draft::of)
+    }
+
+    fn of(document: Document) -> Draft {
+        Draft { document, ready: None }
+    }
+
+    /// The same, so that copies with a few other values are checked and read in a fraction of the time. A draft that is wrong
+    /// stays as it is.
+    #[must_use]
+    pub fn prepared(mut self) -> Draft {
+        if let Ok(ready) = self.clone().into_ready() {
+            (self.document.root, self.document.sources) = (ready.root.clone(), ready.sources.clone());
+            self.ready = Some(Arc::new(ready));
+        }
+        self
+    }
+
+    /// The scenario checked and expanded.
+    ///
+    /// # Errors
+    /// Everything that is wrong with its words.
+    pub(super) fn into_ready(mut self) -> Result<Ready, Diagnostics> {
+        let Document { sources, root, .. } = &self.document;
+        if let Some(ready) = self.ready.as_ref().and_then(|ready| ready.with(sources, root)) {
+            return Ok(ready);
+        }
+        let problems = self.check_words();
+        if problems.has_errors() { Err(problems) } else { Ready::of(self.document) }
     }
 
     /// Applies `path.to.key=value`, as a command line gives it. The value is read as TOML; what is not TOML is a text, so
@@ -68,7 +101,7 @@ impl Draft {
     pub fn set_value(&mut self, path: &str, value: &str) -> Result<(), Diagnostics> {
         let name = format!("override of {path}");
         let steps = parse_path(path).map_err(|found| refuse(&name, found, "a path such as belts.lap.anchors[1]"))?;
-        let id = self.document.sources.add(&name, value);
+        let id = self.document.sources.add(name.as_str(), value);
         let value = self.value(id);
         let explicit = needs_explicit(&self.document.root, &steps).then(|| self.explicit());
         let places = targets(explicit.as_ref().unwrap_or(&self.document.root), &steps);
@@ -115,6 +148,7 @@ impl Draft {
 
     /// As [`Draft::check`]; notes every quantity in SI units.
     pub(super) fn check_words(&mut self) -> Diagnostics {
+        imply_error_control(&mut self.document.root);
         let mut problems = check_words(&mut self.document, schema(), "the scenario");
         // where the words are right, names are looked up when the plain data are built
         if problems.has_errors() {
@@ -137,6 +171,9 @@ impl Draft {
     }
 
     fn explicit(&mut self) -> Node {
+        if let Some(ready) = self.ready.as_ref().filter(|ready| shares(&ready.root, &self.document.root)) {
+            return ready.explicit_root.clone();
+        }
         expand(&mut self.document.sources, &self.document.root)
     }
 
@@ -150,6 +187,17 @@ impl Draft {
             let number = text.trim().parse().ok().filter(|x: &f64| x.is_finite() && text.contains('.'));
             Node::new(span, number.map_or_else(|| Value::String(text.to_owned()), Value::Float))
         })
+    }
+}
+
+/// An integrator of which only an accuracy is said has error control: `kind` goes without saying.
+fn imply_error_control(root: &mut Node) {
+    let integrator = root.as_table_mut().and_then(|root| root.get_mut("integrator"));
+    let Some(table) = integrator.and_then(|entry| entry.node.as_table_mut()) else { return };
+    if let (Some(Entry { key_span, .. }), false) = (table.get("accuracy"), table.contains_key("kind")) {
+        let node = Node::new(*key_span, Value::String("adaptive".to_owned()));
+        let kind = Entry { key_span: *key_span, node };
+        table.insert("kind".to_owned(), kind);
     }
 }
 

@@ -3,6 +3,8 @@
 //! Every value keeps the place it was written at. Later layers win: preset, then the scenario; within each `all`, then
 //! the pair, then the single name.
 
+use std::sync::Arc;
+
 use super::check::check_words;
 use super::presets;
 use super::sections::schema;
@@ -81,7 +83,7 @@ fn from_library(sources: &mut Sources, root: &mut Table) {
             else {
                 continue;
             };
-            let id = sources.named(LIBRARY).unwrap_or_else(|| sources.add(LIBRARY, library.text()));
+            let id = sources.named(LIBRARY).unwrap_or_else(|| sources.add(LIBRARY, library.shared()));
             let base = Entry { node: base.node.moved_to(id), ..base.clone() };
             let mut whole = laid_over(Some(base), entry.clone());
             whole.node.as_table_mut().and_then(|table| table.shift_remove("library"));
@@ -96,7 +98,7 @@ fn from_library(sources: &mut Sources, root: &mut Table) {
     }
     let span = told[0].node.span;
     let own = root.entry("provenance".to_owned());
-    let own = own.or_insert_with(|| Entry { key_span: span, node: Node::new(span, Value::Table(Table::new())) });
+    let own = own.or_insert_with(|| Entry { key_span: span, node: Node::new(span, Value::Table(Arc::default())) });
     for (path, source) in told {
         own.node.as_table_mut().map(|table| table.entry(path).or_insert(source));
     }
@@ -125,18 +127,18 @@ fn section(sources: &mut Sources, root: &Node, key: &str, explicit: impl FnOnce(
     entry.node.as_table()?;
     let base = start(sources, &entry.node, key);
     let layers: Vec<Node> = base.into_iter().chain([entry.node.clone()]).collect();
-    Some(Entry { node: Node::new(entry.node.span, Value::Table(explicit(layers))), ..entry })
+    Some(Entry { node: Node::new(entry.node.span, Value::Table(Arc::new(explicit(layers)))), ..entry })
 }
 
 /// What a section starts from: the preset that it names, or the body of the person that it describes.
 fn start(sources: &mut Sources, section: &Node, key: &str) -> Option<Node> {
     let (title, base) = presets::base(section, key)?;
-    let id = sources.named(&title).unwrap_or_else(|| sources.add(title, base.text()));
+    let id = sources.named(&title).unwrap_or_else(|| sources.add(title, base.shared()));
     Some(base.root.get(key)?.moved_to(id))
 }
 
 fn body(layers: &[Node]) -> Table {
-    let mut explicit = plain_keys(layers, &["segments", "joints", "spheres"]);
+    let mut explicit = plain_keys(layers, &["segments", "joints", "spheres", "plates", "plate_links"]);
     let parts = |key: &str| -> Vec<Node> { layers.iter().filter_map(|l| l.get(key).cloned()).collect() };
     let joints = parts("joints");
     let own: Vec<String> = other_names(&joints, &[]);
@@ -147,6 +149,10 @@ fn body(layers: &[Node]) -> Table {
     put(&mut explicit, "segments", &segments, all_members(&segments, &names));
     let spheres = parts("spheres");
     put(&mut explicit, "spheres", &spheres, all_members(&spheres, &shape::names(&TTI12)));
+    for key in ["plates", "plate_links"] {
+        let own = parts(key);
+        put(&mut explicit, key, &own, all_members(&own, &[]));
+    }
     explicit
 }
 
@@ -264,7 +270,8 @@ fn members<'a>(layers: &[Node], names: impl Iterator<Item = &'a str>) -> Table {
 
 fn put(explicit: &mut Table, key: &str, layers: &[Node], members: Table) {
     if let Some(Node { span, .. }) = layers.last() {
-        explicit.insert(key.to_owned(), Entry { key_span: *span, node: Node::new(*span, Value::Table(members)) });
+        explicit
+            .insert(key.to_owned(), Entry { key_span: *span, node: Node::new(*span, Value::Table(Arc::new(members))) });
     }
 }
 

@@ -98,10 +98,14 @@ pub(crate) const SPECIFIC_HEAT_SLOPE: usize = 23;
 pub(crate) const HEAT_TRANSFER: usize = 24;
 /// Frequency.
 pub const FREQUENCY: usize = 25;
+/// Damping, force per speed.
+pub(crate) const DAMPING: usize = 26;
+/// Damping by the square of speed.
+pub(crate) const QUADRATIC_DAMPING: usize = 27;
 
 /// All kinds.
 #[rustfmt::skip]
-pub const KINDS: [Kind; 26] = [
+pub const KINDS: [Kind; 28] = [
     kind("length", "a length", Unit::Metre, "0.3, \"12 in\", \"305 mm\""),
     kind("time", "a time", Unit::Second, "0.08, \"80 ms\""),
     kind("angle", "an angle", Unit::Radian, "15, \"15 deg\", \"0.26 rad\""),
@@ -128,6 +132,8 @@ pub const KINDS: [Kind; 26] = [
     kind("specific heat per kelvin", "a specific heat per kelvin", Unit::JoulePerKilogramKelvinSquared, "0.2, \"0.2 J/(kg K^2)\""),
     kind("heat transfer", "a heat transfer", Unit::WattPerMetreSquaredKelvin, "50, \"50 W/(m^2 K)\""),
     kind("frequency", "a frequency", Unit::Hertz, "15, \"15 Hz\""),
+    kind("damping", "a damping", Unit::NewtonSecondPerMetre, "640, \"640 N s/m\""),
+    kind("quadratic damping", "a damping by the square of speed", Unit::NewtonSecondSquaredPerMetreSquared, "116, \"116 N s^2/m^2\""),
 ];
 
 impl Kind {

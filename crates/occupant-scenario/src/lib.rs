@@ -93,6 +93,7 @@ mod overrides;
 mod people;
 mod places;
 mod presets;
+mod ready;
 mod sections;
 
 pub use check::{check_words, schema::schema_of};

@@ -1,7 +1,7 @@
 //! A scenario that has passed the check, with the tables beside it, ready to be built.
 
 use super::draft::Draft;
-use super::expand::expand;
+use super::ready::Ready;
 use super::sections::{Drives, People, Scenario, asks_for_people, setup, solve, together};
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
@@ -40,24 +40,10 @@ impl Scenario {
 }
 
 impl Loaded {
-    pub(super) fn from_draft(mut draft: Draft, resolver: Resolver) -> Result<Loaded, Diagnostics> {
-        let problems = draft.check_words();
-        if problems.has_errors() {
-            return Err(problems);
-        }
-        let mut document = draft.document;
-        let scenario: Scenario = document.sections("scenario")?;
-        document.root = expand(&mut document.sources, &document.root);
-        let mut explicit: Scenario = document.sections("scenario")?;
-        // result files hold the explicit form, and what it leaves out was false in version 0.1.0
-        let others = explicit.occupants.values_mut().filter_map(|occupant| occupant.posture.as_mut());
-        for posture in explicit.posture.iter_mut().chain(others) {
-            posture.settle.get_or_insert(true);
-        }
-        // nor did that version say where edge forces act: at the point of contact
-        if !explicit.surfaces.is_empty() {
-            explicit.contact.get_or_insert_default().edge_force.get_or_insert_default();
-        }
+    pub(super) fn from_draft(draft: Draft, resolver: Resolver) -> Result<Loaded, Diagnostics> {
+        let ready = draft.into_ready()?;
+        let mut document = ready.document();
+        let Ready { scenario, explicit, .. } = ready;
         read_tables(&mut document, &scenario, resolver)?;
         Ok(Loaded { scenario, explicit, document })
     }

@@ -1,7 +1,9 @@
 //! `path.to.key=value`: changes to a scenario from a command line or a sweep, made before it is checked.
 
+use std::sync::Arc;
+
 use super::expand::rival;
-use placed_text::{Entry, Node, Span, Step, Table, Value, child, follow, with_step};
+use placed_text::{Entry, Node, Span, Step, Value, child, follow, with_step};
 
 /// Whether a path can only be followed in the explicit form of a scenario: it has wildcards, or it leads into a list that
 /// is not written.
@@ -27,12 +29,13 @@ pub(super) fn put(root: &mut Node, explicit: Option<&Node>, steps: &[Step], valu
         shadow = shadow.and_then(|s| child(s, step));
         path = with_step(&path, step);
         if let (Step::Key(key), Value::Table(table), true) = (step, &mut node.value, last && is_null(&value)) {
-            let taken = table.shift_remove(key);
+            let taken = Arc::make_mut(table).shift_remove(key);
             return taken.map(|_| ()).ok_or_else(|| format!("nothing at `{path}` to be taken away"));
         }
         if let (Step::Key(key), Value::Table(table)) = (step, &mut node.value)
             && table.get(key).is_none()
         {
+            let table = Arc::make_mut(table);
             table.insert(key.clone(), blank(value.span, steps.get(i + 1), shadow));
             rival(key).filter(|_| last).and_then(|rival| table.shift_remove(rival));
         }
@@ -66,13 +69,13 @@ fn blank(span: Span, next: Option<&Step>, shadow: Option<&Node>) -> Entry {
         (Some(_), Some(Value::Array(items))) => Some(Value::Array(items.clone())),
         _ => None,
     };
-    let node = Node::new(span, copied.unwrap_or(Value::Table(Table::new())));
+    let node = Node::new(span, copied.unwrap_or(Value::Table(Arc::default())));
     Entry { key_span: span, node }
 }
 
 fn below_mut<'a>(node: &'a mut Node, step: &Step) -> Option<&'a mut Node> {
     match (&mut node.value, step) {
-        (Value::Table(table), Step::Key(key)) => table.get_mut(key).map(|e| &mut e.node),
+        (Value::Table(table), Step::Key(key)) => Arc::make_mut(table).get_mut(key).map(|e| &mut e.node),
         (Value::Array(items), Step::Index(i)) => items.get_mut(*i),
         (Value::Array(items), Step::Key(key)) => {
             items.iter_mut().find(|item| item.get("name").and_then(Node::as_str) == Some(key))

@@ -1,15 +1,17 @@
 //! What `body` and `joints` of a scenario start from: occupants that come with the program, in `presets` or made by
 //! [`occupant_core::body::people`]. Programs that do without a text get the same ones, read as a scenario's are.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use nalgebra::{UnitQuaternion, Vector2};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
+mod chest;
+
 use super::expand::{expand, written};
-use super::sections::{BodySection, occupant};
-use occupant_core::body::people::{self, Person};
+use super::sections::{BodySection, ChestChoice, PelvisChoice, occupant};
+use occupant_core::body::people::{self, Division, Person};
 use occupant_core::body::tti12::TTI12;
 use occupant_core::body::{Body, Joint, JointKind};
 use occupant_core::forces::joint::Joints;
@@ -29,38 +31,105 @@ pub(crate) fn read(body: &str) -> Option<(Body, Joints)> {
 }
 
 /// The text that a section named `key` of a checked scenario starts from, and what messages call it.
-pub(super) fn base(section: &Node, key: &str) -> Option<(String, Document)> {
+pub(super) fn base(section: &Node, key: &str) -> Option<(String, Arc<Document>)> {
     let preset = section.get("preset").and_then(Node::as_str);
     match (key, preset) {
         ("joints", Some("male50")) => Some(("preset male50".to_owned(), male50()?.clone())),
         ("body", Some(OLD)) if section.get("joints").is_none() => Some(("preset male50".to_owned(), male50()?.clone())),
         ("joints", Some(name)) => {
             let at = ELASTIC.iter().position(|(known, _)| *known == name)?;
-            static READ: [OnceLock<Option<Document>>; ELASTIC.len()] = [const { OnceLock::new() }; ELASTIC.len()];
+            static READ: [Read; ELASTIC.len()] = [const { OnceLock::new() }; ELASTIC.len()];
             let title = format!("preset {name}");
-            let document = READ[at].get_or_init(|| written(&title, ELASTIC[at].1)).clone()?;
+            let document = READ[at].get_or_init(|| written(&title, ELASTIC[at].1).map(Arc::new)).clone()?;
             Some((title, document))
         }
-        ("body", _) => {
-            let division = BodySection::deserialize(section).ok()?.division().unwrap_or_default();
-            let old = || (preset == Some(OLD)).then(|| preset_body(OLD)).flatten();
-            let made = preset.and_then(|name| people::child(name, division)).or_else(old);
-            let body = made.or_else(|| Some(person(section, preset)?.body(division).0))?;
-            let title = format!("body of {}", preset.unwrap_or("a person"));
-            let document = written(&title, &words(&body, section.get("joints").is_some()))?;
-            Some((title, document))
-        }
+        ("body", _) => made(section, preset),
         _ => None,
     }
+}
+
+/// The words of what a body section asks to give way, and what it is called.
+fn giving(own: &BodySection, made: &Made, body: &Body) -> Option<(String, String)> {
+    let flesh = (own.pelvis == Some(PelvisChoice::Flesh)).then(|| chest::flesh(body));
+    let chest = chest_of(own, made, body);
+    if flesh.is_none() && chest.is_none() {
+        return None;
+    }
+    let named = own.chest.filter(|_| chest.is_some()).map(|chest| format!("chest {}", chest.name()));
+    let name = [named, flesh.as_ref().map(|_| "flesh".to_owned())].into_iter().flatten().collect::<Vec<_>>();
+    // how spheres ride stands behind the table of spheres, plates after it
+    let [rides, plates] = flesh.unwrap_or_default();
+    let chest = chest.unwrap_or_default();
+    Some(([rides, chest.join("\n"), plates].join("\n"), name.join(" and ")))
+}
+
+/// The words of the chest that a body section asks for; none of a child, whom no test reaches.
+fn chest_of(own: &BodySection, made: &Made, body: &Body) -> Option<Vec<String>> {
+    let choice = own.chest.filter(|choice| *choice != ChestChoice::Rigid)?;
+    let is_old = made.preset.as_deref() == Some(OLD);
+    let person = if is_old { people::REFERENCE_PERSON } else { made.person? };
+    let division = if is_old { Division::default() } else { made.division };
+    let reference = people::REFERENCE_PERSON.body(division).0;
+    Some(chest::words(choice, body, [person, people::REFERENCE_PERSON], &reference))
+}
+
+/// A text of the program, once it has been read.
+type Read = OnceLock<Option<Arc<Document>>>;
+
+/// What a body is made from.
+#[derive(Clone, PartialEq)]
+struct Made {
+    preset: Option<String>,
+    person: Option<Person>,
+    division: Division,
+    /// Whether its joints are written.
+    has_joints: bool,
+    gives: (Option<ChestChoice>, Option<PelvisChoice>),
+}
+
+/// Bodies that were made, with what messages call them.
+type Kept = Vec<(Made, String, Arc<Document>)>;
+
+/// The text of a body that is made from a section. The samples of a study ask for the same ones again and again, so the latest
+/// are kept.
+fn made(section: &Node, preset: Option<&str>) -> Option<(String, Arc<Document>)> {
+    const KEPT: usize = 32;
+    static LATEST: Mutex<Kept> = Mutex::new(Vec::new());
+    let own = BodySection::deserialize(section).ok()?;
+    let from = Made {
+        preset: preset.map(str::to_owned),
+        person: person(&own, preset),
+        division: own.division().unwrap_or_default(),
+        has_joints: section.get("joints").is_some(),
+        gives: (own.chest, own.pelvis),
+    };
+    let latest = || LATEST.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, title, document)) = latest().iter().find(|(key, ..)| *key == from) {
+        return Some((title.clone(), document.clone()));
+    }
+    let old = || (preset == Some(OLD)).then(|| preset_body(OLD)).flatten();
+    let body = preset.and_then(|name| people::child(name, from.division)).or_else(old);
+    let body = body.or_else(|| Some(from.person?.body(from.division).0))?;
+    let (mut text, mut title) = (words(&body, from.has_joints), format!("body of {}", preset.unwrap_or("a person")));
+    if let Some((more, name)) = giving(&own, &from, &body) {
+        (text, title) = (text + "\n" + &more, format!("{title} with {name}"));
+    }
+    let document = Arc::new(written(&title, &text)?);
+    let mut latest = latest();
+    if latest.len() == KEPT {
+        latest.remove(0);
+    }
+    latest.push((from, title.clone(), document.clone()));
+    Some((title, document))
 }
 
 /// The preset whose body stands in a file.
 const OLD: &str = "male50-1970";
 
 /// The body of the first version and a starting set of joints.
-fn male50() -> Option<&'static Document> {
-    static READ: OnceLock<Option<Document>> = OnceLock::new();
-    READ.get_or_init(|| written("preset male50", include_str!("presets/male50-1970.toml"))).as_ref()
+fn male50() -> Option<&'static Arc<Document>> {
+    static READ: Read = OnceLock::new();
+    READ.get_or_init(|| written("preset male50", include_str!("presets/male50-1970.toml")).map(Arc::new)).as_ref()
 }
 
 /// Sections of a scenario that the library has entries for.
@@ -89,8 +158,7 @@ const ELASTIC: [(&str, &str); 6] = [
 
 /// The grown-up that a body section speaks of; the reference where it is too incomplete or out of reach, which is reported
 /// when the body is built.
-fn person(section: &Node, preset: Option<&str>) -> Option<Person> {
-    let own = BodySection::deserialize(section).ok()?;
+fn person(own: &BodySection, preset: Option<&str>) -> Option<Person> {
     let named = preset.and_then(Person::named);
     if named.is_none() && !own.describes_a_person() {
         return None;

@@ -70,6 +70,7 @@ pub mod prelude {
     pub use occupant_core::forces::contact::material::Material;
     pub use occupant_core::forces::contact::surface::{Frame, Outline};
     pub use occupant_core::forces::spring::BilinearSpring;
+    pub use occupant_core::model::accuracy::Accuracy;
     pub use occupant_core::model::setup::Integrator;
     pub use occupant_core::results::outcome::Status;
     pub use occupant_core::results::recorder::Recorder;

@@ -1,5 +1,7 @@
 //! A text that has been read, and bytes as texts.
 
+use std::sync::Arc;
+
 use serde::de::DeserializeOwned;
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -48,6 +50,11 @@ impl Document {
     /// The text it was read from.
     pub fn text(&self) -> &str {
         self.sources.text(self.main)
+    }
+
+    /// The same, shared.
+    pub fn shared(&self) -> Arc<str> {
+        self.sources.shared(self.main)
     }
 
     /// Whether its root has this key.

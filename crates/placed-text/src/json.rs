@@ -1,5 +1,7 @@
 //! JSON text → [`Node`] tree, strictly by RFC 8259.
 
+use std::sync::Arc;
+
 use jsonc_parser::ast::{Object, Value as Ast};
 use jsonc_parser::common::Ranged;
 use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
@@ -61,7 +63,7 @@ fn read_object(reader: &mut Reader, object: Object<'_>) -> Value {
         }
         table.insert(key, Entry { key_span, node: read_node(reader, property.value) });
     }
-    Value::Table(table)
+    Value::Table(Arc::new(table))
 }
 
 fn read_node(reader: &mut Reader, ast: Ast<'_>) -> Node {

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::fmt;
+use std::sync::Arc;
 
 use indexmap::IndexMap;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -57,9 +58,9 @@ pub enum Value {
     /// List.
     #[serde(skip)]
     Array(Vec<Node>),
-    /// Named values.
+    /// Named values. Copies of a tree share them until one is changed.
     #[serde(skip)]
-    Table(Table),
+    Table(Arc<Table>),
 }
 
 /// Named values in the order in which they were written.
@@ -217,7 +218,7 @@ impl Node {
     /// The table, if it is one.
     pub fn as_table_mut(&mut self) -> Option<&mut Table> {
         match &mut self.value {
-            Value::Table(table) => Some(table),
+            Value::Table(table) => Some(Arc::make_mut(table)),
             _ => None,
         }
     }
@@ -255,7 +256,7 @@ impl Node {
             Value::Table(table) => {
                 let moved =
                     |e: &Entry| Entry { key_span: Span { source, ..e.key_span }, node: e.node.moved_to(source) };
-                Value::Table(table.iter().map(|(key, entry)| (key.clone(), moved(entry))).collect())
+                Value::Table(Arc::new(table.iter().map(|(key, entry)| (key.clone(), moved(entry))).collect()))
             }
             plain => plain.clone(),
         };

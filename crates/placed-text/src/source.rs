@@ -3,6 +3,8 @@
 //! A scenario may come from several texts: its own file, command line overrides, a preset, tables in CSV files. Every
 //! value keeps the [`Span`] it was read from, so that a problem found much later still points at the words that caused it.
 
+use std::sync::Arc;
+
 /// Index of a text in [`Sources`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SourceId(usize);
@@ -29,9 +31,9 @@ impl Span {
 #[derive(Clone, Debug, PartialEq)]
 struct Source {
     /// File name as the user gave it, or words such as `--set path.speed`.
-    name: String,
+    name: Arc<str>,
     /// The text.
-    text: String,
+    text: Arc<str>,
     /// Whether messages quote its lines.
     is_quoted: bool,
 }
@@ -55,15 +57,15 @@ impl Sources {
         Sources::default()
     }
 
-    /// Adds a text.
-    pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> SourceId {
+    /// Adds a text. Copies of the set share it.
+    pub fn add(&mut self, name: impl Into<Arc<str>>, text: impl Into<Arc<str>>) -> SourceId {
         self.0.push(Source { name: name.into(), text: text.into(), is_quoted: true });
         SourceId(self.0.len() - 1)
     }
 
     /// Adds a text that another one names. It may be any file of the user's, so that messages name places in it but
     /// quote no line.
-    pub fn add_named(&mut self, name: impl Into<String>, text: impl Into<String>) -> SourceId {
+    pub fn add_named(&mut self, name: impl Into<Arc<str>>, text: impl Into<Arc<str>>) -> SourceId {
         self.0.push(Source { name: name.into(), text: text.into(), is_quoted: false });
         SourceId(self.0.len() - 1)
     }
@@ -75,17 +77,22 @@ impl Sources {
 
     /// The text with this name, if there is one already.
     pub fn named(&self, name: &str) -> Option<SourceId> {
-        self.0.iter().position(|s| s.name == name).map(SourceId)
+        self.0.iter().position(|s| *s.name == *name).map(SourceId)
     }
 
     /// The text, or an empty one for an id of another set.
     pub fn text(&self, id: SourceId) -> &str {
-        self.0.get(id.0).map_or("", |s| s.text.as_str())
+        self.0.get(id.0).map_or("", |s| &s.text)
+    }
+
+    /// The text, shared.
+    pub fn shared(&self, id: SourceId) -> Arc<str> {
+        self.0.get(id.0).map_or_else(|| "".into(), |s| s.text.clone())
     }
 
     /// The name of the text.
     pub fn name(&self, id: SourceId) -> &str {
-        self.0.get(id.0).map_or("", |s| s.name.as_str())
+        self.0.get(id.0).map_or("", |s| &s.name)
     }
 
     /// A span that covers the first character of a text.

@@ -1,5 +1,7 @@
 //! TOML text → [`Node`] tree.
 
+use std::sync::Arc;
+
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Error};
 
@@ -55,7 +57,7 @@ fn read_table(reader: &mut Reader, source: DeTable<'_>) -> Value {
         }
         table.insert(key.into_inner().into_owned(), Entry { key_span, node: read_node(reader, span, value) });
     }
-    Value::Table(table)
+    Value::Table(Arc::new(table))
 }
 
 fn read_node(reader: &mut Reader, span: Span, value: DeValue<'_>) -> Node {

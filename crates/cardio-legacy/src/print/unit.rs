@@ -60,7 +60,7 @@ impl Units {
             M::Metre => [4, 3],
             M::MetrePerSecond => [3, 2],
             M::MetrePerSecondSquared => [2, 1],
-            M::Newton | M::NewtonPerMetre => [1, 2],
+            M::Newton | M::NewtonPerMetre | M::NewtonSecondPerMetre | M::NewtonSecondSquaredPerMetreSquared => [1, 2],
             M::Kilogram => [4, 3],
             M::KilogramMetreSquared => [5, 4],
             M::Joule | M::NewtonMetre => [2, 1],

@@ -4,20 +4,27 @@
 //! [`Measure`]s of them with the formulas of [`crate::measure`]. A simulated signal has no noise, so by default nothing
 //! is filtered; the classes of SAE J211 can be asked for where outputs are close enough for them.
 //!
-//! The body is rigid: it has no chest deflection and no viscous criterion, and its measures say so instead of guessing.
+//! What every body reads makes the first measures. A chest that gives way, load cells of dummies for the side, instruments of
+//! whiplash tests and lower legs ([`Special`]) make more of them where they are read. A chest that is rigid has no deflection
+//! and no viscous criterion, and its measures say so instead of guessing.
 
+mod definition;
 mod measures;
+mod parts;
 mod readings;
+mod rear;
 mod signals;
+mod special;
 
 use serde::{Serialize, Serializer};
 
-use crate::measure::{Basis, Dummy, Grade, Rule};
+use crate::measure::{Basis, Dummy, Grade, Limit, Rule};
 use crate::signal::CfcFamily;
 use occupant_units::unit::Unit;
 
 pub use readings::{Acceleration, Readings};
-pub use signals::{Components, Extreme, Extremes, Signals};
+pub use signals::{Components, Extreme, Extremes, Person, Signals};
+pub use special::{ChestPoint, Special, TibiaLoad, TibiaSite};
 
 /// How signals are filtered before a measure is made of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -26,7 +33,7 @@ pub enum Filtering {
     #[default]
     None,
     /// By the class that SAE J211 names for each channel: head and pelvis accelerations and neck forces 1000, neck moments
-    /// and femurs 600, chest acceleration 180, head rotation 60.
+    /// and femurs 600, chest acceleration 180, head rotation 60; [`Special`] signals as [`Special::class`] says.
     Classes(CfcFamily),
 }
 
@@ -114,7 +121,8 @@ pub struct Risk {
     pub agrees: bool,
 }
 
-/// All measures, in the order of a dummy from head to femur. The list has the same names for every run.
+/// All measures, in the order of a dummy from head to legs. The list has the same names for all signals with the same
+/// [`Signals::special`].
 pub fn assess(signals: &Signals, options: &Options) -> Vec<Measure> {
     Readings::new(signals, options).measures()
 }
@@ -141,13 +149,41 @@ pub fn coarseness(signals: &Signals, options: &Options, measures: &[Measure]) ->
 }
 
 /// Rules whose limits apply to an occupant.
-pub const RULES: [Rule; 4] = [Rule::Fmvss208, Rule::UnR94, Rule::UnR137, Rule::SeverityIndex];
+pub const RULES: [Rule; 14] = [
+    Rule::Fmvss208,
+    Rule::UnR94,
+    Rule::UnR137,
+    Rule::UnR95,
+    Rule::UnR135,
+    Rule::Fmvss214,
+    Rule::EuroNcapFullWidth,
+    Rule::EuroNcapMpdb,
+    Rule::EuroNcapSideBarrier,
+    Rule::EuroNcapSidePole,
+    Rule::EuroNcapWhiplashLow,
+    Rule::EuroNcapWhiplashMedium,
+    Rule::EuroNcapWhiplashHigh,
+    Rule::SeverityIndex,
+];
+
+/// Beyond a limit of these grades a rule is not met, or a rating gives no points.
+fn is_judged(limit: &Limit) -> bool {
+    match limit.grade {
+        Grade::Maximum | Grade::LowerPerformance => true,
+        // where nothing but a cap is given
+        Grade::Capping => !crate::measure::LIMITS.iter().any(|other| {
+            (other.rule, other.dummy, other.quantity) == (limit.rule, limit.dummy, limit.quantity)
+                && other.grade == Grade::LowerPerformance
+        }),
+        _ => false,
+    }
+}
 
 impl Measure {
     /// Compares the value with the limits of all [`RULES`] for a quantity.
     fn judge(&mut self, value: f64, quantity: crate::measure::Quantity, dummy: Dummy) {
         let known = RULES.into_iter().flat_map(|rule| crate::measure::limits(rule, dummy));
-        let judged = known.filter(|l| l.quantity == quantity && l.grade == Grade::Maximum);
+        let judged = known.filter(|l| l.quantity == quantity && is_judged(l));
         self.limits = judged
             .map(|limit| {
                 let verdict = limit.judge(value);

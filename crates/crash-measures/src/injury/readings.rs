@@ -1,11 +1,26 @@
 //! What the instruments read, filtered as asked: the signals that measures are made of, and the levels of the resultant
 //! accelerations.
 
-use super::signals::{Components, Extreme, Extremes, Signals};
-use super::{Filtering, Measure, Options, measures};
+use std::collections::BTreeMap;
+
+use super::definition::{Definition, Lack};
+use super::signals::{Components, Extreme, Extremes, Person, Signals};
+use super::special::Special;
+use super::{Filtering, Measure, Options, measures, parts, rear};
 use crate::measure::{Peak, ThreeMs, maximum, three_ms_contiguous, three_ms_cumulative};
 use crate::signal::ChannelClass::{self, Cfc60, Cfc180, Cfc600, Cfc1000};
 use crate::signal::{SignalError, filter_cfc, resultant};
+
+/// The lists of measures, from head to legs.
+const LISTS: [&[Definition]; 7] = [
+    measures::HEAD_AND_NECK,
+    rear::WHIPLASH,
+    measures::CHEST,
+    parts::CHEST_PARTS,
+    parts::SIDE,
+    measures::PELVIS_AND_FEMURS,
+    parts::LEGS,
+];
 
 /// The readings of one run.
 #[derive(Clone, Debug)]
@@ -25,6 +40,11 @@ pub struct Readings {
     pub(super) neck_n_m: Result<Components, SignalError>,
     /// Compression of the right and the left femur.
     pub(super) femur_n: [Result<Vec<f64>, SignalError>; 2],
+    /// Reading ahead of the head, CFC 60, and shear of the neck, CFC 600, as criteria of whiplash take them.
+    pub(super) head_ahead_m_s2: Result<Vec<f64>, SignalError>,
+    pub(super) neck_shear_n: Result<Vec<f64>, SignalError>,
+    special: BTreeMap<Special, Result<Vec<f64>, SignalError>>,
+    pub(super) person: Option<Person>,
     /// Greatest values that are known better than from samples; times count from the first sample.
     peaks: Option<Extremes>,
 }
@@ -70,8 +90,22 @@ impl Readings {
             neck_n: all(&signals.neck_n, Cfc1000),
             neck_n_m: all(&signals.neck_n_m, Cfc600),
             femur_n: signals.femur_n.each_ref().map(compression),
+            head_ahead_m_s2: one(&signals.head_m_s2[0], Cfc60),
+            neck_shear_n: one(&signals.neck_n[0], Cfc600),
+            special: signals.special.iter().map(|(which, values)| (*which, one(values, which.class()))).collect(),
+            person: signals.person,
             peaks,
         }
+    }
+
+    /// A signal that only some bodies read.
+    pub(super) fn special(&self, which: Special) -> Result<Vec<f64>, Lack> {
+        Ok(self.special.get(&which).ok_or(Lack::Absent)?.clone()?)
+    }
+
+    /// Whether it is read.
+    pub(super) fn has(&self, which: Special) -> bool {
+        self.special.contains_key(&which)
     }
 
     /// A greatest value that is known better than from samples.
@@ -79,9 +113,9 @@ impl Readings {
         peak_of(&self.peaks, which)
     }
 
-    /// All measures, in the order of a dummy from head to femur. The list has the same names for every run.
+    /// All measures, in the order of a dummy from head to legs. The list has the same names for every run of a body.
     pub fn measures(&self) -> Vec<Measure> {
-        measures::MEASURES.iter().map(|definition| definition.of(self)).collect()
+        LISTS.iter().flat_map(|list| *list).filter_map(|definition| definition.of(self)).collect()
     }
 }
 

@@ -1,5 +1,8 @@
 //! The channels of a dummy that measures are made of.
 
+use std::collections::BTreeMap;
+
+use super::special::Special;
 use crate::measure::Peak;
 
 /// Three components over time.
@@ -34,6 +37,15 @@ pub enum Extreme {
     LeftFemur,
 }
 
+/// Whose chest is read, if it is no dummy's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Person {
+    /// Depth of the chest, m.
+    pub chest_depth_m: f64,
+    /// Age, years, if it is known.
+    pub age_years: Option<f64>,
+}
+
 /// Time histories at regular times, in SAE J211 axes of the segments (X ahead, Y right, Z down), SI.
 ///
 /// A last output before its regular time is left out: the measures need equal intervals.
@@ -59,6 +71,11 @@ pub struct Signals {
     pub neck_n_m: Components,
     /// Axial force of the right and the left femur, N: tension positive.
     pub femur_n: [Vec<f64>; 2],
+    /// What only some bodies and tests read, as long as the others. A body that has such an instrument has its signal here,
+    /// with samples or without: measures of it are listed then.
+    pub special: BTreeMap<Special, Vec<f64>>,
+    /// Whose chest it is: a dummy's where nobody is named, that of the dummy whose limits are asked for.
+    pub person: Option<Person>,
     /// Greatest values between the samples, if they are known.
     pub peaks: Option<Extremes>,
 }
@@ -83,13 +100,13 @@ impl Signals {
     pub(super) fn every_other(&self, first: usize) -> Signals {
         let mut half = self.clone();
         half.interval_s *= 2.0;
-        for values in half.all_mut() {
-            *values = values.iter().skip(first).step_by(2).copied().collect();
-        }
+        let thin = |values: &mut Vec<f64>| *values = values.iter().skip(first).step_by(2).copied().collect();
+        half.special.values_mut().for_each(thin);
+        half.all_mut().for_each(thin);
         half
     }
 
-    /// Every channel.
+    /// Every channel that all bodies have.
     pub fn all_mut(&mut self) -> impl Iterator<Item = &mut Vec<f64>> {
         [
             &mut self.head_m_s2,

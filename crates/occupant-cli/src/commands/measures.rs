@@ -1,5 +1,7 @@
 //! `occupant measures`.
 
+mod test;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -10,7 +12,7 @@ use occupant_core::results::summary::{Caveat, Person, Summary};
 use placed_text::shown;
 use serde::Serialize;
 
-use super::flags::history::interval;
+use super::flags::history::{TestArgs, interval};
 use super::tables::measures::{remarks, risks, side_by_side, table};
 use super::tables::summary::Marks;
 use crate::base::{Done, Failure, Units, UnitsArg, json, note, one_of, print};
@@ -20,14 +22,17 @@ use occupant_jobs::files::history::{FAMILIES, family_name};
 /// Readings of filtered channels are taken so often, s: the 10 kHz of SAE J211.
 const FILTERED_S: f64 = 1e-4;
 
-/// Injury measures of a run against limits and risk curves, or of several side by side
+/// Injury measures of a run or a test against limits and risk curves, or of several side by side
 ///
 /// HIC, 3 ms levels, severity indices, BrIC, DAMAGE, neck and femur loads, Nij. A simulated signal has no noise, so nothing
 /// is filtered unless --filter asks for it. Several runs come as one table with a column each. Exit code 1 if a limit is
 /// exceeded and --strict is given.
+///
+/// A test is a text table (CSV), an ISO-MME test (its folder or .mme file) or a test of NHTSA. Its signals are known by --map,
+/// by the names that `occupant channels` gives them, or by ISO-MME code; a test has noise: ask for --filter j211.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// The results of `occupant run`
+    /// The results of `occupant run`, or a test: CSV, ISO-MME folder or .mme file
     #[arg(value_name = "RUN.mcap", required = true)]
     runs: Vec<PathBuf>,
 
@@ -51,6 +56,9 @@ pub(crate) struct Args {
     /// Exit with code 1 if a limit is exceeded
     #[arg(long)]
     strict: bool,
+
+    #[command(flatten)]
+    test: TestArgs,
 
     #[command(flatten)]
     units: UnitsArg,
@@ -85,10 +93,18 @@ impl Args {
 }
 
 /// Dummies, likewise.
-const DUMMIES: [(&str, &str, Dummy); 3] = [
+const DUMMIES: [(&str, &str, Dummy); 11] = [
     ("hybrid-iii-50m", "Hybrid III, 50th percentile male", Dummy::HybridIii50M),
     ("hybrid-iii-5f", "Hybrid III, 5th percentile female", Dummy::HybridIii5F),
     ("thor-50m", "THOR, 50th percentile male", Dummy::Thor50M),
+    ("hybrid-iii-95m", "Hybrid III, 95th percentile male", Dummy::HybridIii95M),
+    ("eurosid-1", "EuroSID-1, for the side", Dummy::EuroSid1),
+    ("es-2", "ES-2, for the side", Dummy::Es2),
+    ("es-2re", "ES-2re, for the side", Dummy::Es2Re),
+    ("sid-iis", "SID-IIs, 5th percentile female, for the side", Dummy::SidIis),
+    ("worldsid-50m", "WorldSID, 50th percentile male, for the side", Dummy::WorldSid50M),
+    ("worldsid-5f", "WorldSID, 5th percentile female, for the side", Dummy::WorldSid5F),
+    ("biorid-ii", "BioRID-II, for a blow from behind", Dummy::BioRidIi),
 ];
 
 #[derive(Serialize)]
@@ -163,6 +179,10 @@ impl Judged {
 /// Prints the measures of runs.
 pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
     let options = Options { dummy: args.dummy, filtering: args.filtering() };
+    if args.runs.iter().any(|file| test::is_test(file)) {
+        return test::measures(args, &options);
+    }
+    test::refuse_flags(args)?;
     let all = args.runs.iter().map(|file| Judged::of(file, args.interval, options));
     let all = all.collect::<Result<Vec<_>, _>>()?;
     if args.json {

@@ -5,6 +5,7 @@ mod check;
 mod exit_codes;
 mod files;
 mod interrupt;
+mod measures;
 mod new;
 mod problems;
 mod resume;

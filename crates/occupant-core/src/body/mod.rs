@@ -6,6 +6,7 @@
 mod mounted;
 pub mod named;
 pub mod people;
+mod plates;
 pub mod shape;
 mod together;
 pub(crate) mod tree;
@@ -14,6 +15,7 @@ pub mod tti12;
 use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector2, Vector3};
 
 pub use people::Sex;
+pub use plates::{Chest, Plate, Ride, Shares};
 pub(crate) use together::called;
 pub use tree::{
     BodyRow, End, Joint, JointKind, JointRow, Landmarks, Limb, Pair, Place, Segment, SegmentRow, Side, SphereRow, Tree,
@@ -113,13 +115,23 @@ pub struct ContactSphere {
     pub part: String,
     /// What its contact forces are multiplied by, for a material that was measured on the whole part; 1 by default.
     pub share: f64,
+    /// How it rides on parts of its segment that give way; not at all by default.
+    pub ride: Ride,
 }
 
 impl ContactSphere {
     /// A sphere that is a part of its own.
     pub fn new(name: impl Into<String>, segment: Segment, centre_from_lower_end_m: Point3<f64>, radius_m: f64) -> Self {
         let name = name.into();
-        ContactSphere { part: name.clone(), name, segment, centre_from_lower_end_m, radius_m, share: 1.0 }
+        ContactSphere {
+            part: name.clone(),
+            name,
+            segment,
+            centre_from_lower_end_m,
+            radius_m,
+            share: 1.0,
+            ride: Ride::default(),
+        }
     }
 }
 
@@ -145,6 +157,10 @@ pub struct Body {
     pub condyles_m: Option<Vector3<f64>>,
     /// Contact spheres; the tree's standard ones unless a scenario says otherwise.
     pub spheres: Vec<ContactSphere>,
+    /// Parts that give way; none of a rigid trunk.
+    pub plates: Vec<Plate>,
+    /// What of them are chests that results tell of, one of each body at most.
+    pub chests: Vec<Chest>,
 }
 
 impl Body {

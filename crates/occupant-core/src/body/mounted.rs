@@ -1,12 +1,12 @@
 //! A body that hangs on any of its segments, with parts left out: what a rig holds.
 
 use super::tree::{JointRow, Place, SphereRow};
-use super::{Body, ContactSphere, Joint, Segment, Tree};
+use super::{Body, ContactSphere, Joint, Plate, Ride, Segment, Tree};
 
 impl Body {
     /// The same with `root` for its first segment, without the segments `left_out` and what hangs on them as seen from there.
-    /// Segments are numbered from the root outwards; joints, spheres and landmarks keep their names and their order. A root
-    /// that is none of the body's changes nothing.
+    /// Segments are numbered from the root outwards; joints, spheres and landmarks keep their names and their order. Plates
+    /// stay where all of their segments do, else none. A root that is none of the body's changes nothing.
     pub fn hung_on(&self, root: Segment, left_out: &[Segment]) -> Body {
         if root.index() >= self.segments.len() {
             return self.clone();
@@ -26,11 +26,16 @@ impl Body {
         let spheres =
             self.tree.spheres().iter().filter_map(|row| Some(SphereRow { segment: now(row.segment)?, ..*row }));
         let own = self.spheres.iter().filter_map(|s| Some(ContactSphere { segment: now(s.segment)?, ..s.clone() }));
+        let whole = self.plates.iter().all(|plate| now(plate.segment).is_some());
+        let plates = self.plates.iter().filter(|_| whole);
+        let own = own.map(|sphere| if whole { sphere } else { ContactSphere { ride: Ride::default(), ..sphere } });
         Body {
             tree: Tree::interned(&segments, &joints, &spheres.collect::<Vec<_>>(), landmarks, &[]),
             segments: kept.iter().map(|segment| *self.segment(*segment)).collect(),
             places: old.iter().map(|joint| self.place(*joint)).collect(),
             spheres: own.collect(),
+            plates: plates.filter_map(|p| Some(Plate { segment: now(p.segment)?, ..p.clone() })).collect(),
+            chests: self.chests.iter().filter(|_| whole).cloned().collect(),
             ..self.clone()
         }
     }

@@ -238,6 +238,11 @@ impl Person {
         PEOPLE.iter().find(|(other, _)| *other == name).map(|(_, person)| *person)
     }
 
+    /// Depth of the chest by stature and mass, a regression of the ANSUR II survey, m.
+    pub fn chest_depth_m(&self) -> f64 {
+        0.25813 - 0.08938 * self.stature_m + 1.7853e-3 * self.mass_kg
+    }
+
     /// Whether the surveys reach such a person: see [`REACH`].
     pub fn is_within_reach(&self) -> bool {
         (1.4..=2.05).contains(&self.stature_m) && (17.0..=45.0).contains(&(self.mass_kg / self.stature_m.powi(2)))

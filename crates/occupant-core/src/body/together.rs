@@ -3,7 +3,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::tree::{BodyRow, JointRow, Landmarks, Place, SegmentRow, SphereRow, kept};
-use super::{Body, ContactSphere, Joint, Segment, SegmentProperties, Tree, named};
+use super::{Body, ContactSphere, Joint, Plate, Segment, SegmentProperties, Tree, named};
 
 /// What a part is called of a body with a name, or without one.
 pub(crate) fn called(name: &str, part: &str) -> String {
@@ -31,6 +31,8 @@ impl Body {
             neck_height_m: 0.0,
             condyles_m: None,
             spheres: Vec::new(),
+            plates: Vec::new(),
+            chests: Vec::new(),
         }
     }
 
@@ -38,13 +40,20 @@ impl Body {
     pub(crate) fn together(all: &[(&str, &Body)]) -> Body {
         let trees: Vec<_> = all.iter().map(|(name, body)| (*name, body.tree)).collect();
         let mut first = 0;
-        let mut spheres = Vec::new();
+        let (mut spheres, mut plates, mut chests) = (Vec::new(), Vec::<Plate>::new(), Vec::new());
         for (name, body) in all {
             spheres.extend(body.spheres.iter().map(|sphere| ContactSphere {
                 name: called(name, &sphere.name),
                 part: called(name, &sphere.part),
                 segment: Segment(first + sphere.segment.index()),
+                ride: sphere.ride.behind(plates.len()),
                 ..sphere.clone()
+            }));
+            chests.extend(body.chests.iter().map(|chest| chest.of_member(name, plates.len())));
+            plates.extend(body.plates.iter().map(|plate| Plate {
+                name: called(name, &plate.name),
+                segment: Segment(first + plate.segment.index()),
+                ..plate.clone()
             }));
             first += body.segments.len();
         }
@@ -59,6 +68,8 @@ impl Body {
             neck_height_m: 0.0,
             condyles_m: all.first().and_then(|(_, body)| body.condyles_m),
             spheres,
+            plates,
+            chests,
         }
     }
 }

@@ -1,4 +1,7 @@
 //! Exponential and logarithm, with the same bits on every machine and in all lanes.
+//!
+//! What computes with lanes avoids closures handed to `fold` and the like: they are compiled outside of the function that may
+//! use wide registers, where each instruction becomes a call.
 
 use crate::motion::scalar::Scalar;
 
@@ -6,8 +9,14 @@ use crate::motion::scalar::Scalar;
 #[inline(always)]
 pub(crate) fn decay<S: Scalar>(x: S) -> S {
     let y = x.min(S::of(32.0)) * S::of(-1.0 / 64.0);
-    let sum = (1..=14).rev().fold(S::one(), |sum, n| S::one() + y * sum * S::of(1.0 / f64::from(n)));
-    (0..6).fold(sum, |power, _| power * power)
+    let mut sum = S::one();
+    for n in (1..=14).rev() {
+        sum = S::one() + y * sum * S::of(1.0 / f64::from(n));
+    }
+    for _ in 0..6 {
+        sum = sum * sum;
+    }
+    sum
 }
 
 /// ln x of 0.45 ≤ x ≤ 1 to 1e-15: 2 artanh z with z = (x − 1)/(x + 1) as a sum of powers.
@@ -15,7 +24,10 @@ pub(crate) fn decay<S: Scalar>(x: S) -> S {
 pub(crate) fn logarithm<S: Scalar>(x: S) -> S {
     let z = (x - S::one()) / (x + S::one());
     let square = z * z;
-    let sum = (0..=16).rev().fold(S::zero(), |sum, n| sum * square + S::of(1.0 / f64::from(2 * n + 1)));
+    let mut sum = S::zero();
+    for n in (0..=16).rev() {
+        sum = sum * square + S::of(1.0 / f64::from(2 * n + 1));
+    }
     S::of(2.0) * z * sum
 }
 

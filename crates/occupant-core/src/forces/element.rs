@@ -6,11 +6,11 @@ use crate::body::Body;
 use crate::forces::list::STORES;
 use crate::forces::pace::Pace;
 use crate::forces::rate::Rate;
-use crate::forces::sphere::Site;
+use crate::forces::sphere::{Riding, Site, Use};
 use crate::motion::dynamics::Wrench;
 use crate::motion::frame::{Frames, MOST_FRAMES, Moving};
 use crate::motion::kinematics::Kinematics;
-use crate::motion::layout::{Layout, MOST_BODIES, MOST_SEGMENTS};
+use crate::motion::layout::{Layout, MOST_BODIES, MOST_SEGMENTS, MOST_SLIDES};
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::motion::state::{MOST_OWN, State, Work};
@@ -40,7 +40,7 @@ pub trait Element: Copy + Debug {
     /// What one of them remembers between steps: numbers that change only at accepted steps.
     type Past<S>;
     /// What spares an evaluation needless work. No result depends on it.
-    type Hints<S: Scalar>: Hints;
+    type Hints<S: Scalar>: Hints<S>;
     /// What one of them does at one instant.
     type Action<S>;
 
@@ -188,18 +188,26 @@ pub(crate) fn passes<S: Scalar>(level: S, before: S, now: S) -> S {
 }
 
 /// What spares an evaluation needless work.
-pub trait Hints: Clone + Debug {
+pub trait Hints<S: Scalar>: Clone + Debug {
     /// Becomes what `other`, of the same elements, is; allocates nothing.
     fn take_over(&mut self, other: &Self);
 
-    /// Leaves nothing out until the next commit, as it must be where the remembered numbers are those of another place.
-    fn look_again(&mut self);
+    /// Leaves nothing out in these lanes until the next commit, as it must be where the remembered numbers are those of
+    /// another place.
+    fn look_again(&mut self, lanes: S::Mask);
+
+    /// Becomes what `other`, of the same elements, is in these lanes.
+    fn blend(&mut self, other: &Self, lanes: S::Mask);
 }
 
 /// No hints.
-impl Hints for () {
+impl<S: Scalar> Hints<S> for () {
+    #[inline(always)]
     fn take_over(&mut self, _other: &Self) {}
-    fn look_again(&mut self) {}
+    #[inline(always)]
+    fn look_again(&mut self, _lanes: S::Mask) {}
+    #[inline(always)]
+    fn blend(&mut self, _other: &Self, _lanes: S::Mask) {}
 }
 
 /// An energy that the elements of a kind hold, or have lost by what they remember.
@@ -262,10 +270,11 @@ impl<'a, S: Scalar> Instant<'a, S> {
         if index < MOST_FRAMES { &self.frames[index] } else { &self.carried[index - MOST_FRAMES] }
     }
 
-    /// A sphere's centre in the axes of a frame, m.
-    pub(crate) fn centre_in(&self, sphere: usize, frame: usize) -> V3<S> {
+    /// A sphere's centre under a use in the axes of a frame, m.
+    #[inline(always)]
+    pub(crate) fn centre_in(&self, sphere: usize, by: Use, frame: usize) -> V3<S> {
         let frame = self.frame(frame);
-        let (_, centre, _) = self.spheres[sphere].place(self.k);
+        let (_, centre, _) = self.spheres[sphere].place(self.k, by);
         frame.axes.into_frame(centre - frame.origin)
     }
 }
@@ -294,6 +303,10 @@ pub struct Load<S> {
     pub(crate) outer: [V3<S>; MOST_SEGMENTS],
     /// By leg: what acts on the spheres at its knee, space axes, N.
     pub(crate) knees: [V3<S>; MOST_LEGS],
+    /// Forces on what rides on each plate times its share, space axes, N.
+    pub(crate) rides: [V3<S>; MOST_SLIDES],
+    /// S, what resists the deflection of each plate, N.
+    pub(crate) resist: [S; MOST_SLIDES],
     segments: usize,
 }
 
@@ -310,7 +323,9 @@ impl<S: Scalar> Load<S> {
         let onto = [[V3::zero(); MOST_GIVING]; MOST_BODIES];
         let (outer, knees) = ([V3::zero(); MOST_SEGMENTS], [V3::zero(); MOST_LEGS]);
         let (none, segments) = ([0; MOST_FRAMES], layout.len());
-        let mut load = Load { wrench, power, onto, giving: none, body_of, bodies, own, outer, knees, segments };
+        let (rides, resist) = ([V3::zero(); MOST_SLIDES], [S::zero(); MOST_SLIDES]);
+        let mut load =
+            Load { wrench, power, onto, giving: none, body_of, bodies, own, outer, knees, rides, resist, segments };
         for (frame, behind) in giving.into_iter().zip(1..=MOST_GIVING as u8) {
             load.giving[frame % MOST_FRAMES] = behind;
         }
@@ -319,12 +334,14 @@ impl<S: Scalar> Load<S> {
 
     /// None of as many segments.
     #[inline(always)]
-    pub(crate) fn clear(&mut self, segments: usize) {
+    pub(crate) fn clear(&mut self, segments: usize, slides: usize) {
         self.wrench[..segments].fill(Wrench::zero());
         self.power[..self.bodies].fill(Work::zero());
         self.onto[..self.bodies].fill([V3::zero(); MOST_GIVING]);
         self.knees[..2 * self.bodies].fill(V3::zero());
         self.segments = segments;
+        self.rides[..slides].fill(V3::zero());
+        self.resist[..slides].fill(S::zero());
     }
 
     /// Keeps the moments so far: those that come are of joints.
@@ -334,12 +351,25 @@ impl<S: Scalar> Load<S> {
         both.for_each(|(outer, wrench)| *outer = wrench.moment);
     }
 
-    /// Notes a force on a sphere, in space axes, N, where it is `live` and the sphere at a knee.
+    /// Notes a force on a sphere under a use, in space axes, N, where it is `live`: for the plates that the sphere rides on, and of
+    /// one at a knee.
     #[inline(always)]
-    pub(crate) fn press_knee(&mut self, site: &Site<S>, force: V3<S>, live: S::Mask) {
+    pub(crate) fn press(&mut self, site: &Site<S>, by: Use, force: V3<S>, live: S::Mask) {
+        if let Some(riding) = site.riding(by) {
+            self.ride(riding, force, live);
+        }
         let Some(knee) = site.knee else { return };
         let on = &mut self.knees[knee % MOST_LEGS];
         *on = V3::select(live, *on + force, *on);
+    }
+
+    /// Notes a force on what rides on plates, in space axes, N, where it is `live`.
+    #[inline(always)]
+    pub(crate) fn ride(&mut self, riding: &Riding<S>, force: V3<S>, live: S::Mask) {
+        for (plate, share) in riding.plates() {
+            let on = &mut self.rides[plate];
+            *on = V3::select(live, *on + force * share, *on);
+        }
     }
 
     /// How many bodies there are.

@@ -5,12 +5,13 @@ use super::belt::Belts;
 use super::chain::Chains;
 use super::column::Columns;
 use super::contact::Contacts;
-use super::element::{Element, Hints as _, Instant, Load, Misfit, StoredEnergy, Unlike, WorkSum};
+use super::element::{Element, Hints, Instant, Load, Misfit, StoredEnergy, Unlike, WorkSum};
 use super::joint::JointMoments;
 use super::joint::limit::JointLimits;
 use super::joint::muscle::Muscles;
 use super::own::OwnForces;
 use super::pace::Pace;
+use super::plate::Plates;
 use super::rate::Rate;
 use super::shown::{Reported, Tracker};
 use super::stored::Archive;
@@ -325,7 +326,7 @@ macro_rules! kinds {
                 let mut mask = S::truth(false);
                 $(
                     for (before, now) in self.$kind.iter().zip(&now.$kind) {
-                        let [before, now] = [before, now].map($Kind::switches::<S>);
+                        let (before, now) = ($Kind::switches::<S>(before), $Kind::switches::<S>(now));
                         mask = mask | before.lt(now) | now.lt(before);
                     }
                 )+
@@ -444,11 +445,16 @@ macro_rules! kinds {
             }
 
             fn take_over(&mut self, other: &Self) {
-                $(self.$kind.take_over(&other.$kind);)+
+                $(Hints::<S>::take_over(&mut self.$kind, &other.$kind);)+
             }
 
-            fn look_again(&mut self) {
-                $(self.$kind.look_again();)+
+            fn look_again(&mut self, lanes: S::Mask) {
+                $(Hints::<S>::look_again(&mut self.$kind, lanes);)+
+            }
+
+            #[inline(always)]
+            fn blend(&mut self, other: &Self, lanes: S::Mask) {
+                $(Hints::<S>::blend(&mut self.$kind, &other.$kind, lanes);)+
             }
 
             #[inline(always)]
@@ -460,6 +466,7 @@ macro_rules! kinds {
 }
 
 kinds! {
+    plates: Plates,
     contacts: Contacts,
     belts: Belts,
     chains: Chains,
@@ -536,7 +543,46 @@ impl<S: Scalar> History<S> {
 
     /// Lets the next commit look at everything, as it must where the remembered numbers are those of another place.
     pub(crate) fn look_again(&mut self) {
-        self.hints.look_again();
+        self.look_again_in(S::truth(true));
+    }
+
+    /// The same in these lanes alone.
+    pub(crate) fn look_again_in(&mut self, lanes: S::Mask) {
+        self.hints.look_again(lanes);
+    }
+
+    /// Leaves out in these lanes what `other`, a history of the same elements, leaves out.
+    #[inline(always)]
+    pub(crate) fn blend_hints(&mut self, other: &History<S>, lanes: S::Mask) {
+        self.hints.blend(&other.hints, lanes);
+    }
+
+    /// How long the step may be that begins at the latest commit.
+    #[cfg(any(target_arch = "x86_64", test))]
+    pub(crate) fn pace(&self) -> Pace<S> {
+        self.hints.pace()
+    }
+
+    /// Leaves nothing out, and lets the step be as long as `pace` says, which was found where the numbers were remembered.
+    #[cfg(any(target_arch = "x86_64", test))]
+    pub(crate) fn begin_anew(&mut self, forces: &Forces<S>, pace: Pace<S>) {
+        self.hints = AllHints::new(forces);
+        // no other kind bounds it
+        self.hints.contacts.pace = pace;
+    }
+}
+
+#[cfg(any(target_arch = "x86_64", test))]
+impl History<f64> {
+    /// Remembers what `memory` does, of a later place. What is far from touching stays left out where no contact has begun or
+    /// ended meanwhile.
+    pub(crate) fn remember(&mut self, memory: &Memory<f64>) {
+        let contacts = self.memory.contacts.iter().zip(&memory.contacts);
+        let is_like = contacts.clone().all(|(own, other)| own.phase == other.phase);
+        self.memory.take_over(memory);
+        if !is_like {
+            self.look_again();
+        }
     }
 }
 

@@ -21,6 +21,7 @@ pub mod joint;
 mod list;
 pub mod own;
 mod pace;
+pub mod plate;
 pub(crate) mod rate;
 pub mod shown;
 pub mod sphere;

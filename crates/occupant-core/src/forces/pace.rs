@@ -25,6 +25,18 @@ impl<S: Scalar> Pace<S> {
         self.until = S::select(here, self.until.min(until), self.until);
     }
 
+    /// `yes` where the mask is true, else `no`.
+    #[inline(always)]
+    pub(crate) fn select(mask: S::Mask, yes: Self, no: Self) -> Self {
+        Pace { free: S::select(mask, yes.free, no.free), until: S::select(mask, yes.until, no.until) }
+    }
+
+    /// The same with each number replaced by f of it.
+    #[cfg(any(target_arch = "x86_64", test))]
+    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Pace<T> {
+        Pace { free: f(self.free), until: f(self.until) }
+    }
+
     /// What is within both.
     #[inline(always)]
     pub(crate) fn and(self, other: Self) -> Self {

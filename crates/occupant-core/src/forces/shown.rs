@@ -155,6 +155,16 @@ pub struct Pull<'a> {
 pub trait Tracker<S> {
     /// A number whose greatest value is kept.
     fn number(&mut self, number: S);
+    /// Several.
+    #[inline(always)]
+    fn numbers(&mut self, numbers: &[S])
+    where
+        S: Copy,
+    {
+        for number in numbers {
+            self.number(*number);
+        }
+    }
     /// A sphere touches something.
     fn touch(&mut self, touch: &Touch<S>);
 }

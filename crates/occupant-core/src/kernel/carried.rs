@@ -70,7 +70,21 @@ impl<S: Scalar> Carried<'_, S> {
         let inertial = self.specific_force(m) * link.mass;
         let arm = k.axes[m].out(link.cg);
         let moment = self.spin(m) + arm.cross(inertial) - self.outer[m];
-        Wrench { force: inertial - self.wrench[m].force, moment }
+        let mut own = Wrench { force: inertial - self.wrench[m].force, moment };
+        if k.sliding > 0 {
+            self.slid(m, &mut own);
+        }
+        own
+    }
+
+    /// Adds what plates of a segment need beside what they would need had they not slid.
+    fn slid(&self, m: usize, own: &mut Wrench<S>) {
+        let up = v3(S::zero(), S::zero(), self.skeleton.gravity);
+        for (i, slide) in self.skeleton.slides.iter().enumerate().filter(|(_, slide)| slide.segment == m) {
+            let [now, rest] = self.accelerations.sliding(self.k, i, m).map(|a| (a + up) * slide.mass);
+            own.force += now - rest;
+            own.moment += self.k.slides[i].arm().cross(now) - self.k.slides[i].rest.cross(rest);
+        }
     }
 
     /// a + g Z′ of the centre of gravity: what an accelerometer reads there, space axes, m/s².
@@ -82,9 +96,14 @@ impl<S: Scalar> Carried<'_, S> {
     /// Iα + ω × Iω about the centre of gravity.
     #[inline(always)]
     fn spin(&self, m: usize) -> V3<S> {
-        let (axes, link) = (&self.k.axes[m], &self.skeleton.links[m]);
-        let by_inertia = |v: V3<S>| axes.out(link.central.mul(axes.into_frame(v)));
         let omega = self.k.omega[m];
-        by_inertia(self.accelerations.alpha[m]) + omega.cross(by_inertia(omega))
+        self.by_inertia(m, self.accelerations.alpha[m]) + omega.cross(self.by_inertia(m, omega))
+    }
+
+    /// I v.
+    #[inline(always)]
+    fn by_inertia(&self, m: usize, v: V3<S>) -> V3<S> {
+        let axes = &self.k.axes[m];
+        axes.out(self.skeleton.links[m].central.mul(axes.into_frame(v)))
     }
 }

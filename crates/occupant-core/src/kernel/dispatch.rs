@@ -41,10 +41,27 @@ impl System<f64> {
         history: &mut History<f64>,
         observer: &mut dyn Observer<f64>,
     ) -> Evaluation<f64> {
-        let mut scratch = Scratch::blank(self);
-        self.derive_once(&mut scratch, situation, history, observer);
-        let Scratch { kinematics, load: Load { wrench, power, outer, knees, .. }, sweep, .. } = scratch;
-        Evaluation { kinematics, wrench, accelerations: sweep.accelerations, power, outer, knees }
+        self.evaluate_with(&mut Scratch::blank(self), situation, history, observer)
+    }
+
+    /// [`System::evaluate`] with a place for what is on the way.
+    pub(crate) fn evaluate_with(
+        &self,
+        scratch: &mut Scratch<f64>,
+        situation: Situation<'_, f64>,
+        history: &mut History<f64>,
+        observer: &mut dyn Observer<f64>,
+    ) -> Evaluation<f64> {
+        self.derive_once(scratch, situation, history, observer);
+        let Scratch { kinematics, load: Load { wrench, power, outer, knees, .. }, sweep, .. } = &*scratch;
+        Evaluation {
+            kinematics: *kinematics,
+            wrench: *wrench,
+            accelerations: sweep.accelerations,
+            power: *power,
+            outer: *outer,
+            knees: *knees,
+        }
     }
 
     /// [`System::rate_with`] by [`System::derive_once`].

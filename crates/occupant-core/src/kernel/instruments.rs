@@ -2,6 +2,7 @@
 
 use crate::body::tree::{BodyRow, JointRow};
 use crate::body::{Body, Limb, Segment};
+use crate::forces::sphere::{Riding, Use};
 use crate::kernel::carried::Carried;
 use crate::kernel::{Scratch, System};
 use crate::motion::frame::Frames;
@@ -12,18 +13,24 @@ use crate::motion::vector::{V3, v3};
 use nalgebra::Vector3;
 
 /// How many numbers a reading has.
-pub(crate) const READINGS: usize = 26;
+pub(crate) const READINGS: usize = 26 + CHEST_POINTS;
 /// Where the force of the neck stands in a reading, before its moment.
 pub(crate) const NECK: usize = 15;
 /// Where the femurs stand, right and left.
 pub(crate) const FEMURS: usize = 21;
 /// Where the place of the head stands in a reading.
 pub(crate) const PLACE: usize = 23;
+/// Where deflections of the chest stand: of the breastbone, then of the points of [`POINTS`].
+pub(crate) const CHEST: usize = 26;
+/// How many they are.
+pub(crate) const CHEST_POINTS: usize = 1 + POINTS.len();
+/// Points of a chest beside the breastbone, as bodies name them.
+const POINTS: [&str; 4] = ["upper_left", "upper_right", "lower_left", "lower_right"];
 
 /// What the instruments of one body read at one instant, SI. In SAE J211 axes of the segments: what accelerometers of head,
 /// chest and pelvis read, angular velocity and acceleration of the head, force and moment of the neck on the head at the
-/// condyles; tension of the right and the left femur; then the centre of the head's sphere in axes of the body's home. No
-/// numbers of what a body lacks.
+/// condyles; tension of the right and the left femur; then the centre of the head's sphere in axes of the body's home, and the
+/// deflections of a chest, m. No numbers of what a body lacks.
 pub(crate) type Reading<S> = [S; READINGS];
 
 /// Where the instruments of a body are.
@@ -38,6 +45,8 @@ pub(crate) struct Instruments<S> {
     head: Option<usize>,
     /// Frame of the body's home.
     home: usize,
+    /// How the points of its chest go along with plates.
+    chest: [Option<Riding<S>>; CHEST_POINTS],
 }
 
 #[derive(Clone, Debug)]
@@ -106,6 +115,10 @@ impl Instruments<f64> {
             let knees = tree.joints().map(|joint| &tree[joint]).filter(|row| row.proximal == thigh);
             Some(Leg { thigh: thigh.index(), knee: 2 * of + side, shanks: knees.map(beyond).collect() })
         };
+        let chest = body.chests.iter().find(|chest| chest.of == row.name);
+        let shares = |point: &str| Some(&chest?.points.iter().find(|(name, _)| name == point)?.1);
+        let breastbone = chest.map(|chest| Riding::new(&vec![(chest.breastbone, 1.0)]));
+        let points = POINTS.map(|point| shares(point).map(Riding::new));
         let head = if row.name.is_empty() { "head".to_owned() } else { format!("{}.head", row.name) };
         let [right, left] = [(0, marks.legs.right), (1, marks.legs.left)].map(leg);
         Instruments {
@@ -114,17 +127,22 @@ impl Instruments<f64> {
             legs: [right, left],
             head: body.sphere(&head),
             home,
+            chest: std::array::from_fn(|i| if i == 0 { breastbone } else { points[i - 1] }),
         }
     }
 }
 
 impl<S: Copy> Instruments<S> {
     /// Whether another is at the same places.
-    pub(crate) fn is_like<A>(&self, other: &Instruments<A>) -> bool {
+    pub(crate) fn is_like<A: Copy>(&self, other: &Instruments<A>) -> bool {
         let neck = self.neck.as_ref().map(|neck| (&neck.from, neck.head));
         self.accelerometers == other.accelerometers
             && neck == other.neck.as_ref().map(|neck| (&neck.from, neck.head))
             && (&self.legs, self.head, self.home) == (&other.legs, other.head, other.home)
+            && self.chest.iter().zip(&other.chest).all(|pair| match pair {
+                (Some(a), Some(b)) => a.is_like(b),
+                (a, b) => a.is_none() && b.is_none(),
+            })
     }
 
     /// f applied to every number and the one in the same place of `other`, which [is like](Instruments::is_like) it.
@@ -140,6 +158,7 @@ impl<S: Copy> Instruments<S> {
             legs: self.legs.clone(),
             head: self.head,
             home: self.home,
+            chest: std::array::from_fn(|i| self.chest[i].zip(other.chest[i]).map(|(a, b)| a.zip(&b, f))),
         }
     }
 }
@@ -157,48 +176,61 @@ impl<S: Scalar> Instruments<S> {
     /// The centre of the head's sphere in axes of the body's home.
     #[inline(always)]
     pub(crate) fn head_in(&self, system: &System<S>, k: &Kinematics<S>, frames: &Frames<S>) -> Option<V3<S>> {
-        let (_, centre, _) = system.spheres[self.head?].place(k);
+        let (_, centre, _) = system.spheres[self.head?].place(k, Use::Contact);
         let home = &frames[self.home];
         Some(home.axes.into_frame(centre - home.origin))
     }
 
     #[inline(always)]
     fn read(&self, system: &System<S>, from: &Carried<'_, S>, frames: &Frames<S>) -> Reading<S> {
-        let nothing = v3(S::of(f64::NAN), S::of(f64::NAN), S::of(f64::NAN));
         let k = from.k;
         let mut reading = [S::of(f64::NAN); READINGS];
-        let mut put = |at: usize, v: V3<S>| {
-            [reading[at], reading[at + 1], reading[at + 2]] = [v.x, v.y, v.z];
-        };
-        // segment axes (left, up) to SAE J211 axes (right, down)
-        let told = |n: usize, v: V3<S>| {
-            let v = k.axes[n].into_frame(v);
-            v3(v.x, -v.y, -v.z)
-        };
         for (i, segment) in self.accelerometers.iter().enumerate() {
-            put(3 * i, segment.map_or(nothing, |n| told(n, from.specific_force(n))));
+            if let Some(n) = segment {
+                put(&mut reading, 3 * i, told(k, *n, from.specific_force(*n)));
+            }
         }
         if let [Some(n), ..] = self.accelerometers {
-            put(9, told(n, k.omega[n]));
-            put(12, told(n, from.accelerations.alpha[n]));
+            put(&mut reading, 9, told(k, n, k.omega[n]));
+            put(&mut reading, 12, told(k, n, from.accelerations.alpha[n]));
         }
         if let Some(Neck { from: joint, head, condyles }) = &self.neck {
             let (force, moment) = joint.load(from);
-            put(NECK, told(*head, force));
-            put(NECK + 3, told(*head, moment - k.axes[*head].out(*condyles).cross(force)));
+            put(&mut reading, NECK, told(k, *head, force));
+            put(&mut reading, NECK + 3, told(k, *head, moment - k.axes[*head].out(*condyles).cross(force)));
         }
         if let Some(place) = self.head_in(system, k, frames) {
-            put(PLACE, place);
+            put(&mut reading, PLACE, place);
+        }
+        for (i, point) in self.chest.iter().enumerate() {
+            let Some(point) = point else { continue };
+            let sum = point.plates().fold(S::zero(), |sum, (plate, share)| sum + share * k.slides[plate].way);
+            reading[CHEST + i] = sum;
         }
         for (i, leg) in self.legs.iter().enumerate() {
             let Some(Leg { thigh, knee, shanks }) = leg else { continue };
             let mut along = from.knees[*knee];
-            shanks.iter().for_each(|shank| along -= shank.load(from).0);
+            for shank in shanks {
+                along -= shank.load(from).0;
+            }
             // Z of a thigh points from the knee to the hip: a force at the knee against it pulls
             reading[FEMURS + i] = -along.dot(k.axes[*thigh].z);
         }
         reading
     }
+}
+
+/// Puts a vector into a reading.
+#[inline(always)]
+fn put<S: Scalar>(reading: &mut Reading<S>, at: usize, v: V3<S>) {
+    [reading[at], reading[at + 1], reading[at + 2]] = [v.x, v.y, v.z];
+}
+
+/// From space axes to SAE J211 axes of a segment (right, down), whose own are left and up.
+#[inline(always)]
+fn told<S: Scalar>(k: &Kinematics<S>, n: usize, v: V3<S>) -> V3<S> {
+    let v = k.axes[n].into_frame(v);
+    v3(v.x, -v.y, -v.z)
 }
 
 impl<S: Scalar> System<S> {

@@ -11,16 +11,16 @@ mod dispatch;
 pub(crate) mod instruments;
 
 use crate::forces::column;
-use crate::forces::sphere::Site;
+use crate::forces::sphere::{Site, Use};
 use crate::forces::{Forces, History, Instant, Load, MOST_LEGS, Observer, Unlike};
 use crate::kernel::instruments::Instruments;
 use crate::motion::dynamics::{Accelerations, Sweep, Wrench};
 use crate::motion::frame::{Frames, Moving};
 use crate::motion::kinematics::Kinematics;
-use crate::motion::layout::{MOST_BODIES, MOST_SEGMENTS};
+use crate::motion::layout::{MOST_BODIES, MOST_SEGMENTS, MOST_SLIDES};
 use crate::motion::scalar::Scalar;
 use crate::motion::skeleton::Skeleton;
-use crate::motion::state::{State, Work};
+use crate::motion::state::{SLIDE_UNITS, State, Work};
 use crate::motion::vector::V3;
 
 /// Another tree, or one on another frame.
@@ -59,7 +59,7 @@ impl<S: Copy> System<S> {
     /// Systems of unlike structure.
     pub fn zip<A: Copy, T>(&self, other: &System<A>, f: impl Fn(S, A) -> T) -> Result<System<T>, Unlike> {
         let spheres = self.spheres.iter().zip(&other.spheres);
-        if self.spheres.len() != other.spheres.len() || spheres.clone().any(|(a, b)| a.segment != b.segment) {
+        if self.spheres.len() != other.spheres.len() || spheres.clone().any(|(a, b)| !a.is_like(b)) {
             return Err(OTHER_SPHERES);
         }
         let instruments = self.instruments.iter().zip(&other.instruments);
@@ -150,6 +150,11 @@ impl<S: Scalar> Scratch<S> {
         self.sweep.accelerations.write_rate(&body.layout, state, power, rate);
         let numbers = rate.own_mut();
         numbers.copy_from_slice(&own[..numbers.len()]);
+        let slides = self.kinematics.slides.iter().zip(&self.sweep.accelerations.slides).take(self.kinematics.sliding);
+        for (own, (slid, acceleration)) in numbers.chunks_exact_mut(2).zip(slides) {
+            own[0] = slid.speed * S::of(1.0 / SLIDE_UNITS[0]);
+            own[1] = *acceleration * S::of(1.0 / SLIDE_UNITS[1]);
+        }
     }
 }
 
@@ -190,11 +195,15 @@ impl<S: Scalar> System<S> {
             *moving = k.moving(segment);
         }
         let at = Instant { k, state, frames, carried, spheres: &self.spheres, accepted };
-        load.clear(self.skeleton.layout.len());
+        load.clear(self.skeleton.layout.len(), self.skeleton.slides.len());
         self.forces.apply(&at, history, observer, load); // Q_f + R (48), and F_s
         // q̈ from q̇ and q (114)
+        let mut drive = [S::zero(); MOST_SLIDES];
+        for (i, drive) in drive[..k.sliding].iter_mut().enumerate() {
+            *drive = k.slides[i].axis.dot(load.rides[i]) - load.resist[i];
+        }
         let motion = Some((frames, &mut load.power[..]));
-        sweep.solve(&self.skeleton, k, state.hinge_rate(), &load.wrench, motion);
+        sweep.solve(&self.skeleton, k, state.hinge_rate(), (&load.wrench, &drive), motion);
     }
 
     /// Moves the frames that columns carry, which stand among `frames` where their parents carry them.
@@ -205,6 +214,6 @@ impl<S: Scalar> System<S> {
 
     /// A sphere's centre seen from its segment's joint, in space, and its velocity; all in space axes.
     pub fn sphere(&self, k: &Kinematics<S>, sphere: usize) -> (V3<S>, V3<S>, V3<S>) {
-        self.spheres[sphere].place(k)
+        self.spheres[sphere].place(k, Use::Contact)
     }
 }

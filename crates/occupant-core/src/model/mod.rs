@@ -1,5 +1,6 @@
 //! The model: a checked [`Setup`] with all that can be computed before the first step. Immutable, shared by all threads.
 
+pub mod accuracy;
 mod begin;
 mod descent;
 mod limp;

@@ -22,6 +22,7 @@ use crate::forces::contact::surface::{Frame, Surface};
 use crate::forces::contact::{ContactData, EdgeForce};
 use crate::forces::joint::Joints;
 use crate::forces::own::{Force, OwnData, OwnForce};
+use crate::forces::plate::{Band, PlateData};
 use crate::forces::sphere::Site;
 use crate::model::seating::{InitialPosture, InitialVelocity, Mounting, upright};
 use crate::motion::frame::{Frames, MOST_FRAMES, Moving, VEHICLE};
@@ -272,6 +273,9 @@ pub struct Setup {
     pub surfaces: Vec<Surface>,
     /// Solids, vehicle's and space's. Where results and seats name a surface by its index, they stand behind all surfaces.
     pub solids: Vec<Solid>,
+    /// Surfaces, and solids behind all surfaces (indices), that the spine leans on, such as a seat's back: a chest that gives way
+    /// meets them as a rigid one.
+    pub behind: Vec<usize>,
     /// Where the edge force acts.
     pub edge_force: EdgeForce,
     /// What parts of the body do to each other; none if they go through each other, as in the report.
@@ -284,6 +288,8 @@ pub struct Setup {
     pub bags: Vec<Bag>,
     /// Steering columns that give way, each of which carries one of `frames`.
     pub columns: Vec<Column>,
+    /// What resists the deflections of the body's plates.
+    pub bands: Vec<Band>,
     /// Forces that the program brings itself.
     pub own_forces: Vec<OwnForce>,
     /// Motion of the vehicle.
@@ -414,12 +420,14 @@ impl Setup {
             surfaces: &self.surfaces,
             faces,
             solids: &self.solids,
+            behind: &self.behind,
             self_contact: self.self_contact.as_ref(),
             materials: &self.materials,
             edge_force: self.edge_force,
             longest_step_s: self.integrator.longest_step_s(),
         };
         Data {
+            plates: PlateData { plates: &self.body.plates, bands: &self.bands },
             contacts,
             belts: &self.belts,
             chains: &self.chains,
@@ -451,12 +459,14 @@ impl SetupBuilder {
             materials: Vec::new(),
             surfaces: Vec::new(),
             solids: Vec::new(),
+            behind: Vec::new(),
             edge_force: EdgeForce::default(),
             self_contact: None,
             belts: Vec::new(),
             chains: Vec::new(),
             bags: Vec::new(),
             columns: Vec::new(),
+            bands: Vec::new(),
             own_forces: Vec::new(),
             path: VehiclePath::parked(),
             scenery: Vec::new(),

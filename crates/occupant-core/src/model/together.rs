@@ -62,8 +62,8 @@ impl Setup {
     pub fn together(self, members: Vec<Member>, pairs: &[[(usize, usize); 2]], skins: &[usize]) -> Setup {
         let mut all = Setup { body: bodies(&members), members, posture: InitialPosture::Together, ..self };
         all.joints = Joints::together(all.body.tree, all.members.iter().map(|member| &member.alone.joints));
-        let Setup { members, surfaces, solids, belts, chains, bags, output, .. } = &mut all;
-        let (mut segment, mut sphere) = (0, 0);
+        let Setup { members, surfaces, solids, belts, chains, bags, bands, behind, output, .. } = &mut all;
+        let (mut segment, mut sphere, mut plate) = (0, 0, 0);
         let mut own = SelfContact { skins: Vec::new(), pairs: Vec::new() };
         let mut firsts = Vec::new();
         for surface in surfaces.iter_mut() {
@@ -94,9 +94,12 @@ impl Setup {
                 belt: called(name, &chain.belt),
                 straps: chain.straps.iter().map(|strap| called(name, strap)).collect(),
                 frame: *home,
-                nodes: chain.nodes.iter().map(|node| moved(node, segment, sphere)).collect(),
+                nodes: chain.nodes.iter().map(|node| moved(node, segment, sphere, plate)).collect(),
                 ..chain.clone()
             }));
+            bands.extend(alone.bands.iter().map(|band| band.of_member(called(name, &band.name), plate)));
+            behind.extend(alone.behind.iter().copied());
+            plate += alone.body.plates.len();
             for (all, own) in bags.iter_mut().zip(&alone.bags) {
                 all.spheres.extend(own.spheres.iter().map(|(i, reach)| (sphere + i, *reach)));
             }
@@ -111,6 +114,8 @@ impl Setup {
         // a member that there is not has no sphere: `Model::new` refuses it
         let among_all = |(member, i): (usize, usize)| firsts.get(member).map_or(usize::MAX, |first| first + i);
         own.pairs.extend(pairs.iter().map(|pair| pair.map(among_all)));
+        behind.sort_unstable();
+        behind.dedup();
         own.pairs.sort_unstable();
         all.self_contact = (!own.pairs.is_empty()).then_some(own);
         all
@@ -123,14 +128,15 @@ fn bodies(members: &[Member]) -> Body {
 }
 
 /// A node of a belt among the segments and spheres of others.
-fn moved(node: &Node, segment: usize, sphere: usize) -> Node {
+fn moved(node: &Node, segment: usize, sphere: usize, first: usize) -> Node {
     let site = match &node.site {
         site @ NodeSite::Vehicle(..) => site.clone(),
         NodeSite::Segment(n, point, away) => NodeSite::Segment(segment + n, *point, *away),
         NodeSite::Track(n, track) => NodeSite::Track(segment + n, *track),
         NodeSite::Sphere(i) => NodeSite::Sphere(sphere + i),
     };
-    Node { site, ..node.clone() }
+    let ride = node.ride.iter().map(|(plate, share)| (first + plate, *share)).collect();
+    Node { site, ride, ..node.clone() }
 }
 
 /// The members as models of their own; none where there is one body.

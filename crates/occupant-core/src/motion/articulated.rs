@@ -11,12 +11,22 @@
 //! where the index k tells what a segment that hangs at cₖ needs for α of the one that carries it. A fixed joint hands that on as
 //! it is. About the axis u of a hinge there is no moment, u·τ = 0, and α grows by u q̈ + ω × u q̇ from inside to outside: q̈ =
 //! g·a − h·α − b with h = Ju/d, g = Bu/d, d = u·Ju takes from A, B and J their parts along u. A universal joint is two hinges
-//! with nothing between them; their axes stand at right angles, so that the second d vanishes as little as the first. About a
-//! ball joint there is no moment at all: what is handed on is a force, f = (A − BJ⁻¹Bᵀ) a + β_f + BJ⁻¹β_τ.
+//! with nothing between them; their axes stand at right angles, so that the second d vanishes as little as the first.
+//!
+//! A point mass m that slides along û, at r = r₀ + ûs, is a part of its segment's mass, which has it at r₀. With P = 1 − ûûᵀ it
+//! needs A = mP, β_f = 2mṡP(ω×û) + (Q − S)û at r; all loads on what rides on it act on the segment. What the segment needs changes
+//! by that less m at r₀, with n = û × r₀:
+//!
+//! ```text
+//! A −= m ûûᵀ     B += m s[û]× − m û nᵀ     J −= m (n nᵀ + r rᵀ − r₀r₀ᵀ − (r² − r₀²) 1)
+//! s̈ = (Q − S)/m − û·(a + α×r + ω×(ω×r) + 2ṡ ω×û)
+//! ```
+//!
+//! About a ball joint there is no moment at all: what is handed on is a force, f = (A − BJ⁻¹Bᵀ) a + β_f + BJ⁻¹β_τ.
 
 use crate::motion::dynamics::{Accelerations, Wrench};
-use crate::motion::kinematics::Kinematics;
-use crate::motion::layout::{Freedom, MOST_HINGES, MOST_SEGMENTS, Row};
+use crate::motion::kinematics::{Kinematics, Slid};
+use crate::motion::layout::{Freedom, MOST_HINGES, MOST_SEGMENTS, MOST_SLIDES, Row};
 use crate::motion::scalar::Scalar;
 use crate::motion::skeleton::{Link, Skeleton};
 use crate::motion::vector::{M3, Sym3, V3, v3};
@@ -120,6 +130,29 @@ impl<S: Scalar> Need<S> {
             M3 { x: self.coupling.x + coupling.x, y: self.coupling.y + coupling.y, z: self.coupling.z + coupling.z };
     }
 
+    /// Lets a point mass, which was a part of the mass, slide under the force `drive` along its axis; the segment turns with `w`.
+    #[inline(always)]
+    fn slide(&mut self, mass: S, slid: &Slid<S>, w: V3<S>, drive: S) {
+        let (u, way, rest, r) = (slid.axis, slid.way, slid.rest, slid.arm());
+        let n = u.cross(rest);
+        self.mass.add_outer(-mass, u);
+        let (turned, n_m) = (cross_rows(u * (mass * way)), n * mass);
+        let b = &self.coupling;
+        self.coupling =
+            M3 { x: b.x + turned.x - n_m * u.x, y: b.y + turned.y - n_m * u.y, z: b.z + turned.z - n_m * u.z };
+        self.inertia.add_outer(-mass, n);
+        self.inertia.add_outer(-mass, r);
+        self.inertia.add_outer(mass, rest);
+        let round = mass * (r.norm_squared() - rest.norm_squared());
+        self.inertia += Sym3::scaled_identity(round);
+        // what it needs without a and α
+        let bias = w.cross(w.cross(r)) + w.cross(u) * (slid.speed + slid.speed);
+        let force = (bias - u * u.dot(bias)) * mass + u * drive;
+        let rigid = w.cross(w.cross(rest)) * mass;
+        self.force += force - rigid;
+        self.moment += r.cross(force) - rest.cross(rigid);
+    }
+
     /// Lets go all moments.
     #[inline(always)]
     fn loosen(&mut self) -> Loose<S> {
@@ -177,7 +210,7 @@ impl<S: Scalar> Sweep<S> {
         (bodies, body): (&Skeleton<S>, usize),
         k: &Kinematics<S>,
         hinge_rate: &[S],
-        wrench: &[Wrench<S>; MOST_SEGMENTS],
+        (wrench, drive): (&[Wrench<S>; MOST_SEGMENTS], &[S; MOST_SLIDES]),
         root: [V3<S>; 2],
         out: &mut Accelerations<S>,
     ) {
@@ -185,6 +218,12 @@ impl<S: Scalar> Sweep<S> {
         let (first, rows) = (segments.start, &bodies.layout.rows()[segments.clone()]);
         for (n, link) in segments.clone().zip(&bodies.links[segments.clone()]) {
             self.needs[n] = Need::of(link, &k.axes[n], k.omega[n], &wrench[n]);
+        }
+        let slides =
+            || bodies.slides[..k.sliding].iter().enumerate().filter(|(_, slide)| segments.contains(&slide.segment));
+        for (i, slide) in slides() {
+            let n = slide.segment;
+            self.needs[n].slide(slide.mass, &k.slides[i], k.omega[n], drive[i]);
         }
         for (n, row) in segments.clone().zip(rows).rev() {
             self.reduce(n, row, k, hinge_rate);
@@ -198,7 +237,7 @@ impl<S: Scalar> Sweep<S> {
         let is_guided = bodies.layout.is_guided(body);
         out.joint[first] = if is_guided { root[0] } else { -free.mass.inverse().mul(free.force) };
         out.alpha[first] = root[1];
-        for (n, row) in segments.zip(rows) {
+        for (n, row) in segments.clone().zip(rows) {
             if let Some(parent) = row.parent {
                 out.carry(k, n, parent);
                 out.alpha[n] = out.alpha[parent];
@@ -212,6 +251,11 @@ impl<S: Scalar> Sweep<S> {
                 out.hinge[i] = hinge.by_force.dot(a) - hinge.by_moment.dot(out.alpha[n]) - hinge.bias;
                 out.alpha[n] += k.hinge_axis[i] * out.hinge[i] + hinge.drift;
             }
+        }
+        for (i, slide) in slides() {
+            out.slides[i] = S::zero();
+            let [bias, _] = out.sliding(k, i, slide.segment);
+            out.slides[i] = drive[i] / slide.mass - k.slides[i].axis.dot(bias);
         }
     }
 
@@ -243,3 +287,6 @@ impl<S: Scalar> Sweep<S> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -6,7 +6,7 @@
 
 use crate::motion::frame::{Frames, Moving};
 use crate::motion::kinematics::Kinematics;
-use crate::motion::layout::{Layout, MOST_HINGES, MOST_SEGMENTS};
+use crate::motion::layout::{Layout, MOST_HINGES, MOST_SEGMENTS, MOST_SLIDES};
 use crate::motion::scalar::Scalar;
 use crate::motion::skeleton::{Root, Skeleton};
 use crate::motion::state::{State, Work};
@@ -45,6 +45,8 @@ pub struct Accelerations<S> {
     pub alpha: [V3<S>; MOST_SEGMENTS],
     /// α̈ of the hinges, rad/s².
     pub hinge: [S; MOST_HINGES],
+    /// s̈ of the point masses that slide, m/s².
+    pub slides: [S; MOST_SLIDES],
 }
 
 /// Accelerations under the loads `wrench` (without gravity, which is added here): solves (53). A guided root stands still.
@@ -56,7 +58,7 @@ pub fn solve<S: Scalar>(
     wrench: &[Wrench<S>; MOST_SEGMENTS],
 ) -> Accelerations<S> {
     let mut sweep = Sweep::blank(body);
-    sweep.solve(body, k, hinge_rate, wrench, None);
+    sweep.solve(body, k, hinge_rate, (wrench, &[S::zero(); MOST_SLIDES]), None);
     sweep.accelerations
 }
 
@@ -75,8 +77,12 @@ impl<S: Scalar> Sweep<S> {
     pub(crate) fn blank(bodies: &Skeleton<S>) -> Self {
         let is_there = |closed: bool| bodies.roots.iter().any(|root| root.is_closed == closed);
         let o = V3::zero();
-        let accelerations =
-            Accelerations { joint: [o; MOST_SEGMENTS], alpha: [o; MOST_SEGMENTS], hinge: [S::zero(); MOST_HINGES] };
+        let accelerations = Accelerations {
+            joint: [o; MOST_SEGMENTS],
+            alpha: [o; MOST_SEGMENTS],
+            hinge: [S::zero(); MOST_HINGES],
+            slides: [S::zero(); MOST_SLIDES],
+        };
         Sweep {
             closed: is_there(true).then(closed::Sweep::blank),
             any: is_there(false).then(articulated::Sweep::blank),
@@ -84,7 +90,7 @@ impl<S: Scalar> Sweep<S> {
         }
     }
 
-    /// As [`solve`]; among `frames` a guided root accelerates as what carries it, which adds the power that comes back to that
+    /// As [`solve`], with the forces along their axes on the point masses that slide, Q − S; among `frames` a guided root accelerates as what carries it, which adds the power that comes back to that
     /// of vehicles, W.
     #[inline(always)]
     pub(crate) fn solve(
@@ -92,7 +98,7 @@ impl<S: Scalar> Sweep<S> {
         bodies: &Skeleton<S>,
         k: &Kinematics<S>,
         hinge_rate: &[S],
-        wrench: &[Wrench<S>; MOST_SEGMENTS],
+        (wrench, drive): (&[Wrench<S>; MOST_SEGMENTS], &[S; MOST_SLIDES]),
         frames: Option<(&Frames<S>, &mut [Work<S>])>,
     ) {
         let (out, gravity) = (&mut self.accelerations, v3(S::zero(), S::zero(), -bodies.gravity));
@@ -105,7 +111,7 @@ impl<S: Scalar> Sweep<S> {
                 let still = Moving::space();
                 let carrier = root.as_ref().unwrap_or(&still);
                 let a = carrier.acceleration - gravity;
-                sweep.solve((bodies, body), k, hinge_rate, wrench, [a, carrier.alpha], out);
+                sweep.solve((bodies, body), k, hinge_rate, (wrench, drive), [a, carrier.alpha], out);
                 if let (Some(root), Some(power)) = (&root, &mut power) {
                     // of a mount in space, which stands still, it is 0
                     let first = bodies.layout.trunks()[body].first;
@@ -128,6 +134,15 @@ impl<S: Scalar> Accelerations<S> {
         let c = k.joint[child] - k.joint[parent];
         let w = k.omega[parent];
         self.joint[child] = self.joint[parent] + self.alpha[parent].cross(c) + w.cross(w.cross(c));
+    }
+
+    /// Acceleration of a point mass that slides, and that of the segment where it would be had it not slid.
+    #[inline(always)]
+    pub(crate) fn sliding(&self, k: &Kinematics<S>, slide: usize, n: usize) -> [V3<S>; 2] {
+        let (slid, w) = (&k.slides[slide], k.omega[n]);
+        let at = |r: V3<S>| self.joint[n] + self.alpha[n].cross(r) + w.cross(w.cross(r));
+        let beside = w.cross(slid.axis) * (slid.speed + slid.speed) + slid.axis * self.slides[slide];
+        [at(slid.arm()) + beside, at(slid.rest)]
     }
 
     /// Acceleration of the centre of gravity of segment `n`.

@@ -86,6 +86,7 @@ impl Moving<f64> {
 
 impl<S: Scalar> Moving<S> {
     /// Space itself.
+    #[inline(always)]
     pub fn space() -> Self {
         let o = V3::zero();
         Moving { origin: o, axes: M3::identity(), velocity: o, omega: o, acceleration: o, alpha: o }

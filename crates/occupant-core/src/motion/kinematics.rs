@@ -5,11 +5,36 @@
 
 use crate::motion::closed;
 use crate::motion::frame::{Frames, Moving};
-use crate::motion::layout::{Axis, Freedom, MOST_HINGES, MOST_SEGMENTS, Row};
+use crate::motion::layout::{Axis, Freedom, MOST_HINGES, MOST_SEGMENTS, MOST_SLIDES, Row};
 use crate::motion::scalar::Scalar;
 use crate::motion::skeleton::{Link, Skeleton};
-use crate::motion::state::{Quat, State};
+use crate::motion::state::{Quat, SLIDE_UNITS, State};
 use crate::motion::vector::{M3, V3, v3};
+
+/// A point mass on its slide.
+#[derive(Clone, Copy, Debug)]
+pub struct Slid<S> {
+    /// û in space.
+    pub axis: V3<S>,
+    /// Its place before it slides, seen from the segment's joint, space axes, m.
+    pub rest: V3<S>,
+    /// s, m.
+    pub way: S,
+    /// ṡ, m/s.
+    pub speed: S,
+}
+
+impl<S: Scalar> Slid<S> {
+    fn none() -> Self {
+        Slid { axis: V3::zero(), rest: V3::zero(), way: S::zero(), speed: S::zero() }
+    }
+
+    /// r, where it is seen from the segment's joint, space axes, m.
+    #[inline(always)]
+    pub fn arm(&self) -> V3<S> {
+        self.rest + self.axis * self.way
+    }
+}
 
 /// Derived motion of all segments.
 #[derive(Clone, Copy, Debug)]
@@ -26,6 +51,10 @@ pub struct Kinematics<S> {
     pub hinge_axis: [V3<S>; MOST_HINGES],
     /// sin α and cos α of the hinges.
     pub(crate) hinge_sin_cos: [(S, S); MOST_HINGES],
+    /// Point masses that slide, in the order of the skeleton's.
+    pub slides: [Slid<S>; MOST_SLIDES],
+    /// How many of them the state moves: none of a body that is only being placed.
+    pub(crate) sliding: usize,
 }
 
 impl<S: Scalar> Kinematics<S> {
@@ -47,6 +76,8 @@ impl<S: Scalar> Kinematics<S> {
             joint_velocity: [V3::zero(); MOST_SEGMENTS],
             hinge_axis: [V3::zero(); MOST_HINGES],
             hinge_sin_cos: [(S::zero(), S::one()); MOST_HINGES],
+            slides: [Slid::none(); MOST_SLIDES],
+            sliding: 0,
         }
     }
 
@@ -62,6 +93,24 @@ impl<S: Scalar> Kinematics<S> {
             } else {
                 self.place(body, state, i, frames);
             }
+        }
+        if !body.slides.is_empty() {
+            self.slide(body, state);
+        }
+    }
+
+    /// Places the point masses that slide, of which the own numbers of a state begin with s and ṡ of each.
+    #[inline(always)]
+    fn slide(&mut self, body: &Skeleton<S>, state: &State<S>) {
+        let own = state.own();
+        self.sliding = if own.len() < 2 * body.slides.len() { 0 } else { body.slides.len() };
+        for (i, (slid, slide)) in self.slides.iter_mut().zip(&body.slides).enumerate() {
+            let axes = &self.axes[slide.segment];
+            let [way, speed] = match own.get(2 * i..2 * i + 2) {
+                Some(own) if i < self.sliding => [own[0] * S::of(SLIDE_UNITS[0]), own[1] * S::of(SLIDE_UNITS[1])],
+                _ => [S::zero(); 2],
+            };
+            *slid = Slid { axis: axes.out(slide.axis), rest: axes.out(slide.place), way, speed };
         }
     }
 

@@ -8,6 +8,8 @@ use crate::body::tree::{JointKind, JointRow, Tree};
 pub const MOST_SEGMENTS: usize = 48;
 /// Most axes of hinges of all bodies together.
 pub(crate) const MOST_HINGES: usize = 48;
+/// Most point masses that slide on segments, of all bodies together.
+pub(crate) const MOST_SLIDES: usize = 16;
 /// Most bodies.
 pub(crate) const MOST_BODIES: usize = 8;
 /// Most segments, and most axes of hinges, of one tree.

@@ -6,7 +6,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::body::{Body, Segment};
+use crate::body::{Body, Plate, Segment};
 use crate::motion::closed;
 use crate::motion::frame::{Frames, Moving};
 use crate::motion::layout::Layout;
@@ -50,6 +50,19 @@ pub struct Link<S> {
     pub(crate) central: Sym3<S>,
 }
 
+/// A point mass that slides on a segment and is a part of its mass: where the segment has it while it has not slid.
+#[derive(Clone, Copy, Debug)]
+pub struct Slide<S> {
+    /// Index of its segment.
+    pub segment: usize,
+    /// m, kg.
+    pub mass: S,
+    /// Its place before it slides, seen from the segment's proximal joint, segment axes, m.
+    pub place: V3<S>,
+    /// û, the unit vector along which it slides, segment axes.
+    pub axis: V3<S>,
+}
+
 /// Where the frame of a mount carries the root.
 #[derive(Clone, Copy, Debug)]
 pub struct Mount<S> {
@@ -70,6 +83,8 @@ pub struct Skeleton<S> {
     pub links: Vec<Link<S>>,
     /// g along −Z′, m/s².
     pub gravity: S,
+    /// Point masses that slide, in the order of the bodies' plates.
+    pub slides: Vec<Slide<S>>,
     /// By body.
     pub(crate) roots: Vec<Root<S>>,
 }
@@ -149,11 +164,21 @@ impl<S: Scalar> Mount<S> {
     }
 }
 
+impl<S: Copy> Slide<S> {
+    /// f applied to every number and the one in the same place of `other`.
+    fn zip<A: Copy, T>(&self, other: &Slide<A>, f: &impl Fn(S, A) -> T) -> Slide<T> {
+        let (place, axis) = (self.place.zip(&other.place, f), self.axis.zip(&other.axis, f));
+        Slide { segment: self.segment, mass: f(self.mass, other.mass), place, axis }
+    }
+}
+
 impl<S: Copy> Skeleton<S> {
     /// Whether another has the same trees, carried by the same frames, and is computed in the same way.
     pub(crate) fn is_like<A>(&self, other: &Skeleton<A>) -> bool {
         let roots = self.roots.iter().map(Root::structure);
-        self.layout == other.layout && roots.eq(other.roots.iter().map(Root::structure))
+        let slides = self.slides.iter().map(|slide| slide.segment);
+        let same_slides = slides.eq(other.slides.iter().map(|slide| slide.segment));
+        same_slides && self.layout == other.layout && roots.eq(other.roots.iter().map(Root::structure))
     }
 
     /// f applied to every number and the one in the same place of `other`, which [is like](Skeleton::is_like) it.
@@ -171,6 +196,7 @@ impl<S: Copy> Skeleton<S> {
             layout: self.layout.clone(),
             links: self.links.iter().zip(&other.links).map(|(a, b)| a.zip(b, f)).collect(),
             gravity: f(self.gravity, other.gravity),
+            slides: self.slides.iter().zip(&other.slides).map(|(a, b)| a.zip(b, f)).collect(),
             roots: self.roots.iter().zip(&other.roots).map(root).collect(),
         }
     }
@@ -187,9 +213,10 @@ impl Skeleton<f64> {
     /// Constants of `body` under gravity `gravity_m_s2`.
     pub fn new(body: &Body, gravity_m_s2: f64) -> Self {
         let parts: Vec<Part> = body.tree.segments().map(|segment| part(body, segment)).collect();
-        let skeleton = Skeleton::of(Layout::of(body.tree), &parts, gravity_m_s2);
-        // joints that a body places itself may be where no closed form has them
-        if body.places.is_empty() { skeleton } else { skeleton.without_closed_forms() }
+        let mut skeleton = Skeleton::of(Layout::of(body.tree), &parts, gravity_m_s2);
+        skeleton.slides = body.plates.iter().map(|plate| slide(body, plate)).collect();
+        // joints that a body places itself may be where no closed form has them, which know no plates
+        if body.places.is_empty() && body.plates.is_empty() { skeleton } else { skeleton.without_closed_forms() }
     }
 
     /// Constants of a tree of `parts`, in the layout's order. A guided root stays where it is without a [`Mount`].
@@ -197,7 +224,13 @@ impl Skeleton<f64> {
         debug_assert_eq!(layout.len(), parts.len());
         let is_closed = closed::holds(&layout) && parts.iter().all(Part::is_plain);
         let links = parts.iter().map(Link::new).collect();
-        Skeleton { layout, links, gravity: gravity_m_s2, roots: vec![Root { mount: None, is_closed }] }
+        Skeleton {
+            layout,
+            links,
+            gravity: gravity_m_s2,
+            slides: Vec::new(),
+            roots: vec![Root { mount: None, is_closed }],
+        }
     }
 
     /// Several bodies under the gravity of the first.
@@ -206,6 +239,7 @@ impl Skeleton<f64> {
             layout: Layout::together(all.iter().map(|one| &one.layout)),
             links: all.iter().flat_map(|one| one.links.iter().copied()).collect(),
             gravity: all.first().map_or(0.0, |one| one.gravity),
+            slides: slides_together(all),
             roots: all.iter().flat_map(|one| one.roots.iter().cloned()).collect(),
         }
     }
@@ -220,6 +254,22 @@ impl Skeleton<f64> {
         self.roots.iter_mut().for_each(|root| root.is_closed = false);
         self
     }
+}
+
+fn slide(body: &Body, plate: &Plate) -> Slide<f64> {
+    let place = plate.place_from_lower_end_m.coords - body.joint_m(plate.segment);
+    let axis = plate.inward.try_normalize(1e-12).unwrap_or_else(Vector3::zeros);
+    Slide { segment: plate.segment.index(), mass: plate.mass_kg, place: V3::of(&place), axis: V3::of(&axis) }
+}
+
+/// The slides of several bodies, one behind the other.
+fn slides_together(all: &[&Skeleton<f64>]) -> Vec<Slide<f64>> {
+    let (mut slides, mut first) = (Vec::new(), 0);
+    for one in all {
+        slides.extend(one.slides.iter().map(|slide| Slide { segment: first + slide.segment, ..*slide }));
+        first += one.links.len();
+    }
+    slides
 }
 
 fn part(body: &Body, segment: Segment) -> Part {

@@ -6,7 +6,9 @@
 
 use std::array::from_fn;
 
-use crate::motion::layout::{Layout, MOST_BODIES, MOST_SEGMENTS};
+#[cfg(any(target_arch = "x86_64", test))]
+use crate::motion::lanes::Lanes;
+use crate::motion::layout::{Layout, MOST_BODIES, MOST_SEGMENTS, MOST_SLIDES};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{V3, v3};
 
@@ -35,7 +37,7 @@ impl<S: Scalar> Quat<S> {
 }
 
 /// Work sums of the force elements.
-pub(crate) const WORK_SUMS: usize = 7;
+pub(crate) const WORK_SUMS: usize = 8;
 
 /// Work that concerns a body since the start, for the energy ledger, J.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,7 +60,10 @@ impl<S: Scalar> Work<S> {
 }
 
 /// Most numbers that force elements own in a state.
-pub(crate) const MOST_OWN: usize = 24;
+pub(crate) const MOST_OWN: usize = 24 + 2 * MOST_SLIDES;
+/// What the own numbers of a point mass that slides are 1 of: s, m; ṡ, m/s. With that of ṡ the error control bounds both as
+/// places and speeds of the body.
+pub(crate) const SLIDE_UNITS: [f64; 2] = [1.0, 100.0];
 /// Most numbers of a state.
 const MOST_NUMBERS: usize = (6 + WORK_SUMS + 2) * MOST_BODIES + 7 * MOST_SEGMENTS + MOST_OWN;
 
@@ -367,6 +372,18 @@ impl<S: Scalar> State<S> {
         }
     }
 
+    /// Becomes the sum of factors times rates, of the same shape.
+    #[inline(always)]
+    pub(crate) fn sum<const N: usize>(&mut self, terms: &[(S, &Self); N]) {
+        for (i, x) in self.numbers_mut().iter_mut().enumerate() {
+            let mut sum = S::zero();
+            for (factor, rate) in terms {
+                sum += *factor * rate.numbers[i];
+            }
+            *x = sum;
+        }
+    }
+
     /// self + h·rate.
     #[inline(always)]
     pub(crate) fn advanced(&self, h: S, rate: &Self) -> Self {
@@ -392,6 +409,39 @@ impl<S: Scalar> State<S> {
             let q = self.orientation(slot);
             let k = S::one() / q.norm_squared().sqrt();
             self.set_orientation(slot, Quat { w: q.w * k, v: q.v * k });
+        }
+    }
+}
+
+#[cfg(any(target_arch = "x86_64", test))]
+impl<L: Scalar> State<L> {
+    /// Brings the state of lane `i`, of the same shape, to `alone`.
+    pub(crate) fn lane(&self, i: usize, alone: &mut State<f64>)
+    where
+        L: Lanes,
+    {
+        for (x, lanes) in alone.numbers_mut().iter_mut().zip(self.numbers()) {
+            *x = lanes.lane(i);
+        }
+    }
+
+    /// Gives lane `i` another state, of the same shape.
+    pub(crate) fn set_lane(&mut self, i: usize, alone: &State<f64>)
+    where
+        L: Lanes,
+    {
+        for (lanes, x) in self.numbers_mut().iter_mut().zip(alone.numbers()) {
+            lanes.set_lane(i, *x);
+        }
+    }
+
+    /// Gives lane `i` that of `other`, of the same shape.
+    pub(crate) fn copy_lane(&mut self, i: usize, other: &Self)
+    where
+        L: Lanes,
+    {
+        for (lanes, from) in self.numbers_mut().iter_mut().zip(other.numbers()) {
+            lanes.set_lane(i, from.lane(i));
         }
     }
 }
@@ -453,14 +503,14 @@ mod tests {
     #[test]
     fn a_state_is_its_numbers() {
         let shape = Shape::of(&Layout::of(&TTI12));
-        let numbers: [f64; 78] = from_fn(|i| i as f64 + 0.5);
+        let numbers: [f64; 79] = from_fn(|i| i as f64 + 0.5);
         let state = State::from_numbers(shape, &numbers).unwrap();
         assert_eq!(state.numbers(), numbers);
         assert_eq!((state.orientation(7).v.z, state.hinge()[0]), (34.5, 35.5));
         assert_eq!((state.velocity().x, state.omega(7).z, state.hinge_rate()), (39.5, 65.5, &numbers[66..70]));
-        assert_eq!((state.work(0).sums[0], state.work(0).vehicle), (70.5, 77.5));
+        assert_eq!((state.work(0).sums[0], state.work(0).vehicle), (70.5, 78.5));
         assert_eq!(State::from_numbers(shape, &numbers[1..]), None);
         let owning = state.with_own(&[1.0, 2.0]);
-        assert_eq!((owning.own(), owning.work(0), owning.numbers().len()), (&[1.0, 2.0][..], state.work(0), 80));
+        assert_eq!((owning.own(), owning.work(0), owning.numbers().len()), (&[1.0, 2.0][..], state.work(0), 81));
     }
 }

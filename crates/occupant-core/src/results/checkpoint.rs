@@ -184,7 +184,7 @@ fn other_time(index: usize, found_s: f64, expected_s: Option<f64>) -> String {
 const STATE: &str = "in space axes, SI: T1; w, x, y, z of the free segments, the first and those on ball joints (of 12: middle_torso, \
 upper_torso, head, lower_torso, left_upper_arm, right_upper_arm, left_thigh, right_thigh); hinges (of 12: left_forearm, right_forearm, \
 left_lower_leg, right_lower_leg); velocity of T1; angular velocities of the free segments; hinge rates; work of contacts, friction, \
-joints, belts, muscles, bags, columns, vehicle: of 12 segments 78 numbers, 75 without the muscles, bags and columns in files of 0.1.0; then the numbers of bags and columns, each scaled to the order of 1";
+joints, belts, muscles, bags, columns, plates, vehicle: of 12 segments 79 numbers, 75 without the muscles, bags, columns and plates in files of 0.1.0; then the numbers of plates, bags and columns, each scaled to the order of 1";
 
 const EVENTS: &str = "when something happened to force elements at the accepted steps since the output before, s";
 

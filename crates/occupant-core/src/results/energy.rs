@@ -13,8 +13,9 @@ use crate::forces::{HeldBy, STORED, STORES, StoredEnergy};
 use crate::motion::frame::Moving;
 use crate::motion::kinematics::Kinematics;
 use crate::motion::layout::MOST_BODIES;
-use crate::motion::skeleton::Skeleton;
+use crate::motion::skeleton::{Skeleton, Slide};
 use crate::motion::state::{WORK_SUMS, Work};
+use crate::motion::vector::V3;
 
 /// Energies of one instant, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -310,7 +311,19 @@ fn kinetic_of(bodies: &Skeleton<f64>, segments: Range<usize>, k: &Kinematics<f64
         let spin = link.by_inertia(w);
         link.mass * v.norm_squared() + spin.x * w.x + spin.y * w.y + spin.z * w.z
     };
-    0.5 * segments.map(segment).sum::<f64>()
+    0.5 * (segments.clone().map(segment).sum::<f64>() + slid(bodies, segments, k, frame))
+}
+
+/// Σ m v·v of plates of some segments, less what it were had they not slid.
+fn slid(bodies: &Skeleton<f64>, segments: Range<usize>, k: &Kinematics<f64>, frame: &Moving<f64>) -> f64 {
+    let slides = bodies.slides[..k.sliding].iter().enumerate().filter(|(_, slide)| segments.contains(&slide.segment));
+    let one = |(i, slide): (usize, &Slide<f64>)| {
+        let (n, slid) = (slide.segment, &k.slides[i]);
+        let at = |arm: V3<f64>| k.joint_velocity[n] + k.omega[n].cross(arm) - frame.velocity_at(k.joint[n] + arm);
+        let now = at(slid.arm()) + slid.axis * slid.speed;
+        slide.mass * (now.norm_squared() - at(slid.rest).norm_squared())
+    };
+    slides.map(one).sum()
 }
 
 /// Σ M g Z′ (Eq. 55 with Z′₀ = 0), J.
@@ -330,7 +343,10 @@ pub(crate) fn gravity_by_body(bodies: &Skeleton<f64>, k: &Kinematics<f64>) -> [f
 /// That of some segments.
 fn gravity_of(bodies: &Skeleton<f64>, segments: Range<usize>, k: &Kinematics<f64>) -> f64 {
     let height = |n: usize| bodies.links[n].mass * k.cg(bodies, n).z;
-    bodies.gravity * segments.map(height).sum::<f64>()
+    let slides =
+        bodies.slides[..k.sliding].iter().zip(&k.slides).filter(|(slide, _)| segments.contains(&slide.segment));
+    let slid: f64 = slides.map(|(slide, slid)| slide.mass * slid.axis.z * slid.way).sum();
+    bodies.gravity * (segments.clone().map(height).sum::<f64>() + slid)
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 //! between. Numbers of steps have the precision of an `f32`, in a run as in its file; those of outputs alone, from which
 //! derivatives are made, are whole.
 
-use crate::kernel::instruments::{PLACE, Reading};
+use crate::kernel::instruments::{CHEST, CHEST_POINTS, PLACE, Reading};
 use crate::model::Model;
 use crate::model::setup::Integrator;
 use crate::results::sample::Sample;
@@ -12,7 +12,8 @@ use crate::results::sample::Sample;
 /// So often readings are taken unless a setup asks otherwise, s: as SAE J211 asks for CFC 1000.
 pub const READINGS_S: f64 = 1e-4;
 
-/// Numbers of the instruments of one body in a sample: those of a reading without the place of the head.
+/// Numbers of the instruments of one body in a sample: those of a reading without the place of the head; behind them, where any
+/// body has a chest that gives way, its deflections.
 pub(crate) const SIGNALS: usize = PLACE;
 
 /// The readings of a run since its last output.
@@ -24,6 +25,8 @@ pub struct Fine {
     pub interval_s: f64,
     /// The bodies (indices) that are read, in the order of their readings in a sample.
     pub(crate) bodies: Vec<usize>,
+    /// Numbers of each in a sample.
+    each: usize,
     /// Number of the next sample.
     pub(crate) next: usize,
     /// The step before: its time and readings.
@@ -44,7 +47,8 @@ impl Fine {
         let is_read =
             |of: usize, marks: &crate::body::Landmarks| of == 0 || marks.instruments().iter().any(Option::is_some);
         let bodies: Vec<usize> = bodies.filter(|(of, row)| is_read(*of, &row.landmarks)).map(|(of, _)| of).collect();
-        let count = SIGNALS * bodies.len();
+        let each = if model.body().chests.is_empty() { SIGNALS } else { SIGNALS + CHEST_POINTS };
+        let count = each * bodies.len();
         let time = &model.setup().time;
         let interval_s = interval_s(model);
         let between = (time.output_s.min(time.end_s - time.start_s) / interval_s) as usize;
@@ -53,6 +57,7 @@ impl Fine {
             start_s: time.start_s,
             interval_s,
             bodies,
+            each,
             next: 0,
             before_s: f64::NAN,
             before: vec![f64::NAN; count],
@@ -75,8 +80,10 @@ impl Fine {
 
     /// Looks at the readings of a step, by body.
     pub(crate) fn see(&mut self, time_s: f64, readings: &[Reading<f64>]) {
-        for (to, &of) in self.now.chunks_exact_mut(SIGNALS).zip(&self.bodies) {
-            to.copy_from_slice(&readings[of][..SIGNALS]);
+        for (to, &of) in self.now.chunks_exact_mut(self.each.max(1)).zip(&self.bodies) {
+            let (own, chest) = to.split_at_mut(SIGNALS);
+            own.copy_from_slice(&readings[of][..SIGNALS]);
+            chest.copy_from_slice(&readings[of][CHEST..][..chest.len()]);
         }
         if self.next == 0 {
             let is_of_outputs = self.is_of_outputs;
@@ -129,12 +136,13 @@ impl Fine {
 
     /// Number and readings of the samples since the last output, of a body among those that are read.
     pub(crate) fn of(&self, place: usize) -> impl Iterator<Item = &[f64]> {
-        self.samples.chunks_exact(SIGNALS * self.bodies.len()).map(move |all| &all[SIGNALS * place..][..SIGNALS])
+        let each = self.each;
+        self.samples.chunks_exact(each * self.bodies.len()).map(move |all| &all[each * place..][..each])
     }
 
     /// Time of the first of the samples since the last output, s.
     pub(crate) fn first_s(&self) -> f64 {
-        let count = self.samples.len() / (SIGNALS * self.bodies.len());
+        let count = self.samples.len() / (self.each * self.bodies.len());
         self.start_s + (self.next - count) as f64 * self.interval_s
     }
 

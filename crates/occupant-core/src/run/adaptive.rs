@@ -3,7 +3,8 @@
 use super::front::Asks;
 use super::{Course, Front, Step};
 use crate::model::Model;
-use crate::motion::integrate::bogacki_shampine::{ERROR_ORDER, EVALUATIONS, Tolerance};
+use crate::model::setup::Integrator;
+use crate::motion::integrate::bogacki_shampine::{ERROR_ORDER, EVALUATIONS, Errors, Tolerance};
 use crate::results::outcome::StepError;
 use occupant_units::trig;
 
@@ -13,6 +14,16 @@ pub(super) struct Control {
     pub tolerance: Tolerance,
     pub min_step_s: f64,
     pub max_step_s: f64,
+}
+
+impl Control {
+    /// That of an integrator with error control.
+    pub(super) fn of(integrator: &Integrator) -> Option<Self> {
+        let &Integrator::Adaptive { relative, absolute_m, absolute_m_s, min_step_s, max_step_s } = integrator else {
+            return None;
+        };
+        Some(Control { tolerance: Tolerance { relative, absolute_m, absolute_m_s }, min_step_s, max_step_s })
+    }
 }
 
 /// What the error control remembers from step to step.
@@ -84,7 +95,36 @@ impl Course {
 
     /// One accepted step of the front.
     fn step_on(&mut self, model: &Model, front: &mut Front, control: &Control) -> Result<(), StepError> {
+        loop {
+            let step = self.propose(front, control);
+            let follows = front.pending.is_some_and(|pending| pending.follows);
+            front.look(model, step, follows, &mut self.cursor);
+            let step = self.shorten(front, step.first_part(|h| front.ahead.after.step(h)), control)?;
+            let errors = front.attempt(model, step, &control.tolerance, &mut self.cursor);
+            if self.judge(model, front, errors, front.has_switched(), control)? {
+                front.ahead.shift();
+                return Ok(());
+            }
+        }
+    }
+
+    /// The next trial of a step from where the front stands, as long as the error control and breaks of the path let it be.
+    pub(super) fn propose(&mut self, front: &mut Front, control: &Control) -> Step {
         let start_s = front.step.end_s;
+        let mut pending = front.pending.take().unwrap_or_else(|| {
+            front.begin_step();
+            self.pending(start_s)
+        });
+        pending.wanted_s = self.control.wanted_s.min(control.max_step_s);
+        let located = pending.behind_s.take();
+        pending.is_located = located.is_some();
+        pending.step.end_s = located.unwrap_or_else(|| end_of_step(start_s, pending.wanted_s, pending.stop_s));
+        front.pending = Some(pending);
+        pending.step
+    }
+
+    /// Begins a step.
+    fn pending(&mut self, start_s: f64) -> Pending {
         // they are in increasing order
         let next = self.breaks_s.partition_point(|&b| b <= start_s);
         let stop_s = self.breaks_s.get(next).copied().unwrap_or(f64::INFINITY);
@@ -92,58 +132,96 @@ impl Course {
         let is_break = next > 0 && self.breaks_s[next - 1] == start_s;
         let follows = self.effort.steps > 0 && !is_break;
         self.effort.evaluations += u64::from(!follows);
-        let (mut was_rejected, last_s) = (false, self.effort.step_s);
-        // the end of the step, where it is to end at a switch or behind a corner
-        let mut behind_s = None;
-        front.begin_step();
-        loop {
-            let wanted_s = self.control.wanted_s.min(control.max_step_s);
-            let located = behind_s.take();
-            let end_s = located.unwrap_or_else(|| end_of_step(start_s, wanted_s, stop_s));
-            let mut step = Step { start_s, end_s };
-            front.look(model, step, follows, &mut self.cursor);
-            step = front.part_that_sees(step);
-            let h = step.length_s();
-            if h <= 0.0 {
-                // the clock no longer tells the step's ends apart
-                return Err(too_small(start_s, wanted_s, control, 0.0));
-            }
-            let trial = front.attempt(model, step, &control.tolerance, &mut self.cursor);
-            self.effort.evaluations += EVALUATIONS;
-            let jumps = trial.error.is_finite() && front.has_switched();
-            let error = if jumps { trial.error.min(trial.error_within) } else { trial.error };
-            if error.is_finite() {
-                let asks = Asks { corners: located.is_none(), tolerance: &control.tolerance, last_s };
-                behind_s = front.end_earlier(model, step, &asks);
-            }
-            if behind_s.is_some() {
-                self.effort.rejected += 1;
-                if error > 1.0 && located.is_none() {
-                    self.control.reject(h, error);
-                }
-                continue;
-            }
-            if error <= 1.0 {
-                let is_full = located.is_none() && h >= wanted_s * 0.99;
-                self.control.accept(h, error, is_full, was_rejected);
-                self.count(step);
-                front.take_over(trial, step, step.end_s >= stop_s);
-                return Ok(());
-            }
-            was_rejected = true;
-            self.effort.rejected += 1;
-            self.control.reject(h, error);
-            front.begin_step();
-            let wanted_s = self.control.wanted_s;
-            if wanted_s < control.min_step_s {
-                let failure = front.failure(model).filter(|_| !error.is_finite());
-                return Err(failure.map_or_else(
-                    || too_small(start_s, wanted_s, control, error),
-                    |why| StepError::Unsolved { time_s: start_s, step_s: h, why },
-                ));
-            }
+        Pending {
+            step: Step { start_s, end_s: start_s },
+            follows,
+            stop_s,
+            last_s: self.effort.step_s,
+            wanted_s: 0.0,
+            is_located: false,
+            behind_s: None,
+            was_rejected: false,
         }
     }
+
+    /// Makes `step` the trial: what was proposed, or the part of it in which nothing is passed unseen.
+    pub(super) fn shorten(&self, front: &mut Front, step: Step, control: &Control) -> Result<Step, StepError> {
+        let Some(pending) = &mut front.pending else { return Ok(step) };
+        pending.step = step;
+        if step.length_s() <= 0.0 {
+            // the clock no longer tells the step's ends apart
+            return Err(too_small(step.start_s, pending.wanted_s, control, 0.0));
+        }
+        Ok(step)
+    }
+
+    /// Whether the trial of these errors, of which the front has all that it needs to know, is accepted: then it is the latest
+    /// step. `jumps`: something has switched by its end.
+    pub(super) fn judge(
+        &mut self,
+        model: &Model,
+        front: &mut Front,
+        errors: Errors<f64>,
+        jumps: bool,
+        control: &Control,
+    ) -> Result<bool, StepError> {
+        self.effort.evaluations += EVALUATIONS;
+        let Some(mut pending) = front.pending.take() else { return Ok(false) };
+        let (step, error) = (pending.step, errors.counting(jumps));
+        if error.is_finite() {
+            let asks = Asks { corners: !pending.is_located, tolerance: &control.tolerance, last_s: pending.last_s };
+            pending.behind_s = front.end_earlier(model, step, &asks);
+        }
+        let h = step.length_s();
+        if pending.behind_s.is_none() && error <= 1.0 {
+            let is_full = !pending.is_located && h >= pending.wanted_s * 0.99;
+            self.control.accept(h, error, is_full, pending.was_rejected);
+            self.count(step);
+            front.accept(step, step.end_s >= pending.stop_s);
+            return Ok(true);
+        }
+        self.effort.rejected += 1;
+        if pending.behind_s.is_some() {
+            if error > 1.0 && !pending.is_located {
+                self.control.reject(h, error);
+            }
+            front.pending = Some(pending);
+            return Ok(false);
+        }
+        pending.was_rejected = true;
+        front.pending = Some(pending);
+        self.control.reject(h, error);
+        front.begin_step();
+        let wanted_s = self.control.wanted_s;
+        if wanted_s < control.min_step_s {
+            let failure = front.failure(model).filter(|_| !error.is_finite());
+            return Err(failure.map_or_else(
+                || too_small(step.start_s, wanted_s, control, error),
+                |why| StepError::Unsolved { time_s: step.start_s, step_s: h, why },
+            ));
+        }
+        Ok(false)
+    }
+}
+
+/// A step that is being tried.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pending {
+    /// The trial.
+    step: Step,
+    /// Whether it begins as the end of the step before, at no break.
+    pub follows: bool,
+    /// Where the step ends at the latest, s.
+    stop_s: f64,
+    /// Length of the step before, s.
+    last_s: f64,
+    /// How long the error control wanted the trial, s.
+    wanted_s: f64,
+    /// Whether the trial ends at a switch or behind a corner.
+    is_located: bool,
+    /// Where the next trial is to end for that, s.
+    behind_s: Option<f64>,
+    was_rejected: bool,
 }
 
 /// A step that would leave a sliver before `stop_s` takes it along; one that would leave less than itself takes half.

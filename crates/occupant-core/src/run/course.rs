@@ -8,11 +8,10 @@ use super::{Front, Rear, Step, Stretch, Switches};
 
 use crate::forces::{Actions, History, Memory};
 use crate::kernel::carried::Carried;
-use crate::kernel::{Evaluation, Situation};
+use crate::kernel::{Evaluation, Scratch, Situation};
 use crate::model::Model;
 use crate::model::setup::Integrator;
 use crate::motion::frame::{Frames, Moving};
-use crate::motion::integrate::bogacki_shampine::Tolerance;
 use crate::motion::kinematics::Kinematics;
 use crate::motion::layout::MOST_BODIES;
 use crate::motion::state::State;
@@ -60,6 +59,8 @@ pub(crate) struct Course {
     /// By body.
     pub(super) masses_kg: Vec<f64>,
     pub(super) actions: Actions<f64>,
+    /// What the evaluation of an output writes on its way.
+    scratch: Box<Scratch<f64>>,
     /// Times at which the motion of the vehicle or an activation jumps, s.
     pub breaks_s: Vec<f64>,
     /// The accepted steps since it was last emptied, where somebody wants to follow them.
@@ -101,6 +102,7 @@ impl Course {
             rest: Rest::default(),
             masses_kg: model.masses_kg(),
             actions: Actions::with_room(&model.system().forces),
+            scratch: Box::new(Scratch::blank(model.system())),
             seen: Seen::new(model),
             met: Vec::with_capacity(start.history.memory.contacts.len()),
             felt: Felt::new(model),
@@ -291,7 +293,8 @@ impl Course {
             }
             self.actions.clear();
             let situation = Situation::accepted(&self.state, frames);
-            let evaluation = model.system().evaluate(situation, &mut self.history, &mut self.actions);
+            let (scratch, history) = (&mut self.scratch, &mut self.history);
+            let evaluation = model.system().evaluate_with(scratch, situation, history, &mut self.actions);
             if !self.take_back_from_output(model) {
                 if let Some(rear) = &mut self.rear {
                     let [before, now] = [rear.kept(), &self.history.memory];
@@ -322,15 +325,12 @@ impl Course {
         if target_s > known_s {
             return Err(StepError::NotTold { known_s, target_s });
         }
-        match model.setup().integrator {
-            Integrator::Rk4 { step_s } => {
-                let stretch = Stretch::new(self.time_s, target_s, step_s);
+        let integrator = &model.setup().integrator;
+        match Control::of(integrator) {
+            Some(control) => self.advance_adaptive(model, target_s, &control),
+            None => {
+                let stretch = Stretch::new(self.time_s, target_s, integrator.longest_step_s());
                 self.advance_rk4(model, None, stretch)
-            }
-            Integrator::Adaptive { relative, absolute_m, absolute_m_s, min_step_s, max_step_s } => {
-                let control =
-                    Control { tolerance: Tolerance { relative, absolute_m, absolute_m_s }, min_step_s, max_step_s };
-                self.advance_adaptive(model, target_s, &control)
             }
         }
     }

@@ -7,6 +7,7 @@ use crate::forces::{Follow, History, Memory};
 use crate::kernel::{Scratch, Situation};
 use crate::model::Model;
 use crate::motion::frame::Frames;
+use crate::motion::integrate::bogacki_shampine::Stage;
 use crate::motion::integrate::rk4::Stages;
 use crate::motion::state::State;
 use crate::results::outcome::StepError;
@@ -78,6 +79,22 @@ impl Step {
     #[inline]
     pub(crate) fn times_s(self) -> [f64; 3] {
         [self.start_s, 0.5 * (self.start_s + self.end_s), self.end_s]
+    }
+
+    /// When a stage of the step under error control is, s.
+    #[inline]
+    pub(crate) fn at_s(self, stage: Stage) -> f64 {
+        match stage {
+            Stage::Within(part) => self.start_s + part * self.length_s(),
+            Stage::End => self.end_s,
+        }
+    }
+
+    /// The middle of it, or of one as long before it, s.
+    #[inline]
+    pub(crate) fn middle_beside_s(self, is_before: bool) -> f64 {
+        let half_s = 0.5 * self.length_s();
+        self.start_s + if is_before { -half_s } else { half_s }
     }
 
     /// Frames at its middle and end, behind those of its start.

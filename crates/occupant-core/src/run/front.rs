@@ -6,12 +6,14 @@
 use std::mem::swap;
 
 use super::Step;
+use super::adaptive::Pending;
+use super::ahead::Ahead;
 use super::corner::{Crossing, Touching};
 use crate::forces::{Follow, History};
 use crate::kernel::{Scratch, Situation};
 use crate::model::Model;
 use crate::motion::frame::Frames;
-use crate::motion::integrate::bogacki_shampine::{Stage, Tolerance, Trial, attempt, within};
+use crate::motion::integrate::bogacki_shampine::{Errors, Stage, Tolerance, within};
 use crate::motion::state::State;
 use crate::results::checkpoint::{StepStart, StepUnderWay};
 use crate::run::observers::{Felt, Met, Seen};
@@ -30,27 +32,21 @@ pub(super) struct Asks<'a> {
 #[derive(Clone)]
 pub(super) struct Front {
     pub step: Step,
-    from: State<f64>,
-    to: State<f64>,
-    /// Rates at `from` and `to`.
-    rates: [State<f64>; 2],
-    /// Whether the rate at `to` is that of the step to come; not at the start, nor at a break of the path.
+    /// What the steps are computed from. Of a run side by side with others it is what was last asked for.
+    pub ahead: Ahead<f64>,
+    /// The step being tried, if one is.
+    pub pending: Option<Pending>,
+    /// Whether the rate at the end of the step is that of the step to come; not at the start, nor at a break of the path.
     rate_is_known: bool,
     /// Whether the step is known by its start alone, as after a checkpoint.
     is_half_known: bool,
-    /// History at `from`.
-    before: History<f64>,
-    /// History at `to`.
-    after: History<f64>,
-    /// History of a trial.
-    trial: History<f64>,
-    /// What touches at `to`.
-    met: Vec<Touching>,
+    /// What touches at the end of the step.
+    pub met: Vec<Touching>,
     /// What touches at the end of a trial.
-    met_in_trial: Vec<Touching>,
-    /// What is felt at `to`, and at the end of a trial.
-    felt: Felt,
-    felt_in_trial: Felt,
+    pub met_in_trial: Vec<Touching>,
+    /// What is felt at the end of the step, and at the end of a trial.
+    pub felt: Felt,
+    pub felt_in_trial: Felt,
     /// Whether the end of the step was noted.
     is_noted: bool,
     /// For what switches, if anything can.
@@ -64,14 +60,10 @@ impl Front {
     pub(super) fn new(model: &Model, time_s: f64, state: &State<f64>, history: &History<f64>) -> Self {
         Front {
             step: Step { start_s: time_s, end_s: time_s },
-            from: *state,
-            to: *state,
-            rates: [State::zero(state.shape()); 2],
+            ahead: Ahead::new(state, history),
+            pending: None,
             rate_is_known: false,
             is_half_known: false,
-            before: history.clone(),
-            after: history.clone(),
-            trial: history.clone(),
             met: Vec::with_capacity(history.memory.contacts.len()),
             met_in_trial: Vec::with_capacity(history.memory.contacts.len()),
             felt: Felt::new(model),
@@ -106,31 +98,30 @@ impl Front {
             let follows = step.start_s > model.setup().time.start_s && !breaks_s.contains(&step.start_s);
             self.look(model, step, follows, cursor);
             seen.compare(model, step.start_s, &self.met, &self.felt);
-            let trial = self.attempt(model, step, tolerance, cursor);
-            self.take_over(trial, step, breaks_s.contains(&step.end_s));
+            self.attempt(model, step, tolerance, cursor);
+            self.ahead.shift();
+            self.accept(step, breaks_s.contains(&step.end_s));
         }
+    }
+
+    /// Whether the rate at the end of the step has still to be worked out; who asks does so.
+    pub(super) fn must_look(&mut self) -> bool {
+        !std::mem::replace(&mut self.rate_is_known, true)
     }
 
     /// Evaluates the rate at the start of `step`, which begins where the front stands, unless it is known; `follows`: as the end of
     /// the step before, at no break.
     pub(super) fn look(&mut self, model: &Model, step: Step, follows: bool, cursor: &mut PathCursor) {
-        if self.rate_is_known {
+        if !self.must_look() {
             return;
         }
-        self.rate_is_known = true;
-        let half_s = 0.5 * step.length_s();
-        let middle_s = step.start_s + if follows { -half_s } else { half_s };
-        model.move_frames(&mut self.frames, step.start_s, middle_s, cursor);
-        let system = model.system();
-        let situation = Situation::accepted(&self.to, &self.frames);
+        model.move_frames(&mut self.frames, step.start_s, step.middle_beside_s(follows), cursor);
+        let (system, ahead) = (model.system(), &mut self.ahead);
+        let situation = Situation::accepted(&ahead.to, &self.frames);
         let mut met = Follow(Met::anew(&mut self.met, &mut self.felt));
-        system.rate_alone(&mut self.scratch, situation, &mut self.after, &mut Some(&mut met), &mut self.rates[1]);
+        let (history, rate) = (&mut ahead.after, &mut *ahead.rates[1]);
+        system.rate_alone(&mut self.scratch, situation, history, &mut Some(&mut met), rate);
         system.read(&self.scratch, &self.frames, &mut |of, reading| self.felt.readings[of] = *reading);
-    }
-
-    /// The part of `step`, which begins where the front stands, in which nothing is passed unseen: all of it, as a rule.
-    pub(super) fn part_that_sees(&self, step: Step) -> Step {
-        step.first_part(|h| self.after.step(h))
     }
 
     /// Tries `step`, which begins where the front stands.
@@ -140,21 +131,19 @@ impl Front {
         step: Step,
         tolerance: &Tolerance,
         cursor: &mut PathCursor,
-    ) -> Trial {
+    ) -> Errors<f64> {
         let (system, h) = (model.system(), step.length_s());
-        let middle_s = 0.5 * (step.start_s + step.end_s);
-        self.trial.take_over(&self.after);
+        let [_, middle_s, _] = step.times_s();
+        let Ahead { to, rates, after, trial: history, room, .. } = &mut self.ahead;
+        history.take_over(after);
         let Felt { numbers, readings } = &mut self.felt_in_trial;
         self.met_in_trial.clear();
         numbers.clear();
-        let (history, mut met) = (&mut self.trial, Follow(Met { met: &mut self.met_in_trial, numbers }));
+        let mut met = Follow(Met { met: &mut self.met_in_trial, numbers });
         let (scratch, frames) = (&mut self.scratch, &mut self.frames);
-        attempt(&self.to, &self.rates[1], h, tolerance, |stage, state, rate| {
-            let (time_s, accepted) = match stage {
-                Stage::Within(s) => (step.start_s + s * h, false),
-                Stage::End => (step.end_s, true),
-            };
-            model.move_frames(frames, time_s, middle_s, cursor);
+        room.attempt(to, &rates[1], h, tolerance, |stage, state, rate| {
+            let accepted = stage == Stage::End;
+            model.move_frames(frames, step.at_s(stage), middle_s, cursor);
             let situation = Situation { state, frames, accepted };
             system.rate_alone(scratch, situation, history, &mut accepted.then_some(&mut met), rate);
             if accepted {
@@ -163,15 +152,10 @@ impl Front {
         })
     }
 
-    /// Accepts `trial` of `step`; `at_break`: the velocity of the vehicle may jump at its end.
-    pub(super) fn take_over(&mut self, trial: Trial, step: Step, at_break: bool) {
+    /// `step`, whose trial is accepted, is the latest; `at_break`: the velocity of the vehicle may jump at its end.
+    pub(super) fn accept(&mut self, step: Step, at_break: bool) {
         (self.step, self.is_noted) = (step, false);
-        self.from = self.to;
-        self.to = trial.state;
-        self.rates = [self.rates[1], trial.rate];
         self.rate_is_known = !at_break;
-        swap(&mut self.before, &mut self.after);
-        swap(&mut self.after, &mut self.trial);
         swap(&mut self.met, &mut self.met_in_trial);
         swap(&mut self.felt, &mut self.felt_in_trial);
     }
@@ -187,7 +171,8 @@ impl Front {
     /// matters, whichever comes first, s; `last_s` is the length of the step before. All that ends a step early is listed here.
     pub(super) fn end_earlier(&mut self, model: &Model, step: Step, asks: &Asks<'_>) -> Option<f64> {
         let switch = |search: &mut Search| {
-            search.end_earlier(&model.system().forces, step, [&self.after.memory, &self.trial.memory], asks.last_s)
+            let Ahead { after, trial, .. } = &self.ahead;
+            search.end_earlier(&model.system().forces, step, [&after.memory, &trial.memory], asks.last_s)
         };
         let switch_s = self.search.as_mut().and_then(switch);
         let corner_s = asks.corners.then(|| self.end_behind_corner(model, step, asks.tolerance)).flatten();
@@ -199,57 +184,81 @@ impl Front {
 
     /// Just behind the first corner of `step` that matters, s.
     fn end_behind_corner(&self, model: &Model, step: Step, tolerance: &Tolerance) -> Option<f64> {
-        let crossing =
-            Crossing { model, step, at_start: &self.met, at_end: &self.met_in_trial, history: &self.after, tolerance };
+        let crossing = Crossing {
+            model,
+            step,
+            at_start: &self.met,
+            at_end: &self.met_in_trial,
+            history: &self.ahead.after,
+            tolerance,
+        };
         crossing.end_behind_corner()
     }
 
     /// Whether something has switched by the end of the last trial.
     pub(super) fn has_switched(&self) -> bool {
-        self.search.is_some() && self.after.memory.has_switched(&self.trial.memory)
+        self.can_switch() && self.ahead.after.memory.has_switched(&self.ahead.trial.memory)
+    }
+
+    /// Whether anything can switch.
+    pub(super) fn can_switch(&self) -> bool {
+        self.search.is_some()
+    }
+
+    /// Whether a switch within the step ahead is being looked for.
+    #[cfg(any(target_arch = "x86_64", test))]
+    pub(super) fn searches(&self) -> bool {
+        self.search.as_ref().is_some_and(Search::is_under_way)
     }
 
     /// What could not be worked out within the last trial, in words.
     pub(super) fn failure(&self, model: &Model) -> Option<String> {
-        self.trial.memory.failure(&model.setup().forces(&[]), &model.system().forces)
+        self.ahead.trial.memory.failure(&model.setup().forces(&[]), &model.system().forces)
     }
 
     /// Notes once what is felt and what touches at the end of the step, as all outputs before it are recorded: an output there
     /// belongs to the step.
     pub(super) fn note(&mut self, model: &Model, seen: &mut Seen, switches: &mut Switches) {
-        // before the first step nothing was evaluated
-        if self.step.length_s() > 0.0 && !self.is_noted {
-            self.is_noted = true;
-            if self.search.is_some() {
-                let [before, now] = [&self.before.memory, &self.after.memory];
+        if self.must_note() {
+            if self.can_switch() {
+                let [before, now] = [&self.ahead.before.memory, &self.ahead.after.memory];
                 switches.note(&model.system().forces, self.step.end_s, before, now);
             }
-            let past = &self.after.memory.contacts;
+            let past = &self.ahead.after.memory.contacts;
             seen.see(model, self.step.end_s, &self.met, &self.felt, |pair| past[pair].phase);
         }
+    }
+
+    /// Whether the end of the step has still to be noted; who asks does so.
+    pub(super) fn must_note(&mut self) -> bool {
+        // before the first step nothing was evaluated
+        self.step.length_s() > 0.0 && !std::mem::replace(&mut self.is_noted, true)
     }
 
     /// State and history at `time_s` within the step; the history is that of the step's start, into which the present
     /// position is not yet taken over.
     pub(super) fn show(&self, time_s: f64, state: &mut State<f64>, history: &mut History<f64>) {
-        let h = self.step.length_s();
-        *state = if time_s >= self.step.end_s {
-            self.to
-        } else {
-            let s = (time_s - self.step.start_s) / h;
-            within([&self.from, &self.rates[0]], [&self.to, &self.rates[1]], h, s)
-        };
-        history.take_over(&self.before);
+        *state = self.state_at(time_s);
+        history.take_over(&self.ahead.before);
+    }
+
+    /// State at `time_s` within the step.
+    pub(super) fn state_at(&self, time_s: f64) -> State<f64> {
+        let (h, Ahead { from, to, rates: [at_from, at_to], .. }) = (self.step.length_s(), &self.ahead);
+        if time_s >= self.step.end_s {
+            return **to;
+        }
+        within([from, at_from], [to, at_to], h, (time_s - self.step.start_s) / h)
     }
 
     /// The start of the step, if it goes on beyond `time_s`.
     pub(super) fn under_way(&self, time_s: f64) -> Option<StepUnderWay<'_>> {
-        let at = if self.is_half_known { &self.to } else { &self.from };
+        let at = if self.is_half_known { &self.ahead.to } else { &self.ahead.from };
         (time_s < self.step.end_s).then_some(StepUnderWay {
             start_s: self.step.start_s,
             end_s: self.step.end_s,
             state: at,
-            history: &self.before,
+            history: &self.ahead.before,
         })
     }
 }

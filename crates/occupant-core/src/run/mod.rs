@@ -5,6 +5,7 @@
 //! frame ([`Run::push`]).
 
 mod adaptive;
+mod ahead;
 mod bars;
 pub mod batch;
 mod changes;

@@ -46,6 +46,13 @@ pub struct MapArgument {
     sign: f64,
 }
 
+impl MapArgument {
+    /// The channel that it names.
+    pub fn channel(&self) -> &str {
+        &self.channel
+    }
+}
+
 impl FromStr for MapArgument {
     type Err = String;
 

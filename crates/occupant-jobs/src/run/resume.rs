@@ -142,12 +142,15 @@ fn last_fitting(
 /// Refuses a file of another scenario; warns of another program.
 fn same_scenario(file: &Path, stored: &StoredRun, opened: &Opened) -> Result<(), Failure> {
     let name = file.display();
-    let (theirs, ..) = scenario::stored(file, stored)?;
+    let (theirs, model, _) = scenario::stored(file, stored)?;
     let mut found = differences(theirs.explicit(), opened.loaded.explicit())
         .map_err(|e| Failure::plain(format!("the scenarios cannot be compared: {e}")))?;
     let texts = |loaded: &Loaded| -> Vec<String> { loaded.tables().iter().map(|(_, text)| text.to_string()).collect() };
     if texts(&theirs) != texts(&opened.loaded) {
         found.push("the content of a path's table".to_owned());
+    }
+    if found.is_empty() && model.setup().integrator != opened.model.setup().integrator {
+        found.push("the tolerances, which go by the length of the run where none is written".to_owned());
     }
     if !found.is_empty() {
         let more = found.len().saturating_sub(SHOWN);

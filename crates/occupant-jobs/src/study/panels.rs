@@ -108,7 +108,7 @@ fn curve(name: &str) -> Option<Curve> {
     let own = name.rsplit('.').next().unwrap_or(name);
     Some(match own {
         "hic15" => ("head AIS3+", |hic| hic_risk(hic, Severity::Ais3).unwrap_or(f64::NAN)),
-        "nij" => ("neck AIS3+", |nij| nij_risk(nij, Severity::Ais3).unwrap_or(f64::NAN)),
+        "nij" => ("neck AIS3+", |nij| nij_risk(nij, Severity::Ais3, Dummy::HybridIii50M).unwrap_or(f64::NAN)),
         "left_femur" | "right_femur" => {
             ("femur AIS2+", |force_n| femur_risk(force_n.abs(), Dummy::HybridIii50M).unwrap_or(f64::NAN))
         }

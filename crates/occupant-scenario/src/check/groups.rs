@@ -15,8 +15,7 @@ impl Checker<'_> {
             let (given, absent): (Vec<&str>, Vec<&str>) = group.iter().partition(|k| table.contains_key(**k));
             if let (Some(first), false) = (given.first().and_then(|k| table.get(*k)), absent.is_empty()) {
                 let found = format!("{} without {}", quoted(&given, '`'), quoted(&absent, '`'));
-                let hint = azimuths(table, &absent);
-                self.report(first.key_span, Problem::error(path, found, "both or neither").with_hint(hint));
+                self.report(first.key_span, Problem::error(path, found, "both or neither"));
             }
         }
     }
@@ -41,16 +40,6 @@ impl Checker<'_> {
             }
         }
     }
-}
-
-/// The azimuths that go with angles of a limit all round, where those are what is missing.
-fn azimuths(table: &Table, absent: &[&str]) -> Option<String> {
-    let count = table.get("angles")?.node.items().len();
-    if *absent != ["azimuths"] || count < 4 {
-        return None;
-    }
-    let all: Vec<String> = (0..count).map(|i| placed_text::number(i as f64 * 360.0 / count as f64)).collect();
-    Some(format!("azimuths = [{}] go with {count} angles", all.join(", ")))
 }
 
 /// `a` and `b`, all in quotes.

@@ -27,6 +27,21 @@ pub fn check_words(document: &mut Document, schema: &'static Json, what: &'stati
     checker.problems
 }
 
+/// All that is wrong with the words of some sections of a document, as they stand by themselves.
+pub(super) fn check_parts(document: &mut Document, schema: &'static Json, keys: &[&str]) -> Diagnostics {
+    let units = units_of(document);
+    let what = "the scenario";
+    let mut checker = Checker { sources: &document.sources, root: schema, what, units, problems: Diagnostics::new() };
+    if let (Some(view), Some(table)) = (View::of(schema, schema), document.root.as_table_mut()) {
+        for key in keys {
+            if let (Some(part), Some(entry)) = (view.property(schema, key), table.get_mut(*key)) {
+                checker.node(&part, &mut entry.node, key);
+            }
+        }
+    }
+    checker.problems
+}
+
 /// The units of a text's bare numbers.
 pub(super) fn units_of(document: &Document) -> UnitSystem {
     match document.root.get("units").and_then(Node::as_str) {

@@ -7,12 +7,13 @@ use serde::{Deserialize, Serialize};
 
 use super::body_joints::own_tree;
 use super::builder::Builder;
+use super::plates::{self, BodyPlateSection, ChestChoice, LinkSection, PelvisChoice, RideSection};
 use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, point, si_or};
 use super::{Acceleration, Angle, Force, Inertia, Length, Mass, Ratio};
 use occupant_core::body::SphereRow;
 use occupant_core::body::people::{Division, Person, REACH, REFERENCE_PERSON, Sex};
 use occupant_core::body::tti12::TTI12;
-use occupant_core::body::{Body, ContactSphere, Segment, SegmentProperties, Tree, shape};
+use occupant_core::body::{Body, ContactSphere, Ride, Segment, SegmentProperties, Tree, shape};
 use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
 use placed_text::{Problem, with_key};
 
@@ -63,6 +64,18 @@ pub(crate) struct BodySection {
     /// Which spheres there are besides those of `spheres` that you name yourself; "report" if absent. Each sphere has a force of
     /// its own: a limb that lies flat is as many times stiffer as it has spheres there, whatever the area.
     pub(crate) sphere_set: Option<SphereSet>,
+    /// Whose chest it is, which gives way: "person", fitted to hub tests of dead people and scaled by size; "dummy50", "dummy05f",
+    /// those of Hybrid III dummies; "rigid", none. "rigid" if absent. A seat's back bears on the spine: there
+    /// the chest is rigid.
+    pub(crate) chest: Option<ChestChoice>,
+    /// "flesh": what a lap belt presses gives way, by guessed numbers; "rigid" if absent.
+    pub(crate) pelvis: Option<PelvisChoice>,
+    /// Parts that give way by name, or changes of those of `chest`: `sternum`, `left_ribs`, `right_ribs`.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) plates: IndexMap<String, BodyPlateSection>,
+    /// Springs and dampers between plates by name.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) plate_links: IndexMap<String, LinkSection>,
     /// Contact spheres by name. The report's 17 (`head`, `chest`, `pelvis`, `left_shoulder`, …) know their place and need
     /// only a radius; `shoulders`, `elbows`, `hands`, `thighs`, `knees`, `shins`, `feet` stand for left and right.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
@@ -156,6 +169,8 @@ pub(crate) struct SphereSection {
     pub(crate) segment: Option<String>,
     /// Centre from the segment's lower end, in segment axes (X ahead, Y left, Z up when standing).
     pub(crate) centre: Option<[Length; 3]>,
+    /// How it goes along with plates of its segment that give way, by what touches it; not at all if absent.
+    pub(crate) ride: Option<RideSection>,
     /// True takes the sphere away.
     pub(crate) remove: Option<bool>,
 }
@@ -251,8 +266,12 @@ pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection,
         neck_height_m: si_or(&section.neck_height, 0.0),
         condyles_m: section.condyles.as_ref().map(all_si).map(|[ahead, above]| Vector3::new(ahead, 0.0, above)),
         spheres: Vec::new(),
+        plates: Vec::new(),
+        chests: Vec::new(),
     };
+    body.plates = plates::plates(b, section, &body);
     body.spheres = spheres(b, section, &body);
+    body.chests.extend(plates::chest(b, section, &body));
     Some(body)
 }
 
@@ -317,7 +336,7 @@ fn spheres(b: &mut Builder, body_section: &BodySection, body: &Body) -> Vec<Cont
     let mut spheres = Vec::new();
     for sphere in body.standard_spheres(&radii_m) {
         if let Some(section) = kept(&sphere.name) {
-            spheres.push(changed(b, body.tree, sphere, section));
+            spheres.push(changed(b, body, sphere, section));
         }
     }
     if body_section.sphere_set == Some(SphereSet::Full) {
@@ -327,18 +346,18 @@ fn spheres(b: &mut Builder, body_section: &BodySection, body: &Body) -> Vec<Cont
         let known = spheres.iter().position(|sphere| sphere.name == *name);
         match (known, section.remove) {
             (Some(i), Some(true)) => drop(spheres.remove(i)),
-            (Some(i), _) => spheres[i] = changed(b, body.tree, spheres[i].clone(), section),
+            (Some(i), _) => spheres[i] = changed(b, body, spheres[i].clone(), section),
             (None, Some(true)) => {}
-            (None, _) => spheres.extend(own_sphere(b, body.tree, name, section)),
+            (None, _) => spheres.extend(own_sphere(b, body, name, section)),
         }
     }
     spheres
 }
 
 /// A sphere of the set with a size, a place or a part of its own.
-fn changed(b: &mut Builder, tree: &Tree, mut sphere: ContactSphere, section: &SphereSection) -> ContactSphere {
+fn changed(b: &mut Builder, body: &Body, mut sphere: ContactSphere, section: &SphereSection) -> ContactSphere {
     let path = with_key("body.spheres", &sphere.name);
-    let segment = carrier(b, tree, &path, section);
+    let segment = carrier(b, body.tree, &path, section);
     if let Some(centre) = &section.centre {
         sphere.centre_from_lower_end_m = point(centre);
         sphere.segment = segment.unwrap_or(sphere.segment);
@@ -353,6 +372,7 @@ fn changed(b: &mut Builder, tree: &Tree, mut sphere: ContactSphere, section: &Sp
         radius_m: si_or(&section.radius, sphere.radius_m),
         part: section.part.clone().unwrap_or(sphere.part),
         share: si_or(&section.share, sphere.share),
+        ride: section.ride.as_ref().map_or(sphere.ride, |ride| plates::ride(b, &path, ride, body)),
         ..sphere
     }
 }
@@ -368,7 +388,8 @@ fn carrier(b: &mut Builder, tree: &Tree, path: &str, section: &SphereSection) ->
     segment
 }
 
-fn own_sphere(b: &mut Builder, tree: &Tree, name: &str, section: &SphereSection) -> Option<ContactSphere> {
+fn own_sphere(b: &mut Builder, body: &Body, name: &str, section: &SphereSection) -> Option<ContactSphere> {
+    let tree = body.tree;
     let path = with_key("body.spheres", name);
     let radius_m = b.needed(&path, "radius", &section.radius);
     let segment = carrier(b, tree, &path, section);
@@ -384,5 +405,6 @@ fn own_sphere(b: &mut Builder, tree: &Tree, name: &str, section: &SphereSection)
     let centre_m = section.centre.as_ref().map_or_else(Point3::origin, point);
     let sphere = ContactSphere::new(name, segment?, centre_m, radius_m);
     let part = section.part.clone().unwrap_or_else(|| name.to_owned());
-    Some(ContactSphere { part, share: si_or(&section.share, 1.0), ..sphere })
+    let ride = section.ride.as_ref().map_or_else(Ride::default, |ride| plates::ride(b, &path, ride, body));
+    Some(ContactSphere { part, share: si_or(&section.share, 1.0), ride, ..sphere })
 }

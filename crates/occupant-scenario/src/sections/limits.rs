@@ -37,13 +37,13 @@ pub(crate) struct CentreSection {
 /// Elastic limit of the bend.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("x-at-most-one" = [["angle", "angles"]], "x-together" = [["azimuths", "angles"]]))]
+#[schemars(extend("x-at-most-one" = [["angle", "angles"], ["angle", "azimuths"]]))]
 pub(crate) struct BendLimitSection {
-    /// The same limit in all directions, 5° to 170°.
+    /// The same limit in all directions, 0.5° to 170°.
     pub(crate) angle: Option<Angle<POSITIVE>>,
     /// Directions, rising within 360°: 0° is forward, 90° the outside of a limb and the left of a neck; at least four.
     pub(crate) azimuths: Option<Vec<Angle>>,
-    /// The limit in each direction; between them a periodic cubic spline.
+    /// The limit in each direction, 5° to 170°; between them a periodic cubic spline. A preset's azimuths stay.
     pub(crate) angles: Option<Vec<Angle<POSITIVE>>>,
     /// Torque beyond it.
     pub(crate) torque: Option<StopTorqueSection>,
@@ -158,8 +158,16 @@ fn turn_limit(b: &mut Builder, path: &str, section: &RangeLimitSection) -> Turn<
 
 fn bend_limit(b: &mut Builder, path: &str, section: &BendLimitSection) -> Bend<f64> {
     let torque = stop(b, path, &section.torque);
-    let (Some(azimuths), Some(angles)) = (&section.azimuths, &section.angles) else {
-        return Bend::new(Curve::constant(b.needed(path, "angle", &section.angle)), torque);
+    let (azimuths, angles) = match (&section.azimuths, &section.angles) {
+        (Some(azimuths), Some(angles)) => (azimuths, angles),
+        (None, Some(angles)) => {
+            let hint = Some(all_round(angles.len())).filter(|_| angles.len() >= 4);
+            let problem =
+                Problem::error(with_key(path, "angles"), "`angles` without `azimuths`", "a direction for each");
+            b.report(problem.with_hint(hint));
+            return Bend::new(Curve::constant(f64::NAN), torque);
+        }
+        (_, None) => return Bend::new(Curve::constant(b.needed(path, "angle", &section.angle)), torque),
     };
     let points = pairs(azimuths, angles);
     let turn = std::f64::consts::TAU;
@@ -173,6 +181,12 @@ fn bend_limit(b: &mut Builder, path: &str, section: &BendLimitSection) -> Bend<f
         return Bend::new(Curve::constant(f64::NAN), torque);
     }
     Bend::new(Curve::periodic(&points), torque)
+}
+
+/// The azimuths that go with angles of a limit all round.
+fn all_round(count: usize) -> String {
+    let all: Vec<String> = (0..count).map(|i| placed_text::number(i as f64 * 360.0 / count as f64)).collect();
+    format!("azimuths = [{}] go with {count} angles", all.join(", "))
 }
 
 /// The torque of the limit at `path`.

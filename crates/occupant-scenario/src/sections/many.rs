@@ -207,6 +207,7 @@ fn loose(b: &mut Builder, name: &str, section: &LooseSection, world: &Setup) -> 
         self_contact: None,
         belts: Vec::new(),
         chains: Vec::new(),
+        bands: Vec::new(),
         posture: InitialPosture::Placed(Box::new(Placing { at, stands: false, spin_rad_s })),
         velocity: given.unwrap_or_default(),
         output: Default::default(),
@@ -257,6 +258,7 @@ fn joined(b: &mut Builder, s: &Scenario, mut world: Setup, members: Vec<(String,
     let (pairs, skins) = pairs(b, s, &members);
     world.belts.clear();
     world.chains.clear();
+    world.bands.clear();
     world.output.markers.clear();
     world.together(members, &pairs, &skins)
 }

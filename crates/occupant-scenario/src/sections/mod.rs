@@ -24,6 +24,7 @@ mod muscles;
 mod nodes;
 mod number_table;
 mod path;
+mod plates;
 mod plausible;
 mod posture;
 mod pulse;
@@ -67,6 +68,7 @@ use self::materials::MaterialSection;
 use self::mount::MountSection;
 use self::muscles::MuscleSection;
 use self::path::PathSection;
+pub(super) use self::plates::{ChestChoice, PelvisChoice};
 use self::posture::{InitialStateSection, PostureSection, SeatSection};
 use self::quantity::ANY;
 use self::retractors::RetractorSection;
@@ -113,6 +115,8 @@ type MassFlow<const RANGE: usize = ANY> = Quantity<{ kind::MASS_FLOW }, RANGE>;
 type MolarMass<const RANGE: usize = ANY> = Quantity<{ kind::MOLAR_MASS }, RANGE>;
 type SpecificHeat<const RANGE: usize = ANY> = Quantity<{ kind::SPECIFIC_HEAT }, RANGE>;
 type SpecificHeatSlope<const RANGE: usize = ANY> = Quantity<{ kind::SPECIFIC_HEAT_SLOPE }, RANGE>;
+type Damping<const RANGE: usize = ANY> = Quantity<{ kind::DAMPING }, RANGE>;
+type QuadraticDamping<const RANGE: usize = ANY> = Quantity<{ kind::QUADRATIC_DAMPING }, RANGE>;
 type Frequency<const RANGE: usize = ANY> = Quantity<{ kind::FREQUENCY }, RANGE>;
 type HeatTransfer<const RANGE: usize = ANY> = Quantity<{ kind::HEAT_TRANSFER }, RANGE>;
 
@@ -144,7 +148,7 @@ pub struct Scenario {
     pub(crate) time: TimeSection,
     /// What is recorded.
     pub(crate) output: Option<OutputSection>,
-    /// How the equations of motion are integrated; "adaptive" with its own defaults if absent.
+    /// How the equations of motion are integrated; "adaptive" with the accuracy "engineering" if absent.
     pub(crate) integrator: Option<IntegratorSection>,
     /// Vehicles that drive by themselves before people are looked at.
     pub(crate) drive: Option<DriveSection>,

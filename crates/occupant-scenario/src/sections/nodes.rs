@@ -1,11 +1,13 @@
 //! Nodes of belts: their keys, and the [`Node`]s they come to.
 
+use indexmap::IndexMap;
 use nalgebra::Point3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::builder::Builder;
 use super::chains::Parts;
+use super::plates::{self, PlaceRide};
 use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, point, si_or};
 use super::retractors::{StrokeSection, direction};
 use super::{Force, Length, Ratio, Speed};
@@ -18,7 +20,7 @@ const SLIDE_M_S: f64 = 10.0;
 /// a sphere of the body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("x-exactly-one" = [["at", "track", "sphere"]], "x-at-most-one" = [["sphere", "on"]]))]
+#[schemars(extend("x-exactly-one" = [["at", "track", "sphere"]], "x-at-most-one" = [["sphere", "on"], ["ride", "lies_on"]]))]
 pub(crate) struct NodeSection {
     /// Its name; that of the sphere, or its number, if absent.
     pub(crate) name: Option<String>,
@@ -43,6 +45,12 @@ pub(crate) struct NodeSection {
     pub(crate) tie: Option<bool>,
     /// Name of the retractor of the first node.
     pub(crate) retractor: Option<String>,
+    /// Of a point of a segment, shares from 0 to 1 of the deflections of plates of the body with which it goes along, by their names;
+    /// none if absent. Of a sphere its own `ride` says so.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) ride: IndexMap<String, Ratio>,
+    /// "chest": a point of the upper torso goes along with the plates near it, by its place.
+    pub(crate) lies_on: Option<PlaceRide>,
     /// Force at which the webbing comes out of it; never if absent.
     pub(crate) strength: Option<Force<POSITIVE>>,
     /// Pretensioner that pulls a point of the vehicle.
@@ -64,6 +72,8 @@ impl NodeSection {
             friction: None,
             tie: None,
             retractor: None,
+            ride: IndexMap::new(),
+            lies_on: None,
             strength: None,
             pretensioner: None,
         }
@@ -74,7 +84,8 @@ impl Parts<'_> {
     pub(super) fn node(&self, b: &mut Builder, path: &str, i: usize, s: &NodeSection) -> Node {
         let name = s.name.clone().or_else(|| s.sphere.clone()).unwrap_or_else(|| (i + 1).to_string());
         let site = self.site(b, path, s);
-        Node { name, site, friction: si_or(&s.friction, 0.0), strength_n: si_or(&s.strength, NEVER) }
+        let ride = plates::node(b, path, s, &site, self.body);
+        Node { name, site, friction: si_or(&s.friction, 0.0), strength_n: si_or(&s.strength, NEVER), ride }
     }
 
     fn site(&self, b: &mut Builder, path: &str, s: &NodeSection) -> Site {

@@ -1,14 +1,16 @@
 //! `[time]`, `[integrator]` and `[output]`: their keys, and the [`TimeSpan`], [`Integrator`] and [`OutputOptions`] they
 //! come to.
 
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 
 use super::builder::Builder;
 use super::markers::markers;
 use super::quantity::{NOT_NEGATIVE, POSITIVE, si_or};
 use super::{Length, Ratio, Scenario, Speed, Time};
 use occupant_core::body::Body;
+use occupant_core::model::accuracy::Accuracy;
 use occupant_core::model::setup::{DEFAULT_OUTPUT_S, Integrator, OutputOptions, TimeSpan};
 use placed_text::number;
 
@@ -38,6 +40,7 @@ pub(crate) struct OutputSection {
 /// How the equations of motion are integrated.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+#[schemars(transform = kind_goes_without_saying)]
 pub(crate) enum IntegratorSection {
     /// The classical fourth-order Runge–Kutta method with a fixed step, as in the report.
     Rk4 {
@@ -48,19 +51,37 @@ pub(crate) enum IntegratorSection {
     Adaptive(Box<AdaptiveSection>),
 }
 
+/// A table with an accuracy needs no `kind`.
+fn kind_goes_without_saying(schema: &mut Schema) {
+    let cases = schema.get_mut("oneOf").and_then(Value::as_array_mut).into_iter().flatten();
+    for case in cases.filter_map(Value::as_object_mut) {
+        if case.get("properties").is_some_and(|keys| keys.get("accuracy").is_some()) {
+            case.remove("required");
+            case.insert("anyOf".to_owned(), json!([{ "required": ["kind"] }, { "required": ["accuracy"] }]));
+        }
+    }
+}
+
 /// Settings of "adaptive".
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend(
+    "x-at-most-one" = [["accuracy", "relative"], ["accuracy", "absolute_length"], ["accuracy", "absolute_speed"]],
+))]
 pub(crate) struct AdaptiveSection {
-    /// Relative tolerance of velocities; 3e-8 if absent.
+    /// How far the head's path and the peaks may be from the solution: "survey" (1 mm, 0.5 %), "engineering" (0.1 mm, 0.1 %) or
+    /// "reference" (a thousandth of that). It chooses the tolerances by the length of the run; "engineering" if neither it nor
+    /// a tolerance is written.
+    pub(crate) accuracy: Option<Accuracy>,
+    /// Relative tolerance of velocities; 3e-8 if absent and another tolerance is written.
     pub(crate) relative: Option<Ratio<NOT_NEGATIVE>>,
-    /// Absolute tolerance of positions; 3e-9 m if absent.
+    /// Absolute tolerance of positions; 3e-9 m if absent and another tolerance is written.
     pub(crate) absolute_length: Option<Length<POSITIVE>>,
-    /// Absolute tolerance of velocities; 3e-7 m/s if absent.
+    /// Absolute tolerance of velocities; 3e-7 m/s if absent and another tolerance is written.
     pub(crate) absolute_speed: Option<Speed<POSITIVE>>,
-    /// Smallest step, and the first; 1e-10 s if absent.
+    /// Smallest step, and the first; 1e-10 s if absent, 1e-12 s with the accuracy "reference".
     pub(crate) min_step: Option<Time<POSITIVE>>,
-    /// Largest step; 2 ms if absent.
+    /// Largest step; if absent 0.5 ms in a run of 0.35 s at most of which no tolerance is written, else 2 ms.
     pub(crate) max_step: Option<Time<POSITIVE>>,
 }
 
@@ -79,26 +100,26 @@ pub(super) fn time(b: &mut Builder, s: &Scenario) -> TimeSpan {
     span
 }
 
-/// The integrator.
-pub(super) fn integrator(b: &mut Builder, s: &Scenario) -> Integrator {
-    let mut integrator = Integrator::default();
-    match (&s.integrator, &mut integrator) {
-        (Some(IntegratorSection::Rk4 { step }), _) => return Integrator::Rk4 { step_s: step.si() },
-        (
-            Some(IntegratorSection::Adaptive(a)),
-            Integrator::Adaptive { relative, absolute_m, absolute_m_s, min_step_s, max_step_s },
-        ) => {
-            *relative = si_or(&a.relative, *relative);
-            *absolute_m = si_or(&a.absolute_length, *absolute_m);
-            *absolute_m_s = si_or(&a.absolute_speed, *absolute_m_s);
-            *min_step_s = si_or(&a.min_step, *min_step_s);
-            *max_step_s = si_or(&a.max_step, *max_step_s);
-            if max_step_s < min_step_s {
-                let found = format!("a largest step of {max_step_s} s below the smallest, {min_step_s} s");
-                b.error("integrator.max_step", found, "min_step ≤ max_step");
-            }
+/// The integrator: tolerances that are written, or those of an accuracy over the length of the run.
+pub(super) fn integrator(b: &mut Builder, s: &Scenario, time: &TimeSpan) -> Integrator {
+    let asked = |accuracy: Option<Accuracy>| accuracy.unwrap_or_default().integrator(time.end_s - time.start_s);
+    let a = match &s.integrator {
+        None => return asked(None),
+        Some(IntegratorSection::Rk4 { step }) => return Integrator::Rk4 { step_s: step.si() },
+        Some(IntegratorSection::Adaptive(a)) => a,
+    };
+    let is_written = a.relative.is_some() || a.absolute_length.is_some() || a.absolute_speed.is_some();
+    let mut integrator = if is_written { Integrator::default() } else { asked(a.accuracy) };
+    if let Integrator::Adaptive { relative, absolute_m, absolute_m_s, min_step_s, max_step_s } = &mut integrator {
+        *relative = si_or(&a.relative, *relative);
+        *absolute_m = si_or(&a.absolute_length, *absolute_m);
+        *absolute_m_s = si_or(&a.absolute_speed, *absolute_m_s);
+        *min_step_s = si_or(&a.min_step, *min_step_s);
+        *max_step_s = si_or(&a.max_step, *max_step_s);
+        if max_step_s < min_step_s {
+            let found = format!("a largest step of {max_step_s} s below the smallest, {min_step_s} s");
+            b.error("integrator.max_step", found, "min_step ≤ max_step");
         }
-        _ => {}
     }
     integrator
 }

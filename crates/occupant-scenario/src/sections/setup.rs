@@ -10,7 +10,7 @@ use super::drive::Drives;
 use super::quantity::si_or;
 use super::{
     BodySection, JointsSection, Scenario, bags, belts, body, chains, columns, drive, frames, joints, materials, mount,
-    muscles, path, plausible, posture, run, self_contact, solids, surfaces, triggers,
+    muscles, path, plates, plausible, posture, run, self_contact, solids, surfaces, triggers,
 };
 use crate::check::references;
 use occupant_core::body::Body;
@@ -50,12 +50,14 @@ pub(crate) fn setup(
     let belts = belts::belts(b, explicit, &body);
     let (posture, velocity) = posture::posture(b, explicit, &body);
     let time = run::time(b, explicit);
-    let integrator = run::integrator(b, explicit);
+    let integrator = run::integrator(b, explicit, &time);
     let output = run::output(b, explicit, &body);
     let gravity_m_s2 = si_or(&explicit.gravity, STANDARD_GRAVITY_M_S2);
     let path = first_path(b, explicit, gravity_m_s2);
     let frames = frames::frames(b, explicit, gravity_m_s2);
     let columns = columns::columns(b, explicit, &frames);
+    let bands = explicit.body.as_ref().map_or_else(Vec::new, |own| plates::bands(b, own, &body));
+    let behind = plates::behind(explicit, (&surfaces, &solids), posture.as_ref());
     let (mut chains, mut bags) = (Vec::new(), Vec::new());
     if let Some(path) = &path {
         let triggers = triggers::triggers(b, explicit, path, &time);
@@ -81,6 +83,8 @@ pub(crate) fn setup(
         chains,
         bags,
         columns,
+        bands,
+        behind,
         own_forces: Vec::new(),
         path,
         scenery: drives.map_or_else(Vec::new, |drives| drive::scenery(explicit, drives)),

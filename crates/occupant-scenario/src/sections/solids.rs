@@ -42,6 +42,8 @@ macro_rules! kinds {
                 pub(crate) group: Option<String>,
                 /// Names of the parts or spheres of the body that can touch it; all if absent.
                 pub(crate) spheres: Option<Vec<String>>,
+                /// True: the spine leans on it, as on the seat's back; see surfaces.
+                pub(crate) behind: Option<bool>,
                 $($(#[$doc])* pub(crate) $key: $Type,)*
             }
         )*
@@ -50,6 +52,13 @@ macro_rules! kinds {
             /// The outline of a prism seen from the side.
             pub(crate) fn profile(&self) -> Option<&[[Length; 2]]> {
                 if let SolidSection::Prism(prism) = self { prism.profile.as_deref() } else { None }
+            }
+
+            /// Whether the spine leans on it.
+            pub(super) fn behind(&self) -> Option<bool> {
+                match self {
+                    $(SolidSection::$Kind(s) => s.behind,)*
+                }
             }
 
             /// Who meets it: a solid holds off from all sides, so whoever comes there.
@@ -275,5 +284,6 @@ fn front(s: &PlateSection) -> SurfaceSection {
         inside: s.inside.clone(),
         facing: s.facing,
         spheres: None,
+        behind: None,
     }
 }

@@ -51,6 +51,9 @@ pub(crate) struct SurfaceSection {
     pub(crate) facing: Option<FacingChoice>,
     /// Names of the parts or spheres of the body that can touch it; all if absent.
     pub(crate) spheres: Option<Vec<String>>,
+    /// True: the spine leans on it, as on the seat's back, so that a chest that gives way meets it as a rigid one. Only the `back` of
+    /// the seat if absent.
+    pub(crate) behind: Option<bool>,
 }
 
 /// A circular disc.

@@ -23,9 +23,12 @@ fn said(change: &str) -> String {
 fn what_is_wrong_with_a_limit_is_said_at_its_place() {
     let four = "azimuths = [0, 90, 180, 270], angles = [60, 40, 70, 50]";
     for (change, expected) in [
-        ("neck.limit.angle=3", "limits from 3.0° to 3.0°"),
-        ("neck.limit.angle=160", "5° to 150° everywhere, beside a limit of twist"),
+        ("neck.limit.angle=0.3", "limits from 0.3° to 0.3°"),
+        ("neck.limit.angle=160", "0.5° to 150° everywhere, beside a limit of twist"),
         ("neck.twist_limit.range=[-160, 160]", "two angles that rise, from −150° to 150°"),
+        ("neck.limit={ azimuths = [0, 90, 180, 270], angles = [3, 9, 9, 9] }", "5° to 150° everywhere"),
+        ("neck.limit={ angle = 10, azimuths = [0, 90, 180, 270] }", "together"),
+        ("hips.limit={ angles = [60, 60, 60, 60] }", "azimuths = [0, 90, 180, 270] go with 4 angles"),
         ("hips.limit={ azimuths = [0, 90, 180], angles = [60, 60, 60] }", "four or more azimuths"),
         ("hips.limit={ azimuths = [0, 90, 80, 270], angles = [60, 60, 60, 60] }", "four or more azimuths"),
         ("neck.limit.torque={ angles = [0, 10], moments = [1, 5] }", "the first 0"),

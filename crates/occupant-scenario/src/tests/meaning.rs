@@ -66,11 +66,11 @@ fn defaults_are_those_of_the_description() {
     let setup = build(super::SHORT);
     assert_eq!(setup.gravity_m_s2, STANDARD_GRAVITY_M_S2);
     let adaptive = Integrator::Adaptive {
-        relative: 3e-8,
-        absolute_m: 3e-9,
-        absolute_m_s: 3e-7,
+        relative: 1e-6,
+        absolute_m: 0.1 * 1e-6,
+        absolute_m_s: 10.0 * 1e-6,
         min_step_s: 1e-10,
-        max_step_s: 2e-3,
+        max_step_s: 5e-4,
     };
     assert_eq!(setup.integrator, adaptive);
     assert_eq!((setup.time.start_s, setup.time.end_s, setup.time.output_s), (0.0, 0.15, 1e-3));

@@ -1,5 +1,6 @@
 //! Tests of the scenario format.
 
+mod accuracy;
 mod bags;
 mod belts;
 mod bodies;
@@ -18,6 +19,8 @@ mod messages;
 mod mount;
 mod muscles;
 mod overrides;
+mod plates;
+mod ready;
 mod record_file;
 mod rigs;
 mod robustness;

@@ -58,7 +58,7 @@ impl StudyText {
             _ => parameters.len(),
         };
         Ok(Study {
-            base,
+            base: base.prepared(),
             base_name: self.section.base.clone(),
             changes,
             seed: self.section.seed.unwrap_or(0),

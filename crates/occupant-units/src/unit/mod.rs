@@ -130,6 +130,10 @@ pub enum Unit {
     WattPerMetreSquaredKelvin,
     /// Hz.
     Hertz,
+    /// N·s/m.
+    NewtonSecondPerMetre,
+    /// N·s²/m².
+    NewtonSecondSquaredPerMetreSquared,
 }
 
 /// What there is to say of a [`Unit`].
@@ -163,7 +167,7 @@ impl Row {
 
 /// In the order of [`Unit`]; exponents of length, mass, time, angle.
 #[rustfmt::skip]
-const TABLE: [Row; 28] = [
+const TABLE: [Row; 30] = [
     row("length", ["m", "m", "in"], [1, 0, 0, 0]),
     row("velocity", ["m/s", "m/s", "in/s"], [1, 0, -1, 0]),
     row("acceleration", ["m/s²", "m/s^2", "in/s^2"], [1, 0, -2, 0]),
@@ -192,10 +196,12 @@ const TABLE: [Row; 28] = [
     row("specific heat per kelvin", ["J/(kg·K²)", "J/(kg·K^2)", "J/(kg·K^2)"], [2, 0, -2, 0]).heat(-2, 0),
     row("heat transfer", ["W/(m²·K)", "W/(m^2·K)", "W/(m^2·K)"], [0, 1, -3, 0]).heat(-1, 0),
     row("frequency", ["Hz", "Hz", "Hz"], [0, 0, -1, 0]),
+    row("damping", ["N·s/m", "N·s/m", "lbf·s/in"], [0, 1, -1, 0]),
+    row("quadratic damping", ["N·s²/m²", "N·s^2/m^2", "lbf·s^2/in^2"], [-1, 1, 0, 0]),
 ];
 
 /// All units, in the order of [`Unit`].
-pub(crate) const ALL: [Unit; 28] = [
+pub(crate) const ALL: [Unit; 30] = [
     Unit::Metre,
     Unit::MetrePerSecond,
     Unit::MetrePerSecondSquared,
@@ -224,6 +230,8 @@ pub(crate) const ALL: [Unit; 28] = [
     Unit::JoulePerKilogramKelvinSquared,
     Unit::WattPerMetreSquaredKelvin,
     Unit::Hertz,
+    Unit::NewtonSecondPerMetre,
+    Unit::NewtonSecondSquaredPerMetreSquared,
 ];
 
 impl Unit {

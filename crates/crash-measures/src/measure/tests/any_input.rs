@@ -15,7 +15,7 @@ fn exercise(signal: &[f64], other: &[f64], dt_s: f64) -> usize {
     count(three_ms_contiguous(signal, dt_s).is_ok());
     count(three_ms_cumulative(signal, dt_s).is_ok());
     count(severity_index(signal, dt_s).is_ok());
-    count(nij(signal, other, dt_s, &NeckIntercepts::of(Dummy::HybridIii50M)).is_ok());
+    count(nij(signal, other, dt_s, &NeckIntercepts::of(Dummy::HybridIii50M).unwrap()).is_ok());
     count(bric(signal, other, signal, dt_s, BricBasis::Average).is_ok());
     count(damage(signal, other, signal, dt_s).is_ok());
     count(viscous_criterion(signal, dt_s, ChestSize::HYBRID_III_50M).is_ok());
@@ -40,6 +40,35 @@ fn exercise(signal: &[f64], other: &[f64], dt_s: f64) -> usize {
     values
 }
 
+/// Chest, side, whiplash, legs.
+fn exercise_parts(signal: &[f64], other: &[f64], dt_s: f64) -> usize {
+    let contact = head_restraint_contact(signal, dt_s, &whiplash::RestraintContact::default());
+    let found = contact.clone().ok().flatten();
+    let points = FourPoints { upper_left_m: signal, upper_right_m: other, lower_left_m: other, lower_right_m: signal };
+    let neck = whiplash::LowerNeckLoads { force_n: [signal, other, signal], moment_nm: [other, signal] };
+    let critical = TibiaCriticals::REVISED_50M;
+    [
+        compression(signal, dt_s, 0.2).is_ok(),
+        deepest_rib(&[signal, other], dt_s).is_ok(),
+        deflection_rate(signal, dt_s).is_ok(),
+        pc_score(&points, dt_s).is_ok(),
+        force_sum(&[signal, other, signal], dt_s).is_ok(),
+        contact.is_ok(),
+        nic(signal, other, dt_s, found.as_ref()).is_ok(),
+        nkm(signal, other, dt_s, &NkmIntercepts::MALE_50).is_ok(),
+        whiplash::lower_neck_load(&neck, dt_s, &whiplash::LowerNeckIntercepts::default()).is_ok(),
+        whiplash::greatest_until(signal, dt_s, dt_s).is_ok(),
+        rebound_speed(signal, other, dt_s, dt_s).is_ok(),
+        whiplash::relative_travel(signal, other, dt_s).is_ok(),
+        tibia_index(signal, other, signal, dt_s, &critical).is_ok(),
+        straight_moment(signal, other, tibia::UPPER_OFFSET_M).is_ok(),
+        signal.first().is_some_and(|x| combined_thoracic_index(*x, dt_s, &ThoracicIntercepts::HYBRID_III_50M).is_ok()),
+    ]
+    .into_iter()
+    .filter(|gave_value| *gave_value)
+    .count()
+}
+
 /// Bits of a linear congruential generator.
 fn random(seed: &mut u64) -> u64 {
     *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -59,9 +88,11 @@ fn broken_signals_never_panic() {
         let mut draw = || -> Vec<f64> { (0..length).map(|_| oddities[(random(&mut seed) % kinds) as usize]).collect() };
         let (signal, other) = (draw(), draw());
         let dt_s = intervals_s[(random(&mut seed) % 10) as usize];
-        values += exercise(&signal, &other, dt_s);
+        values += exercise(&signal, &other, dt_s) + exercise_parts(&signal, &other, dt_s);
+        // of unequal length
+        exercise_parts(&signal, &other[..length / 2], dt_s);
     }
-    assert!(values > 500, "the sweep must also reach the arithmetic: {values} values");
+    assert!(values > 800, "the sweep must also reach the arithmetic: {values} values");
 }
 
 #[test]
@@ -69,4 +100,5 @@ fn a_sound_signal_reaches_every_function() {
     let signal: Vec<f64> = (0..4000).map(|i| -200.0 * (f64::from(i) * 1e-3).sin()).collect();
     let time_s: Vec<f64> = (0..4000).map(|i| f64::from(i) * 1e-4).collect();
     assert_eq!(exercise(&signal, &time_s, 1e-4), 29);
+    assert_eq!(exercise_parts(&signal, &time_s, 1e-4), 15);
 }

@@ -256,6 +256,8 @@ impl Made<'_> {
             neck_height_m: 0.0,
             condyles_m: None,
             spheres: Vec::new(),
+            plates: Vec::new(),
+            chests: Vec::new(),
         }
     }
 }

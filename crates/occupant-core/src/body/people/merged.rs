@@ -83,6 +83,8 @@ impl Stretch {
             // the head's pivot lies 0.83 in behind and 1.93 in below the centre of gravity of the head
             condyles_m: Some(Vector3::new(-x(H, 0.83), 0.0, z(N, 2.99))),
             spheres: Vec::new(),
+            plates: Vec::new(),
+            chests: Vec::new(),
         }
     }
 

@@ -16,6 +16,7 @@ use super::shape::{ShapeLaw, displaced, size};
 use super::unfold::Unfolded;
 use crate::forces::decay::decay;
 use crate::forces::element::Instant;
+use crate::forces::sphere::Use;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
@@ -146,12 +147,17 @@ impl<S: Scalar> EnvelopeLaw<S> {
         if !S::any(touches | is_held) {
             return Pressed::none();
         }
-        let (_, centre, velocity) = site.place(at.k);
+        let (_, centre, velocity) = site.place(at.k, Use::Bag);
         let [area, volume] = displaced(S::select(is_held, held, depth).max(o), site.radius, self.shape.face());
         let relative = frame.axes.into_frame(velocity - frame.velocity_at(centre));
         let spread = unfolded.growth / (S::of(3.0) * unfolded.share) * (near.distance - near.gradient.dot(seen));
-        let reaches = near.left.map_or(S::truth(false), |left| !depth.lt(left));
-        let is_lost = near.from_middle.map_or(S::truth(false), |part| part.lt(S::of(LOST)));
+        let (mut reaches, mut is_lost) = (S::truth(false), S::truth(false));
+        if let Some(left) = near.left {
+            reaches = !depth.lt(left);
+        }
+        if let Some(part) = near.from_middle {
+            is_lost = part.lt(S::of(LOST));
+        }
         let holds = S::select(is_held, held, S::select(is_lost, depth, o));
         Pressed {
             area: S::select(touches & !is_held, area.max(o) * reach, o),
@@ -164,18 +170,20 @@ impl<S: Scalar> EnvelopeLaw<S> {
     }
 
     /// The spheres whose centres are within the full envelope: the sum of 2^i of their places i.
+    #[inline(always)]
     pub(super) fn caught(&self, at: &Instant<'_, S>) -> S {
-        let o = S::zero();
-        self.spheres.iter().enumerate().fold(o, |sum, (i, (sphere, _))| {
+        let (o, mut sum) = (S::zero(), S::zero());
+        for (i, (sphere, _)) in self.spheres.iter().enumerate() {
             let distance = self.shape.near(self.seen(at, *sphere), S::one()).distance;
-            sum + S::select(distance.lt(o), flag(i), o)
-        })
+            sum += S::select(distance.lt(o), flag(i), o);
+        }
+        sum
     }
 
     /// A sphere's centre seen from the mount, in the axes of the frame, m.
     #[inline(always)]
     fn seen(&self, at: &Instant<'_, S>, sphere: usize) -> V3<S> {
-        at.centre_in(sphere, self.frame) - self.mount
+        at.centre_in(sphere, Use::Bag, self.frame) - self.mount
     }
 }
 

@@ -151,10 +151,11 @@ impl<S: Scalar> OutletLaw<S> {
         if !S::any(gauge.gt(o)) {
             return Outflow { vents: o, fabric: o };
         }
-        let holes = self.vents.iter().zip(&past.open).fold(o, |sum, (vent, open)| {
+        let mut holes = o;
+        for (vent, open) in self.vents.iter().zip(&past.open) {
             let is_open = open.gt(o) | later(at, vent.due);
-            sum + S::select(is_open, vent.area, o)
-        });
+            holes += S::select(is_open, vent.area, o);
+        }
         let linear = S::of(LINEAR_PA);
         let per_area = gas.outflow(ambient + gauge.max(linear), ambient) * (gauge / linear).min(S::one());
         let mut through = self.part * per_area;

@@ -193,7 +193,8 @@ impl<S: Scalar> BagLaw<S> {
         rates: &mut [S],
     ) -> Flows<S> {
         let (o, gas, [p_a, t_a]) = (S::zero(), &now.gas, self.ambient);
-        let [per_energy, per_mass] = self.units().map(|unit| S::one() / unit);
+        let [energy, mass] = self.units();
+        let (per_energy, per_mass) = (S::one() / energy, S::one() / mass);
         let scale = now.unfolded.scale;
         let fabric = (self.envelope.area * scale * scale - now.envelope.covered).max(o);
         let out = self.outlet.at(at, gas, p_a, fabric, past);

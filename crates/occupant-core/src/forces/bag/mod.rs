@@ -19,7 +19,7 @@ mod unfold;
 use crate::body::Body;
 use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkSum};
 use crate::forces::list::STORES;
-use crate::forces::sphere::Site;
+use crate::forces::sphere::{Site, Use};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 use crate::quantity::Quantity;
@@ -193,7 +193,7 @@ fn bear<S: Scalar>(law: &BagLaw<S>, at: &Instant<'_, S>, now: &Now<S>, load: &mu
             continue;
         }
         let site = &at.spheres[*sphere];
-        let (arm, centre, velocity) = site.place(at.k);
+        let (arm, centre, velocity) = site.place(at.k, Use::Bag);
         let normal = pressed.gradient * (pressure * pressed.area);
         let size = (pressed.gradient.norm_squared() + S::of(1e-24)).sqrt();
         let lever = pressed.gradient * -(site.radius / size);
@@ -212,7 +212,7 @@ fn bear<S: Scalar>(law: &BagLaw<S>, at: &Instant<'_, S>, now: &Now<S>, load: &mu
         power.sums[WORK] += taken;
         power.vehicle += normal.dot(carried) + friction.dot(place);
         load.push(law.envelope.frame, site.segment, normal + friction, S::truth(true));
-        load.press_knee(site, normal + friction, S::truth(true));
+        load.press(site, Use::Bag, normal + friction, S::truth(true));
         pushes.forces[i] = normal + friction;
     }
     pushes

@@ -172,10 +172,10 @@ impl Reported for Bags {
 
     #[inline(always)]
     fn track<S: Scalar>(b: &BagAction<S>, tracker: &mut impl Tracker<S>) {
-        let flag = |x: S| S::select(x.gt(S::zero()), S::one(), S::zero());
-        let gas = [b.pressure, b.fired * b.share, flag(b.covered), b.taken];
-        let books = [flag(b.bottoms), b.vented, b.work, b.residual];
-        gas.into_iter().chain(books).for_each(|number| tracker.number(number));
+        let (o, one) = (S::zero(), S::one());
+        let covered = S::select(b.covered.gt(o), one, o);
+        let bottoms = S::select(b.bottoms.gt(o), one, o);
+        tracker.numbers(&[b.pressure, b.fired * b.share, covered, b.taken, bottoms, b.vented, b.work, b.residual]);
     }
 
     fn keep(past: &mut Vec<BagPast<f64>>, like: Option<&[BagPast<f64>]>, file: &mut dyn Archive) {

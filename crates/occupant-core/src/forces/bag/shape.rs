@@ -107,7 +107,9 @@ impl<S: Scalar> ShapeLaw<S> {
             }
         };
         near.distance = near.distance * scale;
-        near.left = near.left.map(|left| left * scale);
+        if let Some(left) = &mut near.left {
+            *left = *left * scale;
+        }
         near
     }
 

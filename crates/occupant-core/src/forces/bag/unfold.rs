@@ -71,11 +71,12 @@ impl<S: Scalar> UnfoldLaw<S> {
 #[inline(always)]
 fn cube_root<S: Scalar>(x: S) -> S {
     let two = S::of(2.0);
-    let begin = S::of(0.45) + S::of(0.6) * x;
-    (0..4).fold(begin, |root, _| {
+    let mut root = S::of(0.45) + S::of(0.6) * x;
+    for _ in 0..4 {
         let cube = root * root * root;
-        root * (cube + two * x) / (two * cube + x)
-    })
+        root = root * (cube + two * x) / (two * cube + x);
+    }
+    root
 }
 
 #[cfg(test)]

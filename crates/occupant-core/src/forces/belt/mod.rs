@@ -14,7 +14,7 @@ use crate::forces::contact::surface::Frame;
 use crate::forces::element::{Element, HeldBy, Instant, Load, StoredEnergy, Unlike, WorkSum};
 use crate::forces::list::STORES;
 use crate::forces::rate::Rate;
-use crate::forces::sphere::Site;
+use crate::forces::sphere::{Site, Use};
 use crate::forces::spring::BilinearSpring;
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
@@ -107,19 +107,24 @@ impl Element for Belts {
 
     fn lay(law: &mut Vec<BeltLaw<f64>>, data: &[Belt], body: &Body, at: &Instant<'_, f64>) {
         for (law, belt) in law.iter_mut().zip(data) {
-            *law = BeltLaw::laid(belt, body.spheres[belt.sphere].radius_m, at.centre_in(belt.sphere, law.frame));
+            *law = BeltLaw::laid(
+                belt,
+                body.spheres[belt.sphere].radius_m,
+                at.centre_in(belt.sphere, Use::Belt, law.frame),
+            );
         }
     }
 
     fn begin(law: &mut Vec<BeltLaw<f64>>, data: &[Belt], body: &Body, at: &Instant<'_, f64>, problems: &mut Problems) {
         for (law, belt) in law.iter().zip(data) {
-            let spheres: Vec<_> = (0..body.spheres.len()).map(|sphere| at.centre_in(sphere, law.frame)).collect();
+            let spheres: Vec<_> =
+                (0..body.spheres.len()).map(|sphere| at.centre_in(sphere, Use::Belt, law.frame)).collect();
             check::laid(law, belt, body, &spheres, problems);
         }
     }
 
     fn start(law: &Vec<BeltLaw<f64>>, at: &Instant<'_, f64>) -> Vec<BeltHistory<f64>> {
-        law.iter().map(|belt| belt.initial_history(at.centre_in(belt.sphere, belt.frame))).collect()
+        law.iter().map(|belt| belt.initial_history(at.centre_in(belt.sphere, Use::Belt, belt.frame))).collect()
     }
 
     fn hints<S: Scalar>(_law: &Vec<BeltLaw<S>>) {}
@@ -164,7 +169,7 @@ impl Element for Belts {
         for (belt, past) in law.iter().zip(past) {
             let frame = &at.frames[belt.frame];
             let site = &at.spheres[belt.sphere];
-            let (arm, centre, velocity) = site.place(at.k);
+            let (arm, centre, velocity) = site.place(at.k, Use::Belt);
             let centre_v = frame.axes.into_frame(centre - frame.origin);
             let action = belt.act(centre_v, past);
             if at.accepted {
@@ -175,7 +180,7 @@ impl Element for Belts {
             let wrench = &mut load.wrench[site.segment];
             wrench.force += force;
             wrench.moment += arm.cross(force);
-            load.press_knee(site, force, S::truth(true));
+            load.press(site, Use::Belt, force, S::truth(true));
             let power = load.power_at(site.segment);
             power.sums[STRETCH] -= force.dot(velocity - carried);
             power.vehicle += force.dot(carried);
@@ -195,7 +200,7 @@ impl Element for Belts {
             // −gradient of the length with respect to the centre
             let gradient = at.frames[belt.frame.index(&[])].axes.out(action.free[0] + action.free[1]).to_vector();
             let site = &at.spheres[belt.sphere];
-            let (_, centre, _) = site.place(&mobility.kinematics);
+            let (_, centre, _) = site.place(&mobility.kinematics, Use::Belt);
             let give = gradient.dot(&(mobility.of_point(site.segment, centre) * gradient));
             let by = format!("on {}", body.spheres[belt.sphere].name);
             Rate::of_spring(belt.name.clone(), by, 1.0 / give, belt.webbing.steepest_n_per_m())

@@ -62,9 +62,9 @@ impl Reported for Belts {
 
     #[inline(always)]
     fn track<S: Scalar>(b: &BeltAction<S>, tracker: &mut impl Tracker<S>) {
-        [b.loop_force, b.elongation, b.force.norm_squared().sqrt()]
-            .into_iter()
-            .for_each(|number| tracker.number(number));
+        for number in [b.loop_force, b.elongation, b.force.norm_squared().sqrt()] {
+            tracker.number(number);
+        }
     }
 
     fn keep(past: &mut Vec<BeltHistory<f64>>, like: Option<&[BeltHistory<f64>]>, file: &mut dyn Archive) {

@@ -2,6 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
+use crate::body::Shares;
 use crate::forces::contact::surface::Frame;
 use crate::forces::function::Function;
 
@@ -55,6 +56,8 @@ pub struct Node {
     pub friction: f64,
     /// Force at which the webbing comes out of it, N.
     pub strength_n: f64,
+    /// Of a node of a segment: how it rides on parts of it that give way; a sphere says so itself.
+    pub ride: Shares,
 }
 
 /// Where a node is.

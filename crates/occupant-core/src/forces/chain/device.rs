@@ -200,7 +200,8 @@ impl<S: Scalar> DeviceLaw<S> {
     /// Share of the second limiter at a time.
     #[inline(always)]
     fn share(&self, time: S, past: &DevicePast<S>) -> S {
-        self.second.as_ref().map_or(S::zero(), |second| ((time - past.switch_due) / second.2).clamp01())
+        let Some((_, _, over)) = &self.second else { return S::zero() };
+        ((time - past.switch_due) / *over).clamp01()
     }
 
     /// The force at which the limiter yields: webbing is paid out at it whatever pulls.
@@ -280,7 +281,10 @@ impl<S: Scalar> DeviceLaw<S> {
             }
         }
         let is_limited = if self.limiter.is_some() { is_locked } else { S::truth(false) };
-        let mut unknown = self.limiter.as_ref().map_or(o, |law| law.unknown(past.greatest));
+        let mut unknown = o;
+        if let Some(law) = &self.limiter {
+            unknown = law.unknown(past.greatest);
+        }
         if let Some((second, ..)) = &self.second {
             unknown = S::select(share.lt(S::one()), unknown, o);
             unknown += S::select(share.gt(o), second.unknown(past.greatest), o);
@@ -367,9 +371,10 @@ impl<S: Scalar> DeviceLaw<S> {
     #[inline(always)]
     pub(super) fn stored(&self, feed: &Feed<'_, S>, delta: S) -> S {
         let Some(limiter) = &self.limiter else { return S::zero() };
-        let energy = |law: &FunctionLaw<S>| law.returned_to(law.respond(delta, feed.greatest).loading)[1];
-        let first = energy(limiter);
-        let both = self.second.as_ref().map_or(first, |second| first + (energy(&second.0) - first) * feed.share);
-        S::select(feed.is_limited, both, S::zero())
+        let mut energy = limiter.stored(delta, feed.greatest);
+        if let Some((second, ..)) = &self.second {
+            energy += (second.stored(delta, feed.greatest) - energy) * feed.share;
+        }
+        S::select(feed.is_limited, energy, S::zero())
     }
 }

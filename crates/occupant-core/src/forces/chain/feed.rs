@@ -37,12 +37,12 @@ impl<S: Scalar> Feed<'_, S> {
     #[inline(always)]
     pub(super) fn least(&self) -> S {
         let Some(limiter) = &self.law.limiter else { return S::zero() };
-        let foot = limiter.set(self.greatest);
-        let foot = self.law.second.as_ref().map_or(foot, |(second, ..)| {
+        let mut foot = limiter.set(self.greatest);
+        if let Some((second, ..)) = &self.law.second {
             let other = second.set(self.greatest);
             let part = S::select(self.share.lt(S::one()), foot.min(other), other);
-            S::select(self.share.gt(S::zero()), part, foot)
-        });
+            foot = S::select(self.share.gt(S::zero()), part, foot);
+        }
         S::select(self.is_limited, foot, S::zero())
     }
 

@@ -55,6 +55,7 @@ pub(super) struct Tense<S> {
 }
 
 impl<S: Scalar> Tense<S> {
+    #[inline(always)]
     pub(super) fn none() -> Self {
         let o = S::zero();
         Tense { tension: o, unstretched: o, strain: o, loading: o, fed: o, slip: o, play: o }
@@ -175,7 +176,10 @@ pub(super) fn solve<S: Scalar>(
     let surplus = passed + surplus(webbing, runs);
     let is_number = surplus.abs().lt(S::of(1e300));
     let is_slack = (!feed.is_open & !surplus.lt(o) & is_number) | is_free;
-    let length = runs.iter().fold(o, |sum, run| sum + run.length);
+    let mut length = o;
+    for run in runs {
+        length += run.length;
+    }
     let limit = length * S::of(1e-13);
 
     let mut bracket = Bracket::new(S::select(feed.is_open, start, start.max(least)), feed.is_open, least);
@@ -197,7 +201,9 @@ pub(super) fn solve<S: Scalar>(
     let residual = S::select(is_slack, o, r);
     let unsolved = S::select(done, o, S::of(f64::MIN_POSITIVE).max(residual.abs()));
     let broken = S::select(done, o, S::of(f64::NAN));
-    straps[..runs.len()].iter_mut().for_each(|strap| strap.tension += broken);
+    for strap in &mut straps[..runs.len()] {
+        strap.tension += broken;
+    }
     if S::any(is_slack) {
         slacken(webbing, runs, passed, is_slack, &mut straps);
     }
@@ -207,8 +213,11 @@ pub(super) fn solve<S: Scalar>(
 /// What is left over without tension, when every strap has the length that it lies at, m.
 #[inline(always)]
 fn surplus<S: Scalar>(webbing: &WebbingLaw<S>, runs: &[Run<S>]) -> S {
-    let foot = |run: &Run<S>| run.length / (S::one() + webbing.foot(run));
-    runs.iter().fold(S::zero(), |sum, run| sum + (run.before - foot(run)))
+    let mut sum = S::zero();
+    for run in runs {
+        sum += run.before - run.length / (S::one() + webbing.foot(run));
+    }
+    sum
 }
 
 /// Straps without tension: nothing passes but what the first node gives.

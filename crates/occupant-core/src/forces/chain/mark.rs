@@ -34,7 +34,10 @@ impl<S: Scalar> NodeLaw<S> {
     /// A direction in the axes of the sphere's segment.
     #[inline(always)]
     fn on_sphere(&self, at: &Instant<'_, S>, v: V3<S>) -> V3<S> {
-        self.segment(at.spheres).map_or(v, |segment| at.k.axes[segment].into_frame(v))
+        match self.segment(at.spheres) {
+            Some(segment) => at.k.axes[segment].into_frame(v),
+            None => v,
+        }
     }
 
     /// The mark on a sphere that the webbing passes.

@@ -25,6 +25,7 @@ use crate::forces::element::{Element, HeldBy, Instant, Load, StoredEnergy, Unlik
 use crate::forces::list::STORES;
 use crate::forces::rate::Rate;
 use crate::forces::sphere::Site as Sphere;
+use crate::forces::sphere::Use;
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::quantity::Quantity;
@@ -256,7 +257,10 @@ fn bear<S: Scalar>(chain: &ChainLaw<S>, at: &Instant<'_, S>, now: &Now<'_, S>, l
         let Some(segment) = node.segment(at.spheres) else { continue };
         let centre = now.lies.places[k].centre;
         let arm = centre - at.k.joint[segment];
-        let velocity = at.k.joint_velocity[segment] + at.k.omega[segment].cross(arm);
+        let mut velocity = at.k.joint_velocity[segment] + at.k.omega[segment].cross(arm);
+        if let Some(riding) = node.riding(at.spheres) {
+            velocity += riding.carried(at.k)[1];
+        }
         let carried = frame.velocity_at(centre);
         let wrench = &mut load.wrench[segment];
         wrench.force += force;
@@ -266,7 +270,9 @@ fn bear<S: Scalar>(chain: &ChainLaw<S>, at: &Instant<'_, S>, now: &Now<'_, S>, l
             wrench.moment += couple;
         }
         if let Some(site) = node.sphere(at.spheres) {
-            load.press_knee(site, force, S::truth(true));
+            load.press(site, Use::Belt, force, S::truth(true));
+        } else if let Some(riding) = node.riding(at.spheres) {
+            load.ride(riding, force, S::truth(true));
         }
         let power = load.power_at(segment);
         power.sums[STRETCH] -= force.dot(velocity - carried);

@@ -27,6 +27,7 @@ macro_rules! numbers {
         }
 
         impl<S> $Name<S> {
+            #[inline(always)]
             pub(super) fn each<A>(&mut self, other: &mut $Name<A>, f: &mut impl FnMut(&mut S, &mut A)) {
                 $(f(&mut self.$field, &mut other.$field);)+
             }
@@ -140,6 +141,7 @@ pub struct ChainPast<S> {
 }
 
 impl<S> ChainPast<S> {
+    #[inline(always)]
     pub(super) fn each<A>(&mut self, other: &mut ChainPast<A>, f: &mut impl FnMut(&mut S, &mut A)) {
         self.device.each(&mut other.device, f);
         for (one, other) in self.nodes.iter_mut().zip(&mut other.nodes) {

@@ -30,6 +30,7 @@ pub(super) struct Place<S> {
 }
 
 impl<S: Scalar> Place<S> {
+    #[inline(always)]
     pub(super) fn nowhere() -> Self {
         let (o, none) = (S::zero(), V3::zero());
         Place { centre: none, radius: o, is_sphere: false, rubs: false, may_leave: false, sense: none }
@@ -57,6 +58,7 @@ pub(super) struct Bend<S> {
 
 impl<S: Scalar> Bend<S> {
     /// That of no node.
+    #[inline(always)]
     pub(super) fn none() -> Self {
         let (o, none) = (S::zero(), V3::zero());
         Bend { span: o, arc: o, back: none, ahead: none, wrap: o, normal: none, touch: none, beside: o }
@@ -169,8 +171,8 @@ fn wrapped<S: Scalar>(place: &Place<S>, before: (V3<S>, S), next: (V3<S>, S)) ->
     let angle = S::select(angle.lt(S::zero()), angle + S::of(TAU), angle);
     let r = place.radius;
     let (one, inverse) = (S::one(), S::one() / pp.sqrt());
-    let cut = |cosine: S| cosine.max(-one).min(one);
-    let [cosine, other] = [cut((r - before.1) * inverse), cut((r - next.1) / qq.sqrt())];
+    let cosine = ((r - before.1) * inverse).max(-one).min(one);
+    let other = ((r - next.1) / qq.sqrt()).max(-one).min(one);
     let sine = (one - cosine * cosine).max(S::zero()).sqrt();
     Arc {
         wrap: S::of(TAU) - angle - cosine.acos() - other.acos(),

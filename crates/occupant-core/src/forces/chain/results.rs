@@ -237,7 +237,9 @@ impl Reported for Chains {
 
     #[inline(always)]
     fn track<S: Scalar>(s: &StrapAction<S>, tracker: &mut impl Tracker<S>) {
-        [s.force, s.fed, -s.fed, s.lost].into_iter().for_each(|number| tracker.number(number));
+        for number in [s.force, s.fed, -s.fed, s.lost] {
+            tracker.number(number);
+        }
     }
 
     fn keep(past: &mut Vec<ChainPast<f64>>, like: Option<&[ChainPast<f64>]>, file: &mut dyn Archive) {

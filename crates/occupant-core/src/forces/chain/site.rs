@@ -6,7 +6,7 @@ use super::path::Place;
 use crate::body::Body;
 use crate::forces::element::{Instant, passes};
 use crate::forces::function::steps::Steps;
-use crate::forces::sphere::Site as Sphere;
+use crate::forces::sphere::{Riding, Site as Sphere, Use};
 use crate::motion::frame::Moving;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
@@ -22,6 +22,8 @@ pub(super) struct NodeLaw<S> {
     pub(super) rubs: bool,
     strength: S,
     pub(super) may_leave: bool,
+    /// How a point of a segment rides.
+    ride: Option<Riding<S>>,
 }
 
 #[derive(Clone, Debug)]
@@ -141,6 +143,7 @@ impl NodeLaw<f64> {
             rubs: node.friction > 0.0 && !is_end,
             strength: node.strength_n,
             may_leave: !is_end && (!always || node.strength_n < NEVER),
+            ride: (!node.ride.is_empty()).then(|| Riding::new(&node.ride)),
         }
     }
 }
@@ -170,7 +173,7 @@ impl NodeLaw<f64> {
 
 impl<S: Copy> NodeLaw<S> {
     /// What must be equal for two to be computed side by side.
-    pub(super) fn shape(&self) -> (usize, usize, usize, [bool; 2]) {
+    pub(super) fn shape(&self) -> (usize, usize, usize, [bool; 2], Option<Vec<usize>>) {
         let (kind, of, rows) = match &self.site {
             SiteLaw::Vehicle(_, None) => (0, 0, 0),
             SiteLaw::Vehicle(_, Some(stroke)) => (1, 0, stroke.way.len()),
@@ -178,7 +181,8 @@ impl<S: Copy> NodeLaw<S> {
             SiteLaw::Track(segment, _) => (3, *segment, 0),
             SiteLaw::Sphere(sphere) => (4, *sphere, 0),
         };
-        (kind, of, rows, [self.rubs, self.may_leave])
+        let ridden = self.ride.as_ref().map(|ride| ride.numbers().collect());
+        (kind, of, rows, [self.rubs, self.may_leave], ridden)
     }
 
     pub(super) fn zip<A: Copy, T>(&self, other: &NodeLaw<A>, f: &impl Fn(S, A) -> T) -> NodeLaw<T> {
@@ -205,8 +209,15 @@ impl<S: Copy> NodeLaw<S> {
             rubs: self.rubs,
             strength: f(self.strength, other.strength),
             may_leave: self.may_leave,
+            ride: self.ride.zip(other.ride).map(|(a, b)| a.zip(&b, f)),
         }
     }
+}
+
+/// Where a point of a segment is, seen from its joint in the segment's axes; space axes.
+#[inline(always)]
+fn on_segment<S: Scalar>(at: &Instant<'_, S>, n: usize, offset: V3<S>) -> V3<S> {
+    at.k.joint[n] + at.k.axes[n].out(offset)
 }
 
 impl<S: Scalar> NodeLaw<S> {
@@ -230,6 +241,12 @@ impl<S: Scalar> NodeLaw<S> {
         matches!(self.site, SiteLaw::Sphere(_))
     }
 
+    /// How it rides on parts of its segment that give way.
+    #[inline(always)]
+    pub(super) fn riding<'s>(&'s self, spheres: &'s [Sphere<S>]) -> Option<&'s Riding<S>> {
+        self.sphere(spheres).map_or(self.ride.as_ref(), |sphere| sphere.riding(Use::Belt))
+    }
+
     /// Way at the start.
     pub(super) fn start(&self) -> S {
         if let SiteLaw::Track(_, track) = &self.site { track.start } else { S::zero() }
@@ -250,22 +267,31 @@ impl<S: Scalar> NodeLaw<S> {
         }
     }
 
+    /// Where a place of segment `n` is that rides as this node does, space axes.
+    #[inline(always)]
+    fn on_segment(&self, at: &Instant<'_, S>, n: usize, offset: V3<S>) -> V3<S> {
+        let point = on_segment(at, n, offset);
+        if let Some(riding) = &self.ride { point + riding.carried(at.k)[0] } else { point }
+    }
+
     /// Where it is in or on the body or in `frame`, space axes.
     #[inline(always)]
     pub(super) fn place(&self, at: &Instant<'_, S>, frame: &Moving<S>, way: S, past: &NodePast<S>) -> Place<S> {
-        let on_segment = |n: usize, offset: V3<S>| at.k.joint[n] + at.k.axes[n].out(offset);
         let (mut sense, none) = (V3::zero(), S::zero());
         let (centre, radius) = match &self.site {
             SiteLaw::Vehicle(point, stroke) => {
-                let pulled = stroke.as_ref().map_or(V3::zero(), |stroke| stroke.direction * way);
+                let mut pulled = V3::zero();
+                if let Some(stroke) = stroke {
+                    pulled = stroke.direction * way;
+                }
                 (frame.origin + frame.axes.out(*point + pulled), none)
             }
-            SiteLaw::Segment(segment, offset, _) => (on_segment(*segment, *offset), none),
-            SiteLaw::Track(segment, track) => (on_segment(*segment, track.at(way).0), none),
+            SiteLaw::Segment(segment, offset, _) => (self.on_segment(at, *segment, *offset), none),
+            SiteLaw::Track(segment, track) => (self.on_segment(at, *segment, track.at(way).0), none),
             SiteLaw::Sphere(sphere) => {
                 let sphere = &at.spheres[*sphere];
                 sense = at.k.axes[sphere.segment].out(past.normal());
-                (sphere.place(at.k).1, sphere.radius)
+                (sphere.place(at.k, Use::Belt).1, sphere.radius)
             }
         };
         Place { centre, radius, is_sphere: self.is_sphere(), rubs: self.rubs, may_leave: self.may_leave, sense }

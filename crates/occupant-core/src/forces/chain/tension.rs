@@ -53,6 +53,7 @@ pub(super) struct Course<S> {
 }
 
 impl<S: Scalar> Course<S> {
+    #[inline(always)]
     pub(super) fn none() -> Self {
         let none = [S::zero(); MOST_NODES];
         Course { lengths: none, turns: none, carried: none }
@@ -64,7 +65,7 @@ impl<S: Scalar> Taut<'_, S> {
     /// less P of that for what it is unstretched, less the difference of tensions for its length.
     #[inline(always)]
     fn stretched(&self, strap: usize, more: S) -> S {
-        let [from, to] = [strap - 1, strap].map(|strap| &self.solved.straps[strap]);
+        let (from, to) = (&self.solved.straps[strap - 1], &self.solved.straps[strap]);
         let length = self.runs[strap - 1].length;
         self.runs[strap].carried * (more * from.unstretched - (to.tension - from.tension) * length)
     }
@@ -270,16 +271,16 @@ impl<S: Scalar> Straps<S> {
     /// e of a strap's viscous branch.
     #[inline(always)]
     fn viscous(&self, taut: &Taut<'_, S>, strap: usize) -> S {
+        let Some([stiffness, _]) = self.webbing.viscous else { return S::zero() };
         let [kappa, rest] = taut.runs[strap].beside;
-        let e = |[stiffness, _]: [S; 2]| kappa / stiffness * (taut.solved.straps[strap].strain - rest);
-        self.webbing.viscous.map_or(S::zero(), e)
+        kappa / stiffness * (taut.solved.straps[strap].strain - rest)
     }
 
     /// Recoverable energy of a metre of unstretched webbing of a strap, N.
     #[inline(always)]
     fn stored_per_metre(&self, taut: &Taut<'_, S>, strap: usize) -> S {
         let e = self.viscous(taut, strap);
-        let stiffness = self.webbing.viscous.map_or(S::zero(), |viscous| viscous[0]);
+        let [stiffness, _] = self.webbing.viscous.unwrap_or([S::zero(); 2]);
         self.webbing.curve.returned_to(taut.solved.straps[strap].loading)[1] + stiffness * e * e * S::of(0.5)
     }
 
@@ -293,7 +294,11 @@ impl<S: Scalar> Straps<S> {
     /// Recoverable energy of all straps and the limiter, J.
     #[inline(always)]
     pub(super) fn stored_in_all(&self, taut: &Taut<'_, S>) -> S {
-        (0..self.starts.len()).fold(S::zero(), |sum, strap| sum + self.stored(taut, strap))
+        let mut sum = S::zero();
+        for strap in 0..self.starts.len() {
+            sum += self.stored(taut, strap);
+        }
+        sum
     }
 
     /// Σ (P_j − P_{j−1}) Δs_j with the mean of old and new, J: lost where webbing has passed since the last commit.
@@ -336,7 +341,8 @@ impl<S: Scalar> Straps<S> {
             }
             (own.viscous, own.strain) = (self.viscous(taut, strap), tense.strain);
             let greatest_strain = own.greatest.max(tense.loading);
-            let [was, is] = [own.greatest, greatest_strain].map(|strain| self.webbing.curve.returned_to(strain)[2]);
+            let lost = [self.webbing.curve.returned_to(own.greatest), self.webbing.curve.returned_to(greatest_strain)];
+            let [[.., was], [.., is]] = lost;
             own.lost += half * (own.unstretched + tense.unstretched) * (is - was);
             own.greatest = greatest_strain;
             (own.unstretched, own.play) = (tense.unstretched, tense.play);
@@ -358,6 +364,7 @@ impl<S: Scalar> Straps<S> {
     }
 
     /// Books what passed at the first node: work of the pretensioner, or what limiter and spool have lost.
+    #[inline(always)]
     fn book(&self, taut: &Taut<'_, S>, flow: S, past: &ChainPast<S>, next: &mut ChainPast<S>) {
         let (phase, o) = (past.device.phase, S::zero());
         let is_pulling = phase.gt(S::of(Phase::LOCKING)) & phase.lt(S::of(Phase::LOCKED));

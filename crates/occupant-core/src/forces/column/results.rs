@@ -116,7 +116,9 @@ impl Reported for Columns {
 
     #[inline(always)]
     fn track<S: Scalar>(c: &ColumnAction<S>, tracker: &mut impl Tracker<S>) {
-        [c.stroke, c.force, c.taken, c.bottoms, c.residual].into_iter().for_each(|number| tracker.number(number));
+        for number in [c.stroke, c.force, c.taken, c.bottoms, c.residual] {
+            tracker.number(number);
+        }
     }
 
     fn keep(past: &mut Vec<ColumnPast<f64>>, like: Option<&[ColumnPast<f64>]>, file: &mut dyn Archive) {

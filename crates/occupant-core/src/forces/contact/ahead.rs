@@ -99,10 +99,13 @@ impl<S: Scalar> ContactSystem<S> {
     /// How far a sphere may come in a step, m: what [`FASTEST_M_S`] allows, or as fast as things move now.
     #[inline(always)]
     pub(super) fn reach(&self, at: &Instant<'_, S>) -> S {
-        let speeds = at.spheres.iter().map(|site| at.k.joint_velocity[site.segment].norm_squared());
-        let squared = speeds.fold(S::zero(), S::max);
-        let frames = self.groups.iter().chain(&self.solids.groups).map(|group| at.frame(group.frame));
-        let of_frames = frames.fold(S::zero(), |most, frame| most.max(frame.velocity.norm_squared()));
+        let (mut squared, mut of_frames) = (S::zero(), S::zero());
+        for site in at.spheres {
+            squared = squared.max(at.k.joint_velocity[site.segment].norm_squared());
+        }
+        for group in self.groups.iter().chain(&self.solids.groups) {
+            of_frames = of_frames.max(at.frame(group.frame).velocity.norm_squared());
+        }
         if !S::any(squared.max(of_frames).gt(S::of(FAST_M_S * FAST_M_S))) {
             return self.reach_of_a_step;
         }

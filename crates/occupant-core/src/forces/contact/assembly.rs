@@ -11,6 +11,7 @@ use crate::forces::contact::self_contact::SelfPairs;
 use crate::forces::contact::solid::Solids;
 use crate::forces::contact::surface::{Frame, Outline as FaceOutline, Surface};
 use crate::forces::contact::{ContactSystem, Group, MaterialLaw, Pair, Part, Plane};
+use crate::forces::sphere::Use;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
@@ -20,7 +21,8 @@ pub(crate) const FASTEST_M_S: f64 = 100.0;
 impl ContactSystem<f64> {
     /// All pairs of `body` with surfaces whose planes are known.
     pub fn new(body: &Body, data: &ContactData<'_>) -> Self {
-        let &ContactData { surfaces, faces, solids, self_contact, materials, edge_force, longest_step_s } = data;
+        let &ContactData { surfaces, faces, solids, behind, self_contact, materials, edge_force, longest_step_s } =
+            data;
         let mut system = ContactSystem {
             edge_lever: match edge_force {
                 EdgeForce::AtContactPoint => 1.0,
@@ -37,14 +39,21 @@ impl ContactSystem<f64> {
                 if is_own(body, data, frame) {
                     continue;
                 }
-                let first = system.pairs.len();
-                for parts in joined(sphere, frame, surfaces, &seams) {
-                    system.planes.push(plane(&faces[parts[0]], data.radius_m));
-                    system.pairs.push(pair(&parts, surfaces, faces, materials, data.share));
-                }
-                let pairs = first..system.pairs.len();
-                if !pairs.is_empty() {
-                    system.groups.push(Group { sphere, frame: index, pairs });
+                for by in uses(data) {
+                    let first = system.pairs.len();
+                    let reaches = |i: usize| {
+                        let own = &surfaces[i].spheres;
+                        let is_met = surfaces[i].frame == frame && own.as_ref().is_none_or(|s| s.contains(&sphere));
+                        is_met && meets(by, data, behind, i)
+                    };
+                    for parts in joined(reaches, surfaces.len(), &seams) {
+                        system.planes.push(plane(&faces[parts[0]], data.radius_m));
+                        system.pairs.push(pair(&parts, surfaces, faces, materials, data.share));
+                    }
+                    let pairs = first..system.pairs.len();
+                    if !pairs.is_empty() {
+                        system.groups.push(Group { sphere, frame: index, by: *by, pairs });
+                    }
                 }
             }
         }
@@ -88,11 +97,20 @@ fn seams(faces: &[FlatFace]) -> Vec<Vec<usize>> {
     seams
 }
 
-/// Faces of `frame` that `sphere` can touch, in groups that act as one; in order of their first surface.
-fn joined(sphere: usize, frame: Frame, surfaces: &[Surface], seams: &[Vec<usize>]) -> Vec<Vec<usize>> {
-    let reaches = |s: &Surface| s.frame == frame && s.spheres.as_ref().is_none_or(|s| s.contains(&sphere));
+/// As what surfaces use a sphere: one that rides has those apart that the spine leans on.
+pub(super) fn uses(sphere: &ContactSphere) -> &'static [Use] {
+    if sphere.ride.contact.is_empty() { &[Use::Contact] } else { &[Use::Contact, Use::Back] }
+}
+
+/// Whether a sphere meets a surface or solid (number) under a use; `behind` lists those that the spine leans on.
+pub(super) fn meets(by: &Use, sphere: &ContactSphere, behind: &[usize], number: usize) -> bool {
+    sphere.ride.contact.is_empty() || behind.contains(&number) == (*by == Use::Back)
+}
+
+/// Of `count` faces those that a sphere `reaches`, in groups that act as one; in order of their first surface.
+fn joined(reaches: impl Fn(usize) -> bool, count: usize, seams: &[Vec<usize>]) -> Vec<Vec<usize>> {
     // an earlier face of the same group, at last its first; the face itself where there is none
-    let mut earlier: Vec<usize> = (0..surfaces.len()).collect();
+    let mut earlier: Vec<usize> = (0..count).collect();
     let first_of = |earlier: &mut Vec<usize>, mut i: usize| {
         while earlier[i] != i {
             earlier[i] = earlier[earlier[i]];
@@ -100,14 +118,14 @@ fn joined(sphere: usize, frame: Frame, surfaces: &[Surface], seams: &[Vec<usize>
         }
         i
     };
-    let mut groups: Vec<Vec<usize>> = vec![Vec::new(); surfaces.len()];
-    for (i, _) in surfaces.iter().enumerate().filter(|(_, s)| reaches(s)) {
-        for &j in seams[i].iter().filter(|&&j| reaches(&surfaces[j])) {
+    let mut groups: Vec<Vec<usize>> = vec![Vec::new(); count];
+    for i in (0..count).filter(|i| reaches(*i)) {
+        for &j in seams[i].iter().filter(|&&j| reaches(j)) {
             let (a, b) = (first_of(&mut earlier, i), first_of(&mut earlier, j));
             earlier[a.max(b)] = a.min(b);
         }
     }
-    for (i, _) in surfaces.iter().enumerate().filter(|(_, s)| reaches(s)) {
+    for i in (0..count).filter(|i| reaches(*i)) {
         groups[first_of(&mut earlier, i)].push(i);
     }
     groups.retain(|group| !group.is_empty());

@@ -205,7 +205,7 @@ pub(super) fn beneath(
         }
         let met = |group: &&Group| law.pairs[group.pairs.clone()].iter().any(|pair| pair.parts[0].surface == surface);
         let behind = |group: &Group| {
-            let centre = at.centre_in(group.sphere, group.frame).to_vector();
+            let centre = at.centre_in(group.sphere, group.by, group.frame).to_vector();
             (face.offset_m - face.normal.dot(&centre), group.sphere)
         };
         let all: Vec<(f64, usize)> = law.groups.iter().filter(met).map(behind).collect();
@@ -232,7 +232,7 @@ pub(super) fn centres(
     problems: &mut Problems,
 ) {
     for (group, member) in law.solids.met() {
-        let (centre, sphere) = (at.centre_in(group.sphere, group.frame), &body.spheres[group.sphere]);
+        let (centre, sphere) = (at.centre_in(group.sphere, group.by, group.frame), &body.spheres[group.sphere]);
         let near = law.solids.shapes[member.solid].distance(centre, OPEN);
         let (path, name) = (format!("solids.{}", data.solids[member.solid].name), &sphere.name);
         if near.phi < 0.0 {

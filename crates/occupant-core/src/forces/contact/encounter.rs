@@ -54,7 +54,10 @@ impl<'a, S: Scalar> Sphere<'a, S> {
     #[inline(always)]
     pub(super) fn new(contacts: &'a ContactSystem<S>, group: &'a Group, at: &Instant<'a, S>) -> Self {
         let (site, frame, k) = (&at.spheres[group.sphere], at.frame(group.frame), at.k);
-        let arm = k.axes[site.segment].out(site.offset);
+        let mut arm = k.axes[site.segment].out(site.offset);
+        if let Some(riding) = site.riding(group.by) {
+            arm += riding.carried(k)[0];
+        }
         let centre = k.joint[site.segment] + arm;
         let centre_f = frame.axes.into_frame(centre - frame.origin); // (83)
         Sphere { contacts, group, site, frame, k, arm, centre, centre_f, accepted: at.accepted, load: None }
@@ -179,14 +182,21 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         let vehicle = &mut all.power_at(self.site.segment).vehicle;
         *vehicle = S::select(load.lanes, *vehicle + carrying, *vehicle);
         all.push(self.group.frame, self.site.segment, force, load.lanes);
-        all.press_knee(self.site, force, load.lanes);
+        all.press(self.site, self.group.by, force, load.lanes);
+    }
+
+    /// Velocity beside its segment, of what it rides on.
+    #[inline(always)]
+    fn beside(&self) -> V3<S> {
+        self.site.riding(self.group.by).map_or(V3::zero(), |riding| riding.carried(self.k)[1])
     }
 
     /// Its way straight ahead relative to the frame, in the frame's axes, for as long as a step can be.
     #[inline(always)]
     pub(super) fn way(&self, longest: S) -> Way<S> {
         let (n, k, frame) = (self.site.segment, self.k, self.frame);
-        let velocity = k.joint_velocity[n] + k.omega[n].cross(self.arm) - frame.velocity_at(self.centre);
+        let velocity =
+            k.joint_velocity[n] + k.omega[n].cross(self.arm) + self.beside() - frame.velocity_at(self.centre);
         Way::new(self.centre_f, frame.axes.into_frame(velocity), self.site.radius, longest)
     }
 
@@ -198,7 +208,10 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         if let Some(load) = &self.load {
             return load.approach;
         }
-        let velocity = k.joint_velocity[n] + k.omega[n].cross(arm);
+        let mut velocity = k.joint_velocity[n] + k.omega[n].cross(arm);
+        if self.site.riding(self.group.by).is_some() {
+            velocity += self.beside();
+        }
         let approach = Approach {
             centre: centre_f,
             velocity: frame.axes.into_frame(velocity - frame.velocity_at(centre)),
@@ -219,7 +232,7 @@ pub(super) struct Aside<S> {
 
 impl<S: Scalar> Aside<S> {
     /// Puts aside what the segment of a sphere has.
-    #[cold]
+    #[inline(always)]
     pub(super) fn new(segments: [usize; 2], all: &mut AllLoads<S>) -> Self {
         let [own, _] = segments;
         let wrench = std::mem::replace(&mut all.wrench[own], Wrench::zero());
@@ -228,7 +241,7 @@ impl<S: Scalar> Aside<S> {
     }
 
     /// Puts the opposite on the segment that carries the faces; what one body gets the other gives.
-    #[cold]
+    #[inline(always)]
     pub(super) fn react(self, k: &Kinematics<S>, all: &mut AllLoads<S>) {
         let [own, carrier] = self.segments;
         let Wrench { force, moment } = all.wrench[own];

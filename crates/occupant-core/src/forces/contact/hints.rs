@@ -31,7 +31,15 @@ pub struct ContactHints<S: Scalar> {
     looks: Vec<Look<S>>,
     pub(super) own: OwnHints<S>,
     /// How long the step may be that begins at the latest commit.
-    pub(super) pace: Pace<S>,
+    pub(in crate::forces) pace: Pace<S>,
+    spare: Spare<S>,
+}
+
+/// Room for lists that become one.
+#[derive(Clone, Debug)]
+struct Spare<S: Scalar> {
+    watched: Vec<u32>,
+    near: Vec<Near<S>>,
 }
 
 /// Which pairs of spheres of the body are worth looking at.
@@ -74,6 +82,8 @@ pub(super) struct Near<S: Scalar> {
 /// The last look at all pairs of a group.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Look<S> {
+    /// Place of its first pair.
+    first: usize,
     /// How many pairs are watched since.
     watched: usize,
     /// How many pairs were near at the last commit.
@@ -90,6 +100,7 @@ impl<S: Scalar> ContactHints<S> {
         let lanes = S::truth(true);
         let all = 0..(contacts.pairs.len() + contacts.solids.pairs.len()) as u32;
         let looks = contacts.groups.iter().chain(&contacts.solids.groups).map(|group| Look {
+            first: group.pairs.start,
             watched: group.pairs.len(),
             near: group.pairs.len(),
             centre: V3::zero(),
@@ -101,6 +112,7 @@ impl<S: Scalar> ContactHints<S> {
             looks: looks.collect(),
             own: OwnHints::new(contacts.own.pairs.len(), contacts.own.spheres),
             pace: Pace::any(),
+            spare: Spare { watched: Vec::new(), near: Vec::new() },
         }
     }
 
@@ -136,7 +148,7 @@ impl<S: Scalar> ContactHints<S> {
     }
 }
 
-impl<S: Scalar> Hints for ContactHints<S> {
+impl<S: Scalar> Hints<S> for ContactHints<S> {
     fn take_over(&mut self, other: &Self) {
         self.watched.copy_from_slice(&other.watched);
         self.near.copy_from_slice(&other.near);
@@ -146,11 +158,69 @@ impl<S: Scalar> Hints for ContactHints<S> {
         self.pace = other.pace;
     }
 
-    fn look_again(&mut self) {
+    fn look_again(&mut self, lanes: S::Mask) {
         for look in &mut self.looks {
-            look.reach_squared = -S::one();
+            look.reach_squared = S::select(lanes, -S::one(), look.reach_squared);
         }
-        self.pace = Pace::any();
+        self.pace = Pace::select(lanes, Pace::any(), self.pace);
+    }
+
+    #[inline(always)]
+    fn blend(&mut self, other: &Self, lanes: S::Mask) {
+        let ContactHints { watched, near, looks, own, pace, spare } = self;
+        for (look, others) in looks.iter_mut().zip(&other.looks) {
+            let first = look.first;
+            look.watched = spare.join(&mut watched[first..], look.watched, &other.watched[first..][..others.watched]);
+            look.near = spare.blend(&mut near[first..], look.near, &other.near[first..][..others.near], lanes);
+            look.centre = V3::select(lanes, others.centre, look.centre);
+            look.reach_squared = S::select(lanes, others.reach_squared, look.reach_squared);
+        }
+        own.count = spare.blend(&mut own.near, own.count, &other.own.near[..other.own.count], lanes);
+        *pace = Pace::select(lanes, other.pace, *pace);
+    }
+}
+
+impl<S: Scalar> Spare<S> {
+    /// Adds the pairs of `other` to the first `count` of `list`; both are in ascending order. How many there are then.
+    fn join(&mut self, list: &mut [u32], count: usize, other: &[u32]) -> usize {
+        if list[..count] == *other {
+            return count;
+        }
+        let all = &mut self.watched;
+        all.clear();
+        all.extend_from_slice(&list[..count]);
+        all.extend_from_slice(other);
+        all.sort_unstable();
+        all.dedup();
+        list[..all.len()].copy_from_slice(all);
+        all.len()
+    }
+
+    /// Makes the first `count` of `list` those of `other` in these lanes; both are in ascending order. How many there are
+    /// then.
+    #[inline(always)]
+    fn blend(&mut self, list: &mut [Near<S>], count: usize, other: &[Near<S>], lanes: S::Mask) -> usize {
+        let all = &mut self.near;
+        all.clear();
+        let (mut i, mut j) = (0, 0);
+        while i < count || j < other.len() {
+            let own = if i < count { list[i].pair } else { u32::MAX };
+            let others = if j < other.len() { other[j].pair } else { u32::MAX };
+            let (pair, mut mask) = (own.min(others), S::truth(false));
+            if own == pair {
+                mask = mask | (list[i].lanes & !lanes);
+                i += 1;
+            }
+            if others == pair {
+                mask = mask | (other[j].lanes & lanes);
+                j += 1;
+            }
+            if S::any(mask) {
+                all.push(Near { pair, lanes: mask });
+            }
+        }
+        list[..all.len()].copy_from_slice(all);
+        all.len()
     }
 }
 

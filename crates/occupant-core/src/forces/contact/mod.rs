@@ -55,6 +55,8 @@ pub struct ContactData<'a> {
     pub faces: &'a [FlatFace],
     /// Solids of vehicle and space.
     pub solids: &'a [Solid],
+    /// Surfaces, and solids behind all surfaces, that the spine leans on: what rides on plates does not ride there.
+    pub behind: &'a [usize],
     /// What the body does to itself, if anything.
     pub self_contact: Option<&'a SelfContact>,
     /// Materials.

@@ -24,7 +24,7 @@ impl ContactSystem<f64> {
         past.resize(Contacts::count(self), APART);
         let mut looks = 0;
         for (g, group) in self.groups.iter().chain(&self.solids.groups).enumerate() {
-            let (centre, radius) = (at.centre_in(group.sphere, group.frame), at.spheres[group.sphere].radius);
+            let (centre, radius) = (at.centre_in(group.sphere, group.by, group.frame), at.spheres[group.sphere].radius);
             if hints.must_look(g, centre) {
                 let mut look = Looking::new(group);
                 for i in group.pairs.clone() {
@@ -76,7 +76,7 @@ impl ContactSystem<f64> {
     pub(crate) fn continued(&self, at: &Instant<'_, f64>, passed: &[(usize, usize)]) -> Vec<PairHistory<f64>> {
         let mut past = Contacts::start(self, at);
         for group in &self.groups {
-            let centre = at.centre_in(group.sphere, group.frame);
+            let centre = at.centre_in(group.sphere, group.by, group.frame);
             for i in group.pairs.clone() {
                 let depth = self.planes[i].depth(centre);
                 let is_passed = self.pairs[i].parts.iter().any(|part| passed.contains(&(group.sphere, part.surface)));

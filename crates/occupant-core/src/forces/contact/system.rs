@@ -16,6 +16,7 @@ use crate::forces::contact::face::{Offset, Outline, V2};
 use crate::forces::contact::law::{Law, MaterialLaw, Meeting};
 use crate::forces::contact::self_contact::SelfPairs;
 use crate::forces::contact::solid::Solids;
+use crate::forces::sphere::Use;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
@@ -90,6 +91,8 @@ pub struct Group {
     pub sphere: usize,
     /// Index of the frame.
     pub frame: usize,
+    /// As what its faces use the sphere: by what the spine leans on, or by contact.
+    pub by: Use,
     /// Its pairs.
     pub pairs: std::ops::Range<usize>,
 }

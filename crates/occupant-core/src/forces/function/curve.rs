@@ -194,6 +194,12 @@ impl<S: Scalar> FunctionLaw<S> {
         Response { force: S::select(pulls, f.value(loading), o), slope: S::select(pulls, slope, o), loading }
     }
 
+    /// Recoverable energy at `x` after a greatest x_m.
+    #[inline(always)]
+    pub(crate) fn stored(&self, x: S, greatest: S) -> S {
+        self.returned_to(self.respond(x, greatest).loading)[1]
+    }
+
     /// x at which straight lines have the force `force` after a greatest x_m, dx/dforce, and x*; the least where there are many.
     #[inline(always)]
     pub(crate) fn reach(&self, force: S, greatest: S, set: S) -> (S, S, S) {

@@ -161,12 +161,12 @@ impl<S: Scalar> DeflectionLaw<S> {
 
     #[inline(always)]
     fn by_slope(&self, slope: S, least: &FunctionLaw<S>, depth: S, top: S) -> (S, S) {
-        let line = |x: S| self.loading.value(top) - slope * (top - x);
-        let crossing = least.crossing(line(S::zero()), slope).min(top);
-        let above = depth.gt(crossing);
-        let force = S::select(above, line(depth), least.value(depth));
+        let loaded = self.loading.value(top);
+        let crossing = least.crossing(loaded - slope * top, slope).min(top);
+        let (above, line) = (depth.gt(crossing), loaded - slope * (top - depth));
+        let force = S::select(above, line, least.value(depth));
         let below = least.returned_to(depth.min(crossing))[1];
-        let more = (line(crossing) + line(depth)) * (depth - crossing) * S::of(0.5);
+        let more = (loaded - slope * (top - crossing) + line) * (depth - crossing) * S::of(0.5);
         (force.max(S::zero()), below + S::select(above, more, S::zero()))
     }
 

@@ -25,8 +25,11 @@ impl<S: Scalar> Steps<S> {
     #[inline(always)]
     pub(crate) fn at(&self, x: S) -> S {
         let Some(first) = self.0.first() else { return S::zero() };
-        let rows = self.0.iter().zip(self.0.iter().skip(1));
-        rows.fold(first[1], |value, (a, b)| value + (b[1] - a[1]) * ((x - a[0]) / (b[0] - a[0])).clamp01())
+        let mut value = first[1];
+        for (a, b) in self.0.iter().zip(self.0.iter().skip(1)) {
+            value += (b[1] - a[1]) * ((x - a[0]) / (b[0] - a[0])).clamp01();
+        }
+        value
     }
 
     /// A force times the value at x; as it is where there are no rows.

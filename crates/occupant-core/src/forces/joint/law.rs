@@ -312,7 +312,8 @@ impl<S: Scalar> Hinge<S> {
     /// How far it is beyond the ends of the upper and the lower stop, rad.
     #[inline(always)]
     fn beyond(&self, angle: S) -> [S; 2] {
-        [angle - self.upper.full, -angle - self.lower.full].map(|beyond| beyond.max(S::zero()))
+        let o = S::zero();
+        [(angle - self.upper.full).max(o), (-angle - self.lower.full).max(o)]
     }
 }
 

@@ -140,6 +140,8 @@ impl Reported for JointMoments {
 
     #[inline(always)]
     fn track<S: Scalar>(joint: &JointAction<S>, tracker: &mut impl Tracker<S>) {
-        joint.beyond.into_iter().for_each(|number| tracker.number(number));
+        for number in joint.beyond {
+            tracker.number(number);
+        }
     }
 }

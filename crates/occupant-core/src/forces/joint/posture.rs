@@ -21,12 +21,13 @@ impl<S: Scalar> Posture<S> {
         let angle = length(back);
         let (sine, cosine) = angle.sin_cos();
         let axis = back * (S::one() / angle);
-        // a cos|ρ| − n × a sin|ρ| + n (n·a) (1 − cos|ρ|)
-        let turned = |a: V3<S>| {
-            let along = axis * (axis.dot(a) * (S::one() - cosine));
-            k.into_frame(a * cosine - axis.cross(a) * sine + along)
-        };
-        Posture(M3 { x: turned(l.x), y: turned(l.y), z: turned(l.z) })
+        let mut turned = *l;
+        for a in [&mut turned.x, &mut turned.y, &mut turned.z] {
+            // a cos|ρ| − n × a sin|ρ| + n (n·a) (1 − cos|ρ|)
+            let along = axis * (axis.dot(*a) * (S::one() - cosine));
+            *a = k.into_frame(*a * cosine - axis.cross(*a) * sine + along);
+        }
+        Posture(turned)
     }
 
     /// ρ, the rotation vector from this posture to that of segments with the axes k and l, space axes, rad. Then

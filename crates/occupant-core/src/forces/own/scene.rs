@@ -7,6 +7,7 @@ use super::element::OwnPlain;
 use crate::body::Segment;
 use crate::forces::contact::surface::Frame;
 use crate::forces::element::Load;
+use crate::forces::sphere::Use;
 use crate::motion::frame::{Frames, MOST_FRAMES};
 use crate::motion::kinematics::Kinematics;
 use crate::motion::vector::V3;
@@ -65,10 +66,18 @@ impl Scene<'_> {
             body => match self.arm(body) {
                 Some((segment, arm)) => PointMotion {
                     place_m: (self.k.joint[segment] + arm).to_vector(),
-                    velocity_m_s: (self.k.joint_velocity[segment] + self.k.omega[segment].cross(arm)).to_vector(),
+                    velocity_m_s: self.velocity(body, segment, arm).to_vector(),
                 },
                 None => PointMotion::nowhere(),
             },
+        }
+    }
+
+    /// Velocity of a point of a segment, or of a sphere, which may ride on a part that gives way.
+    fn velocity(&self, place: &Place, segment: usize, arm: V3<f64>) -> V3<f64> {
+        match place {
+            Place::Sphere(sphere) => self.law.spheres[*sphere].place(self.k, Use::Contact).2,
+            _ => self.k.joint_velocity[segment] + self.k.omega[segment].cross(arm),
         }
     }
 
@@ -97,7 +106,7 @@ impl Scene<'_> {
             }
             Place::Sphere(sphere) => {
                 let site = self.law.spheres.get(*sphere)?;
-                Some((site.segment, site.place(self.k).0))
+                Some((site.segment, site.place(self.k, Use::Contact).0))
             }
             Place::Frame(..) => None,
         }
@@ -132,7 +141,7 @@ impl Pushes<'_, '_> {
                 wrench.force += force;
                 wrench.moment += arm.cross(force);
                 if let Place::Sphere(sphere) = on {
-                    self.load.press_knee(&self.scene.law.spheres[*sphere], force, true);
+                    self.load.press(&self.scene.law.spheres[*sphere], Use::Contact, force, true);
                 }
                 self.belongs_to(segment, power_w);
             }

@@ -66,7 +66,7 @@ fn links<'a, S>(body: &'a Skeleton<S>, trunk: &Tree) -> &'a Links<S> {
 pub(crate) fn place<S: Scalar>(all: &mut Kinematics<S>, bodies: &Skeleton<S>, state: &State<S>, body: usize) {
     let trunk = &bodies.layout.trunks()[body];
     let links = links(bodies, trunk);
-    let Kinematics { axes: turns, omega, joint, joint_velocity, hinge_axis, hinge_sin_cos } = all;
+    let Kinematics { axes: turns, omega, joint, joint_velocity, hinge_axis, hinge_sin_cos, .. } = all;
     // known sizes save checks of indices
     let (first, hinge) = (trunk.first, trunk.hinge);
     let turned: &mut [M3<S>; SEGMENTS] = of(&mut turns[first..]);
@@ -82,7 +82,8 @@ pub(crate) fn place<S: Scalar>(all: &mut Kinematics<S>, bodies: &Skeleton<S>, st
         (joint[n], joint_velocity[n]) = (state.t1_of(body), state.velocity_of(body));
     }
     for (slot, &n) in FREE.iter().enumerate() {
-        let [w, x, y, z] = [0, 1, 2, 3].map(|i| quaternions[4 * slot + i]);
+        let q = 4 * slot;
+        let (w, x, y, z) = (quaternions[q], quaternions[q + 1], quaternions[q + 2], quaternions[q + 3]);
         turned[n] = axes(&Quat { w, v: v3(x, y, z) });
         omega[n] = v3(spins[3 * slot], spins[3 * slot + 1], spins[3 * slot + 2]);
     }

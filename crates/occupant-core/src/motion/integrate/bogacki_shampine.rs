@@ -6,7 +6,7 @@
 //! Dormand and Prince takes more evaluations at every tolerance (measured in `docs/accuracy.md`).
 
 use crate::motion::scalar::Scalar;
-use crate::motion::state::State;
+use crate::motion::state::{Shape, State};
 use crate::motion::vector::V3;
 
 /// Evaluations of a step whose first stage is known.
@@ -26,54 +26,83 @@ pub enum Stage {
 
 /// Tolerances of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Tolerance {
+pub(crate) struct Tolerance<S = f64> {
     /// On speeds, relative to their size.
-    pub relative: f64,
+    pub relative: S,
     /// On positions, m; angles count at a radius of 1 m.
-    pub absolute_m: f64,
+    pub absolute_m: S,
     /// On speeds, m/s; angular speeds count at a radius of 1 m.
-    pub absolute_m_s: f64,
+    pub absolute_m_s: S,
 }
 
-/// A trial step.
+/// Errors of a trial step: root mean square of error over tolerance.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Trial {
-    /// The state at its end.
-    pub state: State<f64>,
-    /// The rate there: the first stage of the next step.
-    pub rate: State<f64>,
-    /// Root mean square of error over tolerance; up to 1 is accepted.
-    pub error: f64,
-    /// The same from what is known before the end, where that may jump: from the midpoint rule. That of all where it is
-    /// accepted.
-    pub error_within: f64,
+pub(crate) struct Errors<S> {
+    /// Of the whole step.
+    pub whole: S,
+    /// From what is known before the end, where that may jump: from the midpoint rule. Worked out where the whole may not
+    /// be accepted.
+    pub within: S,
 }
 
-/// Tries a step `h` (s) from `state`, whose rate is `k1`; `rate` is called three times, last with [`Stage::End`].
-pub(crate) fn attempt(
-    state: &State<f64>,
-    k1: &State<f64>,
-    h: f64,
-    tolerance: &Tolerance,
-    rate: impl FnMut(Stage, &State<f64>, &mut State<f64>),
-) -> Trial {
-    let (end, [k2, k3, k4]) = stages(state, k1, h, rate);
-    // third-order weights 2/9, 1/3, 4/9, 0 less second-order weights 7/24, 1/4, 1/3, 1/8
-    let mut error = State::zero(state.shape());
-    for (weight, rate) in [(h * (-5.0 / 72.0), k1), (h / 12.0, &k2), (h / 9.0, &k3), (h / -8.0, &k4)] {
-        error.add(weight, rate);
+impl Errors<f64> {
+    /// The one that counts, up to 1 accepted; `jumps`: something has switched by the end.
+    pub(crate) fn counting(self, jumps: bool) -> f64 {
+        let Errors { whole, within } = self;
+        if jumps && whole.is_finite() && whole > 1.0 { whole.min(within) } else { whole }
     }
-    let error = norm(&error, state, &end, tolerance);
-    let mut error_within = error;
-    // not a number is no less than that
-    if error.is_nan() || error > 1.0 {
-        let mut within = State::zero(state.shape());
-        for (weight, rate) in [(h * (2.0 / 9.0), k1), (h * (-2.0 / 3.0), &k2), (h * (4.0 / 9.0), &k3)] {
-            within.add(weight, rate);
+}
+
+/// What a trial step writes on its way, used again by the next: a state of any tree is large to copy.
+#[derive(Clone, Debug)]
+pub(crate) struct Room<S> {
+    at: State<S>,
+    k: [State<S>; 2],
+    /// The state at the end of the trial.
+    // boxed, as it changes hands
+    pub end: Box<State<S>>,
+    /// The rate there: the first stage of the next step.
+    pub rate: Box<State<S>>,
+}
+
+impl<S: Scalar> Room<S> {
+    /// For states of this shape.
+    pub(crate) fn new(shape: Shape) -> Self {
+        let zero = State::zero(shape);
+        Room { at: zero, k: [zero; 2], end: Box::new(zero), rate: Box::new(zero) }
+    }
+
+    /// Tries a step `h` (s) from `state`, whose rate is `k1`; `rate` is called three times, last with [`Stage::End`].
+    #[inline(always)]
+    pub(crate) fn attempt(
+        &mut self,
+        state: &State<S>,
+        k1: &State<S>,
+        h: S,
+        tolerance: &Tolerance<S>,
+        mut rate: impl FnMut(Stage, &State<S>, &mut State<S>),
+    ) -> Errors<S> {
+        let Room { at, k: [k2, k3], end, rate: k4 } = self;
+        at.advance(state, S::of(0.5) * h, k1);
+        rate(Stage::Within(0.5), at, k2);
+        at.advance(state, S::of(0.75) * h, k2);
+        rate(Stage::Within(0.75), at, k3);
+        at.advance(k1, S::of(1.5), k2);
+        at.add(S::of(2.0), k3);
+        end.advance(state, h * S::of(2.0 / 9.0), at);
+        end.normalize();
+        rate(Stage::End, end, k4);
+        // third-order weights 2/9, 1/3, 4/9, 0 less second-order weights 7/24, 1/4, 1/3, 1/8
+        at.sum(&[(h * S::of(-5.0 / 72.0), k1), (h / S::of(12.0), k2), (h / S::of(9.0), k3), (h / S::of(-8.0), k4)]);
+        let whole = norm(at, state, end, tolerance);
+        let mut within = whole;
+        // not a number is no less than that
+        if S::any(!whole.lt(S::one())) {
+            at.sum(&[(h * S::of(2.0 / 9.0), k1), (h * S::of(-2.0 / 3.0), k2), (h * S::of(4.0 / 9.0), k3)]);
+            within = norm(at, state, end, tolerance);
         }
-        error_within = norm(&within, state, &end, tolerance);
+        Errors { whole, within }
     }
-    Trial { error, error_within, state: end, rate: k4 }
 }
 
 /// The state after a step `h` (s) and the rates of the three later stages, the last of them at its end.
@@ -108,44 +137,56 @@ pub fn within<S: Scalar>(from: [&State<S>; 2], to: [&State<S>; 2], h: S, s: S) -
 }
 
 /// Root mean square of the components of `error` in units of their tolerance.
-fn norm(error: &State<f64>, from: &State<f64>, to: &State<f64>, tolerance: &Tolerance) -> f64 {
-    let mut sum = Sum::default();
+#[inline(always)]
+fn norm<S: Scalar>(error: &State<S>, from: &State<S>, to: &State<S>, tolerance: &Tolerance<S>) -> S {
+    let mut sum = Sum { squares: S::zero(), count: 0.0 };
     let place = tolerance.absolute_m;
-    let speed = |a: V3<f64>, b: V3<f64>| {
-        let size = a.norm_squared().max(b.norm_squared()).sqrt();
-        tolerance.absolute_m_s + tolerance.relative * size
-    };
     for body in error.shape().bodies() {
         sum.add(error.t1_of(body), place);
-        sum.add(error.velocity_of(body), speed(from.velocity_of(body), to.velocity_of(body)));
+        sum.add(error.velocity_of(body), tolerance.of_speed(from.velocity_of(body), to.velocity_of(body)));
     }
     for i in error.turns() {
         // a small change dq of a unit quaternion turns by 2|dq|
         let q = error.orientation(i);
-        sum.add(q.v * 2.0, place);
-        sum.add(error.omega(i), speed(from.omega(i), to.omega(i)));
+        sum.add(q.v * S::of(2.0), place);
+        sum.add(error.omega(i), tolerance.of_speed(from.omega(i), to.omega(i)));
     }
-    let scalar = |x: f64| V3 { x, y: 0.0, z: 0.0 };
-    for (i, angle) in error.hinge().iter().enumerate() {
-        sum.add(scalar(*angle), place);
-        let [rate, from, to] = [error, from, to].map(|state| scalar(state.hinge_rate()[i]));
-        sum.add(rate, speed(from, to));
+    for i in 0..error.hinge().len() {
+        sum.add(along(error.hinge()[i]), place);
+        let speed = tolerance.of_speed(along(from.hinge_rate()[i]), along(to.hinge_rate()[i]));
+        sum.add(along(error.hinge_rate()[i]), speed);
     }
-    for (error, (from, to)) in error.own().iter().zip(from.own().iter().zip(to.own())) {
+    for i in 0..error.own().len() {
         // of the order of 1
-        sum.add(scalar(*error), place + tolerance.relative * from.abs().max(to.abs()));
+        let size = from.own()[i].abs().max(to.own()[i].abs());
+        sum.add(along(error.own()[i]), place + tolerance.relative * size);
     }
-    (sum.squares / sum.count).sqrt()
+    (sum.squares / S::of(sum.count)).sqrt()
 }
 
-#[derive(Default)]
-struct Sum {
-    squares: f64,
+/// A vector with one component.
+#[inline(always)]
+fn along<S: Scalar>(x: S) -> V3<S> {
+    V3 { x, ..V3::zero() }
+}
+
+impl<S: Scalar> Tolerance<S> {
+    /// On the greater of two speeds.
+    #[inline(always)]
+    fn of_speed(&self, a: V3<S>, b: V3<S>) -> S {
+        let size = a.norm_squared().max(b.norm_squared()).sqrt();
+        self.absolute_m_s + self.relative * size
+    }
+}
+
+struct Sum<S> {
+    squares: S,
     count: f64,
 }
 
-impl Sum {
-    fn add(&mut self, error: V3<f64>, tolerance: f64) {
+impl<S: Scalar> Sum<S> {
+    #[inline(always)]
+    fn add(&mut self, error: V3<S>, tolerance: S) {
         self.squares += error.norm_squared() / (tolerance * tolerance);
         self.count += 1.0;
     }
@@ -156,7 +197,7 @@ mod tests {
     use super::*;
     use crate::body::tti12::TTI12;
     use crate::motion::layout::Layout;
-    use crate::motion::state::{Quat, Shape};
+    use crate::motion::state::Quat;
     use crate::motion::vector::v3;
 
     /// T1 swings about the origin with 1 rad/s; all else stands still.
@@ -180,9 +221,10 @@ mod tests {
     fn errors(h: f64) -> [f64; 3] {
         let tolerance = Tolerance { relative: 0.0, absolute_m: 1.0, absolute_m_s: 1.0 };
         let (start, k1) = (start(), swing(&start()));
-        let trial = attempt(&start, &k1, h, &tolerance, |_, state, rate| *rate = swing(state));
-        let middle = within([&start, &k1], [&trial.state, &trial.rate], h, 0.5);
-        [(middle.t1().x - (0.5 * h).cos()).abs(), (trial.state.t1().x - h.cos()).abs(), trial.error]
+        let mut room = Room::new(start.shape());
+        let errors = room.attempt(&start, &k1, h, &tolerance, |_, state, rate| *rate = swing(state));
+        let middle = within([&start, &k1], [&room.end, &room.rate], h, 0.5);
+        [(middle.t1().x - (0.5 * h).cos()).abs(), (room.end.t1().x - h.cos()).abs(), errors.whole]
     }
 
     #[test]

@@ -6,7 +6,7 @@
 use nalgebra::Vector3;
 use occupant_units::unit::Unit::{Metre, MetrePerSecond, MetrePerSecondSquared};
 
-use crate::forces::sphere::Site;
+use crate::forces::sphere::{Site, Use};
 use crate::model::Model;
 use crate::model::setup::MarkerFrame;
 use crate::motion::kinematics::Kinematics;
@@ -67,7 +67,8 @@ const SEGMENT: [&str; 4] = [
 
 /// The place of a point at the start of the run, as a frame has it.
 pub(super) fn start_m(model: &Model, site: &Site<f64>, frame: MarkerFrame) -> Vector3<f64> {
-    let place = site.place(&Kinematics::new(&model.system().skeleton, &model.start().state)).1.to_vector();
+    let place =
+        site.place(&Kinematics::new(&model.system().skeleton, &model.start().state), Use::Contact).1.to_vector();
     if frame == MarkerFrame::Space {
         return place;
     }
@@ -80,7 +81,7 @@ pub(super) fn start_m(model: &Model, site: &Site<f64>, frame: MarkerFrame) -> Ve
 /// The motion of a point, that was at `start_m`, as a frame has it.
 pub(super) fn motion(s: &Sample<'_>, site: &Site<f64>, frame: MarkerFrame, start_m: &Vector3<f64>) -> Motion {
     let (k, by, n) = (&s.evaluation.kinematics, &s.evaluation.accelerations, site.segment);
-    let (arm, place, velocity) = site.place(k);
+    let (arm, place, velocity) = site.place(k, Use::Contact);
     let acceleration = by.joint[n] + by.alpha[n].cross(arm) + k.omega[n].cross(k.omega[n].cross(arm));
     let [place, velocity, acceleration] = [place, velocity, acceleration].map(|v| v.to_vector());
     let home = s.seen_from(n);

@@ -4,12 +4,14 @@
 //! Summaries, plots, exports, prints and studies take names, units, axes and values from here. It writes nothing.
 
 mod body;
+mod chest;
 mod drive;
 mod energy;
 mod joint;
 mod marker;
 mod sphere;
 mod surface;
+mod turn;
 mod vehicle;
 
 use std::borrow::Cow;
@@ -155,6 +157,7 @@ impl Catalogue {
             let topic = topic_of("segment", name);
             let place = Place { message: "SegmentState", topic, name, words: &name.replace('_', " ") };
             all.add(&place, body::SEGMENT, move |s| (s, segment));
+            all.add(&place, turn::SEGMENT, move |s| (s, segment));
         }
         for (of, row) in tree.bodies().into_iter().enumerate() {
             let instruments: Vec<_> = body::of_dummy(&row.landmarks).collect();
@@ -181,6 +184,7 @@ impl Catalogue {
         all.surfaces(model);
         visit_kinds(&mut Elements { model, all: &mut all });
         all.own_forces(model);
+        model.body().chests.iter().for_each(|chest| all.chest(chest));
         for joint in tree.joints() {
             let name = tree[joint].name;
             let (channel, words) = (format!("joint.{name}"), name.replace('_', " "));
@@ -193,6 +197,7 @@ impl Catalogue {
             let topic = topic_of("joint", name);
             let place = Place { message: "JointLoad", topic, name: &channel, words: &words };
             all.add(&place, joint::LOAD, move |s| (s, joint));
+            all.add(&place, turn::JOINT, move |s| (s, joint));
         }
         all.markers(model);
         all.energies(model);

@@ -5,7 +5,7 @@ use crash_measures::measure::Dummy;
 use serde::Serialize;
 
 use super::{Ejection, Exit, Peak, RunStatus, Summary, Throw, word};
-use crate::body::{Body, Joint, Limb, Segment};
+use crate::body::{Body, Chest, Joint, Limb, Segment};
 use crate::forces::rate::Rate;
 use crate::model::settle::Settled;
 use crate::results::energy::{Balance, EnergyCheck};
@@ -235,6 +235,41 @@ impl Caveat {
         let seen = format!("limiter of {belt} bottomed at {way} {}, its curve ends at {last}", at(beyond));
         let text = format!("{seen}; {}", not_to_be_quoted("the belt's"));
         Caveat::new(format!("{belt}_limiter_bottomed"), text, vec![format!("straps.{belt}.*")])
+    }
+
+    /// A chest that was pressed in farther than any test did.
+    pub(super) fn pressed(plate: &str, most: Peak, depth_m: f64) -> Self {
+        let (way, share) = (mm(most.value), 100.0 * most.value / depth_m);
+        let text = format!(
+            "{plate} is pressed in by {way}, {share:.0} % of the chest's depth, {}: no data reach there; {}",
+            at(most),
+            not_to_be_quoted("its")
+        );
+        Caveat::new(format!("{plate}_too_deep"), text, vec![format!("plates.{plate}.*")])
+    }
+
+    /// A chest that gives way.
+    pub(super) fn of_chest(chest: &Chest) -> Self {
+        let of = match chest.preset.as_str() {
+            "own" => return Caveat::own_chest(chest),
+            "person" => "of a person, fitted to hub tests of dead men at 4.3 and 6.7 m/s",
+            _ => "of a dummy, fitted to one hub test",
+        };
+        let text = format!(
+            "chest {of}; under belts and bags one constant share of their force bears on the breastbone, a deflection goes with it (0.2 to 0.5 is its range); nothing is known from the side, from behind, of broken ribs"
+        );
+        Caveat::new("chest_of_one_share", text, vec!["plates.*".to_owned()]).of_occupant_text(&chest.of)
+    }
+
+    fn own_chest(chest: &Chest) -> Self {
+        let text = "chest of the scenario's own numbers; under belts and bags one constant share of their force bears on the breastbone";
+        Caveat::new("chest_of_one_share", text.to_owned(), vec!["plates.*".to_owned()]).of_occupant_text(&chest.of)
+    }
+
+    /// The same of one of several occupants, whose figures stand among those of all.
+    fn of_occupant_text(self, name: &str) -> Self {
+        let figures = if name.is_empty() { self.figures.clone() } else { vec![format!("plates.{}*", word(name))] };
+        Caveat { figures, ..self }.with_subject(name)
     }
 
     /// A column that stroked farther than its force is known.

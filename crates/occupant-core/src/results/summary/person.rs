@@ -3,9 +3,9 @@
 use super::{Acceleration, Accelerations, Excursion, Level, Peak, Person};
 use crate::model::Model;
 use crate::model::setup::STANDARD_GRAVITY_M_S2;
-use crate::results::fine::Fine;
+use crate::results::fine::{Fine, SIGNALS};
 use crate::results::peaks::{EXCURSIONS, FELT, Peaks};
-use crash_measures::injury::{self, Options, Readings, Signals};
+use crash_measures::injury::{self, ChestPoint, Options, Readings, Signals, Special};
 use crash_measures::measure::{Peak as Extreme, ThreeMs};
 
 /// What is seen of the instruments of a body.
@@ -36,7 +36,7 @@ impl Watched {
                 mass_kg: own().map(|segment| body.segment(segment).mass_kg).sum(),
                 has_head: body.sphere(&head).is_some(),
                 has: row.landmarks.instruments().map(|segment| segment.is_some() && segment != told),
-                signals: begun(model, fine),
+                signals: begun(model, fine, row.name),
             }
         };
         fine.bodies.iter().map(watched).collect()
@@ -51,6 +51,9 @@ impl Watched {
             for ((n, values), number) in self.signals.all_mut().enumerate().zip(sample) {
                 let is_read = self.has.get(n / 3).is_none_or(|has| *has);
                 values.push(if is_read { *number } else { f64::NAN });
+            }
+            for (values, number) in self.signals.special.values_mut().zip(&sample[SIGNALS..]) {
+                values.push(*number);
             }
         }
     }
@@ -106,10 +109,17 @@ impl Watched {
 const MOST_ROOM: usize = 1_000_000;
 
 /// Signals with room for a whole run.
-fn begun(model: &Model, fine: &Fine) -> Signals {
+fn begun(model: &Model, fine: &Fine, name: &str) -> Signals {
     let mut signals = Signals { interval_s: fine.interval_s, ..Signals::new() };
     let room = Fine::most(model).max(model.output_count()).min(MOST_ROOM);
     signals.all_mut().for_each(|values| values.reserve(room));
+    if let Some(chest) = model.body().chests.iter().find(|chest| chest.of == name) {
+        let points = if chest.points.is_empty() { &[][..] } else { &ChestPoint::ALL[..] };
+        let all = [Special::ChestDeflection].into_iter().chain(points.iter().map(|point| Special::ChestPoint(*point)));
+        signals.special.extend(all.map(|which| (which, Vec::with_capacity(room))));
+        let is_dummy = chest.preset.starts_with("dummy");
+        signals.person = (!is_dummy).then_some(injury::Person { chest_depth_m: chest.depth_m, age_years: None });
+    }
     signals
 }
 

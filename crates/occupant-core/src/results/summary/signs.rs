@@ -180,6 +180,7 @@ impl Signs {
             signs.joints[*joint].see_limit(own[0].value, *most_rad, own[0].time_s);
         }
         signs.strokes.see_steps(elements.of("columns", peaks));
+        signs.strokes.see_plates(elements.of("plates", peaks));
         signs
     }
 

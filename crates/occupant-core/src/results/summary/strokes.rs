@@ -1,23 +1,32 @@
-//! Columns that were pushed beyond the last points of their forces.
+//! Columns that were pushed beyond the last points of their forces, and chests deeper than anything that is known.
 
 use super::caveat::Caveat;
 use super::peak::Peak;
+use crate::body::Plate;
+use crate::forces::plate::DEEP;
 use crate::model::Model;
 use crate::results::sample::Sample;
 
-/// By column: its name, the last point of its force, m, and the greatest stroke beyond it, m.
+/// By column: its name, the last point of its force, m, and the greatest stroke beyond it, m. By plate: its name, the depth behind it
+/// and the greatest deflection, m.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Strokes(Vec<(String, f64, Peak)>);
+pub(super) struct Strokes(Vec<(String, f64, Peak)>, Vec<(String, f64, Peak)>);
 
 impl Strokes {
     pub(super) fn new(model: &Model) -> Self {
         let columns = model.setup().columns.iter();
-        Strokes(columns.map(|column| (column.name.clone(), column.force.end(), Peak::NONE)).collect())
+        let plates = model.body().plates.iter();
+        let plate = |plate: &Plate| (plate.name.clone(), plate.depth_m.unwrap_or(f64::INFINITY), Peak::NONE);
+        let columns = columns.map(|column| (column.name.clone(), column.force.end(), Peak::NONE));
+        Strokes(columns.collect(), plates.map(plate).collect())
     }
 
     pub(super) fn see(&mut self, sample: &Sample<'_>) {
         for ((_, last_m, beyond), action) in self.0.iter_mut().zip(&sample.actions.columns) {
             beyond.see(action.stroke - *last_m, sample.time_s);
+        }
+        for ((.., most), action) in self.1.iter_mut().zip(&sample.actions.plates) {
+            most.see(action.deflection, sample.time_s);
         }
     }
 
@@ -28,9 +37,18 @@ impl Strokes {
         }
     }
 
-    /// What to know of columns.
+    /// The same of plates.
+    pub(super) fn see_plates<'p>(&mut self, peaks: impl Iterator<Item = &'p [Peak]>) {
+        for ((.., most), own) in self.1.iter_mut().zip(peaks) {
+            most.see(own[0].value, own[0].time_s);
+        }
+    }
+
+    /// What to know of columns and chests.
     pub(super) fn caveats(&self) -> impl Iterator<Item = Caveat> {
         let beyond = self.0.iter().filter(|(.., beyond)| beyond.value > 0.0);
-        beyond.map(|(name, last_m, beyond)| Caveat::stroked(name, *beyond, *last_m))
+        let deep = self.1.iter().filter(|(_, depth_m, most)| most.value > DEEP * depth_m);
+        let deep = deep.map(|(name, depth_m, most)| Caveat::pressed(name, *most, *depth_m));
+        beyond.map(|(name, last_m, beyond)| Caveat::stroked(name, *beyond, *last_m)).chain(deep)
     }
 }

@@ -225,6 +225,7 @@ impl Summarizer {
     ) -> Vec<Caveat> {
         let mut caveats = signs.caveats(&case.body, &case.surfaces, &case.chains, &case.bags);
         caveats.extend(case.is_half_a_neck.then(Caveat::half_a_neck));
+        caveats.extend(case.body.chests.iter().map(Caveat::of_chest));
         for (one, (name, person, signals)) in self.people.iter().zip(people) {
             let measures = &person.measures;
             let off = injury::coarseness(signals, &self.options, measures);

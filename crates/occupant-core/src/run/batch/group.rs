@@ -5,27 +5,24 @@
 
 use std::ops::ControlFlow;
 
-use super::machine::{Around, Bench, Machine, Rear, Start};
-use super::place::{Next, Place, Witness};
+use super::bench::{Bench, Rear, Start, move_frames, new_bench};
+use super::machine::Machine;
+use super::place::{Next, Place, Sees, Witness};
 use super::{Jobs, Kernel, MOST_PLACES, run_alone};
-use crate::forces::History;
-use crate::kernel::Scratch;
 use crate::model::Model;
-use crate::model::setup::Integrator;
-use crate::motion::frame::{Frames, VEHICLE};
-use crate::motion::integrate::rk4::Stages;
-use crate::motion::lanes::Lanes;
 use crate::motion::state::State;
 use crate::results::outcome::{RecordingFailed, Status};
+use crate::run::adaptive::Control;
+use crate::run::ahead::Ahead;
 use crate::run::{Course, Step, broken};
 
 /// Runs side by side in lanes of `L`.
 pub(super) struct Group<L: Machine> {
     kernel: Kernel,
     /// None before the first run.
-    bench: Option<Box<Bench<L>>>,
+    pub(super) bench: Option<Box<Bench<L>>>,
     /// Boxed, as they change hands at every step.
-    places: Vec<Option<Box<Place>>>,
+    pub(super) places: Vec<Option<Box<Place>>>,
 }
 
 impl<L: Machine> Group<L> {
@@ -50,6 +47,7 @@ impl<L: Machine> Group<L> {
                 0 => return ControlFlow::Continue(()),
                 // a step of all lanes takes longer than one of a run alone
                 1 => self.finish_the_last(jobs)?,
+                _ if self.is_controlled() => self.try_steps(jobs)?,
                 _ => self.step(jobs)?,
             }
         }
@@ -57,14 +55,19 @@ impl<L: Machine> Group<L> {
 
     /// Gives the run of `model` place `i`, or runs it alone if it has no place among these.
     fn seat(&mut self, i: usize, model: Model, jobs: &mut dyn Jobs) -> ControlFlow<()> {
-        match model.setup().integrator {
-            Integrator::Rk4 { step_s } if !model.setup().path.is_live() && self.make_room(i, &model) => {
-                let mut place = Box::new(Place::new(model, step_s));
-                let next = place.begin(jobs.recorder(i));
-                self.go_on_or_end(i, place, next, jobs)
-            }
-            _ => run_alone(i, model, jobs),
+        let is_controlled = Control::of(&model.setup().integrator).is_some();
+        let is_alike = self.places.iter().flatten().all(|place| place.control.is_some() == is_controlled);
+        if model.setup().path.is_live() || !is_alike || !self.make_room(i, &model) {
+            return run_alone(i, model, jobs);
         }
+        let mut place = Box::new(Place::new(model));
+        let next = place.begin(jobs.recorder(i));
+        if is_controlled { self.begin_steps(i, place, next, jobs) } else { self.go_on_or_end(i, place, next, jobs) }
+    }
+
+    /// Whether the runs here are under error control.
+    fn is_controlled(&self) -> bool {
+        self.places.iter().flatten().all(|place| place.control.is_some())
     }
 
     /// Puts the constants of `model` into lane `i`; false if its structure is another than that of the runs here.
@@ -75,19 +78,22 @@ impl<L: Machine> Group<L> {
         match (&mut self.bench, joined) {
             (Some(bench), Some(Ok(joined))) => {
                 bench.around.system = joined;
-                bench.around.history.look_again();
+                bench.history.look_again();
             }
             (bench, _) if alone => {
                 *bench = new_bench(model);
             }
             _ => return false,
         }
-        if let Some(bench) = &mut self.bench
-            && bench.rear.is_none()
-            && model.system().forces.can_switch()
-        {
-            let start = Box::new(Start { state: bench.state, memory: bench.around.history.memory.clone() });
-            bench.rear = Some(Rear { latest: start.clone(), ahead: start });
+        match &mut self.bench {
+            Some(bench) if Control::of(&model.setup().integrator).is_some() => {
+                bench.ahead.get_or_insert_with(|| Box::new(Ahead::new(&bench.state, &bench.history)));
+            }
+            Some(bench) if bench.rear.is_none() && model.system().forces.can_switch() => {
+                let start = Box::new(Start { state: bench.state, memory: bench.history.memory.clone() });
+                bench.rear = Some(Rear { latest: start.clone(), ahead: start });
+            }
+            _ => {}
         }
         self.bench.is_some()
     }
@@ -110,7 +116,7 @@ impl<L: Machine> Group<L> {
             move_frames(i, place, &mut bench.around.frames[0], [start_s, middle_s]);
         }
         bench.keep_start();
-        let bears = L::begin(bench, h, &mut Witness(&mut self.places));
+        let bears = L::begin(bench, h, &mut Witness::of(&mut self.places, Sees::Start));
         let switched = bench.has_switched();
         for (i, place) in self.places.iter_mut().enumerate() {
             let Some(place) = place.as_mut().filter(|_| h.lane(i) > 0.0) else { continue };
@@ -121,7 +127,7 @@ impl<L: Machine> Group<L> {
             move_frames(i, place, middle, [middle_s, middle_s]);
             move_frames(i, place, end, [end_s, middle_s]);
         }
-        let finite = L::go(bench, h, &mut Witness(&mut self.places));
+        let finite = L::go(bench, h, &mut Witness::of(&mut self.places, Sees::Start));
         let gone_back = self.go_back(switched, jobs)?;
         if let Some(bench) = &mut self.bench {
             bench.shift();
@@ -141,7 +147,7 @@ impl<L: Machine> Group<L> {
     fn note_switches(&mut self, i: usize, place: &mut Place) {
         let Some((bench, rear)) = self.bench.as_mut().zip(place.run.rear.as_deref_mut()) else { return };
         let Some(lanes) = &mut bench.rear else { return };
-        rear.fetch([&mut lanes.latest.memory, &mut bench.around.history.memory], |lanes| lanes.lane(i));
+        rear.fetch([&mut lanes.latest.memory, &mut bench.history.memory], |lanes| lanes.lane(i));
         let [before, now] = rear.fetched();
         place.run.switches.note(&place.model.system().forces, place.step.start_s, before, now);
     }
@@ -189,7 +195,7 @@ impl<L: Machine> Group<L> {
     /// Accepts the step of the run of place `i`, if it led to numbers, and records an output that it reached.
     fn settle(&mut self, i: usize, mut place: Box<Place>, finite: bool, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         if let Some(bench) = &self.bench {
-            let past = &bench.around.history.memory.contacts;
+            let past = &bench.history.memory.contacts;
             place.take_step(|pair| past[pair].phase.lane(i));
         }
         if finite && !place.is_at_output() {
@@ -220,7 +226,7 @@ impl<L: Machine> Group<L> {
         // the output touched the history; and a lane that failed gets numbers again
         if let Some(bench) = &mut self.bench {
             let put = &mut |lanes: &mut L, x: &mut f64| lanes.set_lane(i, *x);
-            bench.around.history.memory.each(&mut place.run.history.memory, put);
+            bench.history.memory.each(&mut place.run.history.memory, put);
             bench.state = bench.state.zip(&place.run.state, |lanes, x| lanes.with_lane(i, x));
         }
         match next {
@@ -232,7 +238,7 @@ impl<L: Machine> Group<L> {
         }
     }
 
-    fn hand_out(
+    pub(super) fn hand_out(
         &self,
         i: usize,
         place: Place,
@@ -253,7 +259,7 @@ impl<L: Machine> Group<L> {
     fn fetch_history(&mut self, i: usize, run: &mut Course) {
         if let Some(bench) = &mut self.bench {
             let fetch = &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i);
-            bench.around.history.memory.each(&mut run.history.memory, fetch);
+            bench.history.memory.each(&mut run.history.memory, fetch);
         }
         run.history.look_again();
     }
@@ -262,8 +268,12 @@ impl<L: Machine> Group<L> {
     fn finish_the_last(&mut self, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         for i in 0..L::COUNT {
             let Some(mut place) = self.places[i].take() else { continue };
-            place.run.state = self.lane_state(i, &place.run);
-            self.fetch_history(i, &mut place.run);
+            if place.control.is_some() {
+                self.fetch_ahead(i, &mut place);
+            } else {
+                place.run.state = self.lane_state(i, &place.run);
+                self.fetch_history(i, &mut place.run);
+            }
             if let Some(latest) = place.latest {
                 self.fetch_rear(i, &mut place.run, latest);
             }
@@ -272,31 +282,4 @@ impl<L: Machine> Group<L> {
         }
         ControlFlow::Continue(())
     }
-}
-
-/// Moves the frames of lane `i` to a time of its step, whose middle is told too.
-fn move_frames<L: Lanes>(i: usize, place: &mut Place, lanes: &mut Frames<L>, [t_s, middle_s]: [f64; 2]) {
-    // space stands still
-    let Place { frames, model, run, .. } = place;
-    model.move_frames(frames, t_s, middle_s, &mut run.cursor);
-    lanes.time.set_lane(i, t_s);
-    for frame in VEHICLE..=VEHICLE + model.setup().frames.len() {
-        lanes[frame].each(&frames[frame], &mut |lanes: &mut L, x: f64| lanes.set_lane(i, x));
-    }
-}
-
-/// A bench on which every lane is that of `model`.
-fn new_bench<L: Machine>(model: &Model) -> Option<Box<Bench<L>>> {
-    let system = model.system();
-    let system = system.zip(system, |x, _| L::of(x)).ok()?;
-    let history = History::new(&system.forces, model.start().history.memory.map(&mut L::of));
-    let mut cursor = Default::default();
-    let start_s = model.setup().time.start_s;
-    let frames = model.frames(start_s, start_s, &mut cursor);
-    let frames = frames.zip(&frames, &|x, _| L::of(x));
-    let start = &model.start().state;
-    let (scratch, stages) = (Scratch::blank(&system), Stages::new(start.shape()));
-    let around = Around { system, history, frames: [frames; 3], scratch };
-    let state = start.zip(start, |x, _| L::of(x));
-    Some(Box::new(Bench { state, rear: None, stages, around }))
 }

@@ -4,71 +4,15 @@
 //! `Avx512` may only be made where [`has_avx2`](crate::motion::lanes::has_avx2) and
 //! [`has_avx512`](crate::motion::lanes::has_avx512) say so.
 
+use super::bench::{Around, Bench};
 use super::place::Witness;
-use crate::forces::{Follow, History, Memory};
-use crate::kernel::{Scratch, Situation, System};
-use crate::motion::frame::Frames;
-use crate::motion::integrate::rk4::{Stage, Stages};
+use crate::forces::{Follow, History};
+use crate::kernel::Situation;
+use crate::motion::integrate::bogacki_shampine::{Errors, Stage as Trial};
+use crate::motion::integrate::rk4::Stage;
 use crate::motion::lanes::Lanes;
 use crate::motion::state::State;
-
-/// Everything that acts on the runs side by side, and what it remembers.
-#[derive(Clone, Debug)]
-pub(crate) struct Bench<L: Lanes> {
-    pub state: State<L>,
-    /// Where the latest step began, if anything can switch in any of the runs.
-    pub rear: Option<Rear<L>>,
-    pub stages: Stages<L>,
-    pub around: Around<L>,
-}
-
-/// What a rate is computed from beside the state.
-#[derive(Clone, Debug)]
-pub(crate) struct Around<L: Lanes> {
-    pub system: System<L>,
-    pub history: History<L>,
-    /// At the step's start, middle and end.
-    pub frames: [Frames<L>; 3],
-    pub scratch: Scratch<L>,
-}
-
-/// Where the latest step of all runs began, and where that under way does.
-#[derive(Clone, Debug)]
-pub(crate) struct Rear<L: Lanes> {
-    // boxed, as they change hands at every step
-    pub latest: Box<Start<L>>,
-    pub ahead: Box<Start<L>>,
-}
-
-/// The start of a step: states, and what was remembered before the commit there.
-#[derive(Clone, Debug)]
-pub(crate) struct Start<L: Lanes> {
-    pub state: State<L>,
-    pub memory: Memory<L>,
-}
-
-impl<L: Lanes> Bench<L> {
-    /// Keeps where the step ahead begins.
-    pub fn keep_start(&mut self) {
-        if let Some(rear) = &mut self.rear {
-            rear.ahead.state = self.state;
-            rear.ahead.memory.take_over(&self.around.history.memory);
-        }
-    }
-
-    /// In which lanes the commit of the step just taken has shown that something switched within the latest.
-    pub fn has_switched(&self) -> L {
-        let mask = self.rear.as_ref().map(|rear| rear.ahead.memory.has_switched(&self.around.history.memory));
-        mask.map_or(L::zero(), |mask| L::select(mask, L::one(), L::zero()))
-    }
-
-    /// The step just taken becomes the latest.
-    pub fn shift(&mut self) {
-        if let Some(rear) = &mut self.rear {
-            std::mem::swap(&mut rear.latest, &mut rear.ahead);
-        }
-    }
-}
+use crate::run::ahead::Ahead;
 
 /// Lanes that some processors can compute with.
 pub(crate) trait Machine: Lanes {
@@ -78,38 +22,118 @@ pub(crate) trait Machine: Lanes {
 
     /// Takes the rest of the steps; a 1 for every lane in which the state is one of finite numbers then.
     fn go(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> Self;
+
+    /// Under error control: works out the rates where steps begin, in the lanes that have a 1, and returns the lengths that what
+    /// is near bears of steps of these lengths. `witness` sees the evaluation.
+    fn look(bench: &mut Bench<Self>, looks: Self, h: Self, witness: &mut Witness<'_>) -> Self;
+
+    /// Tries steps under error control; a 1 for every lane in which something has switched by their ends, where `witness` sees
+    /// the evaluation.
+    fn attempt(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> (Errors<Self>, Self);
+
+    /// After a shift: leaves out what was left out before in the lanes that have a 1.
+    fn keep_hints(bench: &mut Bench<Self>, kept: Self);
+}
+
+/// An evaluation of all lanes.
+#[derive(Clone, Copy)]
+pub(super) struct Call {
+    /// Which frames.
+    frames: usize,
+    /// Whether the history takes over the place; the witness then sees it.
+    accepted: bool,
+}
+
+impl From<Stage> for Call {
+    #[inline(always)]
+    fn from(stage: Stage) -> Self {
+        Call { frames: stage as usize, accepted: stage == Stage::Start }
+    }
 }
 
 impl<L: Lanes> Around<L> {
-    /// The rate at a stage of a step, in the instructions of the caller; `witness` sees that of the start.
+    /// The rate of `state`, in the instructions of the caller.
     #[inline(always)]
-    fn rate(&mut self, stage: Stage, state: &State<L>, witness: &mut Witness<'_>, rate: &mut State<L>) {
-        let accepted = stage == Stage::Start;
-        let situation = Situation { state, frames: &self.frames[stage as usize], accepted };
+    fn rate(
+        &mut self,
+        call: Call,
+        state: &State<L>,
+        history: &mut History<L>,
+        witness: &mut Witness<'_>,
+        rate: &mut State<L>,
+    ) {
+        let Call { frames, accepted } = call;
+        let situation = Situation { state, frames: &self.frames[frames], accepted };
         let mut witness = accepted.then(|| Follow(witness.anew()));
         let observer = &mut witness.as_mut();
-        self.system.rate_with(&mut self.scratch, situation, &mut self.history, observer, rate);
+        self.system.rate_with(&mut self.scratch, situation, history, observer, rate);
         if let Some(Follow(witness)) = witness {
-            self.system.read(&self.scratch, &self.frames[0], &mut |of, reading| witness.feel(of, reading));
+            self.system.read(&self.scratch, &self.frames[frames], &mut |of, reading| witness.feel(of, reading));
         }
     }
+}
+
+/// [`Around::rate`], compiled for the instructions of the lanes.
+trait Rate<L: Lanes>: Fn(&mut Around<L>, Call, &State<L>, &mut History<L>, &mut Witness<'_>, &mut State<L>) {}
+
+impl<L: Lanes, F> Rate<L> for F where
+    F: Fn(&mut Around<L>, Call, &State<L>, &mut History<L>, &mut Witness<'_>, &mut State<L>)
+{
 }
 
 impl<L: Lanes> Bench<L> {
     /// The first evaluation of a step, in the instructions of the caller; `rate` is [`Around::rate`] compiled for them.
     #[inline(always)]
-    fn begin(&mut self, h: L, mut rate: impl FnMut(&mut Around<L>, Stage, &State<L>, &mut State<L>)) -> L {
-        let Bench { state, stages, around, .. } = self;
-        stages.begin(state, |stage, state, k| rate(around, stage, state, k));
-        around.history.step(h)
+    fn begin(&mut self, h: L, witness: &mut Witness<'_>, rate: impl Rate<L>) -> L {
+        let Bench { state, stages, history, around, .. } = self;
+        stages.begin(state, |stage, state, k| rate(around, stage.into(), state, history, witness, k));
+        history.step(h)
     }
 
     /// The rest of it.
     #[inline(always)]
-    fn go(&mut self, h: L, mut rate: impl FnMut(&mut Around<L>, Stage, &State<L>, &mut State<L>)) -> L {
-        let Bench { state, stages, around, .. } = self;
-        *state = *stages.go(state, h, |stage, state, k| rate(around, stage, state, k));
+    fn go(&mut self, h: L, witness: &mut Witness<'_>, rate: impl Rate<L>) -> L {
+        let Bench { state, stages, history, around, .. } = self;
+        *state = *stages.go(state, h, |stage, state, k| rate(around, stage.into(), state, history, witness, k));
         L::select(self.state.finite(), L::one(), L::zero())
+    }
+
+    /// [`Machine::look`].
+    #[inline(always)]
+    fn look(&mut self, looks: L, h: L, witness: &mut Witness<'_>, rate: impl Rate<L>) -> L {
+        let Bench { around, ahead: Some(ahead), .. } = self else { return h };
+        let mask = looks.gt(L::zero());
+        if L::any(mask) {
+            let Ahead { to, after, trial, room, .. } = &mut **ahead;
+            trial.take_over(after);
+            rate(around, Call { frames: 0, accepted: true }, to, trial, witness, &mut room.rate);
+            after.blend_hints(trial, mask);
+        }
+        ahead.after.step(h)
+    }
+
+    /// [`Machine::attempt`].
+    #[inline(always)]
+    fn attempt(&mut self, h: L, witness: &mut Witness<'_>, rate: impl Rate<L>) -> (Errors<L>, L) {
+        let Bench { around, ahead: Some(ahead), tolerance, .. } = self else {
+            return (Errors { whole: h, within: h }, h);
+        };
+        let Ahead { to, rates, after, trial, room, .. } = &mut **ahead;
+        trial.take_over(after);
+        let mut frames = 0..;
+        let errors = room.attempt(to, &rates[1], h, tolerance, |stage, state, k| {
+            let call = Call { frames: frames.next().unwrap_or(0), accepted: stage == Trial::End };
+            rate(around, call, state, trial, witness, k);
+        });
+        (errors, L::select(after.memory.has_switched(&trial.memory), L::one(), L::zero()))
+    }
+
+    /// [`Machine::keep_hints`].
+    #[inline(always)]
+    fn keep_hints(&mut self, kept: L) {
+        if let Some(ahead) = &mut self.ahead {
+            ahead.after.blend_hints(&ahead.before, kept.gt(L::zero()));
+        }
     }
 }
 
@@ -132,28 +156,59 @@ macro_rules! machine {
                     // SAFETY: `h` exists, so the processor has the instructions
                     unsafe { go(bench, h, witness) }
                 }
+
+                fn look(bench: &mut Bench<Self>, looks: Self, h: Self, witness: &mut Witness<'_>) -> Self {
+                    // SAFETY: `h` exists, so the processor has the instructions
+                    unsafe { look(bench, looks, h, witness) }
+                }
+
+                fn attempt(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> (Errors<Self>, Self) {
+                    // SAFETY: `h` exists, so the processor has the instructions
+                    unsafe { attempt(bench, h, witness) }
+                }
+
+                fn keep_hints(bench: &mut Bench<Self>, kept: Self) {
+                    // SAFETY: `kept` exists, so the processor has the instructions
+                    unsafe { keep_hints(bench, kept) }
+                }
             }
 
             #[target_feature(enable = $features)]
             fn begin(bench: &mut Bench<$lanes>, h: $lanes, witness: &mut Witness<'_>) -> $lanes {
-                bench.begin(h, |around, stage, state, k| rate(around, stage, state, witness, k))
+                bench.begin(h, witness, |a, c, s, m, w, k| rate(a, c, s, m, w, k))
             }
 
             #[target_feature(enable = $features)]
             fn go(bench: &mut Bench<$lanes>, h: $lanes, witness: &mut Witness<'_>) -> $lanes {
-                bench.go(h, |around, stage, state, k| rate(around, stage, state, witness, k))
+                bench.go(h, witness, |a, c, s, m, w, k| rate(a, c, s, m, w, k))
+            }
+
+            #[target_feature(enable = $features)]
+            fn look(bench: &mut Bench<$lanes>, looks: $lanes, h: $lanes, witness: &mut Witness<'_>) -> $lanes {
+                bench.look(looks, h, witness, |a, c, s, m, w, k| rate(a, c, s, m, w, k))
+            }
+
+            #[target_feature(enable = $features)]
+            fn attempt(bench: &mut Bench<$lanes>, h: $lanes, witness: &mut Witness<'_>) -> (Errors<$lanes>, $lanes) {
+                bench.attempt(h, witness, |a, c, s, m, w, k| rate(a, c, s, m, w, k))
+            }
+
+            #[target_feature(enable = $features)]
+            fn keep_hints(bench: &mut Bench<$lanes>, kept: $lanes) {
+                bench.keep_hints(kept);
             }
 
             #[inline(never)]
             #[target_feature(enable = $features)]
             fn rate(
                 around: &mut Around<$lanes>,
-                stage: Stage,
+                call: Call,
                 state: &State<$lanes>,
+                history: &mut History<$lanes>,
                 witness: &mut Witness<'_>,
                 k: &mut State<$lanes>,
             ) {
-                around.rate(stage, state, witness, k);
+                around.rate(call, state, history, witness, k);
             }
         }
     };
@@ -170,11 +225,23 @@ mod tests {
 
     impl<const N: usize> Machine for crate::motion::lanes::Plain<N> {
         fn begin(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> Self {
-            bench.begin(h, |around, stage, state, k| around.rate(stage, state, witness, k))
+            bench.begin(h, witness, Around::rate)
         }
 
         fn go(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> Self {
-            bench.go(h, |around, stage, state, k| around.rate(stage, state, witness, k))
+            bench.go(h, witness, Around::rate)
+        }
+
+        fn look(bench: &mut Bench<Self>, looks: Self, h: Self, witness: &mut Witness<'_>) -> Self {
+            bench.look(looks, h, witness, Around::rate)
+        }
+
+        fn attempt(bench: &mut Bench<Self>, h: Self, witness: &mut Witness<'_>) -> (Errors<Self>, Self) {
+            bench.attempt(h, witness, Around::rate)
+        }
+
+        fn keep_hints(bench: &mut Bench<Self>, kept: Self) {
+            bench.keep_hints(kept);
         }
     }
 }

@@ -4,18 +4,22 @@
 //! the list is. What every recorder sees, and every outcome, is to the bit what [`attempt`] gives for
 //! that model alone, whichever [`Kernel`] computed it and whatever ran beside it.
 //!
-//! Side by side run models with the fixed-step integrator and the same structure: the same spheres on the same segments, the
+//! Side by side run models with the same kind of integrator and the same structure: the same spheres on the same segments, the
 //! same surfaces by kind and corners, in the same seams and for the same spheres, belts round the same spheres, springs in the
 //! same joints ([`Unlike`] names what differs). All numbers may differ: masses, places, stiffnesses, paths, times,
-//! steps, outputs. A model that has no place beside those under way is run alone at once; one with error control always
-//! is.
+//! steps, tolerances, outputs. A model that has no place beside those under way is run alone at once; one with forces of a
+//! program's own, or with a path that is told on the way, always is.
 
+#[cfg(any(target_arch = "x86_64", test))]
+mod bench;
 #[cfg(any(target_arch = "x86_64", test))]
 mod group;
 #[cfg(any(target_arch = "x86_64", test))]
 mod machine;
 #[cfg(any(target_arch = "x86_64", test))]
 mod place;
+#[cfg(any(target_arch = "x86_64", test))]
+mod tries;
 
 use std::fmt;
 use std::ops::ControlFlow;

@@ -9,8 +9,9 @@ use crate::motion::lanes::Lanes;
 use crate::motion::vector::{V3, v3};
 use crate::results::outcome::{Outcome, RecordingFailed, Status};
 use crate::results::recorder::{Flow, Recorder};
+use crate::run::adaptive::Control;
 use crate::run::corner::Touching;
-use crate::run::observers::Meeting;
+use crate::run::observers::{Felt, Meeting};
 use crate::run::simulate::go_on;
 use crate::run::{Course, Step, Stretch};
 
@@ -30,6 +31,12 @@ pub(super) struct Place {
     before: (Stretch, [Step; 2]),
     /// Room for the frames of one instant.
     pub frames: Frames<f64>,
+    /// Of a run under error control.
+    pub control: Option<Control>,
+    /// Whether the evaluation under way is of the start of its step.
+    pub looks: bool,
+    /// Whether something has switched by the end of its latest trial.
+    pub jumps: bool,
 }
 
 /// What becomes of a run after a step or an output.
@@ -46,12 +53,14 @@ impl Next {
 
 impl Place {
     /// A run of `model` at its start.
-    pub(super) fn new(model: Model, step_s: f64) -> Self {
-        let run = Course::new(&model);
+    pub(super) fn new(model: Model) -> Self {
+        let (run, integrator) = (Course::new(&model), &model.setup().integrator);
+        let (step_s, control) = (integrator.longest_step_s(), Control::of(integrator));
         let stretch = Stretch::new(run.time_s, run.time_s, step_s);
         let (whole, step) = (Step::default(), Step::default());
         let (frames, before) = (Frames::still(run.time_s), (stretch, [whole, step]));
-        Place { frames, model, stretch, run, step_s, whole, step, latest: None, before }
+        let (latest, looks, jumps) = (None, false, false);
+        Place { frames, model, stretch, run, step_s, whole, step, latest, before, control, looks, jumps }
     }
 
     /// The first output.
@@ -115,7 +124,12 @@ impl Place {
 
     /// The rest of the run, alone.
     pub(super) fn finish(&mut self, recorder: &mut dyn Recorder) -> Result<Status, RecordingFailed> {
-        match self.run.advance_rk4(&self.model, self.left(), self.stretch) {
+        let target_s = self.run.next_output_s(&self.model);
+        let advanced = match target_s.filter(|_| self.control.is_some()) {
+            Some(target_s) => self.run.advance_to(&self.model, target_s),
+            None => self.run.advance_rk4(&self.model, self.left(), self.stretch),
+        };
+        match advanced {
             Err(error) => Ok(Status::Failed(error)),
             Ok(()) => go_on(&self.model, &mut self.run, recorder),
         }
@@ -131,42 +145,81 @@ impl Place {
     }
 }
 
-/// Notes what touches and what is felt in every run.
-pub(crate) struct Witness<'a>(pub(super) &'a mut [Option<Box<Place>>]);
+/// What of the runs an evaluation is.
+#[derive(Clone, Copy)]
+pub(super) enum Sees {
+    /// The start of steps of fixed length.
+    Start,
+    /// Where a front stands, of those runs that look.
+    Front,
+    /// The end of a trial.
+    Trial,
+}
 
-impl Witness<'_> {
+/// Notes what touches and what is felt in every run.
+pub(crate) struct Witness<'a> {
+    places: &'a mut [Option<Box<Place>>],
+    sees: Sees,
+}
+
+impl<'a> Witness<'a> {
+    pub(super) fn of(places: &'a mut [Option<Box<Place>>], sees: Sees) -> Self {
+        Witness { places, sees }
+    }
+
+    /// Where what touches and what is felt is noted of the runs that are seen, with their lanes.
+    fn notes(&mut self) -> impl Iterator<Item = (usize, &mut Vec<Touching>, &mut Felt)> {
+        let sees = self.sees;
+        self.places.iter_mut().enumerate().filter_map(move |(i, place)| {
+            let Place { run, looks, .. } = &mut **place.as_mut()?;
+            let front = run.front.as_mut();
+            let (met, felt) = match sees {
+                Sees::Start => (&mut run.met, &mut run.felt),
+                Sees::Front => front.filter(|_| *looks).map(|front| (&mut front.met, &mut front.felt))?,
+                Sees::Trial => front.map(|front| (&mut front.met_in_trial, &mut front.felt_in_trial))?,
+            };
+            Some((i, met, felt))
+        })
+    }
+
     /// Sees one instant alone.
     pub(super) fn anew(&mut self) -> &mut Self {
-        for place in self.0.iter_mut().flatten() {
-            place.run.met.clear();
-            place.run.felt.numbers.clear();
+        for (_, met, felt) in self.notes() {
+            met.clear();
+            felt.numbers.clear();
         }
         self
     }
 
     /// What the instruments of a body read.
+    #[inline(never)]
     pub(super) fn feel<L: Lanes>(&mut self, of: usize, reading: &Reading<L>) {
-        for (i, place) in self.0.iter_mut().enumerate() {
-            if let Some(place) = place {
-                place.run.felt.readings[of] = reading.map(|number| number.lane(i));
-            }
+        for (i, _, felt) in self.notes() {
+            felt.readings[of] = reading.map(|number| number.lane(i));
         }
     }
 }
 
+// by themselves: what calls them is inlined then where lanes are computed
 impl<L: Lanes> Tracker<L> for &mut Witness<'_> {
+    #[inline(never)]
     fn number(&mut self, number: L) {
-        for (i, place) in self.0.iter_mut().enumerate() {
-            if let Some(place) = place {
-                place.run.felt.numbers.push(number.lane(i));
-            }
+        for (i, _, felt) in self.notes() {
+            felt.numbers.push(number.lane(i));
         }
     }
 
+    #[inline(never)]
+    fn numbers(&mut self, numbers: &[L]) {
+        for (i, _, felt) in self.notes() {
+            felt.numbers.extend(numbers.iter().map(|number| number.lane(i)));
+        }
+    }
+
+    #[inline(never)]
     fn touch(&mut self, touch: &Touch<L>) {
         let vector = |v: V3<L>, i: usize| v3(v.x.lane(i), v.y.lane(i), v.z.lane(i));
-        for (i, place) in self.0.iter_mut().enumerate() {
-            let Some(place) = place else { continue };
+        for (i, met, _) in self.notes() {
             if touch.weight.lane(i) > 0.0 {
                 let meeting = Meeting {
                     sphere: touch.sphere,
@@ -179,7 +232,7 @@ impl<L: Lanes> Tracker<L> for &mut Witness<'_> {
                     force_n: vector(touch.force, i),
                     normal: vector(touch.normal, i),
                 };
-                place.run.met.push(Touching { meeting });
+                met.push(Touching { meeting });
             }
         }
     }

@@ -1,7 +1,7 @@
 //! The runs side by side in lanes of an array, which every processor has.
 
 use super::*;
-use crate::model::setup::Setup;
+use crate::model::setup::{Integrator, Setup};
 use crate::motion::lanes::Plain;
 use crate::results::recorder::Watch;
 use crate::results::sample::Sample;
@@ -46,6 +46,26 @@ fn so_have_belts_over_several_nodes() {
         stopped(setup, mph)
     };
     have_the_bits_of_each_alone([25.0, 30.0, 35.0, 40.0].map(belted).into());
+}
+
+/// The same under error control: steps, switches and corners are each run's own.
+#[test]
+fn so_have_runs_under_error_control() {
+    let belted = |mph: f64| {
+        let mut setup = cart().unwrap();
+        setup.belts.clear();
+        setup.chains.push(three_point(&setup.body, 1.0 / mph));
+        let relative = 1e-6 * mph;
+        setup.integrator = Integrator::Adaptive {
+            relative,
+            absolute_m: 0.1 * relative,
+            absolute_m_s: relative,
+            min_step_s: 1e-9,
+            max_step_s: 2e-3,
+        };
+        stopped(setup, mph)
+    };
+    have_the_bits_of_each_alone([25.0, 30.0, 35.0, 40.0, 28.0].map(belted).into());
 }
 
 #[test]

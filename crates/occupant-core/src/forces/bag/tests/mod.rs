@@ -87,7 +87,7 @@ impl Rig {
         k.joint[0] = V3::of(&Vector3::new(0.0, 0.0, place[0]));
         k.joint_velocity[0] = V3::of(&Vector3::new(0.0, 0.0, place[1]));
         k.axes[0] = crate::motion::vector::M3::identity();
-        let spheres = [Site { segment: 0, offset: V3::zero(), radius: self.radius, knee: None }];
+        let spheres = [Site { segment: 0, offset: V3::zero(), radius: self.radius, knee: None, ride: None }];
         let state = State::zero(StateShape::new(0, 0)).with_own(own);
         let frames = Frames::still(time);
         let at = Instant { k: &k, state: &state, frames: &frames, carried: &[], spheres: &spheres, accepted };

@@ -93,7 +93,8 @@ fn at<T>(time: f64, posture: Posture, f: impl FnOnce(&Instant<'_, f64>) -> T) ->
 
 /// With a sphere on each of the first segments.
 fn among<T>(radii: &[f64], time: f64, k: &Kinematics<f64>, f: impl FnOnce(&Instant<'_, f64>) -> T) -> T {
-    let sphere = |(segment, &radius): (usize, &f64)| Sphere { segment, offset: V3::zero(), radius, knee: None };
+    let sphere =
+        |(segment, &radius): (usize, &f64)| Sphere { segment, offset: V3::zero(), radius, knee: None, ride: None };
     let spheres: Vec<_> = radii.iter().enumerate().map(sphere).collect();
     let (state, frames) = (State::zero(Shape::new(0, 0)), Frames::still(time));
     f(&Instant { k, state: &state, frames: &frames, carried: &[], spheres: &spheres, accepted: false })
@@ -209,7 +210,7 @@ fn a_weight_turns_a_drum_over_which_webbing_slips() {
 /// Tensions of the drum's straps at an angle, with any kind of number.
 fn tensions<S: Scalar>(law: &ChainLaw<S>, past: &ChainPast<S>, turned: S) -> [S; 2] {
     let k = kinematics(turned, END);
-    let spheres = [Sphere { segment: 0, offset: V3::zero(), radius: S::of(RADIUS), knee: None }];
+    let spheres = [Sphere { segment: 0, offset: V3::zero(), radius: S::of(RADIUS), knee: None, ride: None }];
     let state = State::zero(Shape::new(0, 0));
     let frames = Frames::still(S::of(1.0));
     let at = Instant { k: &k, state: &state, frames: &frames, carried: &[], spheres: &spheres, accepted: false };

@@ -38,6 +38,7 @@ fn chain(frictions: &[f64], webbing: Function, device: Device, rest: Rest) -> Ch
         site: Site::Vehicle(Point3::origin(), None),
         friction,
         strength_n: NEVER,
+        ride: Vec::new(),
     };
     let mut nodes = vec![node(0.0)];
     nodes.extend(frictions.iter().copied().map(node));

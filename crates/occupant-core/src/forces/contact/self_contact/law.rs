@@ -11,7 +11,7 @@ use crate::forces::contact::zip::OTHER_PAIRS;
 use crate::forces::contact::{FRICTION, MaterialLaw, OPEN, PASSED, PRESS, PairHistory, TOUCHING, Touch};
 use crate::forces::element::{Instant, Load, Unlike};
 use crate::forces::pace::Pace;
-use crate::forces::sphere::Site;
+use crate::forces::sphere::{Site, Use};
 use crate::motion::frame::SPACE;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
@@ -106,11 +106,12 @@ impl<S: Scalar> SelfPairs<S> {
             return;
         }
         for ((centre, velocity), site) in hints.centres.iter_mut().zip(&mut hints.velocities).zip(at.spheres) {
-            (_, *centre, *velocity) = site.place(at.k);
+            (_, *centre, *velocity) = site.place(at.k, Use::Contact);
         }
         hints.count = 0;
         for (i, pair) in self.pairs.iter().enumerate() {
-            let centres = pair.spheres.map(|sphere| hints.centres[sphere]);
+            let [one, other] = pair.spheres;
+            let centres = [hints.centres[one], hints.centres[other]];
             let (depth, normal) = pair.overlap(at.spheres, centres);
             let past = &mut past[self.first + i];
             pair.commit(depth, past);
@@ -120,16 +121,18 @@ impl<S: Scalar> SelfPairs<S> {
             let near = (-reach).lt(depth) & is_here;
             hints.note(i, near);
             if S::any(near) {
-                let [from, to] = pair.spheres.map(|sphere| hints.velocities[sphere]);
-                pair.look_ahead(at.spheres, centres, to - from, longest, near, pace);
+                let velocity = hints.velocities[other] - hints.velocities[one];
+                pair.look_ahead(at.spheres, centres, velocity, longest, near, pace);
             }
         }
     }
 }
 
 impl<S: Scalar> SelfPair<S> {
+    #[inline(always)]
     fn centres(&self, at: &Instant<'_, S>) -> [V3<S>; 2] {
-        self.spheres.map(|sphere| at.spheres[sphere].place(at.k).1)
+        let [one, other] = self.spheres;
+        [at.spheres[one].place(at.k, Use::Contact).1, at.spheres[other].place(at.k, Use::Contact).1]
     }
 
     /// Δ and n̂ (6.4), space axes; spheres that are in the same place have a direction by rule.
@@ -229,7 +232,8 @@ impl<S: Scalar> SelfPair<S> {
     #[inline(always)]
     fn approach(&self, at: &Instant<'_, S>) -> Approach<S> {
         let [one, other] = self.spheres.map(|sphere| &at.spheres[sphere]);
-        let [(_, centre, velocity), (_, other_centre, other_velocity)] = [one.place(at.k), other.place(at.k)];
+        let ((_, centre, velocity), (_, other_centre, other_velocity)) =
+            (one.place(at.k, Use::Contact), other.place(at.k, Use::Contact));
         let (omega, other_omega) = (at.k.omega[one.segment], at.k.omega[other.segment]);
         let carried = other_velocity + other_omega.cross(centre - other_centre);
         Approach { centre, velocity: velocity - carried, omega: omega - other_omega, radius: one.radius }
@@ -246,7 +250,7 @@ impl<S: Scalar> SelfPair<S> {
             let (arm, on) = (point - at.k.joint[segment], &mut load.wrench[segment]);
             on.force = V3::select(live, on.force + force, on.force);
             on.moment = V3::select(live, on.moment + arm.cross(force), on.moment);
-            load.press_knee(site, force, live);
+            load.press(site, Use::Contact, force, live);
         }
         let carried =
             at.k.joint_velocity[other.segment] + at.k.omega[other.segment].cross(point - at.k.joint[other.segment]);

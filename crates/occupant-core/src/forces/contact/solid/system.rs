@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use super::{Faced, Solid, build};
 use crate::body::Body;
-use crate::forces::contact::assembly::{frames, is_own};
+use crate::forces::contact::assembly::{frames, is_own, meets, uses};
 use crate::forces::contact::encounter::Approach;
 use crate::forces::contact::material::{Material, Memory};
 use crate::forces::contact::zip::{OTHER_OUTLINES, OTHER_PAIRS};
@@ -62,7 +62,7 @@ pub(crate) struct Nearest<S> {
 impl Solids<f64> {
     /// Those that the spheres of `body` can touch; faces have `surfaces` names and `pairs` pairs.
     pub(crate) fn new(body: &Body, data: &ContactData<'_>, carriers: &[usize], pairs: usize) -> Solids<f64> {
-        let &ContactData { solids, materials, .. } = data;
+        let &ContactData { solids, materials, behind, .. } = data;
         let surfaces = data.surfaces.len();
         let frames = frames(solids.iter().map(|s| s.frame), carriers);
         let mut all = Solids { shapes: solids.iter().flat_map(|s| build(&s.shape)).collect(), ..Solids::default() };
@@ -72,21 +72,24 @@ impl Solids<f64> {
                 if is_own(body, data, frame) {
                     continue;
                 }
-                let first = all.pairs.len();
-                unions.clear();
-                let meets = |s: &Solid| s.frame == frame && s.spheres.as_ref().is_none_or(|s| s.contains(&sphere));
-                for (i, solid) in solids.iter().enumerate().filter(|(_, solid)| meets(solid)) {
-                    let member = Member { solid: i, surface: surfaces + i, past: 0 };
-                    let own = all.pairs.len();
-                    let place = solid.group.as_deref().map_or(own, |group| *unions.entry(group).or_insert(own));
-                    match all.pairs.get_mut(place) {
-                        Some(union) => union.members.push(member),
-                        None => all.pairs.push(Union::new(member, &materials[solid.material], data.share)),
+                for by in uses(data) {
+                    let first = all.pairs.len();
+                    unions.clear();
+                    let is_met = |s: &Solid| s.frame == frame && s.spheres.as_ref().is_none_or(|s| s.contains(&sphere));
+                    let meets = |i: usize, s: &Solid| is_met(s) && meets(by, data, behind, surfaces + i);
+                    for (i, solid) in solids.iter().enumerate().filter(|(i, solid)| meets(*i, solid)) {
+                        let member = Member { solid: i, surface: surfaces + i, past: 0 };
+                        let own = all.pairs.len();
+                        let place = solid.group.as_deref().map_or(own, |group| *unions.entry(group).or_insert(own));
+                        match all.pairs.get_mut(place) {
+                            Some(union) => union.members.push(member),
+                            None => all.pairs.push(Union::new(member, &materials[solid.material], data.share)),
+                        }
                     }
-                }
-                let pairs = pairs + first..pairs + all.pairs.len();
-                if !pairs.is_empty() {
-                    all.groups.push(Group { sphere, frame: index, pairs });
+                    let pairs = pairs + first..pairs + all.pairs.len();
+                    if !pairs.is_empty() {
+                        all.groups.push(Group { sphere, frame: index, by: *by, pairs });
+                    }
                 }
             }
         }

@@ -8,8 +8,10 @@ use crate::forces::element::Instant;
 use crate::forces::joint::JointLaw;
 use placed_text::Problems;
 
-/// Bounds of θ₀ and of the twist, degrees: the azimuth means nothing near θ = 0, the twist jumps at ±180°.
+/// Bounds of θ₀ and of the twist, degrees: the azimuth means nothing near θ = 0, the twist jumps at ±180°. A limit that is the
+/// same all round needs no azimuth.
 const BEND_DEG: [f64; 2] = [5.0, 170.0];
+const EVEN_DEG: f64 = 0.5;
 const TWIST_DEG: f64 = 150.0;
 
 /// A joint may begin this far beyond an elastic limit, rad: 10°.
@@ -50,7 +52,8 @@ pub(super) fn check(joints: &Joints, limits: &Limits, problems: &mut Problems) {
 }
 
 fn check_bend(angle: &Curve<f64>, is_twisted: bool, is_in_the_middle: bool, path: &str, problems: &mut Problems) {
-    let ([least, most], lowest) = (angle.bounds().map(f64::to_degrees), BEND_DEG[0]);
+    let [least, most] = angle.bounds().map(f64::to_degrees);
+    let lowest = if most - least < 1e-9 { EVEN_DEG } else { BEND_DEG[0] };
     let (highest, beside) = if is_twisted { (TWIST_DEG, ", beside a limit of twist") } else { (BEND_DEG[1], "") };
     if !(least >= lowest - 1e-9 && most <= highest + 1e-9) {
         let found = format!("limits from {least:.1}° to {most:.1}°");

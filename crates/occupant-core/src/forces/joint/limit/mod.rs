@@ -7,6 +7,8 @@ mod lock;
 mod results;
 mod triads;
 
+use std::f64::consts::PI;
+
 use nalgebra::Vector3;
 
 use crate::body::{Body, Joint, Segment};
@@ -73,13 +75,15 @@ pub struct Limits {
     pub lock: Option<Lock<f64>>,
 }
 
-/// The most that the limit of one of two joints of a neck lets it bend, rad: GEBOD's 25°, with room for rounding.
-const HALF_A_NECK_RAD: f64 = 0.436_333;
+/// The most that the limit of one of two joints of a neck lets it bend ahead and back together, rad: GEBOD's 50°, with room for
+/// rounding.
+const HALF_A_NECK_RAD: f64 = 0.872_666;
 
 impl Limits {
-    /// Whether it limits the bend all round as if there were another joint in the neck.
+    /// Whether it limits the bend as if there were another joint in the neck.
     pub(crate) fn is_of_half_a_neck(&self) -> bool {
-        self.bend.as_ref().is_some_and(|bend| bend.angle.bounds()[1] < HALF_A_NECK_RAD)
+        let both = |bend: &Bend<f64>| [0.0, PI].iter().map(|angle| bend.angle.around(*angle).0).sum::<f64>();
+        self.bend.as_ref().is_some_and(|bend| both(bend) < HALF_A_NECK_RAD)
     }
 }
 

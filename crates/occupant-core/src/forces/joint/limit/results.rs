@@ -76,8 +76,9 @@ impl Reported for JointLimits {
 
     #[inline(always)]
     fn track<S: Scalar>(a: &LimitAction<S>, tracker: &mut impl Tracker<S>) {
-        let length = |moment: V3<S>| moment.norm_squared().sqrt();
-        [a.excess, length(a.stop), length(a.lock)].into_iter().for_each(|number| tracker.number(number));
+        for number in [a.excess, a.stop.norm_squared().sqrt(), a.lock.norm_squared().sqrt()] {
+            tracker.number(number);
+        }
     }
 
     fn keep(past: &mut Vec<LimitHistory<f64>>, like: Option<&[LimitHistory<f64>]>, file: &mut dyn Archive) {

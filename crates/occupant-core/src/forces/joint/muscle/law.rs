@@ -154,7 +154,9 @@ impl<S: Scalar> MuscleLaw<S> {
     /// a at a time.
     #[inline(always)]
     fn activation(&self, time: S) -> S {
-        let [on, off] = self.times.map(|from| decay((time - from).max(S::zero()) / self.rise));
+        let [begins, ends] = self.times;
+        let on = decay((time - begins).max(S::zero()) / self.rise);
+        let off = decay((time - ends).max(S::zero()) / self.rise);
         self.tone + (S::one() - self.tone) * (off - on)
     }
 }

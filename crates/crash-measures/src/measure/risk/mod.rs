@@ -5,6 +5,9 @@
 //! population the curve was fitted to, loaded like the dummy; the logistic ones do not vanish at zero
 //! load (Nij: 3.8 %, criticised in SAE 2010-22-0004).
 
+mod people;
+mod side;
+
 use super::Dummy;
 use crate::signal::STANDARD_GRAVITY_MPS2;
 use occupant_units::trig;
@@ -26,7 +29,10 @@ pub enum Severity {
     Fatal,
 }
 
-use Dummy::{HybridIii5F, HybridIii50M};
+pub use people::{BrokenRibs, even_odds_compression};
+pub use side::{abdomen_force_risk, pelvis_force_risk, rib_deflection_risk};
+
+use Dummy::{HybridIii5F, HybridIii50M, HybridIii95M, Thor50M};
 use Severity::{Ais2, Ais3, Ais4, Ais5};
 
 /// Head risk from HIC15 (the same curve is used with HIC36), P = Φ((ln H − μ)/σ); AIS 2+, 3+, 4+.
@@ -51,11 +57,16 @@ pub fn hic_risk_prasad_mertz(hic: f64, severity: Severity) -> f64 {
     if hic > 0.0 { logistic(a + 200.0 / hic, b * hic) } else { 0.0 }
 }
 
-/// Neck risk from Nij; AIS 2+ to 5+.
+/// Neck risk from Nij: AIS 2+ to 5+ of a Hybrid III, AIS 2+ and 3+ of a THOR, whose Nij has other intercepts.
 #[must_use]
-pub fn nij_risk(nij: f64, severity: Severity) -> Option<f64> {
-    let of = [(Ais2, (2.054, 1.195)), (Ais3, (3.2269, 1.9688)), (Ais4, (2.693, 1.195)), (Ais5, (3.817, 1.195))];
-    let (a, b) = beside(&of, severity)?;
+pub fn nij_risk(nij: f64, severity: Severity, dummy: Dummy) -> Option<f64> {
+    let of_hybrid = [(Ais2, (2.054, 1.195)), (Ais3, (3.2269, 1.9688)), (Ais4, (2.693, 1.195)), (Ais5, (3.817, 1.195))];
+    let of_thor = [(Ais2, (5.819, 5.681)), (Ais3, (6.047, 5.44))];
+    let (a, b) = match dummy {
+        HybridIii50M | HybridIii5F | HybridIii95M => beside(&of_hybrid, severity)?,
+        Thor50M => beside(&of_thor, severity)?,
+        _ => return None,
+    };
     Some(logistic(a, b * nij))
 }
 
@@ -66,9 +77,12 @@ pub fn neck_axial_risk(force_n: f64, dummy: Dummy) -> Option<f64> {
     Some(logistic(a, b * force_n / 1000.0))
 }
 
-/// Chest AIS 3+ risk from a measured deflection, m; Hybrid III dummies. A run gives no deflection.
+/// Chest AIS 3+ risk from a deflection, m: of the breastbone of a Hybrid III, of the deepest point of a THOR (its resultant).
 #[must_use]
 pub fn chest_deflection_risk(deflection_m: f64, dummy: Dummy) -> Option<f64> {
+    if dummy == Thor50M {
+        return Some(1.0 - trig::exp(-libm::pow(1000.0 * deflection_m.max(0.0) / 58.183, 2.997)));
+    }
     let b = beside(&[(HybridIii50M, 1.568), (HybridIii5F, 1.7212)], dummy)?;
     Some(logistic(10.5456, b * libm::pow(1000.0 * deflection_m.max(0.0), 0.4612)))
 }
@@ -77,6 +91,28 @@ pub fn chest_deflection_risk(deflection_m: f64, dummy: Dummy) -> Option<f64> {
 #[must_use]
 pub fn chest_deflection_risk_at_age(deflection_m: f64, age_years: f64) -> f64 {
     logistic(12.597 - 0.058_61 * age_years, 1.568 * libm::pow(1000.0 * deflection_m.max(0.0), 0.4612))
+}
+
+/// Chest risk from the deflection of a Hybrid III's breastbone, m, as NHTSA gave it in 1999; AIS 2+ to 5+. It does not vanish
+/// without deflection (AIS 3+: 2.4 %).
+#[must_use]
+pub fn chest_deflection_risk_1999(deflection_m: f64, severity: Severity) -> Option<f64> {
+    let of = [(Ais2, (1.8706, 0.044_39)), (Ais3, (3.7124, 0.0475)), (Ais4, (5.0952, 0.0475)), (Ais5, (8.8274, 0.0459))];
+    let (a, b) = beside(&of, severity)?;
+    Some(logistic(a, b * 1000.0 * deflection_m.max(0.0)))
+}
+
+/// Lower leg AIS 2+ risk from the revised tibia index (Kuppa et al. 2001): 1 − exp(−exp((ln RTI − 0.2468)/0.2728)).
+#[must_use]
+pub fn tibia_risk(revised_index: f64) -> f64 {
+    if revised_index > 0.0 { 1.0 - trig::exp(-trig::exp((libm::log(revised_index) - 0.2468) / 0.2728)) } else { 0.0 }
+}
+
+/// Ankle AIS 2+ risk from the axial compression of the lower tibia (positive), N (Kuppa et al. 2001). It does not vanish
+/// without load (1.0 %).
+#[must_use]
+pub fn ankle_risk(force_n: f64) -> f64 {
+    logistic(4.572, 0.670 * force_n / 1000.0)
 }
 
 /// Chest AIS 3+ risk from the 3 ms level of the chest resultant, m/s².
@@ -111,7 +147,8 @@ pub fn joint_risk(risks: &[f64]) -> f64 {
     1.0 - risks.iter().map(|p| 1.0 - p).product::<f64>()
 }
 
-/// Stars of the US frontal rating from the joint risk of head, neck, chest and femur.
+/// Stars of the US frontal rating from the joint risk of head, neck, chest and femur; the bounds of the side rating are the
+/// same, of head, chest, abdomen and pelvis.
 ///
 /// The relative risk is the joint risk over 0.15; five stars below 0.67, four below 1.00, three below
 /// 1.33, two below 2.67. None where the risk is not a probability.
@@ -153,11 +190,22 @@ mod tests {
         close(hic_risk(1000.0, Ais3).unwrap(), 0.230_894);
         close(hic_risk_prasad_mertz(1000.0, Ais3), 0.532_454);
         close(hic_risk_prasad_mertz(1000.0, Ais4), 0.169_384);
-        close(nij_risk(0.5, Ais3).unwrap(), 0.095_998);
-        close(nij_risk(1.0, Ais3).unwrap(), 0.221_301);
+        close(nij_risk(0.5, Ais3, HybridIii50M).unwrap(), 0.095_998);
+        close(nij_risk(1.0, Ais3, HybridIii5F).unwrap(), 0.221_301);
+        // of a THOR: one half at 6.047/5.44
+        close(nij_risk(6.047 / 5.44, Ais3, Thor50M).unwrap(), 0.5);
+        assert_eq!((nij_risk(1.0, Ais4, Thor50M), nij_risk(1.0, Ais3, Dummy::SidIis)), (None, None));
         close(chest_three_ms_risk(40.0 * STANDARD_GRAVITY_MPS2), 0.347_669);
         close(chest_three_ms_risk(60.0 * STANDARD_GRAVITY_MPS2), 0.652_648);
         close(chest_deflection_risk(0.040, HybridIii50M).unwrap(), 0.124_424);
+        close(chest_deflection_risk(0.040, HybridIii5F).unwrap(), 0.247_595);
+        close(chest_deflection_risk(0.040, Thor50M).unwrap(), 0.277_687);
+        for (severity, risk) in [(Ais2, 0.476_268), (Ais3, 0.140_348), (Ais4, 0.039_347), (Ais5, 0.000_919)] {
+            close(chest_deflection_risk_1999(0.040, severity).unwrap(), risk);
+        }
+        // half at ln RTI = 0.2468 + 0.2728 ln ln 2
+        close(tibia_risk((0.2468 + 0.2728 * 2f64.ln().ln()).exp()), 0.5);
+        close(ankle_risk(4572.0 / 0.670), 0.5);
         close(femur_risk(6000.0, HybridIii50M).unwrap(), 0.064_320);
         close(femur_risk(10_000.0, HybridIii50M).unwrap(), 0.354_573);
     }
@@ -174,10 +222,16 @@ mod tests {
         assert_eq!(hic_risk(0.0, Ais3), Some(0.0));
         assert_eq!(hic_risk_prasad_mertz(0.0, Ais1), 0.0);
         assert_eq!(hic_risk(700.0, Fatal), None);
-        close(nij_risk(0.0, Ais3).unwrap(), 0.038_166); // does not vanish
+        close(nij_risk(0.0, Ais3, HybridIii50M).unwrap(), 0.038_166); // does not vanish
         // age 35 is the curve without age
         let at_35 = chest_deflection_risk_at_age(0.040, 35.0);
         assert!((at_35 - chest_deflection_risk(0.040, HybridIii50M).unwrap()).abs() < 1e-5);
+        assert_eq!((tibia_risk(0.0), tibia_risk(f64::NAN)), (0.0, 0.0));
+        assert_eq!(
+            (chest_deflection_risk(-0.01, Thor50M), chest_deflection_risk(0.04, Dummy::SidIis)),
+            (Some(0.0), None)
+        );
+        assert_eq!(chest_deflection_risk_1999(0.04, Fatal), None);
         assert_eq!(bric_risk(0.5, Ais3), Some(0.0));
         close(bric_risk(0.523 + 0.531, Ais3).unwrap(), 1.0 - (-1.0f64).exp());
     }

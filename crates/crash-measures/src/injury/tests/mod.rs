@@ -1,3 +1,5 @@
+mod special;
+
 use std::f64::consts::PI;
 
 use super::*;
@@ -21,7 +23,7 @@ fn dummy() -> Signals {
         neck_n: [still(), still(), history(&|t| 2000.0 * pulse(t))],
         neck_n_m: [still(), history(&|t| -50.0 * pulse(t)), still()],
         femur_n: [history(&|t| -6000.0 * pulse(t)), still()],
-        peaks: None,
+        ..Signals::new()
     }
 }
 

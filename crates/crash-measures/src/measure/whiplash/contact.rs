@@ -1,0 +1,114 @@
+//! When the head meets its restraint.
+
+use crate::signal::{SignalError, require_positive, require_samples};
+
+/// What counts as a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RestraintContact {
+    /// Force from which the head touches, N.
+    pub least_n: f64,
+    /// A shorter contact does not count, s.
+    pub shortest_s: f64,
+    /// A gap up to this long does not end a contact, s.
+    pub longest_gap_s: f64,
+}
+
+impl Default for RestraintContact {
+    /// Those of Euro NCAP's whiplash test: more than 40 ms, gaps up to 1 ms (as generally known); from 1 N on, which is ours:
+    /// a test has a foil that closes a circuit.
+    fn default() -> Self {
+        Self { least_n: 1.0, shortest_s: 0.040, longest_gap_s: 0.001 }
+    }
+}
+
+/// The first contact of head and restraint that lasts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HeadContact {
+    /// T-HRC(start), s: the first sample that touches.
+    pub start_s: f64,
+    /// T-HRC(end), s: the last sample that touches; that of the record if the head never leaves.
+    pub end_s: f64,
+}
+
+/// The first contact that counts, of the force between head and restraint, N (amounts); none where there is no such contact.
+///
+/// # Errors
+/// No sample, a sample that is not finite, an interval or force that is not positive, a duration that is negative.
+pub fn head_restraint_contact(
+    force_n: &[f64],
+    dt_s: f64,
+    rule: &RestraintContact,
+) -> Result<Option<HeadContact>, SignalError> {
+    require_samples("force of the head restraint", force_n, dt_s, 1)?;
+    require_positive("least force of a contact (N)", rule.least_n)?;
+    for (what, found) in
+        [("shortest contact (s)", rule.shortest_s), ("longest gap of a contact (s)", rule.longest_gap_s)]
+    {
+        if !(found.is_finite() && found >= 0.0) {
+            return Err(SignalError::OutOfRange { what, found, expected: "a number, zero or more" });
+        }
+    }
+    let counts = |c: &HeadContact| c.end_s - c.start_s > rule.shortest_s * (1.0 - 1e-9);
+    let mut open = None::<HeadContact>;
+    for time_s in touches(force_n, dt_s, rule.least_n) {
+        open = match open {
+            Some(known) if time_s - known.end_s <= rule.longest_gap_s * (1.0 + 1e-9) + dt_s => {
+                Some(HeadContact { end_s: time_s, ..known })
+            }
+            Some(known) if counts(&known) => return Ok(Some(known)),
+            _ => Some(HeadContact { start_s: time_s, end_s: time_s }),
+        };
+    }
+    Ok(open.filter(counts))
+}
+
+/// Times of the samples at which there is contact.
+fn touches(force_n: &[f64], dt_s: f64, least_n: f64) -> impl Iterator<Item = f64> {
+    let all = force_n.iter().enumerate();
+    all.filter(move |(_, force)| force.abs() >= least_n).map(move |(i, _)| i as f64 * dt_s)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DT_S: f64 = 1e-3;
+
+    /// Contact at these milliseconds of 200.
+    fn touching(during: &[std::ops::RangeInclusive<usize>]) -> Vec<f64> {
+        (0..200).map(|i| if during.iter().any(|ms| ms.contains(&i)) { -50.0 } else { 0.0 }).collect()
+    }
+
+    fn found(during: &[std::ops::RangeInclusive<usize>]) -> Option<[f64; 2]> {
+        let found = head_restraint_contact(&touching(during), DT_S, &RestraintContact::default()).unwrap();
+        found.map(|c| [c.start_s, c.end_s].map(|s| (1e3 * s).round()))
+    }
+
+    #[test]
+    fn a_touch_is_no_contact_and_a_short_gap_does_not_end_one() {
+        assert_eq!(found(&[60..=120]), Some([60.0, 120.0]));
+        assert_eq!(found(&[40..=45, 60..=120]), Some([60.0, 120.0]));
+        // one sample without force: a gap of 1 ms
+        assert_eq!(found(&[60..=70, 72..=120]), Some([60.0, 120.0]));
+        // three of them begin anew
+        assert_eq!(found(&[60..=70, 74..=120]), Some([74.0, 120.0]));
+        // the first that lasts counts, the rest of the record too
+        assert_eq!(found(&[60..=120, 150..=199]), Some([60.0, 120.0]));
+        assert_eq!(found(&[150..=199]), Some([150.0, 199.0]));
+        assert_eq!(found(&[60..=80]), None);
+        assert_eq!(found(&[]), None);
+    }
+
+    #[test]
+    fn unusable_rules_are_named() {
+        let rule = RestraintContact::default();
+        let of = |rule| head_restraint_contact(&[1.0; 9], DT_S, &rule);
+        assert!(matches!(of(RestraintContact { least_n: 0.0, ..rule }), Err(SignalError::OutOfRange { .. })));
+        assert!(matches!(of(RestraintContact { shortest_s: -1.0, ..rule }), Err(SignalError::OutOfRange { .. })));
+        assert!(matches!(
+            of(RestraintContact { longest_gap_s: f64::NAN, ..rule }),
+            Err(SignalError::OutOfRange { .. })
+        ));
+        assert!(head_restraint_contact(&[], DT_S, &rule).is_err());
+    }
+}

@@ -1,0 +1,80 @@
+use std::f64::consts::PI;
+use std::path::Path;
+
+use super::{answer, code, err, folder_with_case, json, out};
+
+/// A table at 10 kHz of half a sine of 40 ms from 10 ms on in each of these columns.
+fn table(path: &Path, columns: &[(&str, f64)]) {
+    let mut text = String::from("t[ms]");
+    columns.iter().for_each(|(heading, _)| text += &format!(",{heading}"));
+    for i in 0..800 {
+        let t = f64::from(i) * 1e-4 - 0.01;
+        let shape = if (0.0..0.04).contains(&t) { (PI * t / 0.04).sin() } else { 0.0 };
+        text += &format!("\n{:.1}", f64::from(i) * 0.1);
+        columns.iter().for_each(|(_, peak)| text += &format!(",{}", peak * shape));
+    }
+    std::fs::write(path, text + "\n").unwrap();
+}
+
+/// The measures of a test by hand: HIC15 361, 40 mm of 229, VC = 1.3·A²π/(2·T·D_c), tibia 90/225 + 3.59/35.9.
+#[test]
+fn a_table_of_a_test_has_the_measures_of_what_it_reads() {
+    let folder = folder_with_case();
+    let columns = [
+        ("head.acceleration.x[g]", -60.0),
+        ("head.acceleration.y[g]", 0.0),
+        ("head.acceleration.z[g]", 0.0),
+        ("11CHST0000H3DSXC[mm]", -40.0),
+        ("shin moment[N*m]", 90.0),
+        ("left_tibia.upper.moment.x[N*m]", 0.0),
+        ("left_tibia.upper.force.z[kN]", -3.59),
+    ];
+    table(&folder.path().join("test.csv"), &columns);
+    let map = ["--map", "shin moment=left_tibia.upper.moment.y"];
+    let said = |words: &[&str]| answer(folder.path(), &[&["measures", "test.csv"], &map[..], words].concat());
+    let told = json(&said(&["--json"]));
+    let value = |name: &str| {
+        let found = told["measures"].as_array().unwrap().iter().find(|m| m["name"] == name);
+        found.unwrap_or_else(|| panic!("no {name} in {told:#}"))["value"].as_f64().unwrap()
+    };
+    let near =
+        |name: &str, expected: f64| assert!((value(name) / expected - 1.0).abs() < 1e-4, "{name}: {}", value(name));
+    near("hic15", 361.3591);
+    near("chest_deflection", 0.040);
+    near("chest_compression", 0.040 / 0.229);
+    near("viscous_criterion", 1.3 * 0.0016 * PI / (2.0 * 0.04 * 0.229));
+    near("left_tibia_index", 0.5);
+    assert_eq!((&told["dummy"], told["signals"].as_array().unwrap().len()), (&"Hybrid III 50M".into(), 7));
+    let text = out(&said(&[]));
+    assert!(text.contains("chest.deflection: 11CHST0000H3DSXC") && text.contains("samples every 0.1 ms"), "{text}");
+    // what it does not read is not there
+    assert!(!text.contains("pelvis") && !text.contains("Nij") && !text.contains("rigid"), "{text}");
+    assert_eq!(code(&said(&["--strict"])), 0);
+    // 63 mm of FMVSS 208 are 40, 34 mm of Euro NCAP are not
+    assert_eq!(code(&said(&["--strict", "--dummy", "hybrid-iii-5f"])), 1);
+    let side = out(&said(&["--dummy", "worldsid-50m"]));
+    assert!(side.contains("the WorldSID 50M has no such criterion") && !side.contains("FMVSS 208"), "{side}");
+    assert!(out(&said(&["--filter", "j211"])).contains("filtered by"));
+    let both = out(&answer(folder.path(), &[&["measures", "test.csv", "test.csv"], &map[..]].concat()));
+    assert!(both.contains("\n2  test.csv, samples every 0.1 ms"), "{both}");
+}
+
+#[test]
+fn what_a_test_cannot_give_is_refused_with_its_mend() {
+    let folder = folder_with_case();
+    let file = folder.path().join("test.csv");
+    table(&file, &[("thing[g]", 1.0)]);
+    for (words, expected) in [
+        (&["measures", "test.csv"][..], "no signal that an injury measure is made of"),
+        (&["measures", "test.csv", "--map", "thing=chest.deflexion"], "chest.upper_left.deflection"),
+        (&["measures", "test.csv", "--map", "thing=chest.deflection"], "thing is in g"),
+        (&["measures", "test.csv", "--map", "other=chest.deflection"], "no column `other`"),
+        (&["measures", "test.csv", "--interval", "1 ms"], "cannot be run again"),
+        (&["measures", "test.csv", "run.mcap"], "one kind at a time"),
+        (&["measures", "none.csv"], "none.csv"),
+    ] {
+        let output = answer(folder.path(), words);
+        assert_eq!(code(&output), 2, "{words:?}: {}", err(&output));
+        assert!(err(&output).contains(expected), "{words:?}: {}", err(&output));
+    }
+}

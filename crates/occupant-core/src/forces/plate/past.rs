@@ -1,0 +1,28 @@
+//! What a band remembers between steps.
+
+use crate::motion::scalar::Scalar;
+
+/// What a band remembers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BandPast<S> {
+    /// x_m: the greatest x, and the greatest −x, of the present sign alone, m.
+    pub(super) greatest: [S; 2],
+}
+
+impl<S> BandPast<S> {
+    /// How many numbers it has.
+    pub(super) const SIZE: usize = 2;
+}
+
+impl<S: Scalar> BandPast<S> {
+    pub(super) fn none() -> Self {
+        BandPast { greatest: [S::zero(); 2] }
+    }
+
+    /// Takes x at an accepted step over.
+    #[inline(always)]
+    pub(super) fn commit(&mut self, x: S) {
+        let (o, is_out, [inward, outward]) = (S::zero(), x.lt(S::zero()), self.greatest);
+        self.greatest = [S::select(is_out, o, inward.max(x)), S::select(is_out, outward.max(-x), o)];
+    }
+}

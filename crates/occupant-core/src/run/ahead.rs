@@ -1,0 +1,96 @@
+//! The latest step of the integration under error control and what a trial of the next leads to: of one run, or of several
+//! side by side.
+
+use crate::forces::History;
+use crate::motion::integrate::bogacki_shampine::Room;
+#[cfg(any(target_arch = "x86_64", test))]
+use crate::motion::lanes::Lanes;
+use crate::motion::scalar::Scalar;
+use crate::motion::state::State;
+
+/// The latest step, at whose end the integration stands, and a trial of the next.
+#[derive(Clone, Debug)]
+pub(crate) struct Ahead<S: Scalar> {
+    /// States at the start and the end of the latest step.
+    // boxed, as they change hands at every step
+    pub from: Box<State<S>>,
+    pub to: Box<State<S>>,
+    /// Rates there.
+    pub rates: [Box<State<S>>; 2],
+    /// Histories there.
+    pub before: History<S>,
+    pub after: History<S>,
+    /// History of a trial.
+    pub trial: History<S>,
+    /// What a trial writes.
+    pub room: Room<S>,
+}
+
+impl<S: Scalar> Ahead<S> {
+    /// Standing at `state`, before any step.
+    pub(crate) fn new(state: &State<S>, history: &History<S>) -> Self {
+        let (at, zero) = (|| Box::new(*state), || Box::new(State::zero(state.shape())));
+        Ahead {
+            from: at(),
+            to: at(),
+            rates: [zero(), zero()],
+            before: history.clone(),
+            after: history.clone(),
+            trial: history.clone(),
+            room: Room::new(state.shape()),
+        }
+    }
+
+    /// The trial becomes the latest step.
+    pub(crate) fn shift(&mut self) {
+        use std::mem::swap;
+        swap(&mut self.from, &mut self.to);
+        swap(&mut self.to, &mut self.room.end);
+        self.rates.swap(0, 1);
+        swap(&mut self.rates[1], &mut self.room.rate);
+        swap(&mut self.before, &mut self.after);
+        swap(&mut self.after, &mut self.trial);
+    }
+}
+
+#[cfg(any(target_arch = "x86_64", test))]
+impl<L: Lanes> Ahead<L> {
+    /// Lane `i` stands where a run alone does.
+    pub(crate) fn begin(&mut self, i: usize, alone: &Ahead<f64>) {
+        for state in [&mut self.from, &mut self.to] {
+            state.set_lane(i, &alone.to);
+        }
+        self.rest(i);
+        for history in [&mut self.before, &mut self.after] {
+            let from = &mut alone.after.memory.clone();
+            history.memory.each(from, &mut |lanes: &mut L, x: &mut f64| lanes.set_lane(i, *x));
+        }
+        self.after.look_again_in(L::zero().with_lane(i, 1.0).gt(L::zero()));
+    }
+
+    /// Nothing moves in lane `i`.
+    pub(crate) fn rest(&mut self, i: usize) {
+        for rate in &mut self.rates {
+            rate.numbers_mut().iter_mut().for_each(|lanes| lanes.set_lane(i, 0.0));
+        }
+    }
+
+    /// Lane `i` takes over what a look has found; hints it has.
+    pub(crate) fn take_look(&mut self, i: usize) {
+        self.rates[1].copy_lane(i, &self.room.rate);
+        let copy = &mut |lanes: &mut L, from: &mut L| lanes.set_lane(i, from.lane(i));
+        self.after.memory.each(&mut self.trial.memory, copy);
+    }
+
+    /// Lane `i` stands where it did before a shift, but for hints.
+    pub(crate) fn shift_back(&mut self, i: usize) {
+        self.to.copy_lane(i, &self.from);
+        self.from.copy_lane(i, &self.room.end);
+        let [start, end] = &mut self.rates;
+        end.copy_lane(i, start);
+        start.copy_lane(i, &self.room.rate);
+        let copy = &mut |lanes: &mut L, from: &mut L| lanes.set_lane(i, from.lane(i));
+        self.after.memory.each(&mut self.before.memory, copy);
+        self.before.memory.each(&mut self.trial.memory, copy);
+    }
+}

@@ -1,0 +1,271 @@
+//! The runs side by side under error control. Each tries steps of its own, which are judged by what judges those of a run
+//! alone; only the evaluations of the trials are made together.
+
+use std::ops::ControlFlow;
+
+use super::bench::{Bench, move_frames};
+use super::group::Group;
+use super::machine::Machine;
+use super::place::{Next, Place, Sees, Witness};
+use super::{Jobs, MOST_PLACES};
+use crate::motion::integrate::bogacki_shampine::{Errors, Stage};
+use crate::motion::lanes::Lanes;
+use crate::results::outcome::{Status, StepError};
+use crate::run::Step;
+use crate::run::ahead::Ahead;
+
+/// Where in a trial rates are asked for, in the order of the frames on a bench.
+const STAGES: [Stage; 3] = [Stage::Within(0.5), Stage::Within(0.75), Stage::End];
+
+impl<L: Machine> Group<L> {
+    /// Lets the run of `place`, whose first output is recorded, begin its steps in lane `i`, or hands it out.
+    pub(super) fn begin_steps(
+        &mut self,
+        i: usize,
+        place: Box<Place>,
+        next: Next,
+        jobs: &mut dyn Jobs,
+    ) -> ControlFlow<()> {
+        if let Next::Ends(status) = next {
+            return self.hand_out(i, *place, status, jobs);
+        }
+        let (bench, front) = (self.bench.as_deref_mut(), place.run.front.as_deref());
+        if let (Some(Bench { ahead: Some(ahead), tolerance, .. }), Some(front), Some(control)) =
+            (bench, front, place.control)
+        {
+            tolerance.relative.set_lane(i, control.tolerance.relative);
+            tolerance.absolute_m.set_lane(i, control.tolerance.absolute_m);
+            tolerance.absolute_m_s.set_lane(i, control.tolerance.absolute_m_s);
+            ahead.begin(i, &front.ahead);
+        }
+        self.places[i] = Some(place);
+        ControlFlow::Continue(())
+    }
+
+    /// A trial of every run, and the outputs that are reached.
+    pub(super) fn try_steps(&mut self, jobs: &mut dyn Jobs) -> ControlFlow<()> {
+        let h = self.propose(jobs)?;
+        let Group { bench: Some(bench), places, .. } = self else { return ControlFlow::Continue(()) };
+        let (errors, switched) = L::attempt(bench, h, &mut Witness::of(places, Sees::Trial));
+        let mut verdicts = [const { None }; MOST_PLACES];
+        for (i, place) in places.iter_mut().enumerate() {
+            let (Some(place), Some(ahead)) = (place, &mut bench.ahead) else { continue };
+            let errors = Errors { whole: errors.whole.lane(i), within: errors.within.lane(i) };
+            place.jumps = switched.lane(i) > 0.0;
+            verdicts[i] = Some(place.judge(i, ahead, errors));
+        }
+        shift(bench, &verdicts);
+        for (i, verdict) in verdicts.into_iter().enumerate() {
+            match verdict {
+                Some(Ok(true)) => self.reach_outputs(i, jobs)?,
+                Some(Err(error)) => self.fail(i, error, jobs)?,
+                _ => {}
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// The trial of every run: their lengths, 0 where there is none; frames are moved.
+    fn propose(&mut self, jobs: &mut dyn Jobs) -> ControlFlow<(), L> {
+        let (mut h, mut looks) = (L::zero(), L::zero());
+        let Group { bench: Some(bench), places, .. } = self else { return ControlFlow::Continue(h) };
+        for (i, place) in places.iter_mut().enumerate() {
+            let Some(place) = place else { continue };
+            let middle_s = place.propose();
+            h.set_lane(i, place.step.length_s());
+            if place.looks {
+                looks.set_lane(i, 1.0);
+                move_frames(i, place, &mut bench.around.frames[0], [place.step.start_s, middle_s]);
+            }
+        }
+        let bears = L::look(bench, looks, h, &mut Witness::of(places, Sees::Front));
+        let mut failed = [const { None }; MOST_PLACES];
+        for (i, place) in places.iter_mut().enumerate() {
+            let (Some(place), Some(ahead)) = (place, &mut bench.ahead) else { continue };
+            if place.looks {
+                ahead.take_look(i);
+            }
+            failed[i] = place.shorten(bears.lane(i)).err();
+            h.set_lane(i, if failed[i].is_none() { place.step.length_s() } else { 0.0 });
+            let [_, middle_s, _] = place.step.times_s();
+            for (frames, stage) in bench.around.frames.iter_mut().zip(STAGES) {
+                move_frames(i, place, frames, [place.step.at_s(stage), middle_s]);
+            }
+        }
+        for (i, error) in failed.into_iter().enumerate() {
+            if let Some(error) = error {
+                self.fail(i, error, jobs)?;
+            }
+        }
+        ControlFlow::Continue(h)
+    }
+
+    /// Records the outputs within the latest step of the run in place `i`.
+    fn reach_outputs(&mut self, i: usize, jobs: &mut dyn Jobs) -> ControlFlow<()> {
+        let mut is_fetched = false;
+        while let (Some(place), Some(bench)) = (&mut self.places[i], &mut self.bench)
+            && let Some(ahead) = &mut bench.ahead
+        {
+            let Some((target_s, end_s)) = place.ahead_s() else { break };
+            if target_s >= end_s {
+                place.note(i, ahead);
+            }
+            if target_s > end_s {
+                break;
+            }
+            if !std::mem::replace(&mut is_fetched, true) {
+                place.fetch_step(i, ahead);
+            }
+            place.show(target_s);
+            if let Next::Ends(status) = place.output(jobs.recorder(i))
+                && let Some(place) = self.leave(i)
+            {
+                return self.hand_out(i, *place, status, jobs);
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Ends the run in place `i`, a step of which has failed.
+    fn fail(&mut self, i: usize, error: StepError, jobs: &mut dyn Jobs) -> ControlFlow<()> {
+        let Some(mut place) = self.leave(i) else { return ControlFlow::Continue(()) };
+        place.stand_at_front();
+        self.hand_out(i, *place, Ok(Status::Failed(error)), jobs)
+    }
+
+    /// Takes the run out of place `i`, in whose lane nothing moves then.
+    fn leave(&mut self, i: usize) -> Option<Box<Place>> {
+        if let Some(Bench { ahead: Some(ahead), .. }) = self.bench.as_deref_mut() {
+            ahead.rest(i);
+        }
+        self.places[i].take()
+    }
+
+    /// Brings the run of `place`, which was in lane `i`, to where it goes on alone.
+    pub(super) fn fetch_ahead(&mut self, i: usize, place: &mut Place) {
+        let Some(Bench { ahead: Some(ahead), .. }) = self.bench.as_deref_mut() else { return };
+        place.fetch_step(i, ahead);
+        place.fetch_after(i, ahead);
+    }
+}
+
+/// Shifts the lanes of which a trial is accepted.
+fn shift<L: Machine>(bench: &mut Bench<L>, verdicts: &[Option<Result<bool, StepError>>; MOST_PLACES]) {
+    let stays = |verdict: &Option<Result<bool, StepError>>| matches!(verdict, Some(Ok(false) | Err(_)));
+    let Some(ahead) = bench.ahead.as_mut().filter(|_| verdicts.iter().any(|v| matches!(v, Some(Ok(true))))) else {
+        return;
+    };
+    ahead.shift();
+    if verdicts.iter().any(stays) {
+        let mut kept = L::zero();
+        for i in (0..L::COUNT).filter(|i| stays(&verdicts[*i])) {
+            ahead.shift_back(i);
+            kept.set_lane(i, 1.0);
+        }
+        L::keep_hints(bench, kept);
+    }
+}
+
+impl Place {
+    /// Proposes the next trial; returns the middle of its step, or of one before it, s, where the rate at its start is asked for.
+    fn propose(&mut self) -> f64 {
+        let (Some(control), Some(mut front)) = (&self.control, self.run.front.take()) else { return f64::NAN };
+        self.step = self.run.propose(&mut front, control);
+        self.looks = front.must_look();
+        let follows = front.pending.is_some_and(|pending| pending.follows);
+        self.run.front = Some(front);
+        self.step.middle_beside_s(follows)
+    }
+
+    /// Takes of the trial the part that is no longer than `bears_s`.
+    fn shorten(&mut self, bears_s: f64) -> Result<(), StepError> {
+        let (Some(control), Some(mut front)) = (&self.control, self.run.front.take()) else { return Ok(()) };
+        let part = self.run.shorten(&mut front, self.step.first_part(|_| bears_s), control);
+        self.run.front = Some(front);
+        self.step = part?;
+        Ok(())
+    }
+
+    /// Judges the trial of lane `i`.
+    fn judge<L: Lanes>(&mut self, i: usize, ahead: &mut Ahead<L>, errors: Errors<f64>) -> Result<bool, StepError> {
+        let (Some(control), Some(mut front)) = (&self.control, self.run.front.take()) else { return Ok(false) };
+        self.jumps &= front.can_switch();
+        let is_asked_for = self.jumps || front.searches() || !errors.whole.is_finite();
+        let Ahead { after, trial, .. } = &mut front.ahead;
+        if is_asked_for {
+            let fetch = &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i);
+            ahead.after.memory.each(&mut after.memory, fetch);
+            ahead.trial.memory.each(&mut trial.memory, fetch);
+        } else {
+            // corners ask for no more
+            for touching in &front.met_in_trial {
+                let pair = touching.meeting.pair;
+                after.memory.contacts[pair].greatest = ahead.after.memory.contacts[pair].greatest.lane(i);
+            }
+        }
+        let verdict = self.run.judge(&self.model, &mut front, errors, self.jumps, control);
+        self.run.front = Some(front);
+        verdict
+    }
+
+    /// The next output, and the end of the latest step, s.
+    fn ahead_s(&self) -> Option<(f64, f64)> {
+        let target_s = self.run.next_output_s(&self.model)?;
+        Some((target_s, self.run.front.as_ref()?.step.end_s))
+    }
+
+    /// Notes once what there is at the end of the latest step of lane `i`.
+    fn note<L: Lanes>(&mut self, i: usize, ahead: &mut Ahead<L>) {
+        let Some(front) = self.run.front.as_mut() else { return };
+        if !front.must_note() {
+            return;
+        }
+        let Step { end_s, .. } = front.step;
+        if self.jumps {
+            let fetch = &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i);
+            ahead.before.memory.each(&mut front.ahead.before.memory, fetch);
+            ahead.after.memory.each(&mut front.ahead.after.memory, fetch);
+            let [before, now] = [&front.ahead.before.memory, &front.ahead.after.memory];
+            self.run.switches.note(&self.model.system().forces, end_s, before, now);
+        }
+        let past = &ahead.after.memory.contacts;
+        self.run.seen.see(&self.model, end_s, &front.met, &front.felt, |pair| past[pair].phase.lane(i));
+    }
+
+    /// Fetches what outputs within the latest step of lane `i` follow from.
+    fn fetch_step<L: Lanes>(&mut self, i: usize, ahead: &mut Ahead<L>) {
+        let Some(front) = &mut self.run.front else { return };
+        let alone = &mut front.ahead;
+        ahead.from.lane(i, &mut alone.from);
+        ahead.to.lane(i, &mut alone.to);
+        ahead.rates[0].lane(i, &mut alone.rates[0]);
+        ahead.rates[1].lane(i, &mut alone.rates[1]);
+        ahead.before.memory.each(&mut alone.before.memory, &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i));
+        alone.before.look_again();
+    }
+
+    /// Fetches what the next trial of lane `i` follows from besides.
+    fn fetch_after<L: Lanes>(&mut self, i: usize, ahead: &mut Ahead<L>) {
+        let Some(front) = &mut self.run.front else { return };
+        let alone = &mut front.ahead.after;
+        ahead.after.memory.each(&mut alone.memory, &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i));
+        alone.begin_anew(&self.model.system().forces, ahead.after.pace().map(|lanes| lanes.lane(i)));
+    }
+
+    /// The run comes to a time within its latest step.
+    fn show(&mut self, time_s: f64) {
+        let run = &mut self.run;
+        if let Some(front) = &run.front {
+            run.state = front.state_at(time_s);
+            run.history.remember(&front.ahead.before.memory);
+        }
+        run.time_s = time_s;
+    }
+
+    /// The run comes to the end of its latest step.
+    fn stand_at_front(&mut self) {
+        if let Some(front) = &self.run.front {
+            self.run.time_s = front.step.end_s;
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! Chests that give way, in the words of a scenario.
+//!
+//! `person`: breastbone and skin fitted to frontal hub tests (Lebarbé and Petit 2012, 4.3 and 6.7 m/s; the damper's linear part by
+//! Kent 2004), the share of a belt from Kent 2004; lower ribs and links to means of Shaw 2009. `dummy50`, `dummy05f`: fitted to 49
+//! CFR 572.34 and 572.134, the share of a belt to vehicle test NHTSA 7292. The mass of `dummy50` is a guess.
+
+use crate::sections::ChestChoice;
+use occupant_core::body::Body;
+use occupant_core::body::people::Person;
+
+/// Height of the breastbone's plate above the upper torso's lower end, as a part of its length.
+const HEIGHT: f64 = 0.62;
+/// Exponent by which the stiffness of chests follows their depth: that of the two dummies.
+const BY_DEPTH: f64 = 0.27;
+
+/// A breastbone in numbers of a man of medium size.
+struct Breastbone {
+    mass_kg: f64,
+    /// m and N.
+    spring: &'static [[f64; 2]],
+    returned: f64,
+    /// N·s/m, N·s²/m², and N·s/m outwards.
+    damper: [f64; 3],
+    /// Of belts and of bags.
+    share: f64,
+}
+
+const PERSON: Breastbone = Breastbone {
+    mass_kg: 0.20,
+    spring: &[[0.0, 0.0], [0.022, 220.0], [0.1, 4120.0]],
+    returned: 0.3,
+    damper: [40.0, 116.0, 650.0],
+    share: 0.35,
+};
+const DUMMY_50: Breastbone = Breastbone {
+    mass_kg: 0.9,
+    spring: &[[0.0, 0.0], [0.1, 6000.0]],
+    returned: 1.0,
+    damper: [640.0, 0.0, 640.0],
+    share: 0.20,
+};
+const DUMMY_05F: Breastbone = Breastbone {
+    mass_kg: 0.2,
+    spring: &[[0.0, 0.0], [0.04, 2000.0], [0.1, 12200.0]],
+    returned: 0.7,
+    damper: [440.0, 0.0, 440.0],
+    share: 0.20,
+};
+
+/// What a chest multiplies.
+struct Scale {
+    mass: f64,
+    force: f64,
+    depth: f64,
+}
+
+/// Two masses and a spring at equal speed: forces go as √(R_m R_k), depths as √(R_m/R_k), times stay.
+impl Scale {
+    const NONE: Scale = Scale { mass: 1.0, force: 1.0, depth: 1.0 };
+
+    fn of(mass: f64, depth: f64) -> Self {
+        let stiffness = depth.powf(BY_DEPTH);
+        Scale { mass, force: (mass * stiffness).sqrt(), depth: (mass / stiffness).sqrt() }
+    }
+}
+
+/// The keys under `[body]` of the chest of a body that differs from `reference` as a person of this size does from another.
+pub(super) fn words(
+    choice: ChestChoice,
+    body: &Body,
+    [person, of_reference]: [Person; 2],
+    reference: &Body,
+) -> Vec<String> {
+    let Some(torso) = body.tree.landmarks().chest else { return Vec::new() };
+    let (own, other) = (body.segment(torso), reference.segment(torso));
+    let depth_m = person.chest_depth_m();
+    let (breastbone, scale, depth_m) = match choice {
+        ChestChoice::Rigid => return Vec::new(),
+        ChestChoice::Person => {
+            let scale = Scale::of(own.mass_kg / other.mass_kg, depth_m / of_reference.chest_depth_m());
+            (PERSON, scale, depth_m)
+        }
+        ChestChoice::Dummy50 => (DUMMY_50, Scale::NONE, 0.229),
+        ChestChoice::Dummy05f => (DUMMY_05F, Scale::NONE, 0.187),
+    };
+    let name = body.tree[torso].name;
+    let (stretch, height_m) = (own.length_m / other.length_m, HEIGHT * own.length_m);
+    let at = |y_m: f64, below_m: f64| {
+        format!("at = {}", list(&[0.1 * stretch, y_m * stretch, height_m - below_m * stretch]))
+    };
+    let plate = |plate: &str, at: String, mass_kg: f64| {
+        vec![
+            format!("[body.plates.{plate}]"),
+            format!("segment = {name:?}"),
+            at,
+            "inward = [-1, 0, 0]".to_owned(),
+            format!("mass = {}", number(mass_kg)),
+            format!("depth = {}", number(depth_m)),
+        ]
+    };
+    let mut lines = vec![ride(breastbone.share)];
+    lines.extend(plate("sternum", at(0.0, 0.0), scale.mass * breastbone.mass_kg));
+    lines.extend(breastbone.words(&scale));
+    if choice == ChestChoice::Person {
+        for (side, y_m) in [("left_ribs", 0.1), ("right_ribs", -0.1)] {
+            lines.extend(plate(side, at(y_m, 0.115), scale.mass * 0.3));
+        }
+        lines.extend(link("rib_cage", 1.0, 37.5e3, 150.0, &scale));
+        lines.extend(link("rocking", -1.0, 6.7e3, 60.0, &scale));
+    }
+    lines
+}
+
+/// The keys under `[body]` of flesh between a lap belt and the pelvis: all of its numbers are guesses within a factor of two, from no curve
+/// of a lap belt on a pelvis.
+pub(super) fn flesh(body: &Body) -> [String; 2] {
+    let Some(pelvis) = body.tree.landmarks().pelvis else { return [String::new(), String::new()] };
+    let radius_m = body.sphere("pelvis").map_or(0.1, |sphere| body.spheres[sphere].radius_m);
+    let plate = [
+        "[body.plates.flesh]".to_owned(),
+        format!("segment = {:?}", body.tree[pelvis].name),
+        format!("at = {}", list(&[0.7 * radius_m, 0.0, 0.7 * radius_m])),
+        "inward = [-1, 0, -1]".to_owned(),
+        "mass = 0.5".to_owned(),
+        "spring = { depth = [0, 0.02, 0.1], force = [0, 1200, 17200], returned = 0.3 }".to_owned(),
+        "damper = { linear = 500 }".to_owned(),
+    ];
+    ["pelvis.ride = { belt = { flesh = 1 } }".to_owned(), plate.join("\n")]
+}
+
+/// How the sphere of the chest rides; the lines before are those of `[body.spheres]`.
+fn ride(share: f64) -> String {
+    format!(
+        "chest.ride = {{ contact = {{ sternum = 1 }}, belt = {{ sternum = {share} }}, bag = {{ sternum = {share} }} }}"
+    )
+}
+
+impl Breastbone {
+    fn words(&self, scale: &Scale) -> Vec<String> {
+        let axis = |i: usize, by: f64| list(&self.spring.iter().map(|point| point[i] * by).collect::<Vec<_>>());
+        let [linear, quadratic, outward] = self.damper.map(|c| number(c * scale.force));
+        let (depths, forces) = (axis(0, scale.depth), axis(1, scale.force));
+        vec![
+            format!("spring = {{ depth = {depths}, force = {forces}, returned = {} }}", self.returned),
+            format!("damper = {{ linear = {linear}, quadratic = {quadratic}, outward = {outward} }}"),
+        ]
+    }
+}
+
+/// A number, always as wide.
+fn number(value: f64) -> String {
+    format!("{value:.16e}")
+}
+
+fn list(values: &[f64]) -> String {
+    format!("[{}]", values.iter().map(|value| number(*value)).collect::<Vec<_>>().join(", "))
+}
+
+/// A link between the lower ribs of both sides: of their sum or their difference.
+fn link(name: &str, right: f64, stiffness: f64, damping: f64, scale: &Scale) -> Vec<String> {
+    vec![
+        format!("[body.plate_links.{name}]"),
+        format!("of = {{ left_ribs = 1, right_ribs = {right} }}"),
+        format!("spring = {{ stiffness = {} }}", number(stiffness * scale.force / scale.depth)),
+        format!("damper = {{ linear = {} }}", number(damping * scale.force)),
+    ]
+}

@@ -1,0 +1,130 @@
+//! What the samples of a study share: the base scenario checked, expanded and read once. A sample that changes values of
+//! sections that nothing is laid under is made from it; only what it changes is checked and read again.
+
+use std::sync::Arc;
+
+use super::check::check_parts;
+use super::expand::expand;
+use super::presets::IN_LIBRARY;
+use super::sections::{Scenario, schema};
+use placed_text::{Diagnostics, Document, Node, SourceId, Sources, Table};
+
+/// A scenario that has passed the check, and its explicit form.
+#[derive(Clone, Debug)]
+pub(crate) struct Ready {
+    /// What its places point into.
+    pub(crate) sources: Sources,
+    main: SourceId,
+    /// As it was written.
+    pub(crate) root: Node,
+    pub(crate) scenario: Scenario,
+    /// With presets, pairs, `all` and joint sets written out.
+    pub(crate) explicit_root: Node,
+    pub(crate) explicit: Scenario,
+}
+
+/// Sections on which others depend, or under which something is laid.
+const OTHERS: [&str; 6] = ["units", "body", "joints", "joint_sets", "occupants", "provenance"];
+
+impl Ready {
+    /// Reads a document that has passed the check; nothing is laid under or written out yet.
+    ///
+    /// # Errors
+    /// A difference between check and sections.
+    pub(crate) fn of(mut document: Document) -> Result<Ready, Diagnostics> {
+        let scenario: Scenario = document.sections("scenario")?;
+        let root = document.root.clone();
+        document.root = expand(&mut document.sources, &root);
+        let explicit = complete(document.sections("scenario")?);
+        let Document { sources, main, root: explicit_root } = document;
+        Ok(Ready { sources, main, root, scenario, explicit_root, explicit })
+    }
+
+    /// The same with another tree, where no more than values of plain sections are others and those are right; else none.
+    pub(crate) fn with(&self, sources: &Sources, root: &Node) -> Option<Ready> {
+        let (old, new) = (self.root.as_table()?, root.as_table()?);
+        if !old.keys().eq(new.keys()) {
+            return None;
+        }
+        let is_same = |key: &str| old.get(key).zip(new.get(key)).is_some_and(|(a, b)| shares(&a.node, &b.node));
+        let changed: Vec<&str> = new.keys().map(String::as_str).filter(|key| !is_same(key)).collect();
+        let is_plain = |key: &&str| !OTHERS.contains(key) && !(IN_LIBRARY.contains(key) && refers(old, new, key));
+        if !changed.iter().all(is_plain) {
+            return None;
+        }
+        let mut document = Document { sources: sources.clone(), main: self.main, root: root.clone() };
+        if !check_parts(&mut document, schema(), &changed).is_empty() {
+            return None;
+        }
+        let part = Table::from_iter(["title", "time"].iter().chain(&changed).filter_map(|key| {
+            let table = document.root.as_table()?;
+            Some(((*key).to_owned(), table.get(*key)?.clone()))
+        }));
+        let root = document.root.clone();
+        document.root = Node::new(root.span, placed_text::Value::Table(Arc::new(part)));
+        let part: Scenario = document.sections("scenario").ok()?;
+        let mut ready = Ready { sources: document.sources, root, ..self.clone() };
+        for key in changed {
+            ready.scenario.take(key, &part)?;
+            ready.explicit.take(key, &part)?;
+            let entry = ready.root.as_table()?.get(key)?.clone();
+            ready.explicit_root.as_table_mut()?.insert(key.to_owned(), entry);
+        }
+        ready.explicit = complete(ready.explicit);
+        Some(ready)
+    }
+
+    /// The tree of the explicit form.
+    pub(crate) fn document(&self) -> Document {
+        Document { sources: self.sources.clone(), main: self.main, root: self.explicit_root.clone() }
+    }
+}
+
+/// Whether two trees are one and the same, or a plain value twice.
+pub(super) fn shares(a: &Node, b: &Node) -> bool {
+    match (&a.value, &b.value) {
+        (placed_text::Value::Table(one), placed_text::Value::Table(other)) => Arc::ptr_eq(one, other),
+        _ => a == b,
+    }
+}
+
+/// Whether an entry of a section refers to the library.
+fn refers(old: &Table, new: &Table, key: &str) -> bool {
+    let entries = [old, new].into_iter().filter_map(|root| root.get(key)?.node.as_table()).flatten();
+    entries.into_iter().any(|(_, entry)| entry.node.get("library").is_some())
+}
+
+/// What an explicit scenario says where it was silent.
+fn complete(mut explicit: Scenario) -> Scenario {
+    // result files hold the explicit form, and what it leaves out was false in version 0.1.0
+    let others = explicit.occupants.values_mut().filter_map(|occupant| occupant.posture.as_mut());
+    for posture in explicit.posture.iter_mut().chain(others) {
+        posture.settle.get_or_insert(true);
+    }
+    // nor did that version say where edge forces act: at the point of contact
+    if !explicit.surfaces.is_empty() {
+        explicit.contact.get_or_insert_default().edge_force.get_or_insert_default();
+    }
+    explicit
+}
+
+/// Writes the function that takes a section over from another scenario, by its key.
+macro_rules! sections {
+    ($($key:ident)*) => {
+        impl Scenario {
+            /// Takes over a section; none of a key that is not its own.
+            fn take(&mut self, key: &str, from: &Scenario) -> Option<()> {
+                match key {
+                    $(stringify!($key) => self.$key.clone_from(&from.$key),)*
+                    _ => return None,
+                }
+                Some(())
+            }
+        }
+    };
+}
+
+sections! {
+    title notes gravity inside time output integrator drive path vehicles ground frames loose posture initial_state mount stance
+    seats muscles triggers markers belts webbings limiters retractors bags gases materials contact self_contact surfaces solids
+}

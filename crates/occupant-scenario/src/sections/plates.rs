@@ -1,0 +1,360 @@
+//! Parts of the trunk that give way: `body.chest`, `body.plates`, `body.plate_links` and `ride`, and what they come to.
+
+use indexmap::IndexMap;
+use nalgebra::{Point3, Vector3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::body::BodySection;
+use super::builder::Builder;
+use super::functions::{function, listed, points};
+use super::nodes::NodeSection;
+use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, Quantity, all_si, point, si_or};
+use super::{Damping, Force, Length, Mass, QuadraticDamping, Ratio, Scenario, Stiffness, Time};
+use occupant_core::body::{Body, Chest, Plate, Ride, Shares};
+use occupant_core::forces::chain::Site;
+use occupant_core::forces::contact::solid::Solid;
+use occupant_core::forces::contact::surface::Surface;
+use occupant_core::forces::function::Function;
+use occupant_core::forces::plate::{Band, Damper};
+use occupant_core::model::seating::InitialPosture;
+use placed_text::with_key;
+
+/// How far beside a plate, and how far above or below it, webbing still presses it in, of the reference person, m.
+const TENT_M: [f64; 2] = [0.13, 0.15];
+/// How far above a plate's mass webbing presses it in most, of the reference person, m: with it a belt that lies as that of Shaw's sled
+/// tests bears on the breastbone with 0.35 of its force.
+const TENT_ABOVE_M: f64 = 0.046;
+
+/// Whose chest it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum ChestChoice {
+    /// Does not give way.
+    Rigid,
+    /// Of people: a breastbone fitted to hub tests, and lower ribs to both sides.
+    Person,
+    /// Of the Hybrid III that is a man of medium size.
+    Dummy50,
+    /// Of the Hybrid III that is a small woman.
+    Dummy05f,
+}
+
+impl ChestChoice {
+    /// As a scenario writes it.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            ChestChoice::Rigid => "rigid",
+            ChestChoice::Person => "person",
+            ChestChoice::Dummy50 => "dummy50",
+            ChestChoice::Dummy05f => "dummy05f",
+        }
+    }
+}
+
+/// Whether the pelvis gives way under a lap belt.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum PelvisChoice {
+    /// It does not.
+    Rigid,
+    /// Flesh between belt and bone; all of its numbers are guesses.
+    Flesh,
+}
+
+/// A part of a segment that gives way along a line.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BodyPlateSection {
+    /// Segment, of whose mass it is a part.
+    pub(crate) segment: Option<String>,
+    /// Where its mass is before it gives way, from the segment's lower end, segment axes (X ahead, Y left, Z up when standing).
+    pub(crate) at: Option<[Length; 3]>,
+    /// The way inwards along which it gives way, segment axes; any length.
+    pub(crate) inward: Option<[Ratio; 3]>,
+    /// Mass that moves; the segment's whole mass stays what it is.
+    pub(crate) mass: Option<Mass<POSITIVE>>,
+    /// Depth of the trunk behind it, with which deflections are compared.
+    pub(crate) depth: Option<Length<POSITIVE>>,
+    /// Force over its deflection, outwards the same.
+    pub(crate) spring: Option<BodySpringSection>,
+    /// Force over its deflection outwards, where that is another.
+    pub(crate) outward_spring: Option<BodySpringSection>,
+    /// What damps it.
+    pub(crate) damper: Option<BodyDamperSection>,
+    /// A spring that gives way with a time constant, beside the others.
+    pub(crate) viscous: Option<BodyViscousSection>,
+}
+
+/// A spring and a damper over the deflections of several plates.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LinkSection {
+    /// Factors of the plates' deflections by their names: 1 and -1 for their difference, 1 and 1 for their sum.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) of: IndexMap<String, Ratio>,
+    /// Force over that sum, below 0 the same.
+    pub(crate) spring: Option<BodySpringSection>,
+    /// Force where the sum is below 0, if that is another.
+    pub(crate) outward_spring: Option<BodySpringSection>,
+    /// What damps it.
+    pub(crate) damper: Option<BodyDamperSection>,
+    /// A spring that gives way with a time constant, beside the others.
+    pub(crate) viscous: Option<BodyViscousSection>,
+}
+
+/// A force over a deflection.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-at-most-one" = [["returned", "returned_each"]]))]
+pub(crate) struct BodySpringSection {
+    /// Deflections, from 0 on.
+    pub(crate) depth: Option<Vec<Length<NOT_NEGATIVE>>>,
+    /// Force at each; must not fall. It goes on with its last slope.
+    pub(crate) force: Option<Vec<Force<NOT_NEGATIVE>>>,
+    /// One slope instead of depths and forces, which then do not count.
+    pub(crate) stiffness: Option<Stiffness<POSITIVE>>,
+    /// Fraction of its work that comes back; 1 if absent.
+    pub(crate) returned: Option<Ratio<FRACTION>>,
+    /// The same for each interval.
+    pub(crate) returned_each: Option<Vec<Ratio<FRACTION>>>,
+}
+
+/// Damping, which only ever takes energy.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BodyDamperSection {
+    /// Force per speed inwards; 0 if absent.
+    pub(crate) linear: Option<Damping<NOT_NEGATIVE>>,
+    /// Force per square of the speed inwards, added to it; 0 if absent.
+    pub(crate) quadratic: Option<QuadraticDamping<NOT_NEGATIVE>>,
+    /// Force per speed outwards; `linear` if absent.
+    pub(crate) outward: Option<Damping<NOT_NEGATIVE>>,
+}
+
+/// A spring that gives way.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BodyViscousSection {
+    /// Its stiffness.
+    pub(crate) stiffness: Stiffness<POSITIVE>,
+    /// Time constant.
+    pub(crate) time: Time<POSITIVE>,
+}
+
+/// How a sphere goes along with plates, by what touches it: shares from 0 to 1 of their deflections, by their names.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RideSection {
+    /// Under surfaces, solids and other spheres.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) contact: IndexMap<String, Ratio>,
+    /// Under belts.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) belt: IndexMap<String, Ratio>,
+    /// Under air bags.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) bag: IndexMap<String, Ratio>,
+}
+
+/// What a node of a belt lies on: by its place there it goes along with plates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum PlaceRide {
+    /// On the chest.
+    Chest,
+}
+
+/// The plates of `body`.
+pub(super) fn plates(b: &mut Builder, section: &BodySection, body: &Body) -> Vec<Plate> {
+    section.plates.iter().filter_map(|(name, s)| plate(b, name, s, body)).collect()
+}
+
+fn plate(b: &mut Builder, name: &str, s: &BodyPlateSection, body: &Body) -> Option<Plate> {
+    let path = with_key("body.plates", name);
+    let mut missing = |key: &str, is_there: bool, expected: &str| {
+        if !is_there {
+            b.error(&path, format!("`{path}` has no key `{key}`"), expected);
+        }
+    };
+    missing("segment", s.segment.is_some(), "segment = the segment, of whose mass it is a part");
+    missing("at", s.at.is_some(), "at = [x, y, z] from the lower end of that segment");
+    missing("inward", s.inward.is_some(), "inward = the way in which it gives way, such as [-1, 0, 0]");
+    let mass_kg = b.needed(&path, "mass", &s.mass);
+    let named = s.segment.as_deref()?;
+    let Some(segment) = body.tree.segment_named(named) else {
+        let names: Vec<&str> = body.tree.segment_rows().iter().map(|row| row.name).collect();
+        b.unknown(&with_key(&path, "segment"), "segment", named, &names);
+        return None;
+    };
+    Some(Plate {
+        name: name.to_owned(),
+        segment,
+        place_from_lower_end_m: s.at.as_ref().map_or_else(Point3::origin, point),
+        inward: s.inward.as_ref().map_or_else(Vector3::zeros, |inward| Vector3::from(all_si(inward))),
+        mass_kg,
+        depth_m: s.depth.as_ref().map(Quantity::si),
+    })
+}
+
+/// What resists the plates of a body that has them.
+pub(super) fn bands(b: &mut Builder, section: &BodySection, body: &Body) -> Vec<Band> {
+    if body.plates.is_empty() {
+        return Vec::new();
+    }
+    let mut bands = Vec::new();
+    for (i, plate) in body.plates.iter().enumerate() {
+        let Some(s) = section.plates.get(&plate.name) else { continue };
+        let parts = Parts { spring: &s.spring, outward: &s.outward_spring, damper: &s.damper, viscous: &s.viscous };
+        let path = with_key("body.plates", &plate.name);
+        bands.extend(parts.band(b, &path, &plate.name, vec![(i, 1.0)]));
+    }
+    for (name, s) in &section.plate_links {
+        let path = with_key("body.plate_links", name);
+        let parts = Parts { spring: &s.spring, outward: &s.outward_spring, damper: &s.damper, viscous: &s.viscous };
+        let of = shares(b, &with_key(&path, "of"), &s.of, body);
+        bands.extend(parts.band(b, &path, name, of));
+    }
+    bands
+}
+
+/// What a band is made of.
+struct Parts<'a> {
+    spring: &'a Option<BodySpringSection>,
+    outward: &'a Option<BodySpringSection>,
+    damper: &'a Option<BodyDamperSection>,
+    viscous: &'a Option<BodyViscousSection>,
+}
+
+impl Parts<'_> {
+    /// None of a plate that links alone hold.
+    fn band(&self, b: &mut Builder, path: &str, name: &str, of: Shares) -> Option<Band> {
+        if self.spring.is_none() && self.damper.is_none() && self.viscous.is_none() {
+            return None;
+        }
+        let nothing = || Function::lines(vec![[0.0, 0.0], [1.0, 1e-9]], 1.0);
+        let spring = self.spring.as_ref().map(|spring| spring.function(b, &with_key(path, "spring")));
+        let outward = self.outward.as_ref().map(|spring| spring.function(b, &with_key(path, "outward_spring")));
+        let damper = self.damper.as_ref().map(|s| {
+            let linear_n_s_m = si_or(&s.linear, 0.0);
+            let quadratic_n_s2_m2 = si_or(&s.quadratic, 0.0);
+            Damper { linear_n_s_m, quadratic_n_s2_m2, outward_n_s_m: si_or(&s.outward, linear_n_s_m) }
+        });
+        Some(Band {
+            name: name.to_owned(),
+            of,
+            spring: spring.unwrap_or_else(nothing),
+            outward,
+            damper: damper.unwrap_or_default(),
+            viscous: self.viscous.as_ref().map(|s| [s.stiffness.si(), s.time.si()]),
+        })
+    }
+}
+
+impl BodySpringSection {
+    fn function(&self, b: &mut Builder, path: &str) -> Function {
+        let points = match &self.stiffness {
+            Some(stiffness) => vec![[0.0, 0.0], [0.1, 0.1 * stiffness.si()]],
+            None => points(b, path, ["depth", "force"], listed(&self.depth), listed(&self.force)),
+        };
+        function(points, &None, &self.returned, &self.returned_each, 1.0)
+    }
+}
+
+/// How a sphere rides on plates of `body`.
+pub(super) fn ride(b: &mut Builder, path: &str, s: &RideSection, body: &Body) -> Ride {
+    let mut on = |key: &str, named: &IndexMap<String, Ratio>| shares(b, &format!("{path}.ride.{key}"), named, body);
+    Ride { contact: on("contact", &s.contact), belt: on("belt", &s.belt), bag: on("bag", &s.bag) }
+}
+
+/// Plates with numbers, by their names.
+fn shares(b: &mut Builder, path: &str, named: &IndexMap<String, Ratio>, body: &Body) -> Shares {
+    let mut list = Vec::new();
+    for (name, share) in named {
+        match body.plates.iter().position(|plate| plate.name == *name) {
+            Some(plate) => list.push((plate, share.si())),
+            None => {
+                let names: Vec<&str> = body.plates.iter().map(|plate| plate.name.as_str()).collect();
+                b.unknown(&with_key(path, name), "plate", name, &names);
+            }
+        }
+    }
+    list
+}
+
+/// How a node at a place of `body` rides.
+pub(super) fn node(b: &mut Builder, path: &str, s: &NodeSection, site: &Site, body: &Body) -> Shares {
+    if s.ride.is_empty() && s.lies_on.is_none() {
+        return Vec::new();
+    }
+    let (segment, at) = match site {
+        Site::Segment(segment, at, _) => (*segment, *at),
+        Site::Track(segment, track) => (*segment, track.points_m[1]),
+        Site::Vehicle(..) | Site::Sphere(_) => {
+            let found = "`ride` or `lies_on` of what is no point of a segment";
+            b.error(path, found, "`on` and `at`; a sphere rides as `body.spheres` says");
+            return Vec::new();
+        }
+    };
+    if s.lies_on.is_some() { by_place(body, segment, at) } else { shares(b, &with_key(path, "ride"), &s.ride, body) }
+}
+
+/// Shares that fall from 1 where a plate is to 0 at the edge of its tent.
+fn by_place(body: &Body, segment: usize, at: Point3<f64>) -> Shares {
+    let (reference, name) = (Body::male50(), body.tree[body.tree.segment(segment)].name);
+    let length_m = |body: &Body| Some(body.segment(body.tree.segment_named(name)?).length_m);
+    let scale = length_m(body).zip(length_m(&reference)).map_or(1.0, |(own, other)| own / other);
+    let part = |off_m: f64, half_m: f64| (1.0 - off_m.abs() / (half_m * scale)).max(0.0);
+    let share = |plate: &Plate| {
+        let from = plate.place_from_lower_end_m;
+        part(at.y - from.y, TENT_M[0]) * part(at.z - from.z - TENT_ABOVE_M * scale, TENT_M[1])
+    };
+    let own = body.plates.iter().enumerate().filter(|(_, plate)| plate.segment.index() == segment);
+    own.map(|(i, plate)| (i, share(plate))).filter(|(_, share)| *share > 0.0).collect()
+}
+
+/// The chest that results tell of; none of a body whose chest is rigid.
+pub(super) fn chest(b: &mut Builder, section: &BodySection, body: &Body) -> Option<Chest> {
+    let choice = section.chest.filter(|choice| *choice != ChestChoice::Rigid);
+    let place = |name: &str| body.plates.iter().position(|plate| plate.name == name);
+    let (Some(breastbone), choice) = (place("sternum"), choice) else {
+        if let Some(choice) = choice {
+            let found = format!("the chest of `{}` for a body of one's own, or of a child", choice.name());
+            let expected = "a preset or a person that is grown up; of others `body.plates`";
+            b.error("body.chest", found, expected);
+        }
+        return None;
+    };
+    let depth_m = body.plates[breastbone].depth_m?;
+    let sides = [("left", place("left_ribs")), ("right", place("right_ribs"))];
+    let ribs = sides.iter().filter_map(|(side, ribs)| Some((*side, (*ribs)?)));
+    let points = ribs.flat_map(|(side, ribs)| {
+        let upper = vec![(breastbone, UPPER[0]), (ribs, UPPER[1])];
+        [(format!("upper_{side}"), upper), (format!("lower_{side}"), vec![(ribs, 1.0)])]
+    });
+    let preset = choice.map_or("own", ChestChoice::name).to_owned();
+    let viscous_scale = if preset.starts_with("dummy") { 1.3 } else { 1.0 };
+    Some(Chest { of: String::new(), preset, breastbone, depth_m, viscous_scale, points: points.collect() })
+}
+
+/// Shares of breastbone and lower ribs in the deflection of the upper ribs of a side: fitted to means of eight sled tests (Shaw 2009).
+const UPPER: [f64; 2] = [0.65, 0.19];
+
+/// Surfaces, and solids behind them, that the spine leans on.
+pub(super) fn behind(
+    scenario: &Scenario,
+    (surfaces, solids): (&[Surface], &[Solid]),
+    posture: Option<&InitialPosture>,
+) -> Vec<usize> {
+    let seated = posture.and_then(|posture| match posture {
+        InitialPosture::Seated(seating) => Some(seating.back),
+        _ => None,
+    });
+    let said = |name: &str| {
+        let own = scenario.surfaces.get(name).map(|surface| surface.behind);
+        own.or_else(|| scenario.solids.get(name).map(|solid| solid.behind())).flatten()
+    };
+    let names = surfaces.iter().map(|s| s.name.as_str()).chain(solids.iter().map(|s| s.name.as_str()));
+    let is_behind = |(i, name): &(usize, &str)| said(name).unwrap_or(seated == Some(*i));
+    names.enumerate().filter(is_behind).map(|(i, _)| i).collect()
+}

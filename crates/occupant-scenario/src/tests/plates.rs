@@ -1,0 +1,61 @@
+//! `body.chest`, `body.plates`, `ride`: what they come to, and what is refused.
+
+use super::belts::changed;
+
+const DRIVER: &str = include_str!("../../scenarios/three-point.toml");
+
+#[test]
+fn a_chest_of_a_person_comes_to_three_plates_that_scale_with_the_body() {
+    let (model, _) = changed(DRIVER, &["body.chest=person", "body.pelvis=flesh"]).unwrap();
+    let body = model.body();
+    let names: Vec<&str> = body.plates.iter().map(|plate| plate.name.as_str()).collect();
+    assert_eq!(names, ["sternum", "left_ribs", "right_ribs", "flesh"]);
+    let sternum = &body.plates[0];
+    assert!((sternum.mass_kg - 0.2).abs() < 1e-12 && (sternum.depth_m.unwrap() - 0.2402).abs() < 1e-3);
+    assert_eq!(model.setup().bands[0].spring.points[1], [0.022, 220.0]);
+    let chest = &body.spheres[body.sphere("chest").unwrap()];
+    assert_eq!((&chest.ride.contact[..], &chest.ride.belt[..]), (&[(0, 1.0)][..], &[(0, 0.35)][..]));
+    let pelvis = &body.spheres[body.sphere("pelvis").unwrap()];
+    assert_eq!((pelvis.ride.contact.len(), &pelvis.ride.belt[..]), (0, &[(3, 1.0)][..]));
+    let links: Vec<&str> = model.setup().bands.iter().map(|band| band.name.as_str()).collect();
+    assert_eq!(links, ["sternum", "flesh", "rib_cage", "rocking"]);
+    // the seat's back, a solid behind all surfaces
+    let back = model.setup().surface_names().position(|name| name == "seat_back");
+    assert_eq!(model.setup().behind, back.into_iter().collect::<Vec<_>>());
+    let (small, _) = changed(DRIVER, &["body.preset=female05", "body.chest=person"]).unwrap();
+    let [depth_m, force_n] = small.setup().bands[0].spring.points[1];
+    assert!((0.016..0.020).contains(&depth_m) && (140.0..190.0).contains(&force_n), "{depth_m} {force_n}");
+    assert!((0.1..0.15).contains(&small.body().plates[0].mass_kg));
+}
+
+#[test]
+fn a_rigid_chest_is_none() {
+    let (model, _) = changed(DRIVER, &["body.chest=rigid"]).unwrap();
+    assert!(model.body().plates.is_empty() && model.body().chests.is_empty() && model.setup().bands.is_empty());
+}
+
+#[test]
+fn what_is_wrong_with_plates_is_said_at_its_place() {
+    let chest = "body.chest=person";
+    for (changes, expected) in [
+        (&[chest, "body.plates.sternum.segment=\"upper_torsos\""][..], "did you mean \"upper_torso\"?"),
+        (&[chest, "body.plates.sternum.segment=\"head\""], "which is a part of another segment"),
+        (&[chest, "body.plates.sternum.inward=[0, 0, 0]"], "the way in which it gives way"),
+        (&[chest, "body.plates.sternum.mass=0"], "body.plates.sternum.mass"),
+        (&[chest, "body.plates.sternum.mass=8"], "at most a fifth of their segment's mass"),
+        (&[chest, "body.plates.sternum.damper.linear=-1"], "body.plates.sternum.damper.linear"),
+        (&[chest, "body.plates.sternum.spring.returned=1.2"], "body.plates.sternum.spring.returned"),
+        (&[chest, "body.plates.sternum.spring.force=[0, 900, 200]"], "forces that do not fall"),
+        (&[chest, "body.spheres.chest.ride.belt.sternum=1.5"], "a share from 0 to 1"),
+        (&[chest, "body.spheres.chest.ride.belt.sternun=0.5"], "did you mean \"sternum\"?"),
+        (&[chest, "body.plate_links.rocking.of={ left_rib = 1 }"], "did you mean \"left_ribs\"?"),
+        (&["body.chest=persons"], "did you mean \"person\"?"),
+        (&[chest, "body.preset=child10"], "a preset or a person that is grown up"),
+    ] {
+        let said = match changed(DRIVER, changes) {
+            Ok((_, said)) => said,
+            Err(said) => said,
+        };
+        assert!(said.contains(expected), "{changes:?}: {said}");
+    }
+}
