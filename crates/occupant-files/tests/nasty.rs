@@ -123,7 +123,8 @@ fn a_file_is_read_as_far_as_it_is_one() {
     assert!(whole.is_complete() && whole.checkpoints.len() == 11);
     for end in (0..bytes.len()).step_by(bytes.len() / 50) {
         if let Ok(part) = opened(&bytes[..end]) {
-            assert!(!part.is_complete() && part.checkpoints.len() <= 11);
+            // only what stands behind the run's last record may be cut off from a whole one
+            assert!(part.checkpoints.len() <= 11 && part.is_complete() <= (part.checkpoints.len() == 11));
         }
     }
     for at in (0..bytes.len()).step_by(bytes.len() / 100) {

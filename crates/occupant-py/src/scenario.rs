@@ -203,8 +203,10 @@ impl Scenario {
         if let Some(start) = start {
             let ahead = loaded.triggers_of_path();
             if !ahead.is_empty() {
-                let found = format!("triggers that look ahead along the path: {}", ahead.join(", "));
-                return Err(plain(found + "; expected triggers by time, or by what belts do"));
+                let names: Vec<String> = ahead.iter().map(|name| format!("triggers.{name}")).collect();
+                let found = "triggers that look ahead along the path, which is to be told on the way";
+                let expected = "triggers by time or by what a belt does";
+                return Err(plain(format!("{}: {found}; expected {expected}", names.join(", "))));
             }
             setup.path = VehiclePath::live(start);
         }

@@ -135,5 +135,12 @@ pub(crate) fn unknown<'n>(what: &'static str, name: &str, names: impl Iterator<I
 /// The channel of a name that a model has not.
 pub(crate) fn no_channel(model: &Model, name: &str) -> Error {
     let all = occupant_core::results::channel::channels(model);
-    unknown("channel", name, all.iter().map(|channel| channel.name.as_str()))
+    let names = || all.iter().map(|channel| channel.name.as_str());
+    let mut error = Unknown::new("channel", name, names());
+    // `head.place.x` means `head.position.x`: of the same thing, along the same axis, the one that begins most alike
+    let ends = |name: &str| Some((name.split_once('.')?.0.to_owned(), name.rsplit_once('.')?.1.to_owned()));
+    let common = |own: &&str| own.bytes().zip(name.bytes()).take_while(|(a, b)| a == b).count();
+    let alike = || names().filter(|own| ends(own).is_some() && ends(own) == ends(name)).max_by_key(common);
+    error.nearest = error.nearest.or_else(|| alike().map(str::to_owned));
+    Error::from(error)
 }

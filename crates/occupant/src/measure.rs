@@ -67,7 +67,11 @@ mod tests {
         let wrong = results.figure("hci15").unwrap_err();
         assert_eq!(wrong.kind(), ErrorKind::Name);
         assert_eq!(wrong.unknown().unwrap().nearest.as_deref(), Some("hic15"));
-        assert_eq!(results.channel("hed.acceleration.x").unwrap_err().kind(), ErrorKind::Name);
+        let wrong = results.channel("head.place.x").unwrap_err();
+        assert!(
+            wrong.kind() == ErrorKind::Name && wrong.to_string().contains("did you mean `head.position.x`"),
+            "{wrong}"
+        );
         assert_eq!(results.channel("head.acceleration.x").unwrap().len(), results.time_s().len());
     }
 }

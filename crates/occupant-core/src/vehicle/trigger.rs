@@ -4,12 +4,12 @@ use super::{Interpolation, PathCursor, VehiclePath};
 
 /// The motion is looked at so often, s (ours).
 const LOOK_S: f64 = 5e-5;
-/// So often at most: 1000 s.
-const MOST_LOOKS: f64 = 2e7;
+/// So often at most: 500 s.
+const MOST_LOOKS: f64 = 1e7;
 
 /// How often a span is looked at after its start.
 fn looks([start_s, end_s]: [f64; 2]) -> u64 {
-    ((end_s - start_s) / LOOK_S).min(MOST_LOOKS) as u64
+    ((end_s - start_s) / LOOK_S).clamp(0.0, MOST_LOOKS) as u64
 }
 
 impl VehiclePath {
@@ -19,7 +19,7 @@ impl VehiclePath {
     }
 
     /// The first time of a span, s, at which the acceleration of the vehicle's centre of gravity along its floor has been at
-    /// least `threshold_m_s2` for `for_s` without a break; none if it never is within the first 1000 s.
+    /// least `threshold_m_s2` for `for_s` without a break; none if it never is within the first 500 s.
     pub fn jolt_s(&self, span_s: [f64; 2], threshold_m_s2: f64, for_s: f64) -> Option<f64> {
         let start_s = span_s[0];
         let mut cursor = PathCursor::default();
@@ -43,7 +43,7 @@ impl VehiclePath {
     }
 
     /// The first time of a span, s, at which the change of speed along the vehicle's floor has reached `threshold_m_s` since
-    /// its acceleration last rose above `wake_m_s2`; none if it never does within the first 1000 s.
+    /// its acceleration last rose above `wake_m_s2`; none if it never does within the first 500 s.
     pub fn change_s(&self, span_s: [f64; 2], threshold_m_s: f64, wake_m_s2: f64) -> Option<f64> {
         let start_s = span_s[0];
         let mut cursor = PathCursor::default();

@@ -51,8 +51,11 @@ impl Curve<f64> {
         Curve { pieces: vec![Cubic { from: -std::f64::consts::PI, c: [value, 0.0, 0.0, 0.0] }] }
     }
 
-    /// The periodic cubic spline of period 2π through points with x that rise within less than that.
+    /// The periodic cubic spline of period 2π through points with x that rise within less than that; no number through none.
     pub fn periodic(points: &[[f64; 2]]) -> Self {
+        if points.is_empty() {
+            return Curve::constant(f64::NAN);
+        }
         let count = points.len();
         let next = |i: usize| (i + 1) % count;
         let length = |i: usize| points[next(i)][0] - points[i][0] + if next(i) == 0 { TAU } else { 0.0 };
