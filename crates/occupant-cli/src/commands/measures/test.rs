@@ -111,7 +111,7 @@ pub(super) fn measures(args: &Args, options: &Options) -> Result<Done, Failure> 
         let answers: Vec<_> = all.iter().map(|one| one.answer(options)).collect();
         print(&if let [one] = &answers[..] { json(one)? } else { json(&answers)? })?;
     } else {
-        all.iter().flat_map(|one| &one.read.notes).for_each(|text| note(text));
+        all.iter().flat_map(|one| &one.read.notes).for_each(note);
         print(&if let [one] = &all[..] { one.text(options, units) } else { texts(&all, options, units) })?;
     }
     let exceeded = all.iter().flat_map(|one| &one.measures).any(Measure::is_exceeded);
