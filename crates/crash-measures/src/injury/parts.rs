@@ -9,9 +9,9 @@ use crate::measure::risk::{
     pelvis_force_risk, rib_deflection_risk,
 };
 use crate::measure::{
-    ChestSize, FourPoints, Peak, Quantity, ThoracicIntercepts, TibiaCriticals, combined_thoracic_index, compression,
-    deepest_rib, deflection_rate, force_sum, maximum, pc_score, peak_towards, three_ms_cumulative, tibia_index,
-    viscous_criterion,
+    Blow, ChestSize, FourPoints, Peak, Quantity, ThoracicIntercepts, TibiaCriticals, combined_thoracic_index,
+    compression, deepest_rib, deflection_rate, force_sum, maximum, pc_score, peak_towards, three_ms_cumulative,
+    tibia_index, viscous_criterion,
 };
 use crate::signal::ChannelClass::{Cfc180, Cfc600};
 use crate::signal::resultant;
@@ -126,9 +126,11 @@ impl Readings {
         peaks.into_iter().reduce(|a, b| if b.value > a.value { b } else { a }).ok_or(Lack::Absent)
     }
 
-    fn chest_size(&self) -> Result<ChestSize, Lack> {
+    /// The size of a person's chest, or of a dummy's that was made for such a blow.
+    fn chest_size(&self, blow: Blow) -> Result<ChestSize, Lack> {
         let of_person = self.person.map(|person| ChestSize::of_person(person.chest_depth_m));
-        of_person.or_else(|| ChestSize::of(self.options.dummy)).ok_or(Lack::NotOfDummy)
+        let of_dummy = || ChestSize::of(self.options.dummy).filter(|_| self.options.dummy.blow() == blow);
+        of_person.or_else(of_dummy).ok_or(Lack::NotOfDummy)
     }
 
     /// Without limits and risks of dummies where it is of a person.
@@ -145,11 +147,9 @@ impl Readings {
     }
 
     fn chest_compression(&self) -> Result<Finding, Lack> {
-        let depth_m = match self.chest_points().and_then(|_| self.chest_size()) {
-            Ok(size) => size.depth_m,
-            Err(lack) => return Err(lack),
-        };
-        let deflection = self.worst_of_chest(|own, dt_s| compression(own, dt_s, depth_m).map(|c| c.deflection))?;
+        let points = self.chest_points()?;
+        let depth_m = self.chest_size(Blow::Front)?.depth_m;
+        let deflection = self.worst_of(&points, |own, dt_s| compression(own, dt_s, depth_m).map(|c| c.deflection))?;
         let age_years = self.person.and_then(|person| person.age_years);
         let remark = age_years.and_then(|age| {
             let [any, many] =
@@ -166,7 +166,7 @@ impl Readings {
 
     fn viscous(&self) -> Result<Finding, Lack> {
         let points = self.chest_points()?;
-        let size = self.chest_size()?;
+        let size = self.chest_size(Blow::Front)?;
         let worst = self.worst_of(&points, |own, dt_s| viscous_criterion(own, dt_s, size))?;
         Ok(self.of_chest(at(worst)))
     }
@@ -203,7 +203,7 @@ impl Readings {
 
     fn rib_viscous(&self, of: fn(u8) -> Special, most: u8) -> Result<Finding, Lack> {
         let ribs = self.several(most, of)?;
-        let size = self.chest_size()?;
+        let size = self.chest_size(Blow::Side)?;
         Ok(self.of_chest(at(self.worst_of(&ribs, |own, dt_s| viscous_criterion(own, dt_s, size))?)))
     }
 

@@ -28,6 +28,11 @@ fn a_table_of_a_test_has_the_measures_of_what_it_reads() {
         ("shin moment[N*m]", 90.0),
         ("left_tibia.upper.moment.x[N*m]", 0.0),
         ("left_tibia.upper.force.z[kN]", -3.59),
+        // a resultant alone will do
+        ("upper_torso.acceleration.resultant[g]", 30.0),
+        ("11NECKUP00H3FOZA[kN]", 2.0),
+        // another seat's
+        ("13PELV0000H3ACRC[g]", 50.0),
     ];
     table(&folder.path().join("test.csv"), &columns);
     let map = ["--map", "shin moment=left_tibia.upper.moment.y"];
@@ -44,7 +49,13 @@ fn a_table_of_a_test_has_the_measures_of_what_it_reads() {
     near("chest_compression", 0.040 / 0.229);
     near("viscous_criterion", 1.3 * 0.0016 * PI / (2.0 * 0.04 * 0.229));
     near("left_tibia_index", 0.5);
-    assert_eq!((&told["dummy"], told["signals"].as_array().unwrap().len()), (&"Hybrid III 50M".into(), 7));
+    near("chest_peak", 30.0 * 9.80665);
+    near("neck_tension", 2000.0);
+    assert_eq!((&told["dummy"], told["signals"].as_array().unwrap().len()), (&"Hybrid III 50M".into(), 9));
+    assert_eq!(told["covers_s"][0], 0.0);
+    assert_eq!(json(&said(&["--json", "--shift", "-10 ms"]))["covers_s"][0], -0.01);
+    let seat_3 = json(&said(&["--json", "--seat", "3"]));
+    assert!(seat_3["signals"].as_array().unwrap().iter().any(|pair| pair[1] == "13PELV0000H3ACRC"), "{seat_3:#}");
     let text = out(&said(&[]));
     assert!(text.contains("chest.deflection: 11CHST0000H3DSXC") && text.contains("samples every 0.1 ms"), "{text}");
     // what it does not read is not there
@@ -60,10 +71,33 @@ fn a_table_of_a_test_has_the_measures_of_what_it_reads() {
 }
 
 #[test]
+fn a_signal_with_holes_is_left_out_and_said_to_be() {
+    let folder = folder_with_case();
+    let file = folder.path().join("test.csv");
+    table(&file, &[("head.acceleration.resultant[g]", 60.0), ("chest.deflection[mm]", 40.0)]);
+    let text = std::fs::read_to_string(&file).unwrap();
+    let holed: String = text
+        .lines()
+        .enumerate()
+        .map(|(i, line)| match i {
+            // the line of 0.7 ms
+            8 => line.rsplit_once(',').unwrap().0.to_owned() + ",NaN\n",
+            _ => line.to_owned() + "\n",
+        })
+        .collect();
+    std::fs::write(&file, holed).unwrap();
+    let output = answer(folder.path(), &["measures", "test.csv"]);
+    assert!(err(&output).contains("1 of its 800 values are missing, the first at 0.7 ms"), "{}", err(&output));
+    assert!(out(&output).contains("HIC15") && !out(&output).contains("chest deflection"), "{}", out(&output));
+}
+
+#[test]
 fn what_a_test_cannot_give_is_refused_with_its_mend() {
     let folder = folder_with_case();
     let file = folder.path().join("test.csv");
     table(&file, &[("thing[g]", 1.0)]);
+    let uneven = "t[ms],head.acceleration.resultant[g]\n0,1\n1,2\n2,3\n5,4\n6,4\n";
+    std::fs::write(folder.path().join("uneven.csv"), uneven).unwrap();
     for (words, expected) in [
         (&["measures", "test.csv"][..], "no signal that an injury measure is made of"),
         (&["measures", "test.csv", "--map", "thing=chest.deflexion"], "chest.upper_left.deflection"),
@@ -72,6 +106,7 @@ fn what_a_test_cannot_give_is_refused_with_its_mend() {
         (&["measures", "test.csv", "--interval", "1 ms"], "cannot be run again"),
         (&["measures", "test.csv", "run.mcap"], "one kind at a time"),
         (&["measures", "none.csv"], "none.csv"),
+        (&["measures", "uneven.csv"], "equal intervals"),
     ] {
         let output = answer(folder.path(), words);
         assert_eq!(code(&output), 2, "{words:?}: {}", err(&output));

@@ -40,12 +40,6 @@ struct Answer<'a> {
 
 impl Judged {
     fn of(file: &Path, args: &Args, options: &Options) -> Result<Self, Failure> {
-        if !is_test(file) {
-            return Err(Failure::with_help(
-                format!("{} is a run, and another file a test", file.display()),
-                "tests and runs are asked for one kind at a time",
-            ));
-        }
         let recording = measured::read(file)?;
         let read = Instruments::of(&recording, &args.test.map, args.test.seat, args.test.shift)?;
         let measures: Vec<_> = assess(&read.signals, options).into_iter().filter(is_of_test).collect();
@@ -105,13 +99,19 @@ pub(super) fn measures(args: &Args, options: &Options) -> Result<Done, Failure> 
     if args.interval.is_some() {
         return Err(Failure::with_help("--interval: a test cannot be run again", "leave it out"));
     }
+    if let Some(run) = args.runs.iter().find(|file| !is_test(file)) {
+        return Err(Failure::with_help(
+            format!("{} is no test, and another file is one", run.display()),
+            "tests and runs are asked for one kind at a time",
+        ));
+    }
     let all = args.runs.iter().map(|file| Judged::of(file, args, options)).collect::<Result<Vec<_>, _>>()?;
     let units = args.units.or(None);
     if args.json {
         let answers: Vec<_> = all.iter().map(|one| one.answer(options)).collect();
         print(&if let [one] = &answers[..] { json(one)? } else { json(&answers)? })?;
     } else {
-        all.iter().flat_map(|one| &one.read.notes).for_each(|text| note(text));
+        all.iter().flat_map(|one| &one.read.notes).for_each(note);
         print(&if let [one] = &all[..] { one.text(options, units) } else { texts(&all, options, units) })?;
     }
     let exceeded = all.iter().flat_map(|one| &one.measures).any(Measure::is_exceeded);
