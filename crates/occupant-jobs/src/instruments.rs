@@ -39,9 +39,11 @@ enum Goal {
 /// What a test read.
 #[derive(Clone, Debug)]
 pub struct Instruments {
+    /// The signals, SI units, along SAE J211 axes.
     pub signals: Signals,
     /// Which signal is read from which column.
     pub read: Vec<(String, String)>,
+    /// What was read otherwise than it is written.
     pub notes: Vec<String>,
 }
 
