@@ -69,13 +69,20 @@ fn so_do_drivers_with_three_point_belts() {
     differ_and_agree(&scenario(include_str!("../../scenarios/three-point.toml"), 6, 0.05));
 }
 
-/// Bags would remember something as soon as one of any lane fires.
+/// Bags fire at times of their own.
 #[test]
-fn drivers_with_air_bags_run_alone() {
-    let cases = scenario(include_str!("../../scenarios/airbag-driver.toml"), 3, 0.03);
-    for kernel in kernels() {
-        assert!(compare(&cases, kernel).iter().all(|(_, used)| *used == Kernel::Scalar));
-    }
+fn so_do_drivers_with_air_bags() {
+    let delays = ["12 ms", "9 ms", "15 ms", "12.7 ms", "10 ms"];
+    let fired = |i: usize| {
+        let delay = format!("bags.driver.delay={:?}", delays[i]);
+        own(i, setup(include_str!("../../scenarios/airbag-driver.toml"), &[&delay]), 0.045)
+    };
+    differ_and_agree(&(0..5).map(fired).collect::<Vec<_>>());
+}
+
+#[test]
+fn so_do_drivers_behind_columns() {
+    differ_and_agree(&scenario(include_str!("../../scenarios/column-driver.toml"), 4, 0.04));
 }
 
 #[test]

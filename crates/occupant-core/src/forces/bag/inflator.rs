@@ -131,9 +131,9 @@ impl<S: Copy> OutletLaw<S> {
 impl<S: Scalar> OutletLaw<S> {
     /// Remembers the vents that the gauge pressure opens.
     #[inline(always)]
-    pub(super) fn commit(&self, gauge: S, past: &mut BagPast<S>) {
+    pub(super) fn commit(&self, fired: S::Mask, gauge: S, past: &mut BagPast<S>) {
         for (vent, open) in self.vents.iter().zip(&mut past.open) {
-            *open = S::select(!gauge.lt(vent.opens_at), S::one(), *open);
+            *open = S::select(fired & !gauge.lt(vent.opens_at), S::one(), *open);
         }
     }
 

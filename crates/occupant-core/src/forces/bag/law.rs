@@ -173,12 +173,14 @@ impl<S: Scalar> BagLaw<S> {
     /// Remembers the spheres that have come to the middle, and the vents that open; where a sphere is held anew or let go.
     #[inline(always)]
     pub(super) fn commit(&self, now: &Now<S>, past: &mut BagPast<S>) -> S::Mask {
-        let mut changes = S::truth(false);
+        let (mut changes, fired) = (S::truth(false), now.unfolded.fired);
         for (held, pressed) in past.held.iter_mut().zip(&now.envelope.pressed) {
-            changes = changes | held.lt(pressed.held) | held.gt(pressed.held);
-            *held = pressed.held;
+            // a bag beside it in lanes may have fired before it
+            let is_held = S::select(fired, pressed.held, *held);
+            changes = changes | held.lt(is_held) | held.gt(is_held);
+            *held = is_held;
         }
-        self.outlet.commit(now.gas.gauge, past);
+        self.outlet.commit(fired, now.gas.gauge, past);
         changes
     }
 
@@ -235,16 +237,19 @@ impl<S: Scalar> BagLaw<S> {
     #[inline(always)]
     pub(super) fn keep_balance(&self, at: &Instant<'_, S>, now: &Now<S>, past: &mut BagPast<S>) {
         let (o, gas, [unit, _]) = (S::zero(), &now.gas, self.units());
-        let begins = now.unfolded.fired & !past.fired.gt(o);
+        let fired = now.unfolded.fired;
+        let begins = fired & !past.fired.gt(o);
         if S::any(begins) {
             past.caught = S::select(begins, self.envelope.caught(at), past.caught);
             past.fired = S::select(begins, S::one(), past.fired);
         }
         let mean = (past.gauge + gas.gauge) * S::of(0.5);
-        past.pressed += S::select(begins, o, mean * (gas.volume - past.volume));
-        (past.gauge, past.volume) = (gas.gauge, gas.volume);
-        let off = (at.state.own()[self.first + PRESSED] * unit - past.pressed).abs();
-        past.residual = past.residual.max(off);
-        past.greatest = past.greatest.max(gas.energy);
+        let pressed = S::select(begins, past.pressed, past.pressed + mean * (gas.volume - past.volume));
+        let off = (at.state.own()[self.first + PRESSED] * unit - pressed).abs();
+        past.pressed = S::select(fired, pressed, past.pressed);
+        past.gauge = S::select(fired, gas.gauge, past.gauge);
+        past.volume = S::select(fired, gas.volume, past.volume);
+        past.residual = S::select(fired, past.residual.max(off), past.residual);
+        past.greatest = S::select(fired, past.greatest.max(gas.energy), past.greatest);
     }
 }

@@ -57,9 +57,7 @@ impl<L: Machine> Group<L> {
     fn seat(&mut self, i: usize, model: Model, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         let is_controlled = Control::of(&model.setup().integrator).is_some();
         let is_alike = self.places.iter().flatten().all(|place| place.control.is_some() == is_controlled);
-        // bags remember something from the first of all lanes on that fires
-        let fires_apart = is_controlled && !model.system().forces.bags.is_empty();
-        if model.setup().path.is_live() || fires_apart || !is_alike || !self.make_room(i, &model) {
+        if model.setup().path.is_live() || !is_alike || !self.make_room(i, &model) {
             return run_alone(i, model, jobs);
         }
         let mut place = Box::new(Place::new(model));
