@@ -239,7 +239,9 @@ fn a_column_that_does_not_give_is_its_vehicle() {
 /// With belt and bag, with either and with nothing: energy, gas and column close, and forces on the column are those on the body.
 #[test]
 fn books_close_with_a_bag_on_a_column() {
+    let fine = "integrator={ kind = \"adaptive\", relative = 3e-8 }";
     for set in [&[][..], &["bags.driver=null"], &["belts.driver=null"], &["belts.driver=null", "bags.driver=null"]] {
+        let set = &[set, &[fine]].concat()[..];
         let (values, outcome) = traced(driver(set), &["column.column.push", "column.column.stroke", "energy.columns"]);
         assert_below("energy of the body", outcome.energy.balance_error, 1e-5);
         let of = figures(driver(set));

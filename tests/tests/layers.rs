@@ -105,6 +105,7 @@ const ROOMS: [(&str, &[&str]); 10] = [
         &[
             "base",
             "files",
+            "instruments",
             "compare",
             "import",
             "export",

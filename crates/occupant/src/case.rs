@@ -32,6 +32,8 @@ pub struct Case {
     /// Triggers that look ahead along the path of the text, and that path.
     pub(crate) look_ahead: Option<(Vec<String>, VehiclePath)>,
     warnings: Vec<Problem>,
+    /// Whether it was begun in code.
+    is_of_code: bool,
     origin: Origin,
     /// What was given things of another case.
     strange: Vec<String>,
@@ -42,13 +44,13 @@ impl Case {
     pub fn new(title: impl Into<String>, occupant: Occupant) -> Self {
         let mut setup = SetupBuilder::new(title, occupant.body, occupant.joints).setup;
         setup.time.end_s = 0.2;
-        Case::from_setup(setup)
+        Case { is_of_code: true, ..Case::from_setup(setup) }
     }
 
     /// Of the simulator's plain data.
     pub fn from_setup(setup: Setup) -> Self {
         let (warnings, strange) = (Vec::new(), Vec::new());
-        Case { setup, text: None, look_ahead: None, warnings, origin: Origin::new(), strange }
+        Case { setup, text: None, look_ahead: None, warnings, is_of_code: false, origin: Origin::new(), strange }
     }
 
     /// The case of a scenario's text that names no files.
@@ -273,7 +275,7 @@ impl Case {
         self.setup_mut().time.output_s = interval_s;
     }
 
-    /// How it is integrated; error control with default tolerances if nobody says.
+    /// How it is integrated; as accurate as [`Accuracy::Engineering`](occupant_core::model::accuracy::Accuracy) if nobody says.
     pub fn integrator(&mut self, integrator: Integrator) {
         self.setup_mut().integrator = integrator;
     }
@@ -288,6 +290,10 @@ impl Case {
             let expected = "what this case, or the one that it is a clone of, has given";
             return Err(Error::new(ErrorKind::Case, format!("{}; expected {expected}", self.strange.join("; "))));
         }
-        Ok(Model::new(self.setup.clone())?)
+        let mut setup = self.setup.clone();
+        if self.is_of_code {
+            setup.integrator = setup.integrator.or_engineering(setup.time.end_s - setup.time.start_s);
+        }
+        Ok(Model::new(setup)?)
     }
 }

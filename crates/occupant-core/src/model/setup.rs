@@ -24,6 +24,7 @@ use crate::forces::joint::Joints;
 use crate::forces::own::{Force, OwnData, OwnForce};
 use crate::forces::plate::{Band, PlateData};
 use crate::forces::sphere::Site;
+use crate::model::accuracy::Accuracy;
 use crate::model::seating::{InitialPosture, InitialVelocity, Mounting, upright};
 use crate::motion::frame::{Frames, MOST_FRAMES, Moving, VEHICLE};
 use crate::motion::report_coordinates::{DOF, ReportCoordinates};
@@ -93,6 +94,13 @@ impl Default for Integrator {
 }
 
 impl Integrator {
+    /// Of a run of `span_s` seconds of which nobody has said how it is integrated: as accurate as a scenario's that does not say
+    /// it.
+    #[must_use]
+    pub fn or_engineering(self, span_s: f64) -> Self {
+        if self == Integrator::default() { Accuracy::default().integrator(span_s) } else { self }
+    }
+
     /// Its `kind` in scenarios.
     pub(crate) const fn name(&self) -> &'static str {
         match self {
@@ -510,6 +518,7 @@ impl SetupBuilder {
     /// Nothing is checked here: [`Model::new`](crate::model::Model::new) reports all problems at once.
     pub fn build(self, path: VehiclePath, posture: InitialPosture, end_s: f64) -> Setup {
         let time = TimeSpan { end_s, ..self.setup.time };
-        Setup { path, posture, time, ..self.setup }
+        let integrator = self.setup.integrator.or_engineering(time.end_s - time.start_s);
+        Setup { path, posture, time, integrator, ..self.setup }
     }
 }

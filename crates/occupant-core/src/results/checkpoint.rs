@@ -366,11 +366,11 @@ impl Checkpoint {
         let (shape, of) = (model.start().state.shape(), "numbers of the state");
         let misfit = Misfit::Count { of, found: numbers.len(), expected: shape.len() };
         let mut numbers = numbers.to_vec();
-        // older files have no work of columns, before that none of bags, those of 0.1.0 none of muscles; all stand before that of the
+        // older files have no work of plates, before that none of columns, then none of bags, those of 0.1.0 none of muscles; all stand before that of the
         // vehicle
         let missing = shape.len().saturating_sub(numbers.len());
         let owns_none = model.setup().bags.is_empty() && model.setup().columns.is_empty();
-        if owns_none && model.alone().is_empty() && (1..=3).contains(&missing) {
+        if owns_none && model.alone().is_empty() && (1..=4).contains(&missing) {
             let vehicle = numbers.len() - 1;
             numbers.splice(vehicle..vehicle, vec![0.0; missing]);
         }

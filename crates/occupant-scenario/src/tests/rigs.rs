@@ -132,10 +132,11 @@ fn driven(rows: &str) -> [f64; 7] {
     let set: Vec<&str> = if rows.is_empty() { vec![] } else { vec![rows] };
     let series = series_of(include_str!("../../scenarios/neck-sled.toml"), &set, "*");
     let turn = |name: &str| -> Vec<f64> {
-        series.of(&format!("{name}.rotation.y")).unwrap().iter().map(|turned| -turned.to_degrees()).collect()
+        let turned = series.of(&format!("{name}.rotation.y")).unwrap();
+        turned.iter().map(|angle| (turned[0] - angle).to_degrees()).collect()
     };
-    let t1: Vec<f64> = series.of("upper_torso.rotation.y").unwrap().iter().map(|turned| turned.to_degrees()).collect();
     let (head, neck) = (turn("head"), turn("neck"));
+    let t1: Vec<f64> = turn("upper_torso").iter().map(|forward| -forward).collect();
     let against: Vec<f64> = head.iter().zip(&t1).map(|(head, t1)| head + t1).collect();
     let most = |of: &[f64]| {
         let size: Vec<f64> = of.iter().map(|x| x.abs()).collect();
@@ -181,7 +182,8 @@ fn bent_by(moment_n_m: f64) -> f64 {
     ];
     let set: Vec<&str> = set.iter().map(String::as_str).collect();
     let series = series_of(include_str!("../../scenarios/neck-sled.toml"), &set, "head.rotation.y");
-    -series.of("head.rotation.y").unwrap().last().unwrap().to_degrees()
+    let turned = series.of("head.rotation.y").unwrap();
+    (turned[0] - turned[turned.len() - 1]).to_degrees()
 }
 
 /// Pure moments on isolated cervical spines (Nightingale 2007, Panjabi 2001): 30 to 50 deg at 1 N·m and 60 to 80 at 3.5, and our
