@@ -48,7 +48,7 @@ impl Ready {
         }
         let is_same = |key: &str| old.get(key).zip(new.get(key)).is_some_and(|(a, b)| shares(&a.node, &b.node));
         let changed: Vec<&str> = new.keys().map(String::as_str).filter(|key| !is_same(key)).collect();
-        let is_plain = |key: &&str| !OTHERS.contains(key) && !(IN_LIBRARY.contains(key) && refers(old, new, key));
+        let is_plain = |key: &&str| !(OTHERS.contains(key) || IN_LIBRARY.contains(key) && refers(old, new, key));
         if !changed.iter().all(is_plain) {
             return None;
         }
