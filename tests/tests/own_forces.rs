@@ -151,8 +151,15 @@ fn the_energy_balance_counts_it() {
 /// A hundred thousand times the damping takes many times the steps: 524 for 63.
 #[test]
 fn the_step_control_sees_it() {
+    let long = Integrator::Adaptive {
+        relative: 1e-7,
+        absolute_m: 1e-8,
+        absolute_m_s: 1e-6,
+        min_step_s: 1e-10,
+        max_step_s: 2e-3,
+    };
     let steps = |damping: f64| {
-        let mut case = falling(Integrator::default());
+        let mut case = falling(long);
         let chest = case.setup.body.sphere("chest").unwrap();
         case.force("drag", Drag(Place::Sphere(chest), damping));
         let model = Model::new(ended(case, 0.1)).unwrap();

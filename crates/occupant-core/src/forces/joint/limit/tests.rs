@@ -12,7 +12,7 @@ use crate::forces::joint::DAMPING;
 use crate::forces::joint::Joints;
 use crate::forces::joint::limit::{Centre, LOST_AT, Limits, STORED_AT};
 use crate::model::Model;
-use crate::model::setup::SetupBuilder;
+use crate::model::setup::{Integrator, Setup, SetupBuilder};
 use crate::motion::dual::Dual;
 use crate::motion::mobility::Mobility;
 use crate::motion::report_coordinates::DOF;
@@ -245,7 +245,9 @@ pub(in crate::forces::joint) fn nodding(rate: f64, change: impl FnOnce(&mut Join
     (case.setup.gravity_m_s2, case.setup.time.output_s) = (0.0, 2e-4);
     let mut rates = [0.0; DOF];
     rates[10] = rate; // θ̇ of the head
-    Model::new(placed(case, [0.0; DOF], rates, 0.12)).unwrap()
+    // as fine as the books that are asked for
+    let integrator = Integrator::default();
+    Model::new(Setup { integrator, ..placed(case, [0.0; DOF], rates, 0.12) }).unwrap()
 }
 
 /// The same with this in the neck.
