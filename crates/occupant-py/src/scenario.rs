@@ -196,7 +196,7 @@ fn written<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
         }
         Value::Table(table) => {
             let dict = PyDict::new(py);
-            for (key, entry) in table {
+            for (key, entry) in table.iter() {
                 dict.set_item(key, written(py, &entry.node.value)?)?;
             }
             dict.into_any()
