@@ -13,6 +13,9 @@ use std::ops::ControlFlow;
 
 const ROOM: &str = include_str!("../data/room.toml");
 
+/// Error control that is finer than the default.
+pub const FINE: &str = "integrator={ kind = \"adaptive\", relative = 3e-8 }";
+
 /// The text of a scenario with these assignments as plain data.
 pub fn setup(text: &str, set: &[&str]) -> Setup {
     let mut draft = Draft::read(text, Format::Toml, "test").unwrap();

@@ -9,7 +9,7 @@ use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{Summarizer, Summary};
 use occupant_core::run::simulate::{resume, simulate};
 use occupant_tests::measure::assert_below;
-use occupant_tests::room::{Last, ends_alike_side_by_side, setup};
+use occupant_tests::room::{FINE, Last, ends_alike_side_by_side, setup};
 
 const DRIVER: &str = include_str!("../../scenarios/airbag-driver.toml");
 const SIDE: &str = include_str!("../../scenarios/templates/side.toml");
@@ -37,9 +37,6 @@ fn channel(model: &Model, from: &str, to: &str) -> Vec<Vec<f64>> {
     assert!(!series.values.is_empty(), "{from}…{to}");
     series.values
 }
-
-/// Error control that is finer than the default.
-const FINE: &str = "integrator={ kind = \"adaptive\", relative = 3e-8 }";
 
 /// 56 km/h: the head fares worse with less, and every book closes.
 #[test]

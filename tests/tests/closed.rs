@@ -6,12 +6,12 @@ use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::simulate;
 use occupant_tests::measure::assert_below;
 use occupant_tests::random::Random;
-use occupant_tests::room::ends_alike_side_by_side;
+use occupant_tests::room::{FINE, ends_alike_side_by_side};
 use occupant_tests::strap::{Cue, FALLS, PULLED, Pull, Strap, Watched};
 
 /// With how near each must come: the default, looser tolerances, steps of fixed length, and those where they are long.
 pub(crate) const INTEGRATORS: [(&str, f64); 4] = [
-    ("integrator={ kind = \"adaptive\", relative = 3e-8 }", 1e-4),
+    (FINE, 1e-4),
     ("integrator={ kind = \"adaptive\", relative = 3e-6, absolute_length = 3e-7, absolute_speed = 3e-5 }", 2e-3),
     ("integrator={ kind = \"rk4\", step = \"0.1 ms\" }", 1e-4),
     ("integrator={ kind = \"rk4\", step = \"0.37 ms\" }", 1e-3),

@@ -9,7 +9,7 @@ use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::Summarizer;
 use occupant_core::run::simulate::{resume, simulate};
 use occupant_tests::measure::{assert_below, assert_within};
-use occupant_tests::room::{Last, ends_alike_side_by_side, setup};
+use occupant_tests::room::{FINE, Last, ends_alike_side_by_side, setup};
 
 /// An occupant who is far away, and a plate on a column that gives way along x.
 const SPACE: &str = r#"
@@ -145,7 +145,7 @@ fn without_a_body_a_pulse_moves_the_hub_as_its_closed_form_says() {
     let stroke = |set: &[&str]| {
         let pulse = "path={ kind = \"pulse\", shape = \"square\", speed = \"20 m/s\", peak = \"200 m/s^2\", duration = \"50 ms\" }";
         let set = [
-            &[pulse, "time.end=120 ms", "output.interval=20 us", "integrator={ kind = \"adaptive\", relative = 3e-8 }"],
+            &[pulse, "time.end=120 ms", "output.interval=20 us", FINE],
             set,
         ]
         .concat();
@@ -239,9 +239,8 @@ fn a_column_that_does_not_give_is_its_vehicle() {
 /// With belt and bag, with either and with nothing: energy, gas and column close, and forces on the column are those on the body.
 #[test]
 fn books_close_with_a_bag_on_a_column() {
-    let fine = "integrator={ kind = \"adaptive\", relative = 3e-8 }";
     for set in [&[][..], &["bags.driver=null"], &["belts.driver=null"], &["belts.driver=null", "bags.driver=null"]] {
-        let set = &[set, &[fine]].concat()[..];
+        let set = &[set, &[FINE]].concat()[..];
         let (values, outcome) = traced(driver(set), &["column.column.push", "column.column.stroke", "energy.columns"]);
         assert_below("energy of the body", outcome.energy.balance_error, 1e-5);
         let of = figures(driver(set));
@@ -285,7 +284,7 @@ fn a_column_has_the_same_bits_in_lanes_and_after_a_checkpoint() {
         Model::new(driver(&[&steps[..], &[&mass, &force]].concat())).unwrap()
     };
     ends_alike_side_by_side(model);
-    for integrator in [steps[0], "integrator={ kind = \"adaptive\", relative = 3e-8 }"] {
+    for integrator in [steps[0], FINE] {
         let model = Model::new(driver(&[integrator, steps[1], steps[2]])).unwrap();
         let mut all = Vec::new();
         simulate(&model, Watch(|s: &Sample<'_>| all.push(s.checkpoint()))).unwrap();

@@ -12,7 +12,7 @@ use occupant_core::model::Model;
 use occupant_core::results::channel::{Series, matching};
 use occupant_core::run::simulate::simulate;
 use occupant_tests::measure::{assert_below, assert_within};
-use occupant_tests::room::setup;
+use occupant_tests::room::{FINE, setup};
 
 /// Columns of a table of a test, by name, at the interval of its first column.
 pub(crate) struct Curves {
@@ -149,7 +149,7 @@ fn sled_pulse() -> String {
 fn the_chest_of_a_person_on_a_sled_goes_in() {
     let path = sled_pulse();
     let rides = [2, 3].map(|node| format!("belts.torso.nodes[{node}].lies_on=chest"));
-    let set = [&path, "body.chest=person", &rides[0], &rides[1]];
+    let set = [&path, "body.chest=person", &rides[0], &rides[1], FINE];
     let model = Model::new(setup(include_str!("../../scenarios/sled-person.toml"), &set)).unwrap();
     let mut series = Series::new(matching(&model, "*"));
     let outcome = simulate(&model, &mut series).unwrap();

@@ -85,6 +85,14 @@ fn so_do_drivers_behind_columns() {
     differ_and_agree(&scenario(include_str!("../../scenarios/column-driver.toml"), 4, 0.04));
 }
 
+/// Corners of contacts come before switches in the same trial.
+#[test]
+fn so_do_drivers_who_leave_the_road() {
+    let ditch = include_str!("../../scenarios/ditch.toml");
+    let driver = |i: usize| own(i, setup(ditch, &[&format!("drive.vehicles.car.start.speed=\"{} km/h\"", 60 + 13 * i)]), 1.0);
+    differ_and_agree(&(0..4).map(driver).collect::<Vec<_>>());
+}
+
 #[test]
 fn so_do_persons_on_sleds() {
     differ_and_agree(&scenario(include_str!("../../scenarios/sled-person.toml"), 5, 0.03));

@@ -9,7 +9,7 @@ use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{Summarizer, Summary};
 use occupant_core::run::simulate::{resume, simulate};
 use occupant_tests::measure::assert_below;
-use occupant_tests::room::{Last, ends_alike_side_by_side, run, setup};
+use occupant_tests::room::{FINE, Last, ends_alike_side_by_side, run, setup};
 
 /// A body afloat that brings hands, elbows and knees together.
 const CLAP: &str = include_str!("../data/clap.toml");
@@ -98,7 +98,7 @@ fn the_summary_tells_which_parts_met() {
 
 #[test]
 fn a_run_resumed_while_the_body_touches_itself_has_the_bits_of_the_whole_run() {
-    for set in [&[][..], &["integrator={ kind = \"adaptive\", relative = 3e-8 }"]] {
+    for set in [&[][..], &[FINE]] {
         let model = Model::new(clap(set)).unwrap();
         let mut checkpoints: Vec<(bool, Checkpoint)> = Vec::new();
         let look = |s: &Sample<'_>| checkpoints.push((s.contacts().next().is_some(), s.checkpoint()));

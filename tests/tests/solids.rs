@@ -10,7 +10,7 @@ use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::Summarizer;
 use occupant_core::run::simulate::{resume, simulate};
-use occupant_tests::room::{ends_alike_side_by_side, room, setup};
+use occupant_tests::room::{FINE, ends_alike_side_by_side, room, setup};
 
 const FREE: &str = include_str!("../../scenarios/free-fall.toml");
 const SOIL: &str = "materials.soil={ k1 = 50000, mu1 = 0.5, friction = 0 }";
@@ -71,7 +71,7 @@ fn a_fall_through_a_room_of_solids_keeps_its_energy() {
 
 #[test]
 fn among_solids_a_run_resumed_from_a_checkpoint_has_the_bits_of_the_whole_run() {
-    for set in [&[][..], &["integrator={ kind = \"adaptive\", relative = 3e-8 }"]] {
+    for set in [&[][..], &[FINE]] {
         let model = Model::new(room(&[set, &["time.end=0.45"]].concat())).unwrap();
         let mut checkpoints: Vec<Checkpoint> = Vec::new();
         let whole = simulate(&model, Watch(|s: &Sample<'_>| checkpoints.push(s.checkpoint()))).unwrap();

@@ -12,7 +12,7 @@ use occupant_core::results::summary::Summarizer;
 use occupant_core::run::simulate::{resume, simulate};
 use occupant_tests::measure::assert_below;
 use occupant_tests::random::Random;
-use occupant_tests::room::{ends_alike_side_by_side, setup};
+use occupant_tests::room::{FINE, ends_alike_side_by_side, setup};
 use occupant_tests::strap::{FALLS, PULLED, Strap};
 
 /// A mass of 20 kg on one strap to the origin, along z; what belongs to a case stands behind.
@@ -56,7 +56,7 @@ returned = 1
 "#;
 
 const INTEGRATORS: [&str; 3] = [
-    "integrator={ kind = \"adaptive\", relative = 3e-8 }",
+    FINE,
     "integrator={ kind = \"rk4\", step = \"0.1 ms\" }",
     "integrator={ kind = \"rk4\", step = \"0.37 ms\" }",
 ];
@@ -154,7 +154,7 @@ fn no_belt_with_a_limiter_and_a_pretensioner_holds_more_than_the_level_and_the_f
     let (mut seed, mut worst, mut yields) = (1, 0.0_f64, 0);
     for _ in 0..500 {
         let (text, level_n) = three_point(&mut seed);
-        let model = Model::new(setup(&text, &["integrator={ kind = \"adaptive\", relative = 3e-8 }"])).unwrap();
+        let model = Model::new(setup(&text, &[FINE])).unwrap();
         let friction: Vec<f64> = model.setup().chains[0].nodes.iter().map(|node| node.friction).collect();
         let mut has_yielded = false;
         let watch = Watch(|s: &Sample<'_>| {
@@ -177,7 +177,7 @@ fn no_belt_with_a_limiter_and_a_pretensioner_holds_more_than_the_level_and_the_f
 fn forces_do_not_jump_with_stall_force_level_and_delay() {
     let (text, level_n) = three_point(&mut 5);
     let peak = |set: &str| {
-        let model = Model::new(setup(&text, &["integrator={ kind = \"adaptive\", relative = 3e-8 }", set])).unwrap();
+        let model = Model::new(setup(&text, &[FINE, set])).unwrap();
         let mut most_n = 0.0_f64;
         simulate(&model, Watch(|s: &Sample<'_>| most_n = most_n.max(s.actions.chains[1].force))).unwrap();
         most_n

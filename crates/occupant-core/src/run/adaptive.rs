@@ -169,7 +169,8 @@ impl Course {
         let Some(mut pending) = front.pending.take() else { return Ok(false) };
         let (step, error) = (pending.step, errors.counting(jumps));
         if error.is_finite() {
-            let asks = Asks { corners: !pending.is_located, tolerance: &control.tolerance, last_s: pending.last_s };
+            let corners = !pending.is_located;
+            let asks = Asks { corners, jumps, tolerance: &control.tolerance, last_s: pending.last_s };
             pending.behind_s = front.end_earlier(model, step, &asks);
         }
         let h = step.length_s();

@@ -24,6 +24,9 @@ use crate::vehicle::PathCursor;
 pub(super) struct Asks<'a> {
     /// Whether corners are looked for.
     pub corners: bool,
+    /// Whether something has switched by the end of the trial. If not, and no search is under way, nobody needs what was
+    /// remembered.
+    pub jumps: bool,
     pub tolerance: &'a Tolerance,
     pub last_s: f64,
 }
@@ -174,7 +177,8 @@ impl Front {
             let Ahead { after, trial, .. } = &self.ahead;
             search.end_earlier(&model.system().forces, step, [&after.memory, &trial.memory], asks.last_s)
         };
-        let switch_s = self.search.as_mut().and_then(switch);
+        let asked = self.search.as_mut().filter(|search| asks.jumps || search.is_under_way());
+        let switch_s = asked.and_then(switch);
         let corner_s = asks.corners.then(|| self.end_behind_corner(model, step, asks.tolerance)).flatten();
         if corner_s.is_some_and(|corner| switch_s.is_none_or(|switch| corner < switch)) {
             self.begin_step();

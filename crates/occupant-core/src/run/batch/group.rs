@@ -16,9 +16,6 @@ use crate::run::adaptive::Control;
 use crate::run::ahead::Ahead;
 use crate::run::{Course, Step, broken};
 
-/// The longest run under error control that goes side by side with others, s: a crash.
-const MOST_SIDE_BY_SIDE_S: f64 = 0.5;
-
 /// Runs side by side in lanes of `L`.
 pub(super) struct Group<L: Machine> {
     kernel: Kernel,
@@ -60,10 +57,7 @@ impl<L: Machine> Group<L> {
     fn seat(&mut self, i: usize, model: Model, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         let is_controlled = Control::of(&model.setup().integrator).is_some();
         let is_alike = self.places.iter().flatten().all(|place| place.control.is_some() == is_controlled);
-        // long runs go alone: a study of cars that leave the road did not come to its end side by side
-        let time = &model.setup().time;
-        let is_long = is_controlled && time.end_s - time.start_s > MOST_SIDE_BY_SIDE_S;
-        if model.setup().path.is_live() || is_long || !is_alike || !self.make_room(i, &model) {
+        if model.setup().path.is_live() || !is_alike || !self.make_room(i, &model) {
             return run_alone(i, model, jobs);
         }
         let mut place = Box::new(Place::new(model));
