@@ -144,11 +144,7 @@ fn a_mass_that_stays_with_the_hub_is_stopped_by_the_plateau() {
 fn without_a_body_a_pulse_moves_the_hub_as_its_closed_form_says() {
     let stroke = |set: &[&str]| {
         let pulse = "path={ kind = \"pulse\", shape = \"square\", speed = \"20 m/s\", peak = \"200 m/s^2\", duration = \"50 ms\" }";
-        let set = [
-            &[pulse, "time.end=120 ms", "output.interval=20 us", FINE],
-            set,
-        ]
-        .concat();
+        let set = [&[pulse, "time.end=120 ms", "output.interval=20 us", FINE], set].concat();
         figures(space("", &set))
     };
     let held = stroke(&["frames.column.force=[\"0 N\", \"1300 N\", \"1300 N\"]"]);

@@ -137,8 +137,7 @@ fn summary_at(model: impl Fn(&str) -> Model, interval: &str) -> Summary {
     summarizer.summary(None).expect("a summary")
 }
 
-const STEPS: [&str; 2] =
-    [FINE, "integrator={ kind = \"rk4\", step = \"0.1 ms\" }"];
+const STEPS: [&str; 2] = [FINE, "integrator={ kind = \"rk4\", step = \"0.1 ms\" }"];
 
 /// Webbing that tightens and goes slack several times.
 #[test]

@@ -89,7 +89,8 @@ fn so_do_drivers_behind_columns() {
 #[test]
 fn so_do_drivers_who_leave_the_road() {
     let ditch = include_str!("../../scenarios/ditch.toml");
-    let driver = |i: usize| own(i, setup(ditch, &[&format!("drive.vehicles.car.start.speed=\"{} km/h\"", 60 + 13 * i)]), 1.0);
+    let driver =
+        |i: usize| own(i, setup(ditch, &[&format!("drive.vehicles.car.start.speed=\"{} km/h\"", 60 + 13 * i)]), 1.0);
     differ_and_agree(&(0..4).map(driver).collect::<Vec<_>>());
 }
 

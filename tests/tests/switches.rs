@@ -55,11 +55,8 @@ force = ["0 kN", "50 kN"]
 returned = 1
 "#;
 
-const INTEGRATORS: [&str; 3] = [
-    FINE,
-    "integrator={ kind = \"rk4\", step = \"0.1 ms\" }",
-    "integrator={ kind = \"rk4\", step = \"0.37 ms\" }",
-];
+const INTEGRATORS: [&str; 3] =
+    [FINE, "integrator={ kind = \"rk4\", step = \"0.1 ms\" }", "integrator={ kind = \"rk4\", step = \"0.37 ms\" }"];
 
 /// Numbers spread evenly over (0, 1), the same in every run.
 fn random(seed: &mut u64) -> f64 {
