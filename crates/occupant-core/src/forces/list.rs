@@ -452,6 +452,7 @@ macro_rules! kinds {
                 $(Hints::<S>::look_again(&mut self.$kind, lanes);)+
             }
 
+            #[cfg(any(target_arch = "x86_64", test))]
             #[inline(always)]
             fn blend(&mut self, other: &Self, lanes: S::Mask) {
                 $(Hints::<S>::blend(&mut self.$kind, &other.$kind, lanes);)+
@@ -552,6 +553,7 @@ impl<S: Scalar> History<S> {
     }
 
     /// Leaves out in these lanes what `other`, a history of the same elements, leaves out.
+    #[cfg(any(target_arch = "x86_64", test))]
     #[inline(always)]
     pub(crate) fn blend_hints(&mut self, other: &History<S>, lanes: S::Mask) {
         self.hints.blend(&other.hints, lanes);
