@@ -77,3 +77,8 @@ pub mod prelude {
     pub use occupant_core::vehicle::{PulseShape, Strength, VehicleInput, VehicleMotion, VehiclePath, VehicleState};
     pub use occupant_units::unit::Unit;
 }
+
+/// What the front page of the package shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::DID_YOU_MEAN;
 use crate::problem::{Problem, Severity};
 use crate::shown::{quoted, shown};
 use crate::source::{Position, Sources, Span};
@@ -80,15 +81,14 @@ impl fmt::Display for Diagnostic {
             let bar = if line.is_empty() { " |" } else { " | " };
             write!(f, "\n{pad} |\n{number}{bar}{line}\n{pad} | {gap}{carets}")?;
         }
-        for (word, text) in [("in", &problem.path), ("expected", &problem.expected)] {
-            if !text.is_empty() {
-                write!(f, "\n{pad} = {word}: {}", shown(text))?;
-            }
-        }
-        match &problem.hint {
-            Some(hint) => write!(f, "\n{pad} = help: {}", shown(hint)),
-            None => Ok(()),
-        }
+        // a name that was meant says more than a long list of those that could be
+        let hint = problem.hint.as_deref().unwrap_or_default();
+        let (meant, remedy) = if hint.starts_with(DID_YOU_MEAN) { (hint, "") } else { ("", hint) };
+        let notes = [("help", meant), ("in", &problem.path), ("expected", &problem.expected), ("help", remedy)];
+        notes
+            .into_iter()
+            .filter(|(_, text)| !text.is_empty())
+            .try_for_each(|(word, text)| write!(f, "\n{pad} = {word}: {}", shown(text)))
     }
 }
 

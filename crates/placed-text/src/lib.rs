@@ -86,7 +86,10 @@ pub fn quoted(names: &[&str], quote: char) -> String {
     each.join(", ")
 }
 
+/// How a hint begins that tells a name.
+const DID_YOU_MEAN: &str = "did you mean";
+
 /// The name that a misspelt one is most like, as a hint.
 pub fn did_you_mean(word: &str, names: &[&str], quote: char) -> Option<String> {
-    nearest(word, names.iter().copied()).map(|n| format!("did you mean {quote}{n}{quote}?"))
+    nearest(word, names.iter().copied()).map(|n| format!("{DID_YOU_MEAN} {quote}{n}{quote}?"))
 }

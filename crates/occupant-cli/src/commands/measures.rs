@@ -22,7 +22,7 @@ use occupant_jobs::files::history::{FAMILIES, family_name};
 /// Readings of filtered channels are taken so often, s: the 10 kHz of SAE J211.
 const FILTERED_S: f64 = 1e-4;
 
-/// Injury measures of a run or a test against limits and risk curves, or of several side by side
+/// Injury measures of runs and tests against limits and risk curves
 ///
 /// HIC, 3 ms levels, severity indices, BrIC, DAMAGE, neck and femur loads, Nij. A simulated signal has no noise, so nothing
 /// is filtered unless --filter asks for it. Several runs come as one table with a column each. Exit code 1 if a limit is

@@ -16,6 +16,7 @@ mod explain;
 mod export;
 mod fit;
 mod flags;
+mod groups;
 mod import;
 mod man;
 mod measures;
@@ -35,7 +36,7 @@ mod view;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use placed_text::shown;
 
 use crate::base::{Done, Failure, hear_jobs, say, survive_long_files, written};
@@ -101,7 +102,8 @@ pub fn main() -> ExitCode {
 /// Does what these words say, of which the first is the program's name.
 pub fn answer(words: impl IntoIterator<Item = OsString>) -> ExitCode {
     hear_jobs();
-    match Cli::try_parse_from(words) {
+    let parsed = groups::grouped(Cli::command()).try_get_matches_from(words);
+    match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => exit_code(done(cli.command)),
         Err(wrong) if wrong.use_stderr() => exit_code(Err(Failure::CouldNotRun(in_lines(&wrong.render().to_string())))),
         Err(help) => exit_code(written(help.print()).map(Done::from)),

@@ -7,8 +7,9 @@ use occupant_files::results::Results;
 use occupant_jobs::report::{MOST_RUNS, page, subject};
 use occupant_pictures::html::is_page_of;
 
-/// Make a page of a run, or of up to four abreast: motion in 3-D, time histories, measures, contacts and where it comes from, in
-/// one HTML file
+/// Make a page of one to four runs: motion in 3-D, histories, measures
+///
+/// One HTML file, with contacts and where the run comes from.
 ///
 /// It opens in any browser and loads nothing from the network. Keys: space plays, arrows step, 1 to 4 choose the view.
 #[derive(Debug, clap::Args)]

@@ -6,8 +6,9 @@ use serde_json::Value as Json;
 
 use crate::base::{Failure, talk};
 
-/// Print the JSON Schema of a scenario or study, for completion and checks in an editor, or of what a command prints with --json
+/// Print the JSON Schema of a scenario, a study or an answer with --json
 ///
+/// An editor completes and checks scenarios by it.
 /// Save it as occupant.schema.json beside the scenarios and put `#:schema ./occupant.schema.json` into their first line.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {

@@ -30,7 +30,9 @@ const MOST: usize = 120;
 /// Most frames of a film.
 const MOST_FRAMES: usize = 3000;
 
-/// Draw the body in the compartment from the side, from above and from ahead, at chosen times or as a film
+/// Draw the body in its compartment at chosen times, or as a film
+///
+/// From the side, from above and from ahead.
 ///
 /// Of results, a strip as in the report's Figs 21 to 38: one column a time, one row a view, all to one scale, with belts, and
 /// with contacts as arrows of the force on the body. Of a scenario, how the body sits at its start, before any run. Vehicle

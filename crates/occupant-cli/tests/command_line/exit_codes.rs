@@ -56,7 +56,7 @@ fn the_table_has_every_command() {
     let folder = folder_with_case();
     let help = out(&answer(folder.path(), &["--help"]));
     let section =
-        help.split("Commands:\n").nth(1).and_then(|rest| rest.split("\n\n").next()).expect("a list of commands");
+        help.split_once("\n\n").and_then(|(_, rest)| rest.split("Options:").next()).expect("a list of commands");
     let listed = section.lines().filter(|line| line.starts_with("  ") && !line.starts_with("   "));
     let mut listed: Vec<&str> =
         listed.filter_map(|line| line.split_whitespace().next()).filter(|name| *name != "help").collect();

@@ -14,9 +14,9 @@ fn each_kind_of_mistake_is_explained() {
   |
 3 | time.ende = \"150 ms\"
   |      ^^^^
+  = help: did you mean `end`?
   = in: time
   = expected: `start`, `end` or `stop_at_rest`
-  = help: did you mean `end`?
 
 error: `time` has no key `end`
  --> s.toml:3:1
@@ -93,9 +93,9 @@ error: the scenario has no key `title`
   |
 6 | kind = \"puls\"
   |        ^^^^^^
+  = help: did you mean \"pulse\"?
   = in: path.kind
-  = expected: \"fixed\", \"pulse\", \"table\", \"sensors\" or \"drive\"
-  = help: did you mean \"pulse\"?",
+  = expected: \"fixed\", \"pulse\", \"table\", \"sensors\" or \"drive\"",
         ),
         (
             "kind = \"pulse\"\n",
@@ -161,11 +161,11 @@ error: the scenario has no key `title`
    |
 33 | sphere = \"plevis\"
    |          ^^^^^^^^
+   = help: did you mean \"pelvis\"?
    = in: belts.lap.sphere
    = expected: \"head\", \"chest\", \"pelvis\", \"right_shoulder\", \"left_shoulder\", \"right_elbow\", \"left_elbow\", \
              \"right_hand\", \"left_hand\", \"right_thigh\", \"left_thigh\", \"right_knee\", \"left_knee\", \"right_shin\", \
-             \"left_shin\", \"right_foot\" or \"left_foot\"
-   = help: did you mean \"pelvis\"?",
+             \"left_shin\", \"right_foot\" or \"left_foot\"",
         ),
         (
             "inside = [0.1, 0, -0.3]",

@@ -99,9 +99,9 @@ fn problems_are_reported_as_of_the_override() {
   |
 1 | 30 mhp
   |    ^^^
+  = help: did you mean `mph`?
   = in: path.speed
-  = expected: a unit such as m, in, s, deg, mph, g, kg, lb (mass), N, lbf (force)
-  = help: did you mean `mph`?",
+  = expected: a unit such as m, in, s, deg, mph, g, kg, lb (mass), N, lbf (force)",
         ),
         (
             "belts.lap.k3=5",

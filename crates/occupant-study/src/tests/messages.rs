@@ -21,17 +21,17 @@ list = []
   |
 2 | sed = 3
   | ^^^
-  = expected: `title`, `notes`, `units`, `base`, `seed`, `set`, `parameters`, `correlations`, `design`, `ensemble`, `fit`, `keep` or `output`
   = help: did you mean `seed`?
+  = expected: `title`, `notes`, `units`, `base`, `seed`, `set`, `parameters`, `correlations`, `design`, `ensemble`, `fit`, `keep` or `output`
 
 error: "latin_hypercub" is not a value of `kind`
  --> study.toml:3:19
   |
 3 | design = { kind = "latin_hypercub", samples = 9 }
   |                   ^^^^^^^^^^^^^^^^
+  = help: did you mean "latin_hypercube"?
   = in: design.kind
   = expected: "full_factorial", "latin_hypercube", "sobol", "monte_carlo", "one_at_a_time", "table", "saltelli" or "morris"
-  = help: did you mean "latin_hypercube"?
 
 error: `1` is out of range
  --> study.toml:6:36
@@ -81,18 +81,18 @@ range = { from = 1, to = 2 }
   |
 4 | path = "joints.nek.damping"
   |        ^^^^^^^^^^^^^^^^^^^^
+  = help: did you mean `neck`?
   = in: parameters[0].path
   = expected: one of all, elbows, epsilon, hips, knees, left_elbow, left_hip, left_knee, left_shoulder, lower_back, neck, preset, right_elbow, right_hip, right_knee, right_shoulder, shoulders, upper_back
-  = help: did you mean `neck`?
 
 error: `joints.*.dampng` matches nothing in the base scenario
  --> study.toml:7:8
   |
 7 | path = "joints.*.dampng"
   |        ^^^^^^^^^^^^^^^^^
+  = help: did you mean `damping`?
   = in: parameters[1].path
   = expected: a path to at least one value
-  = help: did you mean `damping`?
 
 error: `materials` has nothing named `seat`
   --> study.toml:10:8
@@ -262,9 +262,9 @@ error: "squar" is not one of its names
    |
 13 | list = ["squar", 3]
    |         ^^^^^^^
+   = help: did you mean "square"?
    = in: parameters[2].list[0]
    = expected: "half_sine", "haversine", "triangle", "trapezoid", "square" or "tabulated"
-   = help: did you mean "square"?
 
 error: a number where a name should stand
   --> study.toml:13:18

@@ -41,8 +41,8 @@ fn everything_wrong_with_a_table_is_told_at_once() {
         words.to_string(),
         r#"error: `belts.lap` has nothing named `slck`
  --> samples.csv:1:1
-  = expected: the name of a parameter, or a path: one of anchors, delta_b, k1, k2, length, limiter, mu1, mu2, nodes, preset, pretension, pretensioner, release, retractor, side, slack, sphere, strength, webbing, worn
   = help: did you mean `slack`?
+  = expected: the name of a parameter, or a path: one of anchors, delta_b, k1, k2, length, limiter, mu1, mu2, nodes, preset, pretension, pretensioner, release, retractor, side, slack, sphere, strength, webbing, worn
 
 error: column `posture.head` without a unit
  --> samples.csv:1:33

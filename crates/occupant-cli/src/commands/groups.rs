@@ -1,0 +1,31 @@
+//! The list of commands in `occupant --help`, by what one comes for.
+
+use std::fmt::Write;
+
+/// What one comes for, and the commands for it.
+const GROUPS: [(&str, &[&str]); 7] = [
+    ("Write a case", &["new", "check", "explain", "schema"]),
+    ("Simulate", &["run", "drive"]),
+    ("Look at a run", &["view", "report", "plot", "print", "channels"]),
+    ("Judge a run", &["measures", "compare", "risk", "sensitivity"]),
+    ("Many runs", &["sweep", "study", "fit"]),
+    ("Other programs and tests", &["import", "export", "convert"]),
+    ("This program", &["completions", "man", "help"]),
+];
+
+/// The same command line; its help lists the commands in groups.
+pub(super) fn grouped(command: clap::Command) -> clap::Command {
+    let mut list = String::new();
+    for (title, names) in GROUPS {
+        _ = writeln!(list, "{title}:");
+        for name in names {
+            let about = command.find_subcommand(name).and_then(clap::Command::get_about).map(ToString::to_string);
+            let about = about.unwrap_or_else(|| "Print this help, or the help of a command".to_owned());
+            _ = writeln!(list, "  {name:<12} {about}");
+        }
+        list.push('\n');
+    }
+    command.help_template(format!(
+        "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{list}Options:\n{{options}}{{after-help}}"
+    ))
+}
