@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Counts the instructions of one evaluation and one step (callgrind) and compares them with instructions.toml.
+"""Counts instructions (callgrind) and compares them with instructions.toml: of one evaluation, one step, one output, one
+whole run and one sample of a study.
 
     cargo build --release --package occupant-bench --example count
     python3 crates/occupant-bench/instructions.py target/release/examples/count [--update]
@@ -23,6 +24,11 @@ FILE = Path(__file__).with_name("instructions.toml")
 TOLERANCE = 0.02
 # Numbers of calls; the runs begin with the crash, so their calls are steps from 50 to 150 ms of it.
 CALLS = {"run_step_scalar": (500, 1500), "run_step_lanes4": (500, 1500)}
+# Whole runs and samples are long and all alike.
+CALLS |= {name: (1, 3) for name in ("run_three_point", "run_air_bag")}
+CALLS |= {name: (5, 25) for name in ("sample_cart", "sample_three_point")}
+# As many steps with few outputs as with many.
+CALLS |= {name: (100, 500) for name in ("output_scalar", "output_lanes4")}
 OTHERS = (100, 600)
 
 

@@ -28,6 +28,9 @@ pub const BAGGED: &str = include_str!("../../../scenarios/airbag-driver.toml");
 /// The same on a column that gives way, as shipped.
 pub const STROKING: &str = include_str!("../../../scenarios/column-driver.toml");
 
+/// A person of 19 segments on a sled, as shipped.
+pub const SLED: &str = include_str!("../../../scenarios/sled-person.toml");
+
 /// Instant of the bag's crash that is timed, s: the bag is full, head and chest press it, gas comes in and leaves.
 pub const PRESSED_S: f64 = 0.058;
 
@@ -81,6 +84,11 @@ pub fn belted() -> Model {
 /// The driver with belt and air bag.
 pub fn bagged() -> Model {
     read(BAGGED).model().expect("the scene is valid").0
+}
+
+/// The person on the sled.
+pub fn sled() -> Model {
+    read(SLED).model().expect("the scene is valid").0
 }
 
 /// The same on a column that gives way.

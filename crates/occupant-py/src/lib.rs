@@ -3,6 +3,7 @@
 //! Holds no physics and no file format of its own: it hands Python's values to the crates below and theirs back. Runs go on
 //! without Python's lock.
 
+mod batch;
 mod convert;
 mod force;
 mod live;

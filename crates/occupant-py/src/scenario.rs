@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, PoisonError};
 
+use numpy::IntoPyArray;
 use occupant_core::model::Model;
 use occupant_core::vehicle::{VehiclePath, VehicleState};
 use occupant_scenario::{Diagnostics, Draft, Format};
@@ -12,6 +13,7 @@ use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
+use crate::batch::Batch;
 use crate::convert::{assigned, json};
 use crate::force::{Brought, Where};
 use crate::live::{LiveRun, Trouble, state};
@@ -129,6 +131,49 @@ impl Scenario {
         loaded.scenario.to_toml().map_err(plain)
     }
 
+    /// Runs it once for each row of `matrix`, an array or a list of lists, with the values of the row at `paths`: numbers in the
+    /// scenario's units, texts with their unit. On `threads` threads, all cores if None, in lanes on each. Gives a table by columns: `run`,
+    /// what was put at each path, `ending` ("completed", or why not) and every figure of a run in its SI unit, NaN where
+    /// there is none. The rows are the same to the bit for any number of threads. Raises OccupantError where a row has not as many
+    /// values as there are paths, a path is given twice, or the scenario has forces of Python's.
+    #[pyo3(signature = (paths, matrix, threads=None))]
+    fn batch<'py>(
+        &self,
+        py: Python<'py>,
+        paths: Vec<String>,
+        matrix: &Bound<'py, PyAny>,
+        threads: Option<usize>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        if !self.forces.is_empty() {
+            return Err(plain(
+                "a batch of a scenario with forces of Python's; expected one without, or `run` for each",
+            ));
+        }
+        if let Some(twice) = paths.iter().enumerate().find_map(|(i, path)| paths[..i].contains(path).then_some(path)) {
+            return Err(plain(format!("path \"{twice}\" is given twice; expected each path once")));
+        }
+        let rows = matrix.try_iter()?.map(|row| cells(&row?, &paths)).collect::<PyResult<Vec<_>>>()?;
+        let texts =
+            rows.iter().map(|row| row.iter().map(assigned).collect()).collect::<PyResult<Vec<Vec<String>>>>()?;
+        let base = self.draft.clone().prepared();
+        let model = |index: u64| {
+            let mut draft = base.clone();
+            let row = paths.iter().zip(&texts[index as usize]);
+            row.into_iter().try_for_each(|(path, text)| draft.set_value(path, text))?;
+            Ok(draft.load(&|file| beside(&self.folder, file))?.model()?.0)
+        };
+        Batch { model, count: rows.len() as u64 }.table(py, threads, |table, _| {
+            for (place, path) in paths.iter().enumerate() {
+                let column: Vec<_> = rows.iter().map(|row| &row[place]).collect();
+                match column.iter().map(|cell| cell.extract().ok()).collect::<Option<Vec<f64>>>() {
+                    Some(numbers) => table.set_item(path, numbers.into_pyarray(py))?,
+                    None => table.set_item(path, column)?,
+                }
+            }
+            Ok(())
+        })
+    }
+
     /// Simulates it. Other threads of Python go on meanwhile.
     fn run(&self, py: Python<'_>) -> PyResult<Run> {
         if self.forces.is_empty() {
@@ -180,6 +225,15 @@ impl Scenario {
     fn model(&self) -> Result<(Model, Diagnostics), Diagnostics> {
         self.draft.clone().load(&|file| beside(&self.folder, file))?.model()
     }
+}
+
+/// The values of a row, one for each path.
+fn cells<'py>(row: &Bound<'py, PyAny>, paths: &[String]) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    let cells = row.try_iter()?.collect::<PyResult<Vec<_>>>()?;
+    if cells.len() != paths.len() {
+        return Err(plain(format!("a row of {} values for {} paths; expected one for each", cells.len(), paths.len())));
+    }
+    Ok(cells)
 }
 
 /// A value as Python's.

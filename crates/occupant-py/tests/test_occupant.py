@@ -112,6 +112,38 @@ def test_a_study_is_a_table(tmp_path):
         study.scenario(3)
 
 
+def test_a_batch_is_a_table_of_runs():
+    scenario = occupant.Scenario(CART)
+    scenario["time.end"] = "30 ms"
+    matrix = np.array([[0.5 * i, 300.0 + 10 * i] for i in range(5)])
+    paths = ["belts.lap.slack", "path.speed"]
+    tables = [scenario.batch(paths, matrix, threads=threads) for threads in (1, 2)]
+    for name in tables[0]:
+        same = np.array_equal(tables[0][name], tables[1][name], equal_nan=name != "ending")
+        assert same, name
+    assert tables[0]["ending"] == ["completed"] * 5 and np.array_equal(tables[0]["path.speed"], matrix[:, 1])
+    for row in range(5):
+        alone = scenario.copy()
+        for path, value in zip(paths, matrix[row]):
+            alone[path] = value
+        assert tables[0]["hic15"][row] == alone.run().measures["hic15"]
+    texts = scenario.batch(["path.speed"], [["10 mph"], ["10 lbf"]])
+    assert texts["path.speed"] == ["10 mph", "10 lbf"] and "speed" in texts["ending"][1]
+    assert np.isnan(texts["hic15"][1]) and texts["hic15"][0] > 0
+    belted = scenario.batch(["belts.torso"], [[None], [scenario["belts.torso"]]])
+    del scenario["belts.torso"]
+    assert np.isnan(belted["belts.torso.peak"][0]) and belted["belts.torso.peak"][1] > 0
+    assert belted["hic15"][0] == scenario.run().measures["hic15"]
+    assert len(scenario.batch(["path.speed"], [])["run"]) == 0
+    with pytest.raises(occupant.OccupantError, match="2 values for 1"):
+        scenario.batch(["path.speed"], [[1.0, 2.0]])
+    with pytest.raises(occupant.OccupantError, match="path.speed.* twice"):
+        scenario.batch(["path.speed", "path.speed"], [[1.0, 2.0]])
+    for no_matrix in (3.0, np.zeros(2)):
+        with pytest.raises(TypeError):
+            scenario.batch(["path.speed"], no_matrix)
+
+
 def test_runs_leave_other_threads_alone():
     scenario = occupant.Scenario(CART)
     results = {}

@@ -78,10 +78,15 @@ impl<S: Scalar> Carried<'_, S> {
     }
 
     /// Adds what plates of a segment need beside what they would need had they not slid.
+    #[inline(always)]
     fn slid(&self, m: usize, own: &mut Wrench<S>) {
         let up = v3(S::zero(), S::zero(), self.skeleton.gravity);
-        for (i, slide) in self.skeleton.slides.iter().enumerate().filter(|(_, slide)| slide.segment == m) {
-            let [now, rest] = self.accelerations.sliding(self.k, i, m).map(|a| (a + up) * slide.mass);
+        for (i, slide) in self.skeleton.slides.iter().enumerate() {
+            if slide.segment != m {
+                continue;
+            }
+            let [now, rest] = self.accelerations.sliding(self.k, i, m);
+            let [now, rest] = [(now + up) * slide.mass, (rest + up) * slide.mass];
             own.force += now - rest;
             own.moment += self.k.slides[i].arm().cross(now) - self.k.slides[i].rest.cross(rest);
         }

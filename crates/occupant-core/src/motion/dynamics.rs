@@ -139,18 +139,22 @@ impl<S: Scalar> Accelerations<S> {
     /// Acceleration of a point mass that slides, and that of the segment where it would be had it not slid.
     #[inline(always)]
     pub(crate) fn sliding(&self, k: &Kinematics<S>, slide: usize, n: usize) -> [V3<S>; 2] {
-        let (slid, w) = (&k.slides[slide], k.omega[n]);
-        let at = |r: V3<S>| self.joint[n] + self.alpha[n].cross(r) + w.cross(w.cross(r));
-        let beside = w.cross(slid.axis) * (slid.speed + slid.speed) + slid.axis * self.slides[slide];
-        [at(slid.arm()) + beside, at(slid.rest)]
+        let slid = &k.slides[slide];
+        let beside = k.omega[n].cross(slid.axis) * (slid.speed + slid.speed) + slid.axis * self.slides[slide];
+        [self.at(k, n, slid.arm()) + beside, self.at(k, n, slid.rest)]
+    }
+
+    /// Acceleration of what is fixed to segment `n` at `r` from its joint.
+    #[inline(always)]
+    fn at(&self, k: &Kinematics<S>, n: usize, r: V3<S>) -> V3<S> {
+        let w = k.omega[n];
+        self.joint[n] + self.alpha[n].cross(r) + w.cross(w.cross(r))
     }
 
     /// Acceleration of the centre of gravity of segment `n`.
     #[inline(always)]
     pub fn cg(&self, body: &Skeleton<S>, k: &Kinematics<S>, n: usize) -> V3<S> {
-        let r = k.axes[n].out(body.links[n].cg);
-        let w = k.omega[n];
-        self.joint[n] + self.alpha[n].cross(r) + w.cross(w.cross(r))
+        self.at(k, n, k.axes[n].out(body.links[n].cg))
     }
 
     /// The rate of change of `state`, in which force elements do work at the rate `power`, by body.

@@ -1,6 +1,6 @@
 """Types of the module."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from os import PathLike
 from typing import Any
 
@@ -38,6 +38,9 @@ class Scenario:
         rates: Sequence[float] = (0.0, 0.0, 0.0),
     ) -> LiveRun: ...
     def run(self) -> Run: ...
+    def batch(
+        self, paths: Sequence[str], matrix: Iterable[Sequence[Any]] | NDArray[np.float64], threads: int | None = None
+    ) -> dict[str, Any]: ...
 
 class LiveRun:
     """A run that is stepped from outside."""

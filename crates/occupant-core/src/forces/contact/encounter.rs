@@ -188,7 +188,8 @@ impl<'a, S: Scalar> Sphere<'a, S> {
     /// Velocity beside its segment, of what it rides on.
     #[inline(always)]
     fn beside(&self) -> V3<S> {
-        self.site.riding(self.group.by).map_or(V3::zero(), |riding| riding.carried(self.k)[1])
+        let Some(riding) = self.site.riding(self.group.by) else { return V3::zero() };
+        riding.carried(self.k)[1]
     }
 
     /// Its way straight ahead relative to the frame, in the frame's axes, for as long as a step can be.
