@@ -2,6 +2,9 @@
 
 use crate::forces::{History, Load, Observer};
 use crate::kernel::{Evaluation, Scratch, Situation, System};
+use crate::motion::dynamics::Wrench;
+use crate::motion::kinematics::Kinematics;
+use crate::motion::layout::MOST_SEGMENTS;
 use crate::motion::state::State;
 
 impl System<f64> {
@@ -62,6 +65,17 @@ impl System<f64> {
             outer: *outer,
             knees: *knees,
         }
+    }
+
+    /// Motion and loads of [`System::evaluate`], without gravity, left where they were found: nothing is copied.
+    pub(crate) fn loads<'s>(
+        &self,
+        scratch: &'s mut Scratch<f64>,
+        situation: Situation<'_, f64>,
+        history: &mut History<f64>,
+    ) -> (&'s Kinematics<f64>, &'s [Wrench<f64>; MOST_SEGMENTS]) {
+        self.derive_once(scratch, situation, history, &mut ());
+        (&scratch.kinematics, &scratch.load.wrench)
     }
 
     /// [`System::rate_with`] by [`System::derive_once`].

@@ -9,12 +9,12 @@
 use nalgebra::{DVector, Matrix3, Vector3};
 
 use super::descent::{Movable, descend};
-use super::settle::{LEVER_M, MOST_LOOKS, Settled, at_rest, loads_beyond, standing, turned_by};
+use super::settle::{LEVER_M, MOST_LOOKS, Settled, loads_beyond, standing, turned_by};
 use crate::forces::belt::Belts;
 use crate::forces::joint::JointSystem;
 use crate::forces::joint::limit::{JointLimits, LimitHistory};
 use crate::forces::{Data, Element, Forces, History, Instant, Memory};
-use crate::kernel::System;
+use crate::kernel::{Scratch, Situation, System};
 use crate::model::setup::Setup;
 use crate::motion::frame::Frames;
 use crate::motion::kinematics::{Kinematics, axes};
@@ -32,6 +32,9 @@ struct Limp {
     still: Frames<f64>,
     rest: Rest,
     history: History<f64>,
+    /// The motion where it is tried, and a place for what an evaluation finds there.
+    k: Box<Kinematics<f64>>,
+    scratch: Box<Scratch<f64>>,
     /// Elements looked at so far.
     looks: usize,
 }
@@ -47,7 +50,8 @@ pub(super) fn sink(
     let still = standing(setup, vehicle);
     let rest = Rest::of(setup, data, system, &still, &seated);
     let history = History::new(&system.forces, Memory::none());
-    let mut limp = Limp { system: system.clone(), still, rest, history, looks: 0 };
+    let (k, scratch) = (Box::new(Kinematics::blank()), Box::new(Scratch::blank(system)));
+    let mut limp = Limp { system: system.clone(), still, rest, history, k, scratch, looks: 0 };
     limp.system.forces.muscles.clear();
     limp.rest.keep(&mut limp.system.forces);
     let weight_n = setup.body.mass_kg() * setup.gravity_m_s2;
@@ -93,19 +97,19 @@ impl Rest {
 impl Movable for Limp {
     /// ∂V/∂x at a place, in the order of [`moved`]: N, and N·m over the lever.
     fn gradient(&mut self, state: &State<f64>) -> DVector<f64> {
-        let k = Kinematics::new(&self.system.skeleton, state);
-        let at =
-            Instant { k: &k, state, frames: &self.still, carried: &[], spheres: &self.system.spheres, accepted: false };
-        self.looks += self.system.forces.restart(&at, &mut self.history);
-        self.rest.hold(&mut self.history);
-        let e = at_rest(&self.system, state, &self.still, &mut self.history);
-        let loads = loads_beyond(&self.system.skeleton, &e);
+        let Limp { system, still, rest, history, k, scratch, looks } = self;
+        k.follow(&system.skeleton, state, None);
+        let at = Instant { k, state, frames: still, carried: &[], spheres: &system.spheres, accepted: false };
+        *looks += system.forces.restart(&at, history);
+        rest.hold(history);
+        let (k, loads) = system.loads(scratch, Situation::within(state, still), history);
+        let loads = loads_beyond(&system.skeleton, k, loads);
         let mut g = Vec::with_capacity(6 + 3 * MOST_SEGMENTS);
         g.extend([loads[0].force.x, loads[0].force.y, loads[0].force.z]);
-        for (row, load) in self.system.skeleton.layout.rows().iter().zip(&loads) {
+        for (row, load) in system.skeleton.layout.rows().iter().zip(&loads) {
             let turning = load.moment * (1.0 / LEVER_M);
             match row.freedom {
-                Freedom::Hinges(_) => g.extend(row.hinges().map(|hinge| e.kinematics.hinge_axis[hinge].dot(turning))),
+                Freedom::Hinges(_) => g.extend(row.hinges().map(|hinge| k.hinge_axis[hinge].dot(turning))),
                 _ => g.extend([turning.x, turning.y, turning.z]),
             }
         }

@@ -11,7 +11,7 @@ use serde::{Serialize, Serializer};
 
 use crate::body::Body;
 use crate::forces::{Data, History, Instant, Memory};
-use crate::kernel::{Evaluation, Situation, System};
+use crate::kernel::{Scratch, Situation, System};
 use crate::model::descent::{Movable, REST, descend};
 use crate::model::frames;
 use crate::model::limp;
@@ -163,13 +163,13 @@ pub(crate) fn settle(
     let mut r = body.load(&moved(&state, &x));
     let free = not_held(&r, weight_n, vehicle);
     r = free * r;
-    let mut damping = 1e-3;
+    let (mut damping, mut slopes) = (1e-3, None);
     for _ in 0..ITERATIONS {
         if r.norm() < 1e-9 * weight_n.max(1.0) || body.looks > MOST_LOOKS {
             break;
         }
         let mut residual = |x: &Vector6<f64>| free * body.load(&moved(&state, &(free * x)));
-        let j = jacobian(&x, &mut residual);
+        let j = *slopes.get_or_insert_with(|| jacobian(&x, &mut residual));
         let normal = j.tr_mul(&j);
         let gradient = j.tr_mul(&r);
         let scale = normal.diagonal().max();
@@ -178,7 +178,7 @@ pub(crate) fn settle(
         let Some(step) = step else { break };
         let next = residual(&(x + step));
         if next.norm() < r.norm() {
-            (x, r, damping) = (x + step, next, (damping * 0.3).max(1e-12));
+            (x, r, damping, slopes) = (x + step, next, (damping * 0.3).max(1e-12), None);
         } else if damping > 1e9 {
             break;
         } else {
@@ -273,6 +273,9 @@ struct Resting<'s, 'd> {
     system: System<f64>,
     still: Frames<f64>,
     history: History<f64>,
+    /// The motion where it is tried, and a place for what an evaluation finds there.
+    k: Box<Kinematics<f64>>,
+    scratch: Box<Scratch<f64>>,
     /// Elements looked at so far.
     looks: usize,
 }
@@ -281,19 +284,20 @@ impl<'s, 'd> Resting<'s, 'd> {
     fn new(setup: &'s Setup, data: Data<'d>, system: &System<f64>, vehicle: &FrameMotion) -> Self {
         let still = standing(setup, vehicle);
         let history = History::new(&system.forces, Memory::none());
-        Resting { setup, data, system: system.clone(), still, history, looks: 0 }
+        let (k, scratch) = (Box::new(Kinematics::blank()), Box::new(Scratch::blank(system)));
+        Resting { setup, data, system: system.clone(), still, history, k, scratch, looks: 0 }
     }
 
     /// Resultant force (N) and moment about T1 over the lever (N) of contacts, belts and weight, by which belts are laid.
     fn load(&mut self, state: &State<f64>) -> Vector6<f64> {
-        let Resting { setup, data, system, still, history, looks } = self;
-        let k = Kinematics::new(&system.skeleton, state);
-        let at = Instant { k: &k, state, frames: still, carried: &[], spheres: &system.spheres, accepted: false };
+        let Resting { setup, data, system, still, history, k, scratch, looks } = self;
+        k.follow(&system.skeleton, state, None);
+        let at = Instant { k, state, frames: still, carried: &[], spheres: &system.spheres, accepted: false };
         system.forces.lay(data, &setup.body, &at);
         *looks += system.forces.restart(&at, history);
-        let e = at_rest(system, state, still, history);
+        let (_, loads) = system.loads(scratch, Situation::within(state, still), history);
         let (mut force, mut moment) = (V3::zero(), V3::zero());
-        for (n, (wrench, link)) in e.wrench.iter().zip(&system.skeleton.links).enumerate() {
+        for (n, (wrench, link)) in loads.iter().zip(&system.skeleton.links).enumerate() {
             let weight = V3 { x: 0.0, y: 0.0, z: -link.mass * system.skeleton.gravity };
             force += wrench.force + weight;
             moment += wrench.moment + (k.joint[n] - state.t1()).cross(wrench.force);
@@ -316,23 +320,13 @@ pub(super) fn standing(setup: &Setup, vehicle: &FrameMotion) -> Frames<f64> {
     still
 }
 
-/// One evaluation, in one place: the kernel is inlined whole wherever it is called.
-#[inline(never)]
-pub(super) fn at_rest(
-    system: &System<f64>,
-    state: &State<f64>,
-    still: &Frames<f64>,
-    history: &mut History<f64>,
-) -> Evaluation<f64> {
-    system.evaluate(Situation::within(state, still), history, &mut ())
-}
-
 /// Gives muscles at the start of a body that has settled what their joints carry there, at rest in frames that stand still.
 pub(crate) fn carry(system: &mut System<f64>, state: &State<f64>, still: &Frames<f64>, history: &History<f64>) {
-    let e = at_rest(system, state, still, &mut history.clone());
-    let loads = loads_beyond(&system.skeleton, &e);
+    let mut scratch = Scratch::blank(system);
+    let (k, loads) = system.loads(&mut scratch, Situation::within(state, still), &mut history.clone());
+    let loads = loads_beyond(&system.skeleton, k, loads);
     for muscle in &mut system.forces.muscles {
-        muscle.carry(&e.kinematics, |outer| -turning(&system.skeleton, &e.kinematics, &loads, outer));
+        muscle.carry(k, |outer| -turning(&system.skeleton, k, &loads, outer));
     }
 }
 
@@ -344,18 +338,24 @@ pub(super) fn lack(
     still: &Frames<f64>,
     history: &History<f64>,
 ) -> Option<Lack> {
-    let e = at_rest(system, state, still, &mut history.clone());
-    let loads = loads_beyond(&system.skeleton, &e);
+    let mut scratch = Scratch::blank(system);
+    let (k, loads) = system.loads(&mut scratch, Situation::within(state, still), &mut history.clone());
+    let loads = loads_beyond(&system.skeleton, k, loads);
     let lacks = body.tree.segments().filter_map(|segment| {
-        let moment = turning(&system.skeleton, &e.kinematics, &loads, segment.index());
+        let moment = turning(&system.skeleton, k, &loads, segment.index());
         Some(Lack { joint: body.tree[body.tree.bearer(segment)?].name, moment_n_m: moment.norm_squared().sqrt() })
     });
     lacks.max_by(|a, b| a.moment_n_m.total_cmp(&b.moment_n_m)).filter(|lack| lack.moment_n_m > 0.0)
 }
 
-/// Force and moment at its joint that each segment of a resting body feels with all that hangs on it, N and N·m.
-pub(super) fn loads_beyond(skeleton: &Skeleton<f64>, e: &Evaluation<f64>) -> [Wrench<f64>; MOST_SEGMENTS] {
-    let (k, mut loads) = (&e.kinematics, e.wrench);
+/// Force and moment at its joint that each segment of a resting body feels with all that hangs on it, N and N·m, of the loads
+/// on each.
+pub(super) fn loads_beyond(
+    skeleton: &Skeleton<f64>,
+    k: &Kinematics<f64>,
+    loads: &[Wrench<f64>; MOST_SEGMENTS],
+) -> [Wrench<f64>; MOST_SEGMENTS] {
+    let mut loads = *loads;
     for (n, row) in skeleton.layout.rows().iter().enumerate().rev() {
         let weight = v3(0.0, 0.0, -skeleton.links[n].mass * skeleton.gravity);
         loads[n].force += weight;
