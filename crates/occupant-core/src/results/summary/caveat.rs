@@ -227,7 +227,7 @@ impl Caveat {
         let [strain, last] = [last + beyond.value, last].map(|strain| 1e2 * strain);
         let seen = format!("webbing {strap} stretched by {strain:.1} % {}, its curve ends at {last:.1} %", at(beyond));
         let text = format!("{seen}; {}", not_to_be_quoted("its"));
-        Caveat::new(format!("{strap}_stretched"), text, vec![format!("straps.{strap}.*")])
+        Caveat::new(format!("{strap}_stretched"), text, vec![format!("straps.{}.*", word(strap))])
     }
 
     /// A limiter that gave more webbing than its curve says.
@@ -235,7 +235,7 @@ impl Caveat {
         let (way, last) = (mm(last_m + beyond.value), mm(last_m));
         let seen = format!("limiter of {belt} bottomed at {way} {}, its curve ends at {last}", at(beyond));
         let text = format!("{seen}; {}", not_to_be_quoted("the belt's"));
-        Caveat::new(format!("{belt}_limiter_bottomed"), text, vec![format!("straps.{belt}.*")])
+        Caveat::new(format!("{belt}_limiter_bottomed"), text, vec![format!("straps.{}_*", word(belt))])
     }
 
     /// A lap belt that came off a wing of the pelvis, 1 the left one, 2 the right one, at a time, s.
@@ -254,7 +254,7 @@ impl Caveat {
         );
         let chest = body.tree.landmarks_at(pelvis).chest;
         let spoiled = [Some(pelvis), chest].into_iter().flatten().flat_map(|segment| figures_of(body, segment));
-        let figures = [format!("straps.{belt}.*")].into_iter().chain(spoiled).collect();
+        let figures = [format!("straps.{}_*", word(belt))].into_iter().chain(spoiled).collect();
         Some(Caveat::new(format!("submarining_{side}"), text, figures))
     }
 
