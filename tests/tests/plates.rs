@@ -3,9 +3,11 @@
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, Series, channels};
 use occupant_core::results::outcome::Status;
+use occupant_core::results::recorder::Watch;
+use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::simulate;
 use occupant_tests::measure::{assert_below, assert_within};
-use occupant_tests::room::{ends_alike_side_by_side, setup};
+use occupant_tests::room::{ends_alike_side_by_side, run, setup};
 
 /// A spine of 38 kg that is free, its breastbone, and a hub that comes head on: three point masses.
 const HUB: &str = r#"
@@ -109,6 +111,33 @@ fn a_hub_on_point_masses_goes_as_golden_numbers_say() {
         }
     }
     assert_within("greatest speed, m/s", hub(&[])[3], [5.63, 5.65]);
+}
+
+/// Pictures: a sphere rides with its share under contact, and webbing goes round it where the belt bears on it.
+#[test]
+fn what_rides_is_drawn_where_it_rides() {
+    let cart = || {
+        setup(include_str!("../../scenarios/cart-lap-torso.toml"), &["body={preset = \"male50\", chest = \"person\"}"])
+    };
+    let model = Model::new(cart()).unwrap();
+    let chest = model.body().sphere("chest").unwrap();
+    let (mut deepest, mut worst) = (0.0_f64, [0.0_f64; 2]);
+    let watch = Watch(|s: &Sample<'_>| {
+        let given = s.actions.plates[0].deflection_m();
+        deepest = deepest.max(given);
+        worst[0] = worst[0].max((s.sphere_carried_m(chest).unwrap().norm() - given.abs()).abs());
+        for ((belt, action), line) in model.setup().belts.iter().zip(&s.actions.belts).zip(s.lines()) {
+            let last = line.points_m.len() - 1;
+            let free = (belt.anchors_m[1] - line.points_m[last - 1]).normalize();
+            if action.wrap > 0.0 {
+                worst[1] = worst[1].max((free - action.free[1].to_vector()).norm());
+            }
+        }
+    });
+    run(cart(), watch);
+    assert!(deepest > 5e-3, "{deepest}");
+    assert_below("carried, m", worst[0], 1e-14);
+    assert_below("direction of webbing", worst[1], 1e-12);
 }
 
 const THREE_POINT: &str = include_str!("../../scenarios/three-point.toml");

@@ -65,7 +65,7 @@ pub(crate) fn three_point(body: &Body, due_s: f64) -> Chain {
     let at =
         |share: f64, beyond: f64, up: f64| Point3::new(0.5 * up * r, share * centre.y + beyond * r, centre.z + up * r);
     let points_m = [at(0.3, 0.0, 0.9), at(0.7, 0.0, 0.9), at(1.0, 0.9, -0.3)];
-    let track = Track { points_m, friction: 0.3, drag_n_s_m: 100.0 };
+    let track = Track { points_m, friction: 0.3, drag_n_s_m: 100.0, wing: None, then: None };
     let node = |name: &str, site, friction| Node {
         name: name.to_owned(),
         site,

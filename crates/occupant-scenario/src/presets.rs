@@ -10,7 +10,7 @@ use serde::de::DeserializeOwned;
 mod chest;
 
 use super::expand::{expand, written};
-use super::sections::{BodySection, ChestChoice, PelvisChoice, occupant};
+use super::sections::{AbdomenChoice, BodySection, ChestChoice, PelvisChoice, occupant};
 use occupant_core::body::people::{self, Division, Person};
 use occupant_core::body::tti12::TTI12;
 use occupant_core::body::{Body, Joint, JointKind};
@@ -52,15 +52,18 @@ pub(super) fn base(section: &Node, key: &str) -> Option<(String, Arc<Document>)>
 fn giving(own: &BodySection, made: &Made, body: &Body) -> Option<(String, String)> {
     let flesh = (own.pelvis == Some(PelvisChoice::Flesh)).then(|| chest::flesh(body));
     let chest = chest_of(own, made, body);
-    if flesh.is_none() && chest.is_none() {
+    let abdomen = own.abdomen.filter(|choice| *choice == AbdomenChoice::Person).and_then(|_| chest::abdomen(body));
+    let named = own.chest.filter(|_| chest.is_some()).map(|chest| format!("chest {}", chest.name()));
+    let parts = [("flesh", flesh.is_some()), ("abdomen", abdomen.is_some())];
+    let parts = parts.into_iter().filter(|(_, is_there)| *is_there).map(|(name, _)| name.to_owned());
+    let name = named.into_iter().chain(parts).collect::<Vec<_>>();
+    if name.is_empty() {
         return None;
     }
-    let named = own.chest.filter(|_| chest.is_some()).map(|chest| format!("chest {}", chest.name()));
-    let name = [named, flesh.as_ref().map(|_| "flesh".to_owned())].into_iter().flatten().collect::<Vec<_>>();
     // how spheres ride stands behind the table of spheres, plates after it
-    let [rides, plates] = flesh.unwrap_or_default();
+    let ([rides, plates], [belly, its_plate]) = (flesh.unwrap_or_default(), abdomen.unwrap_or_default());
     let chest = chest.unwrap_or_default();
-    Some(([rides, chest.join("\n"), plates].join("\n"), name.join(" and ")))
+    Some(([rides, belly, chest.join("\n"), plates, its_plate].join("\n"), name.join(" and ")))
 }
 
 /// The words of the chest that a body section asks for; none of a child, whom no test reaches.
@@ -84,7 +87,7 @@ struct Made {
     division: Division,
     /// Whether its joints are written.
     has_joints: bool,
-    gives: (Option<ChestChoice>, Option<PelvisChoice>),
+    gives: (Option<ChestChoice>, Option<PelvisChoice>, Option<AbdomenChoice>),
 }
 
 /// Bodies that were made, with what messages call them.
@@ -101,7 +104,7 @@ fn made(section: &Node, preset: Option<&str>) -> Option<(String, Arc<Document>)>
         person: person(&own, preset),
         division: own.division().unwrap_or_default(),
         has_joints: section.get("joints").is_some(),
-        gives: (own.chest, own.pelvis),
+        gives: (own.chest, own.pelvis, own.abdomen),
     };
     let latest = || LATEST.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((_, title, document)) = latest().iter().find(|(key, ..)| *key == from) {

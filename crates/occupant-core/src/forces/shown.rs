@@ -7,6 +7,7 @@ use nalgebra::{Point3, Vector3};
 use super::contact::Touch;
 use super::contact::surface::Frame;
 use super::element::Element;
+use super::sphere::Use;
 use super::stored::Archive;
 use super::table::{Column, Table};
 use crate::body::Body;
@@ -101,8 +102,8 @@ pub struct Shown<'a, E: Element> {
     pub actions: &'a [E::Action<f64>],
     /// The body.
     pub body: &'a Body,
-    /// Centre of a sphere, vehicle axes, m.
-    pub centre_m: &'a dyn Fn(usize) -> Point3<f64>,
+    /// Centre of a sphere under a use, vehicle axes, m.
+    pub centre_m: &'a dyn Fn(usize, Use) -> Point3<f64>,
     /// A point of a frame, axes of the first vehicle, m.
     pub place_m: &'a dyn Fn(Frame, Point3<f64>) -> Point3<f64>,
 }

@@ -132,7 +132,7 @@ fn moved(node: &Node, segment: usize, sphere: usize, first: usize) -> Node {
     let site = match &node.site {
         site @ NodeSite::Vehicle(..) => site.clone(),
         NodeSite::Segment(n, point, away) => NodeSite::Segment(segment + n, *point, *away),
-        NodeSite::Track(n, track) => NodeSite::Track(segment + n, *track),
+        NodeSite::Track(n, track) => NodeSite::Track(segment + n, track.of_member(segment, first)),
         NodeSite::Sphere(i) => NodeSite::Sphere(sphere + i),
     };
     let ride = node.ride.iter().map(|(plate, share)| (first + plate, *share)).collect();

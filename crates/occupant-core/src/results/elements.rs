@@ -19,7 +19,7 @@ impl Sample<'_> {
             law: E::law(&model.system().forces),
             actions: E::actions(self.actions),
             body: model.body(),
-            centre_m: &|sphere| at_home.sphere_centre_m(sphere),
+            centre_m: &|sphere, by| at_home.sphere_under_m(sphere, by),
             place_m: &|frame, point_m| self.placed_m(frame, point_m),
         })
     }

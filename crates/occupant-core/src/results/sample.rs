@@ -8,6 +8,7 @@ use crate::body::tti12::TTI12;
 use crate::forces::contact::Touch;
 use crate::forces::contact::surface::Frame;
 use crate::forces::shown::Pull;
+use crate::forces::sphere::Use;
 use crate::forces::{Actions, History};
 use crate::kernel::Evaluation;
 use crate::kernel::instruments::Reading;
@@ -354,11 +355,24 @@ impl<'a> Sample<'a> {
         sum_n
     }
 
-    /// Centre of a sphere, vehicle axes, m.
+    /// Centre of a sphere as surfaces meet it, vehicle axes, m.
     pub fn sphere_centre_m(&self, sphere: usize) -> Point3<f64> {
-        let system = self.model.system();
-        let Some(site) = system.spheres.get(sphere) else { return NOWHERE };
-        self.place_m(site.segment, system.sphere(&self.evaluation.kinematics, sphere).1)
+        self.sphere_under_m(sphere, Use::Contact)
+    }
+
+    /// Centre of a sphere under a use, vehicle axes, m.
+    pub(crate) fn sphere_under_m(&self, sphere: usize, by: Use) -> Point3<f64> {
+        let Some(site) = self.model.system().spheres.get(sphere) else { return NOWHERE };
+        self.place_m(site.segment, site.place(&self.evaluation.kinematics, by).1)
+    }
+
+    /// How far parts of the body that give way have carried a sphere's centre as surfaces meet it, segment axes, m; none of a
+    /// sphere that rides on nothing there.
+    pub fn sphere_carried_m(&self, sphere: usize) -> Option<Vector3<f64>> {
+        let site = self.model.system().spheres.get(sphere)?;
+        let riding = site.riding(Use::Contact).filter(|riding| riding.numbers().next().is_some())?;
+        let k = &self.evaluation.kinematics;
+        Some(k.axes[site.segment].into_frame(riding.carried(k)[0]).to_vector())
     }
 
     /// Point of application of a sphere's contact force relative to its centre, segment axes, m: the mean over the faces

@@ -1,28 +1,42 @@
-//! `/tf`: space → vehicle → the segments. Every message holds every frame, because a viewer that jumps in time
+//! `/tf`: space → vehicle → the segments → spheres that ride on parts of them that give way. Every message holds every frame, because a viewer that jumps in time
 //! reads only the last one.
 
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
-use occupant_core::body::{Body, Segment};
+use occupant_core::body::{Body, ContactSphere, Segment};
 use occupant_core::forces::contact::surface::Frame;
 use occupant_core::results::sample::Sample;
 
 use super::scene::compartment::frame_name;
-use super::topics::{SPACE_FRAME, VEHICLE_FRAME, segment_frame};
+use super::topics::{SPACE_FRAME, VEHICLE_FRAME, ridden_frame, segment_frame};
 use super::wire::Wire;
 
-/// Names of the segments' frames, made once.
+/// Names of the frames of segments and of spheres that ride, made once.
 #[derive(Debug)]
-pub struct FrameNames(Vec<String>);
+pub struct FrameNames {
+    segments: Vec<String>,
+    /// By sphere; none of one that rides on nothing.
+    ridden: Vec<Option<String>>,
+}
 
 impl FrameNames {
     /// Those of a body.
     pub fn new(body: &Body) -> Self {
-        FrameNames(body.tree.segment_rows().iter().map(|row| segment_frame(row.name)).collect())
+        let rides = |sphere: &ContactSphere| !sphere.ride.contact.is_empty();
+        let ridden = |s: &ContactSphere| rides(s).then(|| ridden_frame(body.tree[s.segment].name, &s.name));
+        FrameNames {
+            segments: body.tree.segment_rows().iter().map(|row| segment_frame(row.name)).collect(),
+            ridden: body.spheres.iter().map(ridden).collect(),
+        }
     }
 
     /// The frame of a segment.
     pub fn of(&self, segment: Segment) -> &str {
-        &self.0[segment.index()]
+        &self.segments[segment.index()]
+    }
+
+    /// The frame in which a sphere (index) stays where it is.
+    pub fn of_sphere(&self, body: &Body, sphere: usize) -> &str {
+        self.ridden[sphere].as_deref().unwrap_or_else(|| self.of(body.spheres[sphere].segment))
     }
 }
 
@@ -53,5 +67,10 @@ pub fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>, names: &FrameNames) 
     for segment in sample.model.body().tree.segments() {
         let (place, turn) = (sample.cg_m(segment), sample.orientation(segment));
         transform(VEHICLE_FRAME, names.of(segment), &place.coords, &turn);
+    }
+    for (i, sphere) in sample.model.body().spheres.iter().enumerate() {
+        if let (Some(frame), Some(carried_m)) = (&names.ridden[i], sample.sphere_carried_m(i)) {
+            transform(names.of(sphere.segment), frame, &carried_m, &UnitQuaternion::identity());
+        }
     }
 }

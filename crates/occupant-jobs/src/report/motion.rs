@@ -22,6 +22,10 @@ pub struct Motion {
     lines: Vec<MovingLine>,
     /// Poses of the segments: x, y, z, quaternion x, y, z, w.
     poses: Array,
+    /// How far the spheres of `ridden` have been carried by parts of the body that give way: x, y, z, axes of their segments.
+    carried: Array,
+    /// Those spheres (indices).
+    ridden: Vec<usize>,
     /// Poses of the vehicle in vehicle-space: Y right, Z down.
     vehicle: Array,
     contacts: Contacts,
@@ -49,7 +53,9 @@ struct Contacts {
 }
 
 impl Recorder for Motion {
-    fn begin(&mut self, _model: &Model) -> Result<(), RecorderError> {
+    fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
+        let spheres = model.body().spheres.iter().enumerate();
+        self.ridden = spheres.filter(|(_, sphere)| !sphere.ride.contact.is_empty()).map(|(i, _)| i).collect();
         self.contacts.start.uint32(0);
         Ok(())
     }
@@ -59,6 +65,8 @@ impl Recorder for Motion {
         for segment in sample.model.body().tree.segments() {
             add_pose(&mut self.poses, sample.cg_m(segment).coords, &sample.orientation(segment));
         }
+        let carried = self.ridden.iter().flat_map(|sphere| sample.sphere_carried_m(*sphere));
+        self.carried.float32(carried.flat_map(<[f64; 3]>::from));
         let turned = Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0));
         let rotation = Rotation3::from_matrix_unchecked(turned * sample.vehicle.rotation);
         let turn = UnitQuaternion::from_rotation_matrix(&rotation);

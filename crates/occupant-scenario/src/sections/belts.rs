@@ -8,7 +8,7 @@ use super::materials::spring;
 use super::nodes::NodeSection;
 use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, point, si_or};
 use super::retractors::StrokeSection;
-use super::three_point::{Preset, Side};
+use super::three_point::{Lap, Preset, Side};
 use super::{Force, Length, Ratio, Scenario, Stiffness};
 use occupant_core::body::Body;
 use occupant_core::forces::belt::{Belt, RestLength};
@@ -57,6 +57,9 @@ pub(crate) struct BeltSection {
     pub(crate) preset: Option<Preset>,
     /// The side of the vehicle on which a preset's upper anchor stands: "left" for a driver on the left.
     pub(crate) side: Option<Side>,
+    /// What the lap part of a preset bears on: "pelvis", its sphere, from which it cannot slide, or "wings", the iliac wings, from which it
+    /// slides up to the abdomen. "pelvis" if absent.
+    pub(crate) lap: Option<Lap>,
     /// Name of the retractor of a preset.
     pub(crate) retractor: Option<String>,
     /// Pretensioner of a preset's buckle; pulls it towards its anchor.
@@ -96,7 +99,7 @@ fn belt(b: &mut Builder, body: &Body, name: &str, s: &BeltSection) -> Option<Bel
         );
         return None;
     };
-    let keys = ["webbing", "pretension", "limiter", "release", "strength", "side", "retractor", "pretensioner"];
+    let keys = ["webbing", "pretension", "limiter", "release", "strength", "side", "lap", "retractor", "pretensioner"];
     b.refuse_keys(&path, &keys, |key| format!("`{key}` of a loop round one sphere"), "`nodes` instead of `anchors`");
     let sphere = b.sphere(&format!("{path}.sphere"), sphere, body);
     let webbing = spring(k1, &s.k2, &s.delta_b, si_or(&s.mu1, 1.0), &s.mu2);

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::body_joints::own_tree;
 use super::builder::Builder;
-use super::plates::{self, BodyPlateSection, ChestChoice, LinkSection, PelvisChoice, RideSection};
+use super::plates::{self, AbdomenChoice, BodyPlateSection, ChestChoice, LinkSection, PelvisChoice, RideSection};
 use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, point, si_or};
 use super::{Acceleration, Angle, Force, Inertia, Length, Mass, Ratio};
 use occupant_core::body::SphereRow;
@@ -70,6 +70,9 @@ pub(crate) struct BodySection {
     pub(crate) chest: Option<ChestChoice>,
     /// "flesh": what a lap belt presses gives way, by guessed numbers; "rigid" if absent.
     pub(crate) pelvis: Option<PelvisChoice>,
+    /// "person": a sphere and a plate of the trunk's part above the pelvis, which belts, rims and doors meet; fitted to two figures of belt
+    /// pretensioners. "rigid", no such part, if absent.
+    pub(crate) abdomen: Option<AbdomenChoice>,
     /// Parts that give way by name, or changes of those of `chest`: `sternum`, `left_ribs`, `right_ribs`.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) plates: IndexMap<String, BodyPlateSection>,

@@ -67,7 +67,7 @@ impl Parts<'_> {
         let mut from = 0;
         for to in (1..nodes.len()).filter(|i| is_tie(*i)) {
             let nodes = nodes[from..=to].to_vec();
-            let rubs = |i: &usize| *i == 0 || *i + 1 == nodes.len() || nodes[*i].friction > 0.0;
+            let rubs = |i: &usize| *i == 0 || *i + 1 == nodes.len() || nodes[*i].parts();
             let ends: Vec<usize> = (0..nodes.len()).filter(rubs).collect();
             let straps = ends.windows(2).map(|e| format!("{name}.{}_{}", nodes[e[0]].name, nodes[e[1]].name)).collect();
             let release = s.release.as_deref().map_or(Cue::NEVER, |trigger| self.triggers.cue(trigger, 0.0));

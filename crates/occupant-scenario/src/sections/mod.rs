@@ -40,6 +40,7 @@ mod stance;
 mod surfaces;
 mod three_point;
 mod triggers;
+mod wings;
 
 use std::sync::OnceLock;
 
@@ -68,7 +69,7 @@ use self::materials::MaterialSection;
 use self::mount::MountSection;
 use self::muscles::MuscleSection;
 use self::path::PathSection;
-pub(super) use self::plates::{ChestChoice, PelvisChoice};
+pub(super) use self::plates::{AbdomenChoice, ChestChoice, PelvisChoice};
 use self::posture::{InitialStateSection, PostureSection, SeatSection};
 use self::quantity::ANY;
 use self::retractors::RetractorSection;

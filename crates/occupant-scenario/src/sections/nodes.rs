@@ -10,8 +10,9 @@ use super::chains::Parts;
 use super::plates::{self, PlaceRide};
 use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, point, si_or};
 use super::retractors::{StrokeSection, direction};
+use super::wings;
 use super::{Force, Length, Ratio, Speed};
-use occupant_core::forces::chain::{NEVER, Node, Site, Track};
+use occupant_core::forces::chain::{NEVER, Next, Node, Site, Track};
 
 /// Speed at which webbing slides across a track for each kN beyond friction, m/s: a drag of 100 N·s/m.
 const SLIDE_M_S: f64 = 10.0;
@@ -20,7 +21,7 @@ const SLIDE_M_S: f64 = 10.0;
 /// a sphere of the body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("x-exactly-one" = [["at", "track", "sphere"]], "x-at-most-one" = [["sphere", "on"], ["ride", "lies_on"]]))]
+#[schemars(extend("x-exactly-one" = [["at", "track", "sphere", "wing"]], "x-at-most-one" = [["sphere", "on", "wing"], ["ride", "lies_on"]]))]
 pub(crate) struct NodeSection {
     /// Its name; that of the sphere, or its number, if absent.
     pub(crate) name: Option<String>,
@@ -33,7 +34,12 @@ pub(crate) struct NodeSection {
     /// Inner end, crown and outer end of an arc across which the webbing slides, segment axes from the segment's lower end. It
     /// begins at the crown, and comes off beyond the outer end or where it pulls away from the body.
     pub(crate) track: Option<[[Length; 3]; 3]>,
-    /// Friction across a track; 0.3 if absent.
+    /// "left" or "right": the iliac wing of that side, a track of the pelvis on which a lap belt bears; a guess of its place. Webbing that
+    /// slides up from it lies on the abdomen.
+    pub(crate) wing: Option<WingSide>,
+    /// Of a track: the point of the body that takes the webbing over once it has come off. None: it lies nowhere then.
+    pub(crate) then: Option<NextSection>,
+    /// Friction across a track; 0.3 if absent, 0.25 of a wing.
     pub(crate) across: Option<Ratio<NOT_NEGATIVE>>,
     /// Speed at which webbing slides across a track for each kN beyond friction; 10 m/s if absent.
     pub(crate) slide_speed: Option<Speed<POSITIVE>>,
@@ -57,6 +63,29 @@ pub(crate) struct NodeSection {
     pub(crate) pretensioner: Option<StrokeSection>,
 }
 
+/// A side of the pelvis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum WingSide {
+    /// The left one, at positive Y of the pelvis.
+    Left,
+    /// The right one.
+    Right,
+}
+
+/// A point of a segment that takes webbing over.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct NextSection {
+    /// Name of the segment.
+    pub(crate) on: String,
+    /// Place from the segment's lower end, segment axes.
+    pub(crate) at: [Length; 3],
+    /// Shares from 0 to 1 of the deflections of plates of that segment with which it goes along, by their names; none if absent.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) ride: IndexMap<String, Ratio>,
+}
+
 impl NodeSection {
     /// One of which nothing is said.
     pub(super) fn none() -> Self {
@@ -66,6 +95,8 @@ impl NodeSection {
             on: None,
             sphere: None,
             track: None,
+            wing: None,
+            then: None,
             across: None,
             slide_speed: None,
             normal: None,
@@ -84,7 +115,10 @@ impl Parts<'_> {
     pub(super) fn node(&self, b: &mut Builder, path: &str, i: usize, s: &NodeSection) -> Node {
         let name = s.name.clone().or_else(|| s.sphere.clone()).unwrap_or_else(|| (i + 1).to_string());
         let site = self.site(b, path, s);
-        let ride = plates::node(b, path, s, &site, self.body);
+        let mut ride = plates::node(b, path, s, &site, self.body);
+        if s.wing.is_some() && ride.is_empty() {
+            ride = wings::flesh(self.body);
+        }
         Node { name, site, friction: si_or(&s.friction, 0.0), strength_n: si_or(&s.strength, NEVER), ride }
     }
 
@@ -92,23 +126,29 @@ impl Parts<'_> {
         if let Some(sphere) = &s.sphere {
             return Site::Sphere(b.sphere(&format!("{path}.sphere"), sphere, self.body));
         }
+        let then = s.then.as_ref().and_then(|then| self.next(b, &format!("{path}.then"), then));
+        if let Some(side) = s.wing {
+            b.refuse_keys(path, &["normal", "pretensioner"], |key| format!("`{key}` of a wing"), "neither of them");
+            let track = wings::track(b, path, self.body, side);
+            let across = si_or(&s.across, wings::ACROSS);
+            let drag_n_s_m = 1e3 / si_or(&s.slide_speed, SLIDE_M_S);
+            return track.map_or(Site::Vehicle(Point3::origin(), None), |(segment, track)| {
+                let then = then.or(track.then);
+                Site::Track(segment, Track { friction: across, drag_n_s_m, then, ..track })
+            });
+        }
         let at = s.at.as_ref().map_or(Point3::origin(), point);
         let Some(segment) = &s.on else {
             b.refuse_keys(
                 path,
-                &["track", "normal"],
+                &["track", "normal", "then"],
                 |key| format!("`{key}` without `on`"),
                 "on = the name of a segment",
             );
             let stroke = s.pretensioner.as_ref().map(|stroke| self.stroke(b, path, stroke));
             return Site::Vehicle(at, stroke);
         };
-        let tree = self.body.tree;
-        let names: Vec<&str> = tree.segment_rows().iter().map(|row| row.name).collect();
-        let index = names.iter().position(|name| name == segment).unwrap_or_else(|| {
-            b.unknown(&format!("{path}.on"), "segment", segment, &names);
-            0
-        });
+        let index = self.segment(b, path, segment).unwrap_or(0);
         b.refuse_keys(
             path,
             &["pretensioner"],
@@ -122,9 +162,29 @@ impl Parts<'_> {
                     points_m: points.each_ref().map(point),
                     friction: si_or(&s.across, 0.3),
                     drag_n_s_m: 1e3 / si_or(&s.slide_speed, SLIDE_M_S),
+                    wing: None,
+                    then,
                 },
             ),
+            None if s.then.is_some() => {
+                b.error(&format!("{path}.then"), "`then` of what is no track", "a node with `track` or `wing`");
+                Site::Segment(index, at, None)
+            }
             None => Site::Segment(index, at, s.normal.as_ref().map(|normal| direction(all_si(normal)))),
         }
+    }
+
+    fn segment(&self, b: &mut Builder, path: &str, segment: &str) -> Option<usize> {
+        let names: Vec<&str> = self.body.tree.segment_rows().iter().map(|row| row.name).collect();
+        let index = names.iter().position(|name| *name == segment);
+        if index.is_none() {
+            b.unknown(&format!("{path}.on"), "segment", segment, &names);
+        }
+        index
+    }
+
+    fn next(&self, b: &mut Builder, path: &str, s: &NextSection) -> Option<Next> {
+        let ride = plates::shares(b, &format!("{path}.ride"), &s.ride, self.body);
+        Some(Next { segment: self.segment(b, path, &s.on)?, point_m: point(&s.at), ride })
     }
 }

@@ -62,6 +62,16 @@ pub(crate) enum PelvisChoice {
     Flesh,
 }
 
+/// Whether there is an abdomen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum AbdomenChoice {
+    /// There is none.
+    Rigid,
+    /// A sphere that gives way under all that meets it.
+    Person,
+}
+
 /// A part of a segment that gives way along a line.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -268,7 +278,7 @@ pub(super) fn ride(b: &mut Builder, path: &str, s: &RideSection, body: &Body) ->
 }
 
 /// Plates with numbers, by their names.
-fn shares(b: &mut Builder, path: &str, named: &IndexMap<String, Ratio>, body: &Body) -> Shares {
+pub(super) fn shares(b: &mut Builder, path: &str, named: &IndexMap<String, Ratio>, body: &Body) -> Shares {
     let mut list = Vec::new();
     for (name, share) in named {
         match body.plates.iter().position(|plate| plate.name == *name) {

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::belts::BeltSection;
 use super::builder::Builder;
 use super::functions::WebbingSection;
-use super::nodes::NodeSection;
+use super::nodes::{NodeSection, WingSide};
 use super::quantity::si_or;
 use super::{Length, Ratio, Scenario};
 use crate::presets;
@@ -34,6 +34,16 @@ pub(crate) enum Side {
     Left,
     /// At positive y.
     Right,
+}
+
+/// What a lap belt bears on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Lap {
+    /// The sphere of the pelvis.
+    Pelvis,
+    /// The iliac wings.
+    Wings,
 }
 
 /// From the pelvis back, outboard and down, m.
@@ -85,13 +95,17 @@ pub(super) fn nodes(
         nodes = vec![plain("upper_anchor", RING_M)];
     }
     let buckle = NodeSection { pretensioner: section.pretensioner.clone(), ..plain("buckle", BUCKLE_M) };
-    nodes.extend([
-        rubs(track(body, out), shoulder),
-        sphere("chest"),
-        rubs(buckle, tongue),
-        sphere("pelvis"),
-        plain("sill", SILL_M),
-    ]);
+    nodes.extend([rubs(track(body, out), shoulder), sphere("chest"), rubs(buckle, tongue)]);
+    let wing = |name: &str, side| NodeSection { name: Some(name.to_owned()), wing: Some(side), ..NodeSection::none() };
+    let mut wings = [wing("right_wing", WingSide::Right), wing("left_wing", WingSide::Left)];
+    if out > 0.0 {
+        wings.reverse();
+    }
+    match section.lap {
+        Some(Lap::Wings) => nodes.extend(wings),
+        Some(Lap::Pelvis) | None => nodes.push(sphere("pelvis")),
+    }
+    nodes.push(plain("sill", SILL_M));
     nodes
 }
 

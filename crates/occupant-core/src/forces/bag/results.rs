@@ -12,6 +12,7 @@ use super::past::BagPast;
 use super::{BagLaw, Bags, MOST_SPHERES, MOST_VENTS, Pushes, outline};
 use crate::forces::element::{Element, Instant};
 use crate::forces::shown::{Named, OneOf, Pull, Reported, Section, Shown, Tracked, Tracker};
+use crate::forces::sphere::Use;
 use crate::forces::stored::Archive;
 use crate::forces::table::{Cell, Column, Table};
 use crate::motion::scalar::Scalar;
@@ -238,7 +239,7 @@ impl Reported for Bags {
             for ((sphere, _), push) in bag.spheres.iter().zip(&action.pushes) {
                 let force_n = push.to_vector();
                 if force_n.norm() > 0.0 {
-                    let point_m: Point3<f64> = (shown.centre_m)(*sphere);
+                    let point_m: Point3<f64> = (shown.centre_m)(*sphere, Use::Bag);
                     show(&Pull { of, name: &bag.name, sphere: *sphere, point_m, force_n });
                 }
             }

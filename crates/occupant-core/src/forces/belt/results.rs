@@ -7,6 +7,7 @@ use super::law::{BeltAction, BeltHistory, BeltLaw};
 use super::{Belt, Belts};
 use crate::forces::element::Element;
 use crate::forces::shown::{Line, Named, OneOf, Pull, Reported, Shown, Tracked, Tracker};
+use crate::forces::sphere::Use;
 use crate::forces::stored::Archive;
 use crate::forces::table::{Cell, Column, Table};
 use crate::motion::scalar::Scalar;
@@ -106,7 +107,7 @@ impl Reported for Belts {
     fn lines(shown: &Shown<'_, Self>) -> Vec<Line> {
         let line = |(belt, action): (&Belt, &BeltAction<f64>)| {
             let radius_m = shown.body.spheres[belt.sphere].radius_m;
-            let points_m = course_m(belt, radius_m, (shown.centre_m)(belt.sphere), action);
+            let points_m = course_m(belt, radius_m, (shown.centre_m)(belt.sphere, Use::Belt), action);
             Line { name: belt.name.clone(), points_m, force_n: action.loop_force }
         };
         shown.data.iter().zip(shown.actions).map(line).collect()
@@ -116,7 +117,7 @@ impl Reported for Belts {
         let [of, _] = Self::NAMES;
         for (belt, action) in shown.data.iter().zip(shown.actions) {
             let (name, sphere) = (&belt.name, belt.sphere);
-            let point_m = (shown.centre_m)(sphere);
+            let point_m = (shown.centre_m)(sphere, Use::Belt);
             show(&Pull { of, name, sphere, point_m, force_n: action.force.to_vector() });
         }
     }

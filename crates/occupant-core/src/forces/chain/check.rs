@@ -4,9 +4,10 @@ use super::data::{Chain, Cue, NEVER, Node, Rest, Site, Stroke, Track};
 use super::law::Lies;
 use super::site::TrackLaw;
 use super::{ChainLaw, ChainPast, MOST_ARCS, MOST_NODES};
-use crate::body::Body;
+use crate::body::{Body, Shares};
 use crate::forces::element::Instant;
 use crate::forces::function::Goes;
+use crate::forces::plate;
 use nalgebra::Vector3;
 use placed_text::{Problem, Problems, with_key};
 
@@ -83,6 +84,9 @@ fn one(node: &Node, body: &Body, at: &str, problems: &mut Problems) {
             "0.1 to 0.6: webbing over steel or cloth",
         );
     }
+    if let (Site::Segment(segment, ..) | Site::Track(segment, _), false) = (&node.site, node.ride.is_empty()) {
+        rides(*segment, &node.ride, &format!("{at}.ride"), body, problems);
+    }
     match &node.site {
         Site::Vehicle(point, stroke) => {
             is_finite(&point.coords, at, problems);
@@ -94,11 +98,20 @@ fn one(node: &Node, body: &Body, at: &str, problems: &mut Problems) {
                 problems.error(format!("{at}.normal"), "no direction", "a direction away from the body");
             }
         }
-        Site::Track(_, track) => check_track(track, at, problems),
+        Site::Track(_, track) => check_track(track, body, at, problems),
         Site::Sphere(sphere) if *sphere >= body.spheres.len() => {
             problems.error(format!("{at}.sphere"), "no such sphere", "a sphere of the body");
         }
         Site::Sphere(_) => {}
+    }
+}
+
+/// Whether a point of a segment (index) can ride so.
+fn rides(segment: usize, shares: &Shares, path: &str, body: &Body, problems: &mut Problems) {
+    if segment >= body.segments.len() {
+        problems.error(path, "a point of no segment", "a segment of the body");
+    } else {
+        plate::rides(shares, path, body.tree.segment(segment), &body.plates, problems);
     }
 }
 
@@ -108,10 +121,15 @@ fn is_finite(point: &Vector3<f64>, at: &str, problems: &mut Problems) {
     }
 }
 
-fn check_track(track: &Track, at: &str, problems: &mut Problems) {
+fn check_track(track: &Track, body: &Body, at: &str, problems: &mut Problems) {
+    if let Some(next) = &track.then {
+        let path = format!("{at}.then");
+        is_finite(&next.point_m.coords, &path, problems);
+        rides(next.segment, &next.ride, &format!("{path}.ride"), body, problems);
+    }
     problems.check_at_least_zero(&format!("{at}.across"), track.friction, "1");
     problems.check_positive(&format!("{at}.drag"), track.drag_n_s_m, "N*s/m");
-    if TrackLaw::new(track, Vector3::zeros()).is_none() {
+    if TrackLaw::new(track, 0, &|_| Vector3::zeros()).is_none() {
         problems.error(format!("{at}.track"), "three points in line", "inner end, crown and outer end of an arc");
     }
 }

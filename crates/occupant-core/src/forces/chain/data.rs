@@ -60,6 +60,13 @@ pub struct Node {
     pub ride: Shares,
 }
 
+impl Node {
+    /// Whether a strap ends at it where it is not an end itself: webbing rubs on it, or what it bears is told of.
+    pub fn parts(&self) -> bool {
+        self.friction > 0.0 || matches!(&self.site, Site::Track(_, track) if track.then.is_some())
+    }
+}
+
 /// Where a node is.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Site {
@@ -75,7 +82,7 @@ pub enum Site {
 }
 
 /// An arc of a segment across which webbing slides.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Track {
     /// Its inner end, its crown where the webbing begins, and its outer end, from the segment's lower end, m.
     pub points_m: [Point3<f64>; 3],
@@ -83,6 +90,43 @@ pub struct Track {
     pub friction: f64,
     /// Drag across the webbing, N·s/m.
     pub drag_n_s_m: f64,
+    /// Whose bone it is, if the webbing submarines where it comes off.
+    pub wing: Option<Wing>,
+    /// Where the webbing lies once it has come off; none: it lies nowhere.
+    pub then: Option<Next>,
+}
+
+/// A wing of the pelvis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wing {
+    /// The left one.
+    Left,
+    /// The right one.
+    Right,
+}
+
+/// A point of a segment that takes webbing over which has come off a track.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Next {
+    /// Segment (index).
+    pub segment: usize,
+    /// From its lower end, segment axes, m.
+    pub point_m: Point3<f64>,
+    /// How it rides on parts of that segment that give way.
+    pub ride: Shares,
+}
+
+impl Track {
+    /// The same among several bodies, whose segments and plates begin at these.
+    pub(crate) fn of_member(&self, segment: usize, plate: usize) -> Self {
+        let moved = |shares: &Shares| shares.iter().map(|(on, share)| (plate + on, *share)).collect();
+        let then = self.then.as_ref().map(|next| Next {
+            segment: segment + next.segment,
+            ride: moved(&next.ride),
+            ..next.clone()
+        });
+        Track { then, ..self.clone() }
+    }
 }
 
 /// A pretensioner that pulls a node of the vehicle.

@@ -2,7 +2,7 @@
 
 use super::MOST_NODES;
 use super::data::Chain;
-use super::past::ChainPast;
+use super::past::{ChainPast, NodePast};
 use super::path::{self, Bend, Place, turn};
 use super::site::NodeLaw;
 use super::tension::{Course, Straps, Taut};
@@ -150,7 +150,8 @@ impl<S: Scalar<Mask = bool>> ChainLaw<S> {
         let mut first = self.straps.due(before, now);
         for (k, node) in self.nodes.iter().enumerate() {
             let (a, b) = (&before.nodes[k], &now.nodes[k]);
-            if a.is_on() != b.is_on() || a.has_stalled() != b.has_stalled() {
+            let states = |past: &NodePast<S>| [past.is_on(), past.is_handed_over(), past.has_stalled()];
+            if states(a) != states(b) {
                 let due = node.due(a, b)?;
                 first = Some(first.map_or(due, |first| first.min(due)));
             }
@@ -284,6 +285,7 @@ impl<S: Scalar> ChainLaw<S> {
             let changes = is.lt(was) | was.lt(is);
             if !node.is_sphere() {
                 lost = lost | changes;
+                refits = refits | (changes & next.nodes[k].is_handed_over());
             } else if node.rubs {
                 moved = moved | course.carried[strap].abs().gt(S::zero());
             } else if self.spheres(strap) > 1 {
@@ -303,10 +305,17 @@ impl<S: Scalar> ChainLaw<S> {
         self.nodes[starts[strap]..end].iter().filter(|node| node.is_sphere() && !node.rubs).count()
     }
 
+    /// Whether the length of a strap can jump: spheres beside each other come and go, or a track at either end hands over.
+    fn jumps(&self, strap: usize) -> bool {
+        let starts = &self.straps.starts;
+        let ends = [Some(&starts[strap]), starts.get(strap + 1)];
+        self.spheres(strap) > 1 || ends.into_iter().flatten().any(|node| self.nodes[*node].next().is_some())
+    }
+
     /// Where the length has jumped N takes that up, so that no tension does.
     #[inline(always)]
     pub(super) fn refit(&self, found: &mut Committed<S>, lies: &Lies<S>, past: &mut ChainPast<S>) {
-        for (strap, &node) in self.straps.starts.iter().enumerate().filter(|(strap, _)| self.spheres(*strap) > 1) {
+        for (strap, &node) in self.straps.starts.iter().enumerate().filter(|(strap, _)| self.jumps(*strap)) {
             let own = &mut past.nodes[node].unstretched;
             let grown = *own * (lies.course.lengths[strap] / found.lengths[strap]);
             *own = S::select(found.refits, grown, *own);

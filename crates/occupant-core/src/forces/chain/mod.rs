@@ -24,10 +24,11 @@ use crate::forces::belt::STRETCH;
 use crate::forces::element::{Element, HeldBy, Instant, Load, StoredEnergy, Unlike, WorkSum};
 use crate::forces::list::STORES;
 use crate::forces::rate::Rate;
-use crate::forces::sphere::Site as Sphere;
-use crate::forces::sphere::Use;
+use crate::forces::sphere::{Riding, Site as Sphere, Use};
+use crate::motion::frame::Moving;
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
+use crate::motion::vector::V3;
 use crate::quantity::Quantity;
 pub use data::*;
 pub use law::ChainLaw;
@@ -241,7 +242,7 @@ fn act<S: Scalar>(
     if S::any(unsolved.gt(S::zero())) {
         past.device.unsolved = unsolved;
     }
-    bear(chain, at, &now, load);
+    bear(chain, at, &now, past, load);
     for strap in 0..chain.straps.starts.len() {
         show(&StrapAction::new(chain, at, (&now, past), strap));
     }
@@ -249,22 +250,31 @@ fn act<S: Scalar>(
 
 /// Loads of the webbing on the body, and their powers.
 #[inline(always)]
-fn bear<S: Scalar>(chain: &ChainLaw<S>, at: &Instant<'_, S>, now: &Now<'_, S>, load: &mut Load<S>) {
+fn bear<S: Scalar>(
+    chain: &ChainLaw<S>,
+    at: &Instant<'_, S>,
+    now: &Now<'_, S>,
+    past: &ChainPast<S>,
+    load: &mut Load<S>,
+) {
     let (frame, mut strap) = (&at.frames[chain.frame], 0);
     for (k, force) in chain.forces(now).into_iter().enumerate().take(chain.nodes.len()) {
         let node = &chain.nodes[k];
         strap += usize::from(node.rubs);
         let Some(segment) = node.segment(at.spheres) else { continue };
         let centre = now.lies.places[k].centre;
-        let arm = centre - at.k.joint[segment];
-        let mut velocity = at.k.joint_velocity[segment] + at.k.omega[segment].cross(arm);
-        if let Some(riding) = node.riding(at.spheres) {
-            velocity += riding.carried(at.k)[1];
+        let mut force = force;
+        if let Some(next) = node.next() {
+            let (is_over, none) = (past.nodes[k].is_handed_over(), V3::zero());
+            let handed = V3::select(is_over, force, none);
+            pull(at, frame, (next.segment, next.ride.as_ref()), (centre, handed), load);
+            if let Some(riding) = &next.ride {
+                load.ride(riding, handed, S::truth(true));
+            }
+            force = V3::select(is_over, none, force);
         }
-        let carried = frame.velocity_at(centre);
+        pull(at, frame, (segment, node.riding(at.spheres)), (centre, force), load);
         let wrench = &mut load.wrench[segment];
-        wrench.force += force;
-        wrench.moment += arm.cross(force);
         let couple = node.is_rough().then(|| chain.couple(now, k, strap));
         if let Some(couple) = couple {
             wrench.moment += couple;
@@ -275,13 +285,34 @@ fn bear<S: Scalar>(chain: &ChainLaw<S>, at: &Instant<'_, S>, now: &Now<'_, S>, l
             load.ride(riding, force, S::truth(true));
         }
         let power = load.power_at(segment);
-        power.sums[STRETCH] -= force.dot(velocity - carried);
-        power.vehicle += force.dot(carried);
         if let Some(couple) = couple {
             power.sums[STRETCH] -= couple.dot(at.k.omega[segment] - frame.omega);
             power.vehicle += couple.dot(frame.omega);
         }
     }
+}
+
+/// A force on a place of a segment, which may ride on parts of it that give way, and its power; space axes.
+#[inline(always)]
+fn pull<S: Scalar>(
+    at: &Instant<'_, S>,
+    frame: &Moving<S>,
+    (segment, riding): (usize, Option<&Riding<S>>),
+    (point, force): (V3<S>, V3<S>),
+    load: &mut Load<S>,
+) {
+    let arm = point - at.k.joint[segment];
+    let mut velocity = at.k.joint_velocity[segment] + at.k.omega[segment].cross(arm);
+    if let Some(riding) = riding {
+        velocity += riding.carried(at.k)[1];
+    }
+    let carried = frame.velocity_at(point);
+    let wrench = &mut load.wrench[segment];
+    wrench.force += force;
+    wrench.moment += arm.cross(force);
+    let power = load.power_at(segment);
+    power.sums[STRETCH] -= force.dot(velocity - carried);
+    power.vehicle += force.dot(carried);
 }
 
 #[cfg(test)]

@@ -14,6 +14,9 @@ pub(super) const BACK_PER_S: f64 = 1e-4;
 /// Length of the last step where the payout has gone on otherwise since.
 const ANEW: f64 = -1.0;
 
+/// What a track is once the webbing has come off it and lies elsewhere.
+const HANDED_OVER: f64 = 2.0;
+
 /// Speed of a stroke that has stalled.
 pub(super) const STALLED: f64 = -1.0;
 
@@ -50,7 +53,7 @@ macro_rules! numbers {
 numbers! {
     /// What is remembered of a node and of the strap that begins there.
     NodePast {
-        /// 1 while the webbing passes it.
+        /// 1 while the webbing passes it, 2 once it has come off a track and lies where that says.
         on,
         /// Remembered normal of a sphere's plane, and direction from its centre to where the webbing comes onto it, segment axes;
         /// of the first node for the normal the mean speed of the payout in the last step, m/s, how long that lasted, s, and
@@ -187,7 +190,7 @@ impl<S: Scalar> ChainPast<S> {
         for node in &self.nodes {
             note(node.is_on());
             // no place along a track has just this speed
-            note(node.has_stalled());
+            note(node.has_stalled() | node.is_handed_over());
             note(node.back.gt(o));
         }
         sum
@@ -260,6 +263,24 @@ impl<S: Scalar> NodePast<S> {
     #[inline(always)]
     pub(super) fn has_stalled(&self) -> S::Mask {
         !self.speed.lt(S::of(STALLED)) & !self.speed.gt(S::of(STALLED))
+    }
+
+    /// Whether webbing has come off this track and lies where that says.
+    #[inline(always)]
+    pub(super) fn is_handed_over(&self) -> S::Mask {
+        self.on.gt(S::of(HANDED_OVER - 0.5))
+    }
+
+    /// Hands webbing over that `leaves` a track, for good: it slides no more. Whether it leaves altogether: it does not.
+    #[inline(always)]
+    pub(super) fn hand_over(&mut self, leaves: S::Mask) -> S::Mask {
+        let (o, passes) = (S::zero(), self.is_on());
+        self.on = S::select(leaves & passes, S::of(HANDED_OVER), self.on);
+        let is_over = self.is_handed_over();
+        for number in [&mut self.speed, &mut self.touch_x, &mut self.touch_y, &mut self.across] {
+            *number = S::select(is_over, o, *number);
+        }
+        S::truth(false)
     }
 
     #[inline(always)]

@@ -5,12 +5,14 @@ use std::array::from_fn;
 use nalgebra::Point3;
 use occupant_units::unit::Unit::{self, Joule, Metre, Newton, One, Radian};
 
+use super::data::Wing;
 use super::law::Now;
-use super::past::ChainPast;
-use super::site::SiteLaw;
+use super::past::{ChainPast, NodePast};
+use super::site::{NodeLaw, SiteLaw};
 use super::{ChainLaw, Chains, MOST_ARCS, MOST_NODES};
 use crate::forces::element::{Element, Instant};
 use crate::forces::shown::{Line, Named, OneOf, Pull, Reported, Shown, Tracked, Tracker};
+use crate::forces::sphere::Use;
 use crate::forces::stored::Archive;
 use crate::forces::table::{Cell, Column, Table};
 use crate::motion::scalar::Scalar;
@@ -53,6 +55,14 @@ pub struct StrapAction<S> {
     pub ends: [V3<S>; 2],
     /// Force of the webbing on the node where it begins, vehicle axes, N.
     pub node_force: V3<S>,
+    /// 1 where it begins at the left wing of the pelvis, 2 at the right one, 0 elsewhere.
+    pub wing: S,
+    /// 1 once the webbing has come off the node where it begins.
+    pub is_off: S,
+    /// Angle of the webbing's force on a track where it begins against the bone's normal, rad; 0 elsewhere and off.
+    pub bone_angle: S,
+    /// That force, N.
+    pub bone_force: S,
     /// The spheres that it wraps, and points between that it passes without friction.
     arcs: [Arc<S>; MOST_ARCS],
 }
@@ -87,6 +97,7 @@ impl<S: Scalar> StrapAction<S> {
         let (own, device) = (&past.nodes[node], &past.device);
         let forces = chain.forces(now);
         let of_first = |number: S| if strap == 0 { number } else { o };
+        let [bone_angle, bone_force] = on_bone(&chain.nodes[node], at, lies.ways[node], own, forces[node]);
         StrapAction {
             force: tense.tension,
             strain: tense.strain,
@@ -106,9 +117,23 @@ impl<S: Scalar> StrapAction<S> {
                 frame.axes.into_frame(lies.places[k].centre + on_surface - frame.origin)
             }),
             node_force: frame.axes.into_frame(forces[node]),
+            wing: S::of(chain.nodes[node].wing().map_or(0.0, |wing| 1.0 + f64::from(wing == Wing::Right))),
+            is_off: S::select(own.is_on() & !own.is_handed_over(), o, S::one()),
+            bone_angle,
+            bone_force,
             arcs: arcs(chain, at, (now, past), &forces, node..end),
         }
     }
+}
+
+/// Angle and size of the force on the bone of a track.
+#[inline(always)]
+fn on_bone<S: Scalar>(node: &NodeLaw<S>, at: &Instant<'_, S>, way: S, past: &NodePast<S>, force: V3<S>) -> [S; 2] {
+    let SiteLaw::Track(segment, track) = &node.site else { return [S::zero(); 2] };
+    let force = at.k.axes[*segment].into_frame(force);
+    let is_there = past.is_on() & !past.is_handed_over();
+    let size = force.norm_squared().max(S::of(1e-60)).sqrt();
+    [track.angle(way, force), size].map(|number| S::select(is_there & size.gt(S::of(1e-6)), number, S::zero()))
 }
 
 /// The spheres of a strap that begins and ends at these nodes, and as many of the points between as there is room for.
@@ -199,6 +224,12 @@ impl Reported for Chains {
             .field(10, "node_force", "force of the webbing on the node where it begins")
             .resultant(11, "node_force", "its magnitude"),
         Of::vector(Metre, Axes::Vehicle, |s| s.ends[0].to_vector()).field(12, "start", "where it begins"),
+        Of::number(Radian, |s| s.bone_angle)
+            .channel("pelvis_angle", "angle of the belt's force against the bone where the {} begins, positive towards the abdomen")
+            .field(16, "bone_angle", "of its force on a track where it begins against the bone's normal, positive outwards"),
+        Of::number(Newton, |s| s.bone_force)
+            .channel("bone_force", "force of the webbing on the bone where the {} begins")
+            .field(17, "bone_force", "its force on a track where it begins; 0 once it has come off"),
         Of::number(Joule, |s| s.stored).field(13, "stored", "recoverable energy, with that of the limiter where it begins"),
         Of::number(Joule, |s| s.lost).field(
             14,
@@ -300,14 +331,25 @@ impl Reported for Chains {
         for (named, strap) in Self::named(shown.data).into_iter().zip(shown.actions) {
             for arc in strap.arcs.iter().filter(|arc| arc.wrap > 0.0) {
                 let Some(sphere) = arc.sphere else { continue };
-                let (name, point_m) = (named.name, (shown.centre_m)(sphere));
+                let (name, point_m) = (named.name, (shown.centre_m)(sphere, Use::Belt));
                 show(&Pull { of, name, sphere, point_m, force_n: arc.force.to_vector() });
             }
         }
     }
 
-    const BY_STEPS: &'static [&'static str] =
-        &[LOSES, COMES_ONTO, LEAVES, TIGHTENS, SLACKENS, PHASES[1], PHASES[2], PHASES[3], PHASES[4]];
+    const BY_STEPS: &'static [&'static str] = &[
+        LEAVES_LEFT,
+        LEAVES_RIGHT,
+        LOSES,
+        COMES_ONTO,
+        LEAVES,
+        TIGHTENS,
+        SLACKENS,
+        PHASES[1],
+        PHASES[2],
+        PHASES[3],
+        PHASES[4],
+    ];
 
     fn told(before: &[f64], now: &[f64], show: &mut dyn FnMut(&'static str)) {
         match [before[0] > 0.0, now[0] > 0.0] {
@@ -332,7 +374,12 @@ impl Reported for Chains {
             for (k, node) in chain.nodes.iter().enumerate() {
                 let [was, is] = [before, now].map(|past| past.nodes[k].is_on());
                 let strap = first + starts.iter().filter(|start| **start <= k).count().saturating_sub(1);
-                if was != is && node.is_sphere() {
+                let [was_over, is_over] = [before, now].map(|past| past.nodes[k].is_handed_over());
+                if node.wing().is_some() && ((was && !is) || (!was_over && is_over)) {
+                    show(strap, if node.wing() == Some(Wing::Left) { LEAVES_LEFT } else { LEAVES_RIGHT });
+                } else if was_over != is_over {
+                    show(strap, LOSES);
+                } else if was != is && node.is_sphere() {
                     show(strap, if is { COMES_ONTO } else { LEAVES });
                 } else if was != is && starts.contains(&k) {
                     show(strap, LOSES);
@@ -346,6 +393,10 @@ impl Reported for Chains {
         let (o, half) = (S::zero(), S::of(0.5));
         let is = |x: S| S::any(x.gt(half));
         let rises = |from: S, to: S| S::any(to.gt(from + half));
+        if !is(before.is_off) && is(now.is_off) && is(now.wing) {
+            let words = if S::any(now.wing.gt(S::of(1.5))) { LEAVES_RIGHT } else { LEAVES_LEFT };
+            return Some((words, None));
+        }
         if is(before.passes) && !is(now.passes) {
             return Some((LOSES, Some(before.force)));
         }
@@ -369,6 +420,8 @@ impl Reported for Chains {
     }
 }
 
+const LEAVES_LEFT: &str = "leaves the left iliac wing";
+const LEAVES_RIGHT: &str = "leaves the right iliac wing";
 const LOSES: &str = "loses the node where it begins";
 const COMES_ONTO: &str = "comes onto a sphere of the body";
 const LEAVES: &str = "leaves a sphere of the body";

@@ -1,6 +1,6 @@
 //! Nodes of a chain: where they are, how they slide or are pulled, and when the webbing comes out of them.
 
-use super::data::{NEVER, Node, Site, Stroke, Track};
+use super::data::{NEVER, Next, Node, Site, Stroke, Track, Wing};
 use super::past::{DevicePast, NodePast, STALLED};
 use super::path::Place;
 use crate::body::Body;
@@ -45,7 +45,7 @@ pub(super) struct StrokeLaw<S> {
 }
 
 /// An arc: centre, directions to its inner end and along it there, radius, length, segment axes from the joint.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct TrackLaw<S> {
     centre: V3<S>,
     out: V3<S>,
@@ -56,11 +56,39 @@ pub(super) struct TrackLaw<S> {
     start: S,
     friction: S,
     drag: S,
+    pub(super) wing: Option<Wing>,
+    /// What takes webbing over that has come off it.
+    pub(super) then: Option<NextLaw<S>>,
+}
+
+/// A point of a segment, from its joint, that takes webbing over.
+#[derive(Clone, Debug)]
+pub(super) struct NextLaw<S> {
+    pub(super) segment: usize,
+    point: V3<S>,
+    pub(super) ride: Option<Riding<S>>,
+}
+
+impl<S: Copy> NextLaw<S> {
+    fn zip<A: Copy, T>(&self, other: &NextLaw<A>, f: &impl Fn(S, A) -> T) -> NextLaw<T> {
+        NextLaw {
+            segment: self.segment,
+            point: self.point.zip(&other.point, f),
+            ride: self.ride.zip(other.ride).map(|(a, b)| a.zip(&b, f)),
+        }
+    }
 }
 
 impl TrackLaw<f64> {
-    /// The circle through three points, seen from the joint; nothing where they are in line.
-    pub(super) fn new(track: &Track, joint: Vector3<f64>) -> Option<Self> {
+    /// The circle through three points, seen from the joint; nothing where they are in line. `joint` gives that of a segment.
+    pub(super) fn new(track: &Track, segment: usize, joint: &dyn Fn(usize) -> Vector3<f64>) -> Option<Self> {
+        let from = joint;
+        let joint = from(segment);
+        let next = |next: &Next| NextLaw {
+            segment: next.segment,
+            point: V3::of(&(next.point_m.coords - from(next.segment))),
+            ride: (!next.ride.is_empty()).then(|| Riding::new(&next.ride)),
+        };
         let [a, b, c] = track.points_m.map(|p| p.coords - joint);
         let (u, v) = (b - a, c - a);
         let normal = u.cross(&v);
@@ -86,6 +114,8 @@ impl TrackLaw<f64> {
             start: way(b),
             friction: track.friction,
             drag: track.drag_n_s_m,
+            wing: track.wing,
+            then: track.then.as_ref().map(next),
         })
     }
 }
@@ -101,6 +131,8 @@ impl<S: Copy> TrackLaw<S> {
             start: f(self.start, other.start),
             friction: f(self.friction, other.friction),
             drag: f(self.drag, other.drag),
+            wing: self.wing,
+            then: self.then.as_ref().zip(other.then.as_ref()).map(|(a, b)| a.zip(b, f)),
         }
     }
 }
@@ -130,7 +162,7 @@ impl NodeLaw<f64> {
             Site::Segment(segment, point, away) => {
                 SiteLaw::Segment(*segment, from_joint(*segment, point), away.as_ref().map(V3::of))
             }
-            Site::Track(segment, track) => match TrackLaw::new(track, joint(*segment)) {
+            Site::Track(segment, track) => match TrackLaw::new(track, *segment, &joint) {
                 Some(law) => SiteLaw::Track(*segment, law),
                 None => SiteLaw::Segment(*segment, from_joint(*segment, &track.points_m[1]), None),
             },
@@ -140,7 +172,7 @@ impl NodeLaw<f64> {
         NodeLaw {
             site,
             friction: node.friction,
-            rubs: node.friction > 0.0 && !is_end,
+            rubs: node.parts() && !is_end,
             strength: node.strength_n,
             may_leave: !is_end && (!always || node.strength_n < NEVER),
             ride: (!node.ride.is_empty()).then(|| Riding::new(&node.ride)),
@@ -178,11 +210,27 @@ impl<S: Copy> NodeLaw<S> {
             SiteLaw::Vehicle(_, None) => (0, 0, 0),
             SiteLaw::Vehicle(_, Some(stroke)) => (1, 0, stroke.way.len()),
             SiteLaw::Segment(segment, _, away) => (2, *segment, usize::from(away.is_some())),
-            SiteLaw::Track(segment, _) => (3, *segment, 0),
+            SiteLaw::Track(segment, track) => (3, *segment, track.then.as_ref().map_or(0, |next| 1 + next.segment)),
             SiteLaw::Sphere(sphere) => (4, *sphere, 0),
         };
-        let ridden = self.ride.as_ref().map(|ride| ride.numbers().collect());
+        let ridden = self.ride.iter().chain(self.next().and_then(|next| next.ride.as_ref()));
+        let ridden = self.has_ride().then(|| ridden.flat_map(Riding::numbers).collect());
         (kind, of, rows, [self.rubs, self.may_leave], ridden)
+    }
+
+    /// The wing of the pelvis that it is.
+    pub(super) fn wing(&self) -> Option<Wing> {
+        if let SiteLaw::Track(_, track) = &self.site { track.wing } else { None }
+    }
+
+    /// What takes webbing over that has come off it.
+    #[inline(always)]
+    pub(super) fn next(&self) -> Option<&NextLaw<S>> {
+        if let SiteLaw::Track(_, track) = &self.site { track.then.as_ref() } else { None }
+    }
+
+    fn has_ride(&self) -> bool {
+        self.ride.is_some() || self.next().is_some_and(|next| next.ride.is_some())
     }
 
     pub(super) fn zip<A: Copy, T>(&self, other: &NodeLaw<A>, f: &impl Fn(S, A) -> T) -> NodeLaw<T> {
@@ -218,6 +266,32 @@ impl<S: Copy> NodeLaw<S> {
 #[inline(always)]
 fn on_segment<S: Scalar>(at: &Instant<'_, S>, n: usize, offset: V3<S>) -> V3<S> {
     at.k.joint[n] + at.k.axes[n].out(offset)
+}
+
+impl<S: Scalar> NextLaw<S> {
+    /// Where it is, space axes.
+    #[inline(always)]
+    fn place(&self, at: &Instant<'_, S>) -> V3<S> {
+        let point = on_segment(at, self.segment, self.point);
+        if let Some(riding) = &self.ride { point + riding.carried(at.k)[0] } else { point }
+    }
+}
+
+impl<S: Scalar> TrackLaw<S> {
+    /// Force along it and across that, N, of a force in axes of its segment at a way.
+    #[inline(always)]
+    fn parted(&self, way: S, force: V3<S>) -> [S; 2] {
+        let (_, along, _) = self.at(way);
+        let across = force.dot(along);
+        [across, (force - along * across).norm_squared().max(S::of(1e-60)).sqrt()]
+    }
+
+    /// Angle between the webbing's force and the arc's normal, positive towards the outer end, rad; 0 without a force.
+    #[inline(always)]
+    pub(super) fn angle(&self, way: S, force: V3<S>) -> S {
+        let [across, held] = self.parted(way, force);
+        across.atan2(held)
+    }
 }
 
 impl<S: Scalar> NodeLaw<S> {
@@ -287,7 +361,11 @@ impl<S: Scalar> NodeLaw<S> {
                 (frame.origin + frame.axes.out(*point + pulled), none)
             }
             SiteLaw::Segment(segment, offset, _) => (self.on_segment(at, *segment, *offset), none),
-            SiteLaw::Track(segment, track) => (self.on_segment(at, *segment, track.at(way).0), none),
+            SiteLaw::Track(segment, track) => {
+                let on_track = self.on_segment(at, *segment, track.at(way).0);
+                let place = track.then.as_ref().map(|next| V3::select(past.is_handed_over(), next.place(at), on_track));
+                (place.unwrap_or(on_track), none)
+            }
             SiteLaw::Sphere(sphere) => {
                 let sphere = &at.spheres[*sphere];
                 sense = at.k.axes[sphere.segment].out(past.normal());
@@ -323,15 +401,18 @@ impl<S: Scalar> NodeLaw<S> {
                 past.across.gt(o)
             }
             SiteLaw::Track(segment, track) => {
-                let (_, along, out) = track.at(way);
+                let (_, _, out) = track.at(way);
                 let force = at.k.axes[*segment].into_frame(force);
-                let across = force.dot(along);
-                let held = (force - along * across).norm_squared().max(S::of(1e-60)).sqrt();
+                let [across, held] = track.parted(way, force);
                 let speed = (across.abs() - track.friction * held).max(o) / track.drag;
                 past.lost += (across + past.across) * (way - past.way) * S::of(0.5);
                 past.across = across;
                 past.slide(S::select(across.lt(o), -speed, speed), at.frames.time - since);
-                out.dot(force).gt(o) | way.gt(track.length)
+                let leaves = out.dot(force).gt(o) | way.gt(track.length);
+                match &track.then {
+                    Some(_) => past.hand_over(leaves),
+                    None => leaves,
+                }
             }
             _ => S::truth(false),
         };

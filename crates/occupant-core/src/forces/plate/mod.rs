@@ -19,6 +19,7 @@ use crate::motion::layout::MOST_SLIDES;
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::quantity::energy;
+pub(crate) use check::rides;
 pub use data::{Band, Damper, PlateData};
 pub(crate) use law::DEEP;
 pub use law::PlateLaws;

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::{Ejection, Exit, Peak, RunStatus, Summary, Throw, word};
 use crate::body::{Body, Chest, Joint, Limb, Segment};
+use crate::forces::chain::{Chain, Site};
 use crate::forces::rate::Rate;
 use crate::model::settle::Settled;
 use crate::results::energy::{Balance, EnergyCheck};
@@ -226,7 +227,7 @@ impl Caveat {
         let [strain, last] = [last + beyond.value, last].map(|strain| 1e2 * strain);
         let seen = format!("webbing {strap} stretched by {strain:.1} % {}, its curve ends at {last:.1} %", at(beyond));
         let text = format!("{seen}; {}", not_to_be_quoted("its"));
-        Caveat::new(format!("{strap}_stretched"), text, vec![format!("straps.{strap}.*")])
+        Caveat::new(format!("{strap}_stretched"), text, vec![format!("straps.{}.*", word(strap))])
     }
 
     /// A limiter that gave more webbing than its curve says.
@@ -234,7 +235,27 @@ impl Caveat {
         let (way, last) = (mm(last_m + beyond.value), mm(last_m));
         let seen = format!("limiter of {belt} bottomed at {way} {}, its curve ends at {last}", at(beyond));
         let text = format!("{seen}; {}", not_to_be_quoted("the belt's"));
-        Caveat::new(format!("{belt}_limiter_bottomed"), text, vec![format!("straps.{belt}.*")])
+        Caveat::new(format!("{belt}_limiter_bottomed"), text, vec![format!("straps.{}_*", word(belt))])
+    }
+
+    /// A lap belt that came off a wing of the pelvis, 1 the left one, 2 the right one, at a time, s.
+    pub(super) fn submarined(body: &Body, chain: &Chain, (time_s, wing): (f64, f64)) -> Option<Self> {
+        let pelvis = chain.nodes.iter().find_map(|node| match &node.site {
+            Site::Track(segment, track) => track.wing.map(|_| body.tree.segment(*segment)),
+            _ => None,
+        })?;
+        let belt = &chain.belt;
+        let side = if wing > 1.5 { "right" } else { "left" };
+        let text = format!(
+            "the belt {belt} left the {side} iliac wing at {:.1} ms and lies on the abdomen: submarining, which is no better restraint for loads that fall; \
+             the wing's place is a guess; {}",
+            1e3 * time_s,
+            not_to_be_quoted("the belt's, pelvis and chest")
+        );
+        let chest = body.tree.landmarks_at(pelvis).chest;
+        let spoiled = [Some(pelvis), chest].into_iter().flatten().flat_map(|segment| figures_of(body, segment));
+        let figures = [format!("straps.{}_*", word(belt))].into_iter().chain(spoiled).collect();
+        Some(Caveat::new(format!("submarining_{side}"), text, figures))
     }
 
     /// A chest that was pressed in farther than any test did.

@@ -52,6 +52,8 @@ pub(super) struct Signs {
     /// By strap: strain beyond the last point of its webbing; by belt over several nodes: way of its limiter beyond its own, m.
     stretched: Vec<Peak>,
     run_out: Vec<Peak>,
+    /// By strap: when it came off the wing of the pelvis where it begins, s, and what is on which side: 1 left, 2 right.
+    slipped: Vec<Option<(f64, f64)>>,
     /// By bag and by its spheres: when it fired with the sphere in its way, and when the sphere pressed it in as far as its mount, s.
     bags: Vec<Vec<[Option<f64>; 2]>>,
     /// By bag and by its spheres: when the sphere first touched what stands behind the bag, s, and what that was.
@@ -112,6 +114,7 @@ impl Signs {
             beyond: spheres.iter().map(|none| (*none, 0.0)).collect(),
             stretched: vec![Peak::NONE; model.setup().chains.iter().map(|chain| chain.straps.len()).sum()],
             run_out: vec![Peak::NONE; model.setup().chains.len()],
+            slipped: vec![None; model.setup().chains.iter().map(|chain| chain.straps.len()).sum()],
             bags: model.setup().bags.iter().map(|bag| vec![[None; 2]; bag.spheres.len()]).collect(),
             behind: model.setup().bags.iter().map(|bag| vec![None; bag.spheres.len()]).collect(),
             strokes: Strokes::new(model),
@@ -212,6 +215,11 @@ impl Signs {
         for ((peak, strap), end) in self.stretched.iter_mut().zip(&sample.actions.chains).zip(ends) {
             peak.see(strap.strain - end, sample.time_s);
         }
+        for (slipped, strap) in self.slipped.iter_mut().zip(&sample.actions.chains) {
+            if slipped.is_none() && strap.wing > 0.5 && strap.is_off > 0.5 {
+                *slipped = Some((sample.time_s, strap.wing));
+            }
+        }
         for ((peak, chain), past) in self.run_out.iter_mut().zip(chains).zip(&sample.history.memory.chains) {
             if let Some(end_m) = chain.device.end_m() {
                 peak.see(past.limiter_m() - end_m, sample.time_s);
@@ -300,21 +308,24 @@ impl Signs {
         let of_sphere = passed.chain(deep).chain(bottomed).chain(beyond).chain(through).chain(cuts);
         joints
             .chain(of_sphere)
-            .chain(self.of_chains(chains))
+            .chain(self.of_chains(body, chains))
             .chain(self.of_bags(body, surfaces, bags))
             .chain(self.strokes.caveats())
             .collect()
     }
 
     /// What to know of belts over several nodes.
-    fn of_chains(&self, chains: &[Chain]) -> impl Iterator<Item = Caveat> {
+    fn of_chains(&self, body: &Body, chains: &[Chain]) -> impl Iterator<Item = Caveat> {
+        let belts = chains.iter().flat_map(|chain| chain.straps.iter().map(move |_| chain));
+        let slipped = belts.zip(&self.slipped).filter_map(|(chain, seen)| Some((chain, (*seen)?)));
+        let slipped: Vec<Caveat> = slipped.filter_map(|(chain, seen)| Caveat::submarined(body, chain, seen)).collect();
         let straps = chains.iter().flat_map(|chain| chain.straps.iter().map(move |strap| (chain, strap)));
         let stretched = straps.zip(&self.stretched).filter(|(_, peak)| peak.value > 0.0);
         let stretched = stretched.map(|((chain, strap), peak)| Caveat::stretched(strap, *peak, chain.webbing.end()));
         let run_out = chains.iter().zip(&self.run_out).filter(|(_, peak)| peak.value > 0.0);
         let run_out =
             run_out.filter_map(|(chain, peak)| Some(Caveat::run_out(&chain.belt, *peak, chain.device.end_m()?)));
-        stretched.chain(run_out)
+        stretched.chain(run_out).chain(slipped)
     }
 }
 

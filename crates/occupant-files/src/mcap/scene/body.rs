@@ -35,10 +35,10 @@ pub fn write(wire: &mut Wire, body: &Body, frames: &FrameNames) {
 
 /// Contact spheres, one entity for each.
 pub fn write_spheres(wire: &mut Wire, body: &Body, frames: &FrameNames) {
-    for sphere in &body.spheres {
+    for (i, sphere) in body.spheres.iter().enumerate() {
         let centre = sphere_centre_m(body, sphere);
         let size = Vector3::repeat(2.0 * sphere.radius_m);
-        entity(wire, 0, frames.of(sphere.segment), &sphere.name, |w| {
+        entity(wire, 0, frames.of_sphere(body, i), &sphere.name, |w| {
             ellipsoid(w, centre, size, SPHERE);
         });
     }

@@ -22,6 +22,7 @@ export function readReport(text) {
     run.times = float64(run.times);
     run.poses = float32(run.poses);
     run.vehicle = float32(run.vehicle);
+    run.carried = float32(run.carried);
     for (const belt of run.belts) {
       belt.points = float32(belt.points);
       belt.force = float32(belt.force);

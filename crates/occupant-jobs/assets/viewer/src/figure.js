@@ -16,7 +16,7 @@ import {
 import { ConvexGeometry } from "three/addons/geometries/ConvexGeometry.js";
 import { mergeGeometries, mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
 import { OTHER_TONES, TONES } from "./colors.js";
-import { poseAt } from "./pose.js";
+import { placeAt, poseAt } from "./pose.js";
 
 /** Points round an ellipsoid, and rings of them. */
 const ROUND = 14;
@@ -47,15 +47,22 @@ export class Figure {
       poseAt(this.run.poses, count, segment, at, mesh.position, mesh.quaternion);
       mesh.updateMatrix();
     });
-    if (this.spheres.visible) this.moveSpheres();
+    if (this.spheres.visible) this.moveSpheres(at);
   }
 
-  moveSpheres() {
+  /** Spheres that ride on parts of the body that give way go along with them. */
+  moveSpheres(at) {
+    const { spheres, ridden, carried } = this.run;
+    const place = new Vector3();
     const matrix = new Matrix4();
     const own = new Matrix4();
-    this.run.spheres.forEach((sphere, i) => {
+    spheres.forEach((sphere, i) => {
       const r = sphere.radius;
-      own.makeScale(r, r, r).setPosition(...sphere.centre);
+      place.set(0, 0, 0);
+      const rider = ridden.indexOf(i);
+      if (rider >= 0) placeAt(carried, ridden.length, rider, at, place);
+      const [x, y, z] = sphere.centre;
+      own.makeScale(r, r, r).setPosition(x + place.x, y + place.y, z + place.z);
       matrix.multiplyMatrices(this.meshes[sphere.segment].matrix, own);
       this.spheres.setMatrixAt(i, matrix);
     });

@@ -1,0 +1,71 @@
+//! `belts.*.nodes.wing`: the iliac wings of the pelvis, on which a lap belt bears, and the abdomen above them.
+//!
+//! All places are guesses, seen from the sphere of the pelvis: no drawing of a pelvis was at hand.
+
+use nalgebra::{Point3, Vector3};
+
+use super::builder::Builder;
+use super::nodes::WingSide;
+use occupant_core::body::{Body, Segment, Shares};
+use occupant_core::forces::chain::{Next, Track, Wing};
+
+/// Friction of webbing across a wing.
+pub(super) const ACROSS: f64 = 0.25;
+/// Angles of the wing's ends and of where the webbing begins on it, above ahead, rad: the notch, below the spine, on the crest.
+const ANGLES_RAD: [f64; 3] = [0.0, 0.44, 1.13];
+/// How far a wing is from the middle, as a part of the sphere's radius.
+const BESIDE: f64 = 0.95;
+
+/// The segment of the pelvis and the wing of a side, which hands over to the abdomen.
+pub(super) fn track(b: &mut Builder, path: &str, body: &Body, side: WingSide) -> Option<(usize, Track)> {
+    let pelvis = body.tree.landmarks().pelvis;
+    let sphere = body.sphere("pelvis").map(|i| &body.spheres[i]).filter(|sphere| Some(sphere.segment) == pelvis);
+    let (Some(sphere), Some(above)) = (sphere, pelvis.and_then(|pelvis| above(body, pelvis))) else {
+        b.error(
+            &format!("{path}.wing"),
+            "a wing of a body without a pelvis",
+            "a body with a trunk and the sphere pelvis",
+        );
+        return None;
+    };
+    let r = sphere.radius_m;
+    let (y, wing) = if side == WingSide::Left { (BESIDE * r, Wing::Left) } else { (-BESIDE * r, Wing::Right) };
+    let point = |angle: f64| {
+        let (sine, cosine) = occupant_units::trig::sin_cos(angle);
+        sphere.centre_from_lower_end_m + Vector3::new(r * cosine, y, r * sine)
+    };
+    let then = Some(abdomen(body, above, 0.5 * y, r));
+    Some((
+        sphere.segment.index(),
+        Track { points_m: ANGLES_RAD.map(point), friction: ACROSS, drag_n_s_m: 100.0, wing: Some(wing), then },
+    ))
+}
+
+/// The part of the trunk that the pelvis carries or hangs on.
+fn above(body: &Body, pelvis: Segment) -> Option<Segment> {
+    let mut ends = body.tree.joint_rows().iter().filter_map(|row| match pelvis {
+        _ if row.proximal == pelvis => Some(row.distal),
+        _ if row.distal == pelvis => Some(row.proximal),
+        _ => None,
+    });
+    ends.find(|segment| body.tree.is_trunk(*segment))
+}
+
+/// Where webbing lies that has come off a wing: on the plate of the abdomen, or where its front would be.
+fn abdomen(body: &Body, above: Segment, y: f64, radius_m: f64) -> Next {
+    let plate = body.plates.iter().position(|plate| plate.name == "abdomen");
+    let (segment, place, ride) = match plate {
+        Some(i) => (body.plates[i].segment, body.plates[i].place_from_lower_end_m, vec![(i, 1.0)]),
+        None => (above, Point3::new(0.8 * radius_m, 0.0, 0.5 * body.segment(above).length_m), Vec::new()),
+    };
+    Next { segment: segment.index(), point_m: Point3::new(place.x, y, place.z), ride }
+}
+
+/// How a wing rides on the flesh before the pelvis, if that gives way.
+pub(super) fn flesh(body: &Body) -> Shares {
+    let own = body
+        .plates
+        .iter()
+        .position(|plate| plate.name == "flesh" && Some(plate.segment) == body.tree.landmarks().pelvis);
+    own.map(|flesh| (flesh, 1.0)).into_iter().collect()
+}

@@ -1,0 +1,154 @@
+//! Lap belts on the iliac wings of a pelvis, and what happens when they slide up from it.
+
+use occupant_core::model::Model;
+use occupant_core::results::channel::{Series, channels};
+use occupant_core::results::outcome::Status;
+use occupant_core::results::summary::Summarizer;
+use occupant_core::run::simulate::simulate;
+use occupant_tests::measure::{assert_below, assert_within};
+use occupant_tests::room::{ends_alike_side_by_side, setup};
+
+/// A pelvis that is held, a lap belt at a constant tension whose ends pull straight back, at an angle below the level.
+const HELD: &str = r#"
+title = "a lap belt on a pelvis that is held"
+gravity = 0
+time = { end = "120 ms" }
+output = { interval = "0.5 ms" }
+path = { kind = "fixed" }
+contact = { bodies = [] }
+mount = { segment = "lower_torso", frame = "space", point = [0, 0, 0], place = [0, 0, 0] }
+body = { preset = "male50", abdomen = "person" }
+joints = { preset = "gebod" }
+
+[webbings.strap]
+strain = [0, 0.1]
+force = [0, 11000]
+
+[triggers.never]
+kind = "time"
+at = "9 s"
+
+[retractors.reel]
+on_spool = "2 m"
+spool_tension = "2 kN"
+lock = { trigger = "never", payout = 0 }
+
+[belts.lap]
+webbing = "strap"
+nodes = [
+  { name = "reel", at = [-0.5, -0.1, 0], retractor = "reel" },
+  { name = "left", wing = "left" },
+  { name = "right", wing = "right" },
+  { name = "sill", at = [-0.5, 0.1, 0] },
+]
+"#;
+
+/// Angle of the wing's normal where the webbing begins, and friction across it.
+const NORMAL_RAD: f64 = 0.44;
+const ACROSS: f64 = 0.25;
+
+/// The case with anchors so far below the level as seen from the wings.
+fn held(below_rad: f64, more: &[&str]) -> Model {
+    let body = setup(HELD, &[]).body;
+    let sphere = &body.spheres[body.sphere("pelvis").unwrap()];
+    let (c, r) = (sphere.centre_from_lower_end_m, sphere.radius_m);
+    let anchor = |side: f64| {
+        let x = c.x + r * NORMAL_RAD.cos() - 0.6 * below_rad.cos();
+        let z = c.z + r * NORMAL_RAD.sin() - 0.6 * below_rad.sin();
+        format!("[{x}, {}, {}]", -side * 0.95 * r, -z)
+    };
+    let text = HELD.replace("[-0.5, -0.1, 0]", &anchor(1.0)).replace("[-0.5, 0.1, 0]", &anchor(-1.0));
+    Model::new(setup(&text, more)).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+const CHANNELS: [&str; 6] = [
+    "strap.lap.left_right.pelvis_angle",
+    "strap.lap.left_right.bone_force",
+    "strap.lap.right_sill.bone_force",
+    "strap.lap.left_right.force",
+    "plate.abdomen.deflection",
+    "energy.balance",
+];
+
+/// Those channels, the names of caveats on belt, pelvis and chest, and the events' words.
+fn traced(model: &Model) -> (Vec<Vec<f64>>, Vec<String>, Vec<String>) {
+    let known = channels(model);
+    let find = |name: &&str| known.iter().find(|c| c.name == **name).cloned();
+    let missing: Vec<&&str> = CHANNELS.iter().filter(|name| find(name).is_none()).collect();
+    let names: Vec<&String> = known.iter().map(|c| &c.name).filter(|name| name.contains("lap")).collect();
+    assert!(missing.is_empty(), "{missing:?} among {names:?}");
+    let mut watch = (Series::new(CHANNELS.iter().filter_map(find).collect()), Summarizer::new());
+    let outcome = simulate(model, &mut watch).unwrap();
+    assert_eq!(outcome.status, Status::Completed);
+    let summary = watch.1.summary(None).unwrap();
+    let events = summary.events.iter().map(|event| format!("{event:?}")).collect();
+    let spoils = ["straps.lap_left_right.peak", "pelvis.peak", "chest.peak"];
+    let whole = summary.caveats.iter().filter(|caveat| spoils.iter().all(|figure| caveat.touches(figure)));
+    (watch.0.values, whole.map(|caveat| caveat.name.clone()).collect(), events)
+}
+
+/// A belt rests where the tangent of its angle against the bone is below the friction, and slides off where it is above.
+#[test]
+fn a_belt_slides_off_a_wing_beyond_the_cone_of_friction() {
+    // the belt turns inwards at a wing, which presses it on the bone too: F·t/N of a pull at `below`
+    let across = |below: f64| {
+        let off: f64 = NORMAL_RAD - below;
+        off.sin() / (off.cos().powi(2) + 1.0).sqrt()
+    };
+    for (below, slides) in [(0.12, false), (0.07, true)] {
+        assert_eq!(across(below) > ACROSS, slides);
+        let (values, caveats, events) = traced(&held(below, &["time.end=0.4"]));
+        assert_below("angle at the start, rad", (values[0][0] - across(below).atan()).abs(), 2e-3);
+        let last = values[1].last().copied().unwrap();
+        let told = events.iter().filter(|event| event.contains("iliac wing")).count();
+        assert_eq!((last == 0.0, told), (slides, 2 * usize::from(slides)), "{below}: {last} N, {events:?}");
+        assert_eq!(caveats.iter().any(|name| name == "submarining_left"), slides, "{caveats:?}");
+        assert_eq!(caveats.iter().any(|name| name == "submarining_right"), slides, "{caveats:?}");
+    }
+}
+
+/// Both wings of a belt that lies evenly let go at one time, the tension stays, the abdomen is pressed in, and no energy is lost from sight.
+#[test]
+fn what_slides_off_a_wing_presses_the_abdomen() {
+    let (values, ..) = traced(&held(-0.1, &[]));
+    let gone = |force: &[f64]| force.iter().position(|force| *force == 0.0).unwrap_or(usize::MAX);
+    let [left, right] = [gone(&values[1]), gone(&values[2])];
+    assert_eq!(left, right);
+    assert_within("time, half ms", left as f64, [20.0, 24.0]);
+    let tension = |i: usize| values[3][i];
+    assert_below("tension, N", (tension(left) / tension(left - 1) - 1.0).abs(), 1e-6);
+    let deepest = values[4].iter().fold(0.0, |most: f64, s| most.max(*s));
+    assert!(values[4][left - 1].abs() < 1e-3 && deepest > 0.03, "{deepest}");
+    let balance = values[5].iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    assert_below("balance, J", balance, 1e-2);
+}
+
+/// Side by side and alone, with belts that slide off at other times.
+#[test]
+fn wings_end_alike_side_by_side() {
+    ends_alike_side_by_side(|i| held(0.05 * f64::from(i) - 0.2, &[]));
+}
+
+/// What makes no sense is refused with its place.
+#[test]
+fn wings_that_make_no_sense_are_refused() {
+    let refused = |old: &str, new: &str, words: &str| {
+        let text = match std::panic::catch_unwind(|| setup(&HELD.replace(old, new), &[])) {
+            Ok(setup) => match Model::new(setup) {
+                Ok(_) => "nothing was refused".to_owned(),
+                Err(problems) => problems.to_string(),
+            },
+            Err(problem) => problem.downcast_ref::<String>().cloned().unwrap_or_default(),
+        };
+        assert!(text.contains(words), "{text}");
+    };
+    let left = r#"wing = "left""#;
+    let then =
+        |on: &str, ride: &str| format!("{left}, then = {{ on = \"{on}\", at = [0, 0, 0], ride = {{ {ride} }} }}");
+    refused(left, &then("belly", ""), "belly");
+    refused(left, &then("middle_torso", "abdomen = 2"), "from 0 to 1");
+    refused(left, &then("head", "abdomen = 1"), "another segment");
+    refused(left, &then("head", "").replace(left, "on = \"head\", at = [0, 0, 0]"), "no track");
+    refused(left, r#"wing = "left", sphere = "pelvis""#, "wing");
+    refused(r#"at = [-0.5, -0.1, 0], retractor = "reel""#, left, "an end");
+}
