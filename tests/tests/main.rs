@@ -53,3 +53,4 @@ mod symmetry;
 mod thin;
 mod throws;
 mod validation;
+mod volunteers;
