@@ -165,7 +165,7 @@ fn elastic_limits_side_by_side_have_the_bits_of_each_alone() {
     }
 }
 
-/// Locks that open at different times, one that slips, and muscles that act at different times.
+/// Locks that open at different times, one that slips, and muscles that act at different times with reflexes that are late.
 #[test]
 fn locks_and_muscles_side_by_side_have_the_bits_of_each_alone() {
     let text = include_str!("../data/carts/cart-lap-torso.toml");
@@ -176,7 +176,8 @@ fn locks_and_muscles_side_by_side_have_the_bits_of_each_alone() {
             i + 1,
             10 + i
         );
-        let muscle = format!("trigger = \"go\", rise = 0.02, until = 0.15, stiffness = {}, damping = {i}", 20 * i);
+        let muscle = format!("trigger = \"go\", rise = 0.02, until = 0.15, stiffness = {}, damping = {i}", 20 * i)
+            + &format!(", reflex = {{ stiffness = {}, damping = 1, delay = \"{} ms\" }}", 10 * i, 20 + i);
         let more = format!("[triggers]\ngo = {{ kind = \"time\", at = 0.0{i} }}\n[muscles]\nhips = {{ {muscle} }}\n");
         text.replace("[joints]\npreset = \"male50\"", &format!("[joints]\npreset = \"gebod\"\n{locks}")) + &more
     };

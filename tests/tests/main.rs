@@ -53,4 +53,4 @@ mod symmetry;
 mod thin;
 mod throws;
 mod validation;
-mod wings;
+mod volunteers;

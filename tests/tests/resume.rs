@@ -62,14 +62,15 @@ fn lap_and_torso(integrator: Integrator) -> Setup {
     setup
 }
 
-/// Elastic limits instead of viscous stops, locks that open, slip and close again, and a muscle.
+/// Elastic limits instead of viscous stops, locks that open, slip and close again, and muscles with reflexes.
 fn limited(integrator: Integrator) -> Setup {
     let text = include_str!("../data/carts/cart-lap-torso.toml");
     let joints = "[joints]\npreset = \"gebod\"\nelbows.lock = { until = \"10 N m\", relock_below = 20 }\n\
                   neck.lock = { until = \"15 N m\", slips = true }";
     let text = text.replace("[joints]\npreset = \"male50\"", joints)
         + "[triggers]\ngo = { kind = \"time\", at = 0.05 }\n\
-           [muscles]\nhips = { trigger = \"go\", rise = 0.02, stiffness = 60, damping = 2, limit = 20 }\n";
+           [muscles]\nhips = { trigger = \"go\", rise = 0.02, stiffness = 60, damping = 2, limit = 20, \
+           reflex = { stiffness = 40, damping = 3, delay = 0.03 } }\n";
     let alone = |name: &str| Err(format!("no file beside the text: {name}"));
     let setup = Scenario::from_text(&text, Format::Toml, "cart", &alone).and_then(|s| s.build()).unwrap().0;
     assert!(setup.joints.has_limits());
@@ -95,19 +96,25 @@ fn cases() -> [Setup; 8] {
     ]
 }
 
+/// Resumes a run at some of its outputs: what comes must have the bits of the whole run.
+pub(crate) fn goes_on(setup: &Setup) -> Outcome {
+    let (model, whole, outcome) = run(setup);
+    let last = whole.texts.len() - 1;
+    for at in [0, 1, 57, 100, last - 1, last] {
+        let mut rest = Outputs::default();
+        let ended = resume(&model, &whole.checkpoints[at], &mut rest).unwrap();
+        assert!(rest.texts == whole.texts[at..], "from output {at}");
+        assert_eq!(ended, outcome);
+    }
+    outcome
+}
+
 #[test]
 fn a_run_resumed_at_any_output_has_the_bits_of_the_whole_run() {
     for setup in cases() {
-        let (model, whole, outcome) = run(&setup);
-        let last = whole.texts.len() - 1;
+        let outcome = goes_on(&setup);
         assert_eq!(outcome.status, Status::Completed);
         assert!(!outcome.first_touches.is_empty());
-        for at in [0, 1, 57, 100, last - 1, last] {
-            let mut rest = Outputs::default();
-            let ended = resume(&model, &whole.checkpoints[at], &mut rest).unwrap();
-            assert!(rest.texts == whole.texts[at..], "from output {at}");
-            assert_eq!(ended, outcome);
-        }
     }
 }
 

@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use super::check::check_words;
+use super::living;
 use super::presets;
 use super::sections::schema;
 use occupant_core::body::both_sides;
@@ -59,16 +60,24 @@ pub(super) fn expand(sources: &mut Sources, root: &Node) -> Node {
             }
         }
         from_library(sources, table);
+        living::feel(sources, root, table);
     }
     explicit
 }
 
 /// Writes body and joints of the occupant out whose keys stand in `written`.
 fn expand_occupant(sources: &mut Sources, written: &Node, sets: Option<&Node>, own: &mut Table) {
+    let divided = living::divided(written);
+    let written = divided.as_ref().unwrap_or(written);
     let body = section(sources, written, "body", |layers| body(&layers));
     let rows = body.as_ref().map_or_else(report_joints, |body| joint_rows(&body.node));
     let joints = section(sources, written, "joints", |layers| joints(&layers, &rows, sets));
-    own.extend([("body", body), ("joints", joints)].into_iter().filter_map(|(key, e)| Some((key.to_owned(), e?))));
+    let muscles = living::muscles(sources, written);
+    own.extend(
+        [("body", body), ("joints", joints), ("muscles", muscles)]
+            .into_iter()
+            .filter_map(|(key, e)| Some((key.to_owned(), e?))),
+    );
 }
 
 /// Lays what the library has of a name under what refers to it by `library`, and tells its source where nothing is told.

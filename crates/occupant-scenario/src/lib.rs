@@ -88,6 +88,7 @@ mod draft;
 pub mod ending;
 mod expand;
 pub mod kind;
+mod living;
 mod loaded;
 mod overrides;
 mod people;

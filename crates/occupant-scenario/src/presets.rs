@@ -127,7 +127,10 @@ fn made(section: &Node, preset: Option<&str>) -> Option<(String, Arc<Document>)>
 }
 
 /// The preset whose body stands in a file.
-const OLD: &str = "male50-1970";
+pub(super) const OLD: &str = "male50-1970";
+
+/// Presets of joints whose necks have two joints.
+pub(super) const OF_PEOPLE: [&str; 2] = ["person", "volunteer"];
 
 /// The body of the first version and a starting set of joints.
 fn male50() -> Option<&'static Arc<Document>> {
@@ -150,8 +153,10 @@ pub(super) fn from_library<T: DeserializeOwned>(section: &str, name: &str) -> Op
 }
 
 /// Joints with elastic limits, by name.
-const ELASTIC: [(&str, &str); 6] = [
+const ELASTIC: [(&str, &str); 7] = [
     ("person", include_str!("presets/person.toml")),
+    // whose muscles stand in `living.rs`
+    ("volunteer", include_str!("presets/person.toml")),
     ("gebod", include_str!("presets/gebod.toml")),
     ("dummy50-1973-like", include_str!("presets/dummy50-1973-like.toml")),
     ("dummy50-like", include_str!("presets/dummy50-like.toml")),

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::check::check_parts;
 use super::expand::expand;
+use super::living;
 use super::presets::IN_LIBRARY;
 use super::sections::{Scenario, schema};
 use placed_text::{Diagnostics, Document, Node, SourceId, Sources, Table};
@@ -48,7 +49,10 @@ impl Ready {
         }
         let is_same = |key: &str| old.get(key).zip(new.get(key)).is_some_and(|(a, b)| shares(&a.node, &b.node));
         let changed: Vec<&str> = new.keys().map(String::as_str).filter(|key| !is_same(key)).collect();
-        let is_plain = |key: &&str| !(OTHERS.contains(key) || IN_LIBRARY.contains(key) && refers(old, new, key));
+        let is_living = living::any(&self.root);
+        let is_laid = |key: &&str| is_living && ["muscles", "triggers"].contains(key);
+        let is_plain =
+            |key: &&str| !(OTHERS.contains(key) || IN_LIBRARY.contains(key) && refers(old, new, key) || is_laid(key));
         if !changed.iter().all(is_plain) {
             return None;
         }

@@ -4,8 +4,9 @@ use indexmap::IndexSet;
 use placed_text::{Node, Problem, did_you_mean, follow, one_of, parse_path, targets, to_text};
 
 /// Where a name stands, what it names, and the tables that have things of that kind.
-const REFERENCES: [(&str, &str, &str); 34] = [
+const REFERENCES: [(&str, &str, &str); 35] = [
     ("joints.*.set", "joint set", "joint_sets"),
+    ("muscles.trigger", "trigger", "triggers"),
     ("muscles.*.trigger", "trigger", "triggers"),
     ("surfaces.*.material", "material", "materials"),
     ("surfaces.*.spheres[*]", "sphere", "body.spheres"),

@@ -48,7 +48,8 @@ pub(crate) struct BodySection {
     /// Gravity by which a `weight` is divided to give a mass; standard gravity if absent.
     pub(crate) weighed_at: Option<Acceleration<POSITIVE>>,
     /// Into how many segments a preset or a person is divided: 12, the report's; 15, with a neck on two joints and feet;
-    /// 17, with hands too; 19, with clavicles too, which carry the arms. 12 if absent.
+    /// 17, with hands too; 19, with clavicles too, which carry the arms. If absent 19 with `joints.preset` = "person" or "volunteer"
+    /// unless `segments` or `joints` say more, else 12.
     pub(crate) segment_count: Option<i64>,
     /// Segments that carry instruments, of a body whose segments have other names.
     pub(crate) landmarks: Option<LandmarksSection>,

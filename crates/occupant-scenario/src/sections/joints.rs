@@ -8,6 +8,7 @@ use super::builder::Builder;
 use super::limits::{BendLimitSection, CentreSection, FrictionSection, LockSection, RangeLimitSection, limits};
 use super::quantity::{NOT_NEGATIVE, si_or};
 use super::{Angle, Ratio, RotationalDamping, RotationalStiffness};
+use crate::presets::OF_PEOPLE;
 use occupant_core::body::{JointKind, Tree};
 use occupant_core::forces::joint::{AngularSpring, BallJoint, HingeJoint, JointLaw, Joints, Stop};
 use placed_text::{Problem, with_key};
@@ -17,8 +18,9 @@ use placed_text::{Problem, with_key};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub(crate) struct JointsSection {
     /// Joints to start from: "male50", the viscous stops of the report; "gebod", elastic limits of the GEBOD generator;
-    /// "person", with the spine and the clavicles of one whose muscles do nothing; "dummy50-like", "dummy50-1973-like", "dummy05f-like", "dummy06c-like", what the calibration of dummies asks of neck, trunk and hips.
-    #[schemars(extend("enum" = ["male50", "gebod", "person", "dummy50-like", "dummy50-1973-like", "dummy05f-like", "dummy06c-like"]))]
+    /// "person", with the spine and the clavicles of one whose muscles do nothing; "volunteer", the same with the muscles of a living
+    /// neck (`muscles.readiness`); "dummy50-like", "dummy50-1973-like", "dummy05f-like", "dummy06c-like", what the calibration of dummies asks of neck, trunk and hips.
+    #[schemars(extend("enum" = ["male50", "gebod", "person", "volunteer", "dummy50-like", "dummy50-1973-like", "dummy05f-like", "dummy06c-like"]))]
     pub(crate) preset: Option<String>,
     /// ε that keeps joint angles smooth where two segments are in line; 0.001 if absent, 0 is the report's formula.
     pub(crate) epsilon: Option<Ratio<NOT_NEGATIVE>>,
@@ -93,6 +95,18 @@ pub(super) fn joints(b: &mut Builder, section: &JointsSection, tree: &'static Tr
         joints.limits.extend(said_of(b, row.name).and_then(|section| limits(b, joint, row, &section)));
     }
     joints.with_epsilon(si_or(&section.epsilon, Joints::EPSILON))
+}
+
+/// Refuses the living neck of a preset, and doubts that of a dead one, in a tree whose neck is one joint.
+pub(super) fn check_neck(b: &mut Builder, preset: &str, tree: &Tree) {
+    if !OF_PEOPLE.contains(&preset) || tree.joint_named("neck").is_none() || tree.joint_named("neck_base").is_some() {
+        return;
+    }
+    let found = format!("the neck of \"{preset}\" in a body whose neck is one joint");
+    let expected = "body.segment_count = 15, 17 or 19, whose necks have two";
+    let problem = if preset == "person" { Problem::warning } else { Problem::error };
+    let why = "one joint cannot be that neck: the head would not lag behind it, and its limit is that of one of two";
+    b.report(problem("joints.preset".to_owned(), found, expected.to_owned()).with_hint(Some(why)));
 }
 
 /// What is said of a joint; nothing where its damping is missing, which is reported for all joints at once.

@@ -13,7 +13,7 @@ use super::frames::{Meets, VEHICLE};
 use super::joints::JointsSection;
 use super::markers::MarkerSection;
 use super::mount::MountSection;
-use super::muscles::MuscleSection;
+use super::muscles::MusclesSection;
 use super::path::pose;
 use super::posture::PostureSection;
 use super::quantity::{POSITIVE, all_si, point};
@@ -48,9 +48,8 @@ pub(crate) struct OccupantSection {
     pub(crate) stance: Option<StanceSection>,
     /// A rig that holds a segment of it.
     pub(crate) mount: Option<MountSection>,
-    /// Muscles by joint.
-    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
-    pub(crate) muscles: IndexMap<String, MuscleSection>,
+    /// Its muscles.
+    pub(crate) muscles: Option<MusclesSection>,
     /// Points of segments whose motion is recorded, by name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) markers: IndexMap<String, MarkerSection>,
@@ -146,6 +145,7 @@ pub(crate) fn together(
         let sections: Scenario = own.sections("scenario")?;
         let mut says = written.clone();
         says.body = written.occupants.get(name).map(|own| own.body.clone());
+        says.joints = written.occupants.get(name).map(|own| own.joints.clone());
         let b = &mut Builder { document, problems: Diagnostics::new(), drives };
         let home = home_of(b, explicit, &format!("occupants.{name}"), section.vehicle.as_deref());
         if section.vehicle.is_none() && section.posture.is_some() {

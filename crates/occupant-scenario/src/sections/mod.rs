@@ -67,7 +67,7 @@ use self::many::{LooseSection, OccupantSection};
 use self::markers::MarkerSection;
 use self::materials::MaterialSection;
 use self::mount::MountSection;
-use self::muscles::MuscleSection;
+use self::muscles::MusclesSection;
 use self::path::PathSection;
 pub(super) use self::plates::{AbdomenChoice, ChestChoice, PelvisChoice};
 use self::posture::{InitialStateSection, PostureSection, SeatSection};
@@ -187,10 +187,8 @@ pub struct Scenario {
     /// Joint properties named once, for joints to refer to.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) joint_sets: IndexMap<String, JointSection>,
-    /// Muscles by joint: active torques that hold its posture. `elbows` and the like stand for left and right, `all` for every
-    /// joint; what is said of one joint replaces what is said of its pair, and that what is said of `all`.
-    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
-    pub(crate) muscles: IndexMap<String, MuscleSection>,
+    /// The occupant's muscles.
+    pub(crate) muscles: Option<MusclesSection>,
     /// What sets something off, by name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) triggers: IndexMap<String, TriggerSection>,

@@ -1,5 +1,6 @@
 //! `[muscles]`: the keys of a muscle, and the [`Muscle`]s they come to.
 
+use indexmap::IndexMap;
 use nalgebra::{UnitQuaternion, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -8,9 +9,36 @@ use super::builder::Builder;
 use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, all_si, si_or};
 use super::triggers::Triggers;
 use super::{Angle, Moment, Ratio, RotationalDamping, RotationalStiffness, Scenario, Time};
-use occupant_core::body::{Body, Side, both_sides};
-use occupant_core::forces::joint::muscle::{Muscle, NEVER_S};
+use occupant_core::body::{Body, Joint, Side, both_sides};
+use occupant_core::forces::joint::muscle::{Muscle, NEVER_S, Reflex};
 use placed_text::{Problem, did_you_mean, one_of, with_key};
+
+/// How ready someone is for what comes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Readiness {
+    /// Sits at ease and knows of nothing.
+    Unaware,
+    /// Knows that it comes, does not brace.
+    Aware,
+    /// Tenses all muscles of the neck before it comes.
+    Braced,
+}
+
+/// Muscles of an occupant.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub(crate) struct MusclesSection {
+    /// How ready a volunteer is (`joints.preset = "volunteer"`): "unaware", who answers late; "aware", as the men to whom it is fitted;
+    /// "braced", with tense muscles from the start. "aware" if absent.
+    pub(crate) readiness: Option<Readiness>,
+    /// Name of the trigger that a volunteer's muscles answer; the vehicle's acceleration along its floor, from 0.5 g on, if absent.
+    pub(crate) trigger: Option<String>,
+    /// Muscles by joint: active torques that hold its posture. `elbows` and the like stand for left and right, `all` for every
+    /// joint; what is said of one joint replaces what is said of its pair, and that what is said of `all`. A volunteer's neck has
+    /// muscles of its own, which only what names its joints replaces.
+    #[serde(flatten)]
+    pub(crate) named: IndexMap<String, MuscleSection>,
+}
 
 /// A muscle: a spring and a damper to a posture of the joint, and a torque of its own, as strong as it is active.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -35,10 +63,35 @@ pub(crate) struct MuscleSection {
     pub(crate) stiffness: Option<RotationalStiffness<NOT_NEGATIVE>>,
     /// Torque per rate, wholly active.
     pub(crate) damping: Option<RotationalDamping<NOT_NEGATIVE>>,
+    /// What it does late.
+    pub(crate) reflex: Option<ReflexSection>,
     /// Greatest torque, wholly active; none if absent.
     pub(crate) limit: Option<Moment<POSITIVE>>,
     /// Activation before, 0 to 1; 0 if absent.
     pub(crate) tone: Option<Ratio<FRACTION>>,
+}
+
+/// Feedback of a muscle: torque per angle and rate, which follows them late. Like all that it does it is as strong as the muscle is
+/// active, and within its limit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ReflexSection {
+    /// Torque per angle away from the posture, wholly active; 0 if absent.
+    pub(crate) stiffness: Option<RotationalStiffness<NOT_NEGATIVE>>,
+    /// Torque per rate, wholly active; 0 if absent.
+    pub(crate) damping: Option<RotationalDamping<NOT_NEGATIVE>>,
+    /// Time constant with which the torque follows, nerves and muscle together; at least 1 ms.
+    pub(crate) delay: Time<POSITIVE>,
+}
+
+impl ReflexSection {
+    fn reflex(&self) -> Reflex {
+        Reflex {
+            stiffness_n_m: si_or(&self.stiffness, 0.0),
+            damping_n_m_s: si_or(&self.damping, 0.0),
+            delay_s: self.delay.si(),
+        }
+    }
 }
 
 /// A turn of the right side, or its mirror image: yaw and roll go the other way.
@@ -55,9 +108,17 @@ fn mirrored(side: Option<Side>, about: [f64; 3]) -> Vector3<f64> {
 
 /// The muscles of all joints that have any, in the tree's order.
 pub(super) fn muscles(b: &mut Builder, scenario: &Scenario, body: &Body, triggers: &Triggers<'_>) -> Vec<Muscle> {
+    let Some(said) = &scenario.muscles else { return Vec::new() };
+    // those of a volunteer have been written out
+    for (key, is_said) in [("readiness", said.readiness.is_some()), ("trigger", said.trigger.is_some())] {
+        if is_said {
+            let found = format!("`{key}` without a volunteer");
+            b.error(&with_key("muscles", key), found, "joints.preset = \"volunteer\"");
+        }
+    }
     let words = |name: &str| [Some(name.to_owned()), both_sides(name), Some("all".to_owned())];
     let names: Vec<&str> = body.tree.joint_rows().iter().map(|row| row.name).collect();
-    for name in scenario.muscles.keys() {
+    for name in said.named.keys() {
         if !names.iter().any(|joint| words(joint).iter().flatten().any(|word| word == name)) {
             let found = format!("no joint is named \"{name}\"");
             let hint = did_you_mean(name, &names, '"');
@@ -67,23 +128,30 @@ pub(super) fn muscles(b: &mut Builder, scenario: &Scenario, body: &Body, trigger
     let mut list = Vec::new();
     for joint in body.tree.joints() {
         let words = words(body.tree[joint].name);
-        let Some(key) = words.iter().flatten().find(|word| scenario.muscles.contains_key(*word)) else { continue };
-        let s = &scenario.muscles[key];
-        let at = with_key("muscles", key);
-        let fired_s = s.trigger.as_deref().and_then(|trigger| triggers.time_s(b, &format!("{at}.trigger"), trigger));
-        let side = body.tree[joint].side();
-        let times_s = |at_s| [at_s + si_or(&s.reaction, 0.0), si_or(&s.until, NEVER_S)];
-        list.push(Muscle {
-            joint,
-            hold: s.hold.as_ref().map(|angles| mirrored_turn(side, all_si(angles))),
-            torque_n_m: s.torque.as_ref().map_or_else(Vector3::zeros, |torque| mirrored(side, all_si(torque))),
-            stiffness_n_m: si_or(&s.stiffness, 0.0),
-            damping_n_m_s: si_or(&s.damping, 0.0),
-            most_n_m: si_or(&s.limit, NEVER_S),
-            tone: si_or(&s.tone, 0.0),
-            rise_s: si_or(&s.rise, 1.0),
-            times_s: fired_s.map_or([NEVER_S; 2], times_s),
-        });
+        let Some(key) = words.iter().flatten().find(|word| said.named.contains_key(*word)) else { continue };
+        let (at, side) = (with_key("muscles", key), body.tree[joint].side());
+        list.push(said.named[key].muscle(b, &at, joint, side, triggers));
     }
     list
+}
+
+impl MuscleSection {
+    /// That of a joint on a side of the body; `at` is where it is said.
+    fn muscle(&self, b: &mut Builder, at: &str, joint: Joint, side: Option<Side>, triggers: &Triggers<'_>) -> Muscle {
+        let trigger = self.trigger.as_deref();
+        let fired_s = trigger.and_then(|trigger| triggers.time_s(b, &format!("{at}.trigger"), trigger));
+        let times_s = |at_s| [at_s + si_or(&self.reaction, 0.0), si_or(&self.until, NEVER_S)];
+        Muscle {
+            joint,
+            hold: self.hold.as_ref().map(|angles| mirrored_turn(side, all_si(angles))),
+            torque_n_m: self.torque.as_ref().map_or_else(Vector3::zeros, |torque| mirrored(side, all_si(torque))),
+            stiffness_n_m: si_or(&self.stiffness, 0.0),
+            damping_n_m_s: si_or(&self.damping, 0.0),
+            reflex: self.reflex.as_ref().map(ReflexSection::reflex),
+            most_n_m: si_or(&self.limit, NEVER_S),
+            tone: si_or(&self.tone, 0.0),
+            rise_s: si_or(&self.rise, 1.0),
+            times_s: fired_s.map_or([NEVER_S; 2], times_s),
+        }
+    }
 }

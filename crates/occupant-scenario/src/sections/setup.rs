@@ -31,6 +31,10 @@ pub(crate) fn setup(
     let is_part = explicit.mount.is_some();
     let preset = written.body.as_ref().and_then(|body| body.preset.as_deref());
     let whole = explicit.body.as_ref().and_then(|own| body::body(b, preset, own, is_part));
+    let preset_joints = written.joints.as_ref().and_then(|joints| joints.preset.as_deref());
+    if let (Some(preset), Some(whole)) = (preset_joints, &whole) {
+        joints::check_neck(b, preset, whole.tree);
+    }
     // what is said of joints that are left out is as good as what is said of all
     let joints = whole.as_ref().zip(explicit.joints.as_ref());
     let joints = joints.map(|(whole, own)| joints::joints(b, own, whole.tree));

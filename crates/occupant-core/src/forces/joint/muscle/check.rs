@@ -3,10 +3,22 @@
 use super::{Joints, Muscle};
 use placed_text::Problems;
 
+/// Shorter delays of a reflex would only make the equations stiff, s.
+const LEAST_DELAY_S: f64 = 1e-3;
+
 pub(super) fn check(joints: &Joints, muscle: &Muscle, problems: &mut Problems) {
     let path = format!("muscles.{}", joints.tree()[muscle.joint].name);
     problems.check_at_least_zero(&format!("{path}.stiffness"), muscle.stiffness_n_m, "N·m");
     problems.check_at_least_zero(&format!("{path}.damping"), muscle.damping_n_m_s, "N·m·s");
+    if let Some(reflex) = muscle.reflex {
+        let path = format!("{path}.reflex");
+        problems.check_at_least_zero(&format!("{path}.stiffness"), reflex.stiffness_n_m, "N·m");
+        problems.check_at_least_zero(&format!("{path}.damping"), reflex.damping_n_m_s, "N·m·s");
+        if !(reflex.delay_s >= LEAST_DELAY_S) {
+            let expected = format!("at least {LEAST_DELAY_S} s; what acts at once stands beside the reflex");
+            problems.error(format!("{path}.delay"), format!("{} s", reflex.delay_s), expected);
+        }
+    }
     problems.check_positive(&format!("{path}.limit"), muscle.most_n_m, "N·m");
     problems.check_positive(&format!("{path}.rise"), muscle.rise_s, "s");
     let [on, off] = muscle.times_s;
@@ -14,7 +26,9 @@ pub(super) fn check(joints: &Joints, muscle: &Muscle, problems: &mut Problems) {
         let found = format!("a muscle that relaxes at {off} s and begins to act at {on} s");
         problems.error(format!("{path}.until"), found, "an end after its trigger and reaction time");
     }
-    if muscle.stiffness_n_m == 0.0 && muscle.damping_n_m_s == 0.0 && muscle.torque_n_m.norm() == 0.0 {
+    let gains = [muscle.stiffness_n_m, muscle.damping_n_m_s, muscle.torque_n_m.norm()];
+    let late = muscle.reflex.map_or([0.0; 2], |reflex| [reflex.stiffness_n_m, reflex.damping_n_m_s]);
+    if gains.iter().chain(&late).all(|gain| *gain == 0.0) {
         problems.warning(path, "a muscle without stiffness, damping and torque", "one of them: it does nothing");
     }
 }

@@ -1,7 +1,8 @@
 //! The torque of a muscle and its activation.
 //!
-//! T = −a(t)·(sat(Kρ + Dω, T_max) − T₀) on the outer segment, ρ the rotation vector from the posture that is held, ω the relative
-//! angular velocity, sat by length, T₀ a torque of its own that goes with the inner segment. In a body that has settled a muscle
+//! T = −a(t)·(sat(Kρ + Dω + s, T_max) − T₀) on the outer segment, ρ the rotation vector from the posture that is held, ω the
+//! relative angular velocity, sat by length, T₀ a torque of its own that goes with the inner segment. s is what reflexes ask for,
+//! the same law late: in axes of the inner segment ṡ = (K_f ρ + D_f ω − s)/τ_f, three numbers of the state, 0 at the start. In a body that has settled a muscle
 //! with tone also carries, whatever its activation, what its joint has to carry at the start: T_w in axes of the inner segment. The activation follows ȧ = (u − a)/τ. Its aim u is the tone a₀, and 1 from when the
 //! reaction time is over until the muscle relaxes: both are known before the run, so that a is closed:
 //!
@@ -9,7 +10,7 @@
 //! a = a₀ + (1 − a₀)(E(t − t_off) − E(t − t_on)),  E(t) = exp(−max(t, 0)/τ)
 //! ```
 //!
-//! There is no delay of the feedback: the reaction time is a single lag. What muscles do is work from outside.
+//! Kρ + Dω is at once: active muscles are stiff. What muscles do is work from outside.
 
 use crate::body::{Body, Joint, JointPlace, Segment};
 use crate::forces::decay::decay;
@@ -17,6 +18,7 @@ use crate::forces::element::Instant;
 use crate::forces::joint::posture::{Posture, length};
 use crate::motion::kinematics::Kinematics;
 use crate::motion::scalar::Scalar;
+use crate::motion::state::State;
 use crate::motion::vector::{M3, V3};
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -29,6 +31,8 @@ pub struct Muscle {
     pub stiffness_n_m: f64,
     /// D, N·m·s/rad.
     pub damping_n_m_s: f64,
+    /// What it does late; none without reflexes.
+    pub reflex: Option<Reflex>,
     /// T_max, N·m.
     pub most_n_m: f64,
     /// The posture that is held, from the joint's axes on the proximal segment to those on the distal one; that of the start if
@@ -44,6 +48,20 @@ pub struct Muscle {
     pub times_s: [f64; 2],
 }
 
+/// Feedback of a muscle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reflex {
+    /// K_f, N·m/rad.
+    pub stiffness_n_m: f64,
+    /// D_f, N·m·s/rad.
+    pub damping_n_m_s: f64,
+    /// τ_f, s.
+    pub delay_s: f64,
+}
+
+/// N·m of which the numbers of reflexes in the state are 1.
+const UNIT_N_M: f64 = 100.0;
+
 /// A time after every run, s.
 pub const NEVER_S: f64 = 1e30;
 
@@ -58,6 +76,8 @@ pub struct MuscleLaw<S> {
     holds_start: bool,
     stiffness: S,
     damping: S,
+    /// K_f, D_f and τ_f, and where s stands among the numbers of the state that elements own.
+    reflex: Option<([S; 3], usize)>,
     most: S,
     /// T₀, axes of the inner segment.
     torque: V3<S>,
@@ -77,6 +97,10 @@ pub struct MuscleAction<S> {
     pub(crate) moment: V3<S>,
     /// T·ω, W.
     pub(super) power: S,
+    /// s, axes of the inner segment, N·m.
+    felt: V3<S>,
+    /// K_f ρ + D_f ω there, N·m.
+    asked: V3<S>,
 }
 
 impl MuscleLaw<f64> {
@@ -98,6 +122,7 @@ impl MuscleLaw<f64> {
             holds_start: muscle.hold.is_none() && muscle.torque_n_m == Vector3::zeros(),
             stiffness: muscle.stiffness_n_m,
             damping: muscle.damping_n_m_s,
+            reflex: muscle.reflex.map(|reflex| ([reflex.stiffness_n_m, reflex.damping_n_m_s, reflex.delay_s], 0)),
             most: muscle.most_n_m,
             torque: V3::of(&torque_n_m),
             carried: V3::zero(),
@@ -109,6 +134,14 @@ impl MuscleLaw<f64> {
 }
 
 impl MuscleLaw<f64> {
+    /// Appends the numbers of its reflex as they begin.
+    pub(super) fn own(&mut self, numbers: &mut Vec<f64>) {
+        if let Some((_, first)) = &mut self.reflex {
+            *first = numbers.len();
+            numbers.extend([0.0; 3]);
+        }
+    }
+
     /// Takes over, at the start of a body that has settled, the moment that its outer segment needs there to rest: one that
     /// holds the posture of the start by its tone.
     pub(crate) fn carry(&mut self, k: &Kinematics<f64>, moment: impl Fn(usize) -> V3<f64>) {
@@ -121,6 +154,11 @@ impl MuscleLaw<f64> {
 }
 
 impl<S: Copy> MuscleLaw<S> {
+    /// Whether another one differs by numbers alone.
+    pub(super) fn is_like<A>(&self, other: &MuscleLaw<A>) -> bool {
+        self.joint == other.joint && self.reflex.is_some() == other.reflex.is_some()
+    }
+
     pub(super) fn zip<A: Copy, T>(&self, other: &MuscleLaw<A>, f: &impl Fn(S, A) -> T) -> MuscleLaw<T> {
         MuscleLaw {
             joint: self.joint,
@@ -129,6 +167,10 @@ impl<S: Copy> MuscleLaw<S> {
             holds_start: self.holds_start,
             stiffness: f(self.stiffness, other.stiffness),
             damping: f(self.damping, other.damping),
+            reflex: self
+                .reflex
+                .zip(other.reflex.as_ref())
+                .map(|((one, first), (other, _))| (std::array::from_fn(|i| f(one[i], other[i])), first)),
             most: f(self.most, other.most),
             torque: self.torque.zip(&other.torque, f),
             carried: self.carried.zip(&other.carried, f),
@@ -145,10 +187,27 @@ impl<S: Scalar> MuscleLaw<S> {
         let (k, (inner, outer)) = (at.k, self.segments);
         let activation = self.activation(at.frames.time);
         let omega = k.omega[outer] - k.omega[inner];
-        let wanted = self.held.turned_to(&k.axes[inner], &k.axes[outer]) * self.stiffness + omega * self.damping;
+        let turned = self.held.turned_to(&k.axes[inner], &k.axes[outer]);
+        let mut wanted = turned * self.stiffness + omega * self.damping;
+        let (mut felt, mut asked) = (V3::zero(), V3::zero());
+        if let Some(([stiffness, damping, _], first)) = self.reflex {
+            felt = late(at.state, first);
+            asked = k.axes[inner].into_frame(turned * stiffness + omega * damping);
+            wanted += k.axes[inner].out(felt);
+        }
         let own = k.axes[inner].out(self.carried + self.torque * activation);
         let moment = own - wanted * (activation * self.most / self.most.max(length(wanted)));
-        MuscleAction { activation, moment, power: moment.dot(omega) }
+        MuscleAction { activation, moment, power: moment.dot(omega), felt, asked }
+    }
+
+    /// Writes the rates of the numbers of its reflex.
+    #[inline(always)]
+    pub(super) fn flow(&self, action: &MuscleAction<S>, rates: &mut [S]) {
+        let Some(([.., delay], first)) = self.reflex else { return };
+        let rate = (action.asked - action.felt) * (S::of(1.0 / UNIT_N_M) / delay);
+        for (to, rate) in rates.iter_mut().skip(first).zip([rate.x, rate.y, rate.z]) {
+            *to = rate;
+        }
     }
 
     /// a at a time.
@@ -159,4 +218,11 @@ impl<S: Scalar> MuscleLaw<S> {
         let off = decay((time - ends).max(S::zero()) / self.rise);
         self.tone + (S::one() - self.tone) * (off - on)
     }
+}
+
+/// s of a state; 0 of a body that is only being placed.
+#[inline(always)]
+fn late<S: Scalar>(state: &State<S>, first: usize) -> V3<S> {
+    let Some([x, y, z]) = state.own().get(first..first + 3) else { return V3::zero() };
+    V3 { x: *x, y: *y, z: *z } * S::of(UNIT_N_M)
 }

@@ -15,7 +15,7 @@ use crate::motion::mobility::{Mobility, greatest};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 use crate::quantity::Quantity;
-pub use law::{Muscle, NEVER_S};
+pub use law::{Muscle, NEVER_S, Reflex};
 use law::{MuscleAction, MuscleLaw};
 use occupant_units::unit::Unit;
 use placed_text::Problems;
@@ -23,7 +23,7 @@ use placed_text::Problems;
 /// Place of the work that muscles take up; what they do is its negative.
 const WORK: usize = 4;
 
-const OTHER_MUSCLES: Unlike = Unlike("other joints have muscles");
+const OTHER_MUSCLES: Unlike = Unlike("other joints have muscles or reflexes");
 
 /// The kind of force element: muscles of joints.
 #[derive(Clone, Copy, Debug)]
@@ -63,6 +63,10 @@ impl Element for Muscles {
         }
     }
 
+    fn own(law: &mut Vec<MuscleLaw<f64>>, numbers: &mut Vec<f64>) {
+        law.iter_mut().for_each(|muscle| muscle.own(numbers));
+    }
+
     fn start(_law: &Vec<MuscleLaw<f64>>, _at: &Instant<'_, f64>) -> Vec<()> {
         Vec::new()
     }
@@ -82,7 +86,7 @@ impl Element for Muscles {
         other: &Vec<MuscleLaw<A>>,
         f: &impl Fn(S, A) -> T,
     ) -> Result<Vec<MuscleLaw<T>>, Unlike> {
-        let is_like = one.iter().map(|muscle| muscle.joint).eq(other.iter().map(|muscle| muscle.joint));
+        let is_like = one.len() == other.len() && one.iter().zip(other).all(|(a, b)| a.is_like(b));
         is_like.then(|| one.iter().zip(other).map(|(a, b)| a.zip(b, f)).collect()).ok_or(OTHER_MUSCLES)
     }
 
@@ -105,6 +109,7 @@ impl Element for Muscles {
             load.wrench[outer].moment += action.moment;
             load.wrench[inner].moment -= action.moment;
             load.power_at(outer).sums[WORK] -= action.power;
+            muscle.flow(&action, &mut load.own);
             show(&action);
         }
     }

@@ -44,6 +44,7 @@ fn tense() -> Muscle {
         joint: NECK,
         stiffness_n_m: 60.0,
         damping_n_m_s: 1.0,
+        reflex: None,
         most_n_m: NEVER_S,
         hold: None,
         torque_n_m: Vector3::zeros(),
@@ -108,4 +109,44 @@ fn a_tense_muscle_is_a_spring_and_a_damper() {
     assert!(one[0] == 10.0 && one.iter().any(|omega| *omega < 0.0));
     // measured: the tolerance of the integration
     assert!(apart < 1e-6, "{apart:e}");
+}
+
+/// τṡ = K_f ρ + D_f ω − s, taken exactly over straight lines between outputs, is what acts; its work is kept.
+#[test]
+fn a_reflex_follows_late() {
+    let reflex = Reflex { stiffness_n_m: 40.0, damping_n_m_s: 2.0, delay_s: 0.03 };
+    let model = held(8.0, Muscle { stiffness_n_m: 0.0, damping_n_m_s: 0.0, reflex: Some(reflex), ..tense() });
+    let mut list = Vec::new();
+    let watch = Watch(|s: &Sample<'_>| {
+        let omega = s.evaluation.kinematics.omega;
+        list.push((s.time_s, omega[2].y - omega[1].y, s.actions.muscles[0].moment.y));
+    });
+    let error = simulate(&model, watch).unwrap().energy.balance_error;
+    let (mut turned, mut felt, mut most) = (0.0, 0.0, 0.0_f64);
+    for two in list.windows(2) {
+        let [(from_s, before, _), (to_s, now, acts)] = [two[0], two[1]];
+        let h = to_s - from_s;
+        let asked = |turned: f64, omega: f64| reflex.stiffness_n_m * turned + reflex.damping_n_m_s * omega;
+        let from = asked(turned, before);
+        turned += 0.5 * h * (before + now);
+        let (to, x) = (asked(turned, now), h / reflex.delay_s);
+        let share = (1.0 - (-x).exp()) / x;
+        felt = felt * (-x).exp() + from * (share - (-x).exp()) + to * (1.0 - share);
+        assert!((acts + felt).abs() < 1e-3, "{to_s}: {acts} {felt}");
+        most = most.max(felt.abs());
+    }
+    assert!(most > 5.0 && error < 1e-6, "{most} {error:e}");
+}
+
+#[test]
+fn a_reflex_that_is_too_quick_is_refused() {
+    let reflex = Reflex { stiffness_n_m: 40.0, damping_n_m_s: 2.0, delay_s: 1e-5 };
+    let mut problems = Problems::new();
+    let mut joints = Joints::free(&crate::body::tti12::TTI12);
+    for delay_s in [1e-5, f64::NAN, -1.0] {
+        joints.muscles = vec![Muscle { reflex: Some(Reflex { delay_s, ..reflex }), ..tense() }];
+        Muscles::check(&joints, &Body::male50(), &mut problems);
+    }
+    let said = problems.to_string();
+    assert_eq!(said.matches("muscles.neck.reflex.delay").count(), 3, "{said}");
 }
