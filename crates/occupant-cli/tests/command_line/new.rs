@@ -3,8 +3,8 @@ use std::path::Path;
 use super::{answer, code, err, json, out};
 
 /// What `occupant new` can start from.
-const TEMPLATES: [&str; 9] =
-    ["driver", "right-hand-drive", "rear-seat", "side", "rollover", "edr", "sensors", "sled", "pedestrian"];
+const TEMPLATES: [&str; 10] =
+    ["driver", "right-hand-drive", "rear-seat", "side", "rollover", "edr", "sensors", "sled", "neck", "pedestrian"];
 
 /// A fresh folder with a template as case.toml.
 fn folder_with(template: &str) -> tempfile::TempDir {

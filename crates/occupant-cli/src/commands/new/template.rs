@@ -20,6 +20,8 @@ pub(super) enum Template {
     Edr,
     /// An occupant on a sled, belted, a pulse from a table
     Sled,
+    /// Head and neck of a living person driven at T1, as on a sled
+    Neck,
     /// A pedestrian struck by a car that brakes
     Pedestrian,
     /// A belted driver in a crash that sensors in the car have recorded
@@ -50,6 +52,7 @@ impl Template {
             Template::Rollover => changed(driver, include_str!("rollover.toml")),
             Template::Edr => changed(driver, include_str!("edr.toml")),
             Template::Sled => include_str!("sled.toml").to_owned(),
+            Template::Neck => include_str!("neck.toml").to_owned(),
             Template::Pedestrian => include_str!("pedestrian.toml").to_owned(),
             Template::Sensors => changed(driver, include_str!("sensors.toml")),
             Template::Drive => changed(driver, include_str!("drive.toml")),
