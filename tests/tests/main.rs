@@ -54,3 +54,4 @@ mod thin;
 mod throws;
 mod validation;
 mod volunteers;
+mod wings;

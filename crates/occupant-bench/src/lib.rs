@@ -3,6 +3,8 @@
 //! Three sizes of the same problem: *bare* (the skeleton under given loads), *held* (joint moments and belts as well), *full*
 //! (all 17 × 25 contact pairs as well).
 
+#![allow(clippy::missing_panics_doc, reason = "its scenes are valid")]
+
 use occupant_core::forces::contact::{ContactSystem, Touch};
 use occupant_core::forces::{History, Memory, Observer};
 use occupant_core::kernel::{Scratch, Situation, System};
