@@ -123,6 +123,25 @@ fn what_slides_off_a_wing_presses_the_abdomen() {
     assert_below("balance, J", balance, 1e-2);
 }
 
+/// An abdomen that is pressed in farther than its force is known says so.
+#[test]
+fn an_abdomen_beyond_its_data_is_told_of() {
+    let told = |more: &[&str]| {
+        let mut summarizer = Summarizer::new();
+        simulate(&held(-0.1, more), &mut summarizer).unwrap();
+        let caveats = summarizer.summary(None).unwrap().caveats;
+        caveats
+            .iter()
+            .filter(|caveat| caveat.touches("plates.abdomen.peak"))
+            .map(|caveat| caveat.text.clone())
+            .collect()
+    };
+    let known: Vec<String> = told(&[]);
+    assert!(known.iter().all(|text| !text.contains("its force ends")), "{known:?}");
+    let short = told(&["body.plates.abdomen.spring={ depth = [0, 0.02], force = [0, 600] }"]);
+    assert!(short.iter().any(|text| text.contains("beyond 20 mm, where its force ends")), "{short:?}");
+}
+
 /// Side by side and alone, with belts that slide off at other times.
 #[test]
 fn wings_end_alike_side_by_side() {

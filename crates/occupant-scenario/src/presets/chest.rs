@@ -155,7 +155,7 @@ pub(super) fn abdomen(body: &Body) -> Option<[String; 2]> {
         format!("at = {}", list(&[0.1 * pelvis_m + radius_m, 0.0, height_m])),
         "inward = [-1, 0, 0]".to_owned(),
         format!("mass = {}", number((0.1 * body.segment(above).mass_kg).min(0.5))),
-        "spring = { depth = [0, 0.15], force = [0, 4500], returned = 0.3 }".to_owned(),
+        "spring = { depth = [0, 0.138], force = [0, 4140], returned = 0.3 }".to_owned(),
         "damper = { linear = 300 }".to_owned(),
     ];
     Some([sphere, plate.join("\n")])

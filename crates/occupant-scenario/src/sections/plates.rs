@@ -264,7 +264,7 @@ impl Parts<'_> {
 impl BodySpringSection {
     fn function(&self, b: &mut Builder, path: &str) -> Function {
         let points = match &self.stiffness {
-            Some(stiffness) => vec![[0.0, 0.0], [0.1, 0.1 * stiffness.si()]],
+            Some(stiffness) => vec![[0.0, 0.0], [1.0, stiffness.si()]],
             None => points(b, path, ["depth", "force"], listed(&self.depth), listed(&self.force)),
         };
         function(points, &None, &self.returned, &self.returned_each, 1.0)

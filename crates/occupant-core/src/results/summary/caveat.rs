@@ -4,6 +4,7 @@ use crash_measures::injury::Measure;
 use crash_measures::measure::Dummy;
 use serde::Serialize;
 
+use super::strokes::Known;
 use super::{Ejection, Exit, Peak, RunStatus, Summary, Throw, word};
 use crate::body::{Body, Chest, Joint, Limb, Segment};
 use crate::forces::chain::{Chain, Site};
@@ -258,11 +259,15 @@ impl Caveat {
         Some(Caveat::new(format!("submarining_{side}"), text, figures))
     }
 
-    /// A chest that was pressed in farther than any test did.
-    pub(super) fn pressed(plate: &str, most: Peak, depth_m: f64) -> Self {
-        let (way, share) = (mm(most.value), 100.0 * most.value / depth_m);
+    /// A plate that was pressed in farther than any test did.
+    pub(super) fn pressed(plate: &str, most: Peak, known: Known) -> Self {
+        let seen = match known {
+            Known::Depth(depth_m) => format!("{:.0} % of the chest's depth", 100.0 * most.value / depth_m),
+            Known::Last(last_m) => format!("beyond {}, where its force ends", mm(last_m)),
+        };
         let text = format!(
-            "{plate} is pressed in by {way}, {share:.0} % of the chest's depth, {}: no data reach there; {}",
+            "{plate} is pressed in by {}, {seen}, {}: no data reach there; {}",
+            mm(most.value),
             at(most),
             not_to_be_quoted("its")
         );

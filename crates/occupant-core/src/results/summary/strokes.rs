@@ -1,22 +1,47 @@
-//! Columns that were pushed beyond the last points of their forces, and chests deeper than anything that is known.
+//! Columns and plates that were pushed beyond the last points of their forces, and chests deeper than anything that is known.
 
 use super::caveat::Caveat;
 use super::peak::Peak;
 use crate::body::Plate;
-use crate::forces::plate::DEEP;
+use crate::forces::plate::{Band, DEEP};
 use crate::model::Model;
 use crate::results::sample::Sample;
 
-/// By column: its name, the last point of its force, m, and the greatest stroke beyond it, m. By plate: its name, the depth behind it
+/// By column: its name, the last point of its force, m, and the greatest stroke beyond it, m. By plate: its name, how far it is known,
 /// and the greatest deflection, m.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Strokes(Vec<(String, f64, Peak)>, Vec<(String, f64, Peak)>);
+pub(super) struct Strokes(Vec<(String, f64, Peak)>, Vec<(String, Known, Peak)>);
+
+/// How far a plate is known.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Known {
+    /// To a part of the depth behind it, m.
+    Depth(f64),
+    /// To the last point of its force, m.
+    Last(f64),
+}
+
+impl Known {
+    fn of(i: usize, plate: &Plate, bands: &[Band]) -> Self {
+        let own = bands.iter().find(|band| band.of[..] == [(i, 1.0)] && band.spring.greatest_n() > 0.0);
+        let last = own.map_or(f64::INFINITY, |band| band.spring.end());
+        plate.depth_m.map_or(Known::Last(last), Known::Depth)
+    }
+
+    fn most_m(self) -> f64 {
+        match self {
+            Known::Depth(depth_m) => DEEP * depth_m,
+            Known::Last(last_m) => last_m,
+        }
+    }
+}
 
 impl Strokes {
     pub(super) fn new(model: &Model) -> Self {
         let columns = model.setup().columns.iter();
-        let plates = model.body().plates.iter();
-        let plate = |plate: &Plate| (plate.name.clone(), plate.depth_m.unwrap_or(f64::INFINITY), Peak::NONE);
+        let plates = model.body().plates.iter().enumerate();
+        let bands = &model.setup().bands;
+        let plate = |(i, plate): (usize, &Plate)| (plate.name.clone(), Known::of(i, plate, bands), Peak::NONE);
         let columns = columns.map(|column| (column.name.clone(), column.force.end(), Peak::NONE));
         Strokes(columns.collect(), plates.map(plate).collect())
     }
@@ -47,8 +72,8 @@ impl Strokes {
     /// What to know of columns and chests.
     pub(super) fn caveats(&self) -> impl Iterator<Item = Caveat> {
         let beyond = self.0.iter().filter(|(.., beyond)| beyond.value > 0.0);
-        let deep = self.1.iter().filter(|(_, depth_m, most)| most.value > DEEP * depth_m);
-        let deep = deep.map(|(name, depth_m, most)| Caveat::pressed(name, *most, *depth_m));
+        let deep = self.1.iter().filter(|(_, known, most)| most.value > known.most_m());
+        let deep = deep.map(|(name, known, most)| Caveat::pressed(name, *most, *known));
         beyond.map(|(name, last_m, beyond)| Caveat::stroked(name, *beyond, *last_m)).chain(deep)
     }
 }
