@@ -22,7 +22,8 @@ use occupant_pictures::gltf::glb;
 /// The ending of the output decides. CSV: one table, units in its headings; what the columns are stands beside it in
 /// NAME.csv-metadata.json. Parquet: the same table, its metadata inside. XLSX: the same, with sheets for the measures of the run and
 /// for what the columns are. MAT: a variable for each channel, head_acceleration_x, and the structures measures, columns and about.
-/// ISO-MME: NAME.mme becomes the folder NAME with NAME.mme and its channels, in SI units and SAE J211 axes, of all channels that the standard's dictionary has a code for.
+/// ISO-MME: NAME.mme becomes the folder NAME with NAME.mme and its channels, in SI units and SAE J211 axes, of all channels that the
+/// standard's dictionary has a code for.
 /// glTF: NAME.glb is a scene with the motion of body, surfaces and solids, without belts, for Blender and the web.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {

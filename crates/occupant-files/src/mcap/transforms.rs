@@ -1,5 +1,5 @@
-//! `/tf`: space → vehicle → the segments → spheres that ride on parts of them that give way. Every message holds every frame, because a viewer that jumps in time
-//! reads only the last one.
+//! `/tf`: space → vehicle → the segments → spheres that ride on parts of them that give way. Every message holds every frame,
+//! because a viewer that jumps in time reads only the last one.
 
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 use occupant_core::body::{Body, ContactSphere, Segment};

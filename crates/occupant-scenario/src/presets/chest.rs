@@ -4,7 +4,7 @@
 //! Kent 2004), the share of a belt from Kent 2004; lower ribs and links to means of Shaw 2009. `dummy50`, `dummy05f`: fitted to 49
 //! CFR 572.34 and 572.134, the share of a belt to vehicle test NHTSA 7292. The mass of `dummy50` is a guess.
 
-use crate::sections::ChestChoice;
+use crate::sections::{ChestChoice, above};
 use occupant_core::body::Body;
 use occupant_core::body::people::Person;
 
@@ -133,14 +133,7 @@ pub(super) fn flesh(body: &Body) -> [String; 2] {
 /// (Foster 2006); mass, place and size are guesses.
 pub(super) fn abdomen(body: &Body) -> Option<[String; 2]> {
     let pelvis = body.tree.landmarks().pelvis?;
-    let joints = body.tree.joint_rows().iter();
-    let mut beside = joints.filter_map(|row| match pelvis {
-        _ if row.proximal == pelvis => Some(row.distal),
-        _ if row.distal == pelvis => Some(row.proximal),
-        _ => None,
-    });
-    let chest = body.tree.landmarks().chest;
-    let above = beside.find(|segment| body.tree.is_trunk(*segment) && Some(*segment) != chest)?;
+    let above = above(body, pelvis).filter(|segment| Some(*segment) != body.tree.landmarks().chest)?;
     let (name, length_m) = (body.tree[above].name, body.segment(above).length_m);
     let pelvis_m = body.sphere("pelvis").map_or(0.1, |sphere| body.spheres[sphere].radius_m);
     let (radius_m, height_m) = (0.9 * pelvis_m, 0.5 * length_m);

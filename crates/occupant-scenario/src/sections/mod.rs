@@ -79,6 +79,7 @@ use self::solids::SolidSection;
 use self::stance::StanceSection;
 use self::surfaces::{ContactSection, SurfaceSection};
 use self::triggers::TriggerSection;
+pub(super) use self::wings::above;
 use super::check::schema::schema_of;
 use super::kind::{self, UnitSystem};
 

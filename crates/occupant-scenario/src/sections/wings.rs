@@ -42,7 +42,7 @@ pub(super) fn track(b: &mut Builder, path: &str, body: &Body, side: WingSide) ->
 }
 
 /// The part of the trunk that the pelvis carries or hangs on.
-fn above(body: &Body, pelvis: Segment) -> Option<Segment> {
+pub(crate) fn above(body: &Body, pelvis: Segment) -> Option<Segment> {
     let mut ends = body.tree.joint_rows().iter().filter_map(|row| match pelvis {
         _ if row.proximal == pelvis => Some(row.distal),
         _ if row.distal == pelvis => Some(row.proximal),
