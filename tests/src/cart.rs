@@ -67,6 +67,7 @@ pub fn seating() -> Seating {
             ("upper_arms", 35_f64.to_radians()),
             ("elbows", (-60_f64).to_radians()),
         ]),
+        hands_m: None,
         heels_m: [27.0 * INCH_M, 13.0 * INCH_M],
         settle: Settling::Not,
     }

@@ -39,7 +39,7 @@ pub const PRESSED_S: f64 = 0.058;
 /// Instant of that crash that is timed, s: on the limiter, webbing slides over the rings.
 pub const LIMITED_S: f64 = 0.06;
 
-const SOLIDS: &str = include_str!("../../../scenarios/templates/driver.toml");
+const SOLIDS: &str = include_str!("../../occupant-cli/src/commands/new/cabin.toml");
 
 /// Solids of that car that stand far from the driver.
 const LEFT_OUT: [&str; 9] = [

@@ -98,6 +98,7 @@ pub(crate) fn cart() -> Result<Setup, Box<dyn Error>> {
             ("upper_arms", 35_f64.to_radians()),
             ("elbows", (-60_f64).to_radians()),
         ]),
+        hands_m: None,
         heels_m: [27.0 * INCH_M, 13.0 * INCH_M],
         settle: Settling::Not,
     });

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use super::check::{check_words, references, units_of};
+use super::car;
+use super::check::{check_parts, check_words, references, units_of};
 use super::expand::expand;
 use super::kind::UnitSystem;
 use super::loaded::{Loaded, Resolver};
@@ -78,8 +79,8 @@ impl Draft {
         if let Some(ready) = self.ready.as_ref().and_then(|ready| ready.with(sources, root)) {
             return Ok(ready);
         }
-        let problems = self.check_words();
-        if problems.has_errors() { Err(problems) } else { Ready::of(self.document) }
+        let (whole, problems) = self.checked();
+        if problems.has_errors() { Err(problems) } else { Ready::of(self.document.root, whole) }
     }
 
     /// Applies `path.to.key=value`, as a command line gives it. The value is read as TOML; what is not TOML is a text, so
@@ -143,23 +144,35 @@ impl Draft {
 
     /// All that is wrong with the words of the scenario as it stands.
     pub fn check(&self) -> Diagnostics {
-        self.clone().check_words()
+        self.clone().checked().1
     }
 
-    /// As [`Draft::check`]; notes every quantity in SI units.
-    pub(super) fn check_words(&mut self) -> Diagnostics {
+    /// The scenario with its car written out, and all that is wrong with its words; notes every quantity in SI units.
+    fn checked(&mut self) -> (Document, Diagnostics) {
         imply_error_control(&mut self.document.root);
-        let mut problems = check_words(&mut self.document, schema(), "the scenario");
+        let written = &mut self.document;
+        let mut problems =
+            if car::is_there(&written.root) { check_parts(written, schema(), &car::CAR) } else { Diagnostics::new() };
+        problems.extend(car::check(written));
+        if problems.has_errors() {
+            return (written.clone(), problems);
+        }
+        let mut whole = written.clone();
+        whole.root = car::whole(&mut whole.sources, &written.root);
+        problems.extend(check_words(&mut whole, schema(), "the scenario"));
+        if !car::is_there(&written.root) {
+            written.root = whole.root.clone();
+        }
         // where the words are right, names are looked up when the plain data are built
         if problems.has_errors() {
-            let root = self.explicit();
+            let root = expand(&mut whole.sources, &whole.root);
             let unknown = references(&root, Some(&shape::names(&TTI12)));
             if !unknown.is_empty() {
-                let whole = Document { root, ..self.document.clone() };
+                let whole = Document { root, ..whole.clone() };
                 unknown.into_iter().for_each(|problem| problems.add(problem, |problem| whole.place(problem)));
             }
         }
-        problems
+        (whole, problems)
     }
 
     /// Checks the scenario and reads the tables it refers to.

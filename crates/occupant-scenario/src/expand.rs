@@ -5,6 +5,7 @@
 
 use std::sync::Arc;
 
+use super::car;
 use super::check::check_words;
 use super::living;
 use super::presets;
@@ -49,6 +50,7 @@ pub(super) fn written(title: &str, text: &str) -> Option<Document> {
 
 /// The explicit form of a scenario tree that has passed the check.
 pub(super) fn expand(sources: &mut Sources, root: &Node) -> Node {
+    let root = &car::whole(sources, root);
     let mut explicit = root.clone();
     let sets = root.get("joint_sets").cloned();
     if let Some(table) = explicit.as_table_mut() {
@@ -282,6 +284,12 @@ fn put(explicit: &mut Table, key: &str, layers: &[Node], members: Table) {
         explicit
             .insert(key.to_owned(), Entry { key_span: *span, node: Node::new(*span, Value::Table(Arc::new(members))) });
     }
+}
+
+/// A whole tree laid over another.
+pub(super) fn over(under: Node, root: &Node) -> Node {
+    let entry = |node: Node| Entry { key_span: node.span, node };
+    laid_over(Some(entry(under)), entry(root.clone())).node
 }
 
 /// `over` laid over `under`: tables merge key by key, everything else is replaced.

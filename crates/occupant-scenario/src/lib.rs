@@ -83,6 +83,7 @@
 //! | `own_recorder` | a recorder of one's own, and a run that ends early |
 //! | `sweep_with_rayon` | many runs on all cores |
 
+mod car;
 mod check;
 mod draft;
 pub mod ending;

@@ -176,6 +176,13 @@ fn person(own: &BodySection, preset: Option<&str>) -> Option<Person> {
     Some(if person.is_within_reach() { person } else { start })
 }
 
+/// The grown-up of a body section, the reference person where there is none; none of a child or a body of one's own.
+pub(super) fn person_of(own: Option<&BodySection>) -> Option<Person> {
+    let Some(own) = own else { return Some(people::REFERENCE_PERSON) };
+    let says = own.preset.is_some() || own.describes_a_person() || !own.segments.is_empty() || !own.joints.is_empty();
+    if says { person(own, own.preset.as_deref()) } else { Some(people::REFERENCE_PERSON) }
+}
+
 /// A body in the words of a scenario, with its joints where they are its own or `has_joints` says so. Every number has the
 /// same width, so that places in one text hold in another.
 fn words(body: &Body, has_joints: bool) -> String {

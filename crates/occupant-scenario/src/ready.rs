@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use super::car;
 use super::check::check_parts;
 use super::expand::expand;
 use super::living;
@@ -18,6 +19,8 @@ pub(crate) struct Ready {
     main: SourceId,
     /// As it was written.
     pub(crate) root: Node,
+    /// The same with its car written out.
+    whole: Node,
     pub(crate) scenario: Scenario,
     /// With presets, pairs, `all` and joint sets written out.
     pub(crate) explicit_root: Node,
@@ -28,26 +31,35 @@ pub(crate) struct Ready {
 const OTHERS: [&str; 6] = ["units", "body", "joints", "joint_sets", "occupants", "provenance"];
 
 impl Ready {
-    /// Reads a document that has passed the check; nothing is laid under or written out yet.
+    /// Reads a document that has passed the check, with its car written out but no preset; `root` is what was written.
     ///
     /// # Errors
     /// A difference between check and sections.
-    pub(crate) fn of(mut document: Document) -> Result<Ready, Diagnostics> {
+    pub(crate) fn of(root: Node, mut document: Document) -> Result<Ready, Diagnostics> {
         let scenario: Scenario = document.sections("scenario")?;
-        let root = document.root.clone();
-        document.root = expand(&mut document.sources, &root);
+        let whole = document.root.clone();
+        document.root = expand(&mut document.sources, &whole);
         let explicit = complete(document.sections("scenario")?);
         let Document { sources, main, root: explicit_root } = document;
-        Ok(Ready { sources, main, root, scenario, explicit_root, explicit })
+        Ok(Ready { sources, main, root, whole, scenario, explicit_root, explicit })
     }
 
     /// The same with another tree, where no more than values of plain sections are others and those are right; else none.
     pub(crate) fn with(&self, sources: &Sources, root: &Node) -> Option<Ready> {
-        let (old, new) = (self.root.as_table()?, root.as_table()?);
+        let mut document = Document { sources: sources.clone(), main: self.main, root: root.clone() };
+        let has_car = car::is_there(root);
+        if has_car && (!check_parts(&mut document, schema(), &car::CAR).is_empty() || !car::check(&document).is_empty())
+        {
+            return None;
+        }
+        document.root = car::whole(&mut document.sources, &document.root);
+        let whole = document.root.clone();
+        let (old, new) = (self.whole.as_table()?, whole.as_table()?);
         if !old.keys().eq(new.keys()) {
             return None;
         }
-        let is_same = |key: &str| old.get(key).zip(new.get(key)).is_some_and(|(a, b)| shares(&a.node, &b.node));
+        let says_same = |a: &Node, b: &Node| shares(a, b) || has_car && a.says(b);
+        let is_same = |key: &str| old.get(key).zip(new.get(key)).is_some_and(|(a, b)| says_same(&a.node, &b.node));
         let changed: Vec<&str> = new.keys().map(String::as_str).filter(|key| !is_same(key)).collect();
         let is_living = living::any(&self.root);
         let is_laid = |key: &&str| is_living && ["muscles", "triggers"].contains(key);
@@ -56,7 +68,6 @@ impl Ready {
         if !changed.iter().all(is_plain) {
             return None;
         }
-        let mut document = Document { sources: sources.clone(), main: self.main, root: root.clone() };
         if !check_parts(&mut document, schema(), &changed).is_empty() {
             return None;
         }
@@ -64,14 +75,15 @@ impl Ready {
             let table = document.root.as_table()?;
             Some(((*key).to_owned(), table.get(*key)?.clone()))
         }));
-        let root = document.root.clone();
-        document.root = Node::new(root.span, placed_text::Value::Table(Arc::new(part)));
+        let whole = document.root.clone();
+        document.root = Node::new(whole.span, placed_text::Value::Table(Arc::new(part)));
         let part: Scenario = document.sections("scenario").ok()?;
-        let mut ready = Ready { sources: document.sources, root, ..self.clone() };
+        let root = if has_car { root.clone() } else { whole.clone() };
+        let mut ready = Ready { sources: document.sources, root, whole, ..self.clone() };
         for key in changed {
             ready.scenario.take(key, &part)?;
             ready.explicit.take(key, &part)?;
-            let entry = ready.root.as_table()?.get(key)?.clone();
+            let entry = ready.whole.as_table()?.get(key)?.clone();
             ready.explicit_root.as_table_mut()?.insert(key.to_owned(), entry);
         }
         ready.explicit = complete(ready.explicit);
@@ -129,6 +141,6 @@ macro_rules! sections {
 }
 
 sections! {
-    title notes gravity inside time output integrator drive path vehicles ground frames loose posture initial_state mount stance
+    title notes gravity inside time output integrator car drive path vehicles ground frames loose posture initial_state mount stance
     seats muscles triggers markers belts webbings limiters retractors bags gases materials contact self_contact surfaces solids
 }

@@ -52,7 +52,8 @@ impl Seat {
     pub fn new(cushion: SurfaceId, back: SurfaceId, heels_m: [f64; 2]) -> Self {
         let surfaces = [cushion, back];
         let (cushion, back, angles_rad) = (cushion.0, back.0, Vec::new());
-        let seating = Seating { cushion, back, lateral_m: 0.0, angles_rad, heels_m, settle: Settling::Locked };
+        let seating =
+            Seating { cushion, back, lateral_m: 0.0, angles_rad, heels_m, hands_m: None, settle: Settling::Locked };
         Seat { seating, surfaces }
     }
 

@@ -202,6 +202,18 @@ impl JsonSchema for Value {
 }
 
 impl Node {
+    /// Whether it says the same as another, wherever both stand.
+    pub fn says(&self, other: &Node) -> bool {
+        match (&self.value, &other.value) {
+            (Value::Table(a), Value::Table(b)) => {
+                let both = || a.iter().zip(b.iter());
+                Arc::ptr_eq(a, b) || a.len() == b.len() && both().all(|((k, x), (l, y))| k == l && x.node.says(&y.node))
+            }
+            (Value::Array(a), Value::Array(b)) => a.len() == b.len() && a.iter().zip(b).all(|(x, y)| x.says(y)),
+            (a, b) => a == b,
+        }
+    }
+
     /// A value and where it stands.
     pub fn new(span: Span, value: Value) -> Node {
         Node { span, value, si: None }

@@ -96,7 +96,15 @@ pub(crate) fn seat(
     let legs: Vec<(Limb, Leg)> = legs.into_iter().map(|(limb, leg)| Some((limb, leg?))).collect::<Option<_>>()?;
     let pose = {
         let of_leg = |segment| legs.iter().find_map(|(limb, leg)| leg.angle_rad(limb, segment));
-        Pose::new(body, &seating.angles_rad, of_leg, None, leaned(0.0))
+        let posed = |angles: &[(String, f64)]| Pose::new(body, angles, of_leg, None, leaned(0.0));
+        let pose = posed(&seating.angles_rad);
+        match seating.hands_m {
+            Some(hands) => {
+                let t1_m = pose.t1_m(body, pelvis.segment, lower_end);
+                posed(&reach(body, &seating.angles_rad, &posed, t1_m, hands))
+            }
+            None => pose,
+        }
     };
     let (first, Leg { thigh, shank }) = &legs[0];
     let knee_m = hip(first) + pose.axes[first.upper.index()] * link_m(body, first.upper, first.lower);
@@ -209,6 +217,65 @@ fn to_heel_m(body: &Body, limb: &Limb) -> Vector3<f64> {
         Some(foot) => link_m(body, limb.lower, foot) - body.joint_m(foot),
         None => -body.joint_m(limb.lower),
     }
+}
+
+/// The least angle between the links of an arm that reaches for something, and steps of the search for it.
+const BENT_MOST_RAD: f64 = 2.6;
+const HALVINGS: usize = 40;
+
+/// Angles of a seated body with those of its arms such that its hands are at `hands_m`, [x, z], the elbows below the line from the
+/// shoulders; arms that are too short point there, and forearms that hang on no pin of their own stay as they are said.
+fn reach(
+    body: &Body,
+    angles_rad: &[(String, f64)],
+    posed: &impl Fn(&[(String, f64)]) -> Pose,
+    t1_m: Vector3<f64>,
+    hands_m: [f64; 2],
+) -> Vec<(String, f64)> {
+    let mut angles = angles_rad.to_vec();
+    for arm in body.tree.landmarks().arms() {
+        let Some(elbow) = body.tree.bearer(arm.lower).filter(|joint| body.tree[*joint].is_hinge()) else { continue };
+        let (upper, elbow) = (body.tree[arm.upper].name, body.tree[elbow].name);
+        let with = |lean: f64, bend: f64| {
+            let own = [(upper.to_owned(), lean), (elbow.to_owned(), bend)];
+            own.into_iter().chain(angles_rad.iter().cloned()).collect::<Vec<_>>()
+        };
+        // seen from the side: the hand from the shoulder
+        let from_shoulder = |lean: f64, bend: f64| {
+            let pose = posed(&with(lean, bend));
+            let shoulder = end_m(body, &pose, t1_m, arm.upper, body.joint_m(arm.upper));
+            let (segment, point) = palm(body, &arm);
+            let hand = end_m(body, &pose, t1_m, segment, point) - shoulder;
+            let target = Vector3::new(hands_m[0], 0.0, hands_m[1]) - shoulder;
+            (hand, target)
+        };
+        let (mut most, mut least) = (-BENT_MOST_RAD, 0.0);
+        for _ in 0..HALVINGS {
+            let middle = (most + least) / 2.0;
+            let (hand, target) = from_shoulder(0.0, middle);
+            let is_short = hand.xz().norm() < target.xz().norm();
+            (most, least) = if is_short { (middle, least) } else { (most, middle) };
+        }
+        let (hand, target) = from_shoulder(0.0, least);
+        // a segment that leans back by γ has its lower end ahead by as much
+        let angle = |v: Vector3<f64>| occupant_units::trig::atan2(v.x, v.z);
+        let lean = angle(target) - angle(hand);
+        angles = with(lean, least).into_iter().take(2).chain(angles).collect();
+    }
+    angles
+}
+
+/// A point of a segment in vehicle axes, given from its lower end.
+fn end_m(body: &Body, pose: &Pose, t1_m: Vector3<f64>, segment: Segment, point: Vector3<f64>) -> Vector3<f64> {
+    t1_m - pose.t1_m(body, segment, Vector3::zeros()) + pose.axes[segment.index()] * point
+}
+
+/// The middle of a hand: of its sphere, or the far end of the arm.
+fn palm(body: &Body, arm: &Limb) -> (Segment, Vector3<f64>) {
+    let last = arm.end.unwrap_or(arm.lower);
+    let is_hand = |sphere: &&crate::body::ContactSphere| sphere.segment == last && sphere.name.ends_with("_hand");
+    let sphere = body.spheres.iter().find(is_hand);
+    (last, sphere.map_or_else(Vector3::zeros, |sphere| sphere.centre_from_lower_end_m.coords))
 }
 
 /// Says where the feet are that do not reach the heels' place.

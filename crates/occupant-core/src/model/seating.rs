@@ -26,6 +26,8 @@ pub struct Seating {
     pub angles_rad: Vec<(String, f64)>,
     /// X_VH, Z_VH: the heels in vehicle axes.
     pub heels_m: [f64; 2],
+    /// X, Z of both hands in vehicle axes, elbows below; angles of the arms say where they are if absent.
+    pub hands_m: Option<[f64; 2]>,
     /// What is moved from there.
     pub settle: Settling,
 }

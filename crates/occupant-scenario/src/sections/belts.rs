@@ -57,6 +57,12 @@ pub(crate) struct BeltSection {
     pub(crate) preset: Option<Preset>,
     /// The side of the vehicle on which a preset's upper anchor stands: "left" for a driver on the left.
     pub(crate) side: Option<Side>,
+    /// Upper anchor or ring of a preset, vehicle axes; if absent by the seat, as are the next two.
+    pub(crate) d_ring: Option<[Length; 3]>,
+    /// Buckle of a preset, vehicle axes.
+    pub(crate) buckle: Option<[Length; 3]>,
+    /// Outer lap anchor of a preset, vehicle axes.
+    pub(crate) anchor: Option<[Length; 3]>,
     /// What the lap part of a preset bears on: "pelvis", its sphere, from which it cannot slide, or "wings", the iliac wings, from which it
     /// slides up to the abdomen. "pelvis" if absent.
     pub(crate) lap: Option<Lap>,

@@ -8,6 +8,7 @@ mod belts;
 mod body;
 mod body_joints;
 mod builder;
+mod car;
 mod chains;
 mod columns;
 mod drive;
@@ -52,6 +53,7 @@ pub use drive::{DrivenVehicle, Drives, Solved};
 pub(super) use drive::{People, asks_for_people, solve};
 pub use heading::{heading as column_named, heading_in as column_in, speed_named};
 pub(super) use many::together;
+pub(super) use quantity::si_or;
 pub use quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, Quantity};
 pub use record_file::{RecordFile, read_record};
 pub(super) use setup::{occupant, setup};
@@ -59,6 +61,7 @@ pub(super) use setup::{occupant, setup};
 use self::bags::{BagSection, GasSection};
 use self::belts::BeltSection;
 pub(super) use self::body::BodySection;
+pub(super) use self::car::{AnchorSection, CarBelt, CarClass, CarSeatSection, CarSection};
 use self::drive::DriveSection;
 use self::frames::{FrameSection, GroundSection, VehicleSection};
 use self::functions::{LimiterSection, WebbingSection};
@@ -78,6 +81,7 @@ use self::self_contact::SelfContactSection;
 use self::solids::SolidSection;
 use self::stance::StanceSection;
 use self::surfaces::{ContactSection, SurfaceSection};
+pub(super) use self::three_point::Side;
 use self::triggers::TriggerSection;
 pub(super) use self::wings::above;
 use super::check::schema::schema_of;
@@ -152,6 +156,8 @@ pub struct Scenario {
     pub(crate) output: Option<OutputSection>,
     /// How the equations of motion are integrated; "adaptive" with the accuracy "engineering" if absent.
     pub(crate) integrator: Option<IntegratorSection>,
+    /// The inside of the first vehicle in words.
+    pub(crate) car: Option<CarSection>,
     /// Vehicles that drive by themselves before people are looked at.
     pub(crate) drive: Option<DriveSection>,
     /// Motion of the vehicle; of several, of that which is called "vehicle". Absent, the first of `vehicles` is called so too.

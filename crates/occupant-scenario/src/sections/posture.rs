@@ -31,7 +31,7 @@ pub(crate) struct SeatSection {
 
 /// How the occupant sits. Angles lean the top of a segment back from the vehicle's vertical.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(extend("x-at-most-one" = [["moves_with_vehicle", "velocity"]]))]
+#[schemars(extend("x-at-most-one" = [["moves_with_vehicle", "velocity"], ["hands", "upper_arms"], ["hands", "elbows"]]))]
 pub(crate) struct PostureSection {
     /// Name of the seat in `seats`.
     pub(crate) seat: String,
@@ -49,6 +49,8 @@ pub(crate) struct PostureSection {
     pub(crate) elbows: Option<Angle>,
     /// [x, z] of both heels, vehicle axes.
     pub(crate) heels: Option<[Length; 2]>,
+    /// [x, z] of both hands, vehicle axes, elbows below, instead of `upper_arms` and `elbows`.
+    pub(crate) hands: Option<[Length; 2]>,
     /// Move the seated body as one piece until cushion, back and belts carry it; true if absent. False is the report's seating.
     pub(crate) settle: Option<bool>,
     /// True: all joints give way while the body settles, as of one who sleeps, until limits, springs, locks and what it lies on
@@ -137,6 +139,7 @@ fn seating(b: &mut Builder, s: &Scenario, p: &PostureSection, tree: &Tree) -> Op
         back: part(&seat.back)?,
         lateral_m: si_or(&seat.y, 0.0),
         angles_rad: p.angles().map(|(name, angle)| (name.to_owned(), angle.si())).collect(),
+        hands_m: p.hands.as_ref().map(all_si),
         heels_m: p.heels.as_ref().map_or([0.0; 2], all_si),
         settle: settling(b, p),
     })
@@ -159,7 +162,9 @@ fn settling(b: &mut Builder, p: &PostureSection) -> Settling {
 fn check_angles(b: &mut Builder, p: &PostureSection, tree: &Tree) {
     let is_of_leg = |segment: Segment| tree.landmarks().legs().any(|leg| segment == leg.upper || segment == leg.lower);
     let words = angle_words(tree, |segment| !is_of_leg(segment));
-    for (name, angle) in p.usual().iter().filter(|(name, _)| words.iter().any(|word| word == name)) {
+    let reaches = |name: &str| p.hands.is_some() && ["upper_arms", "elbows"].contains(&name);
+    let needed = |name: &str| words.iter().any(|word| word == name) && !reaches(name);
+    for (name, angle) in p.usual().iter().filter(|(name, _)| needed(name)) {
         b.needed("posture", name, angle);
     }
     unknown_angles(b, "posture", p.angles().map(|(name, _)| name), &words);

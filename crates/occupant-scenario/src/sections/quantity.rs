@@ -60,7 +60,7 @@ impl<const KIND: usize, const RANGE: usize> Quantity<KIND, RANGE> {
 }
 
 /// The value in SI units, or `default` where nothing is written.
-pub(super) fn si_or<const KIND: usize, const RANGE: usize>(
+pub(crate) fn si_or<const KIND: usize, const RANGE: usize>(
     quantity: &Option<Quantity<KIND, RANGE>>,
     default: f64,
 ) -> f64 {

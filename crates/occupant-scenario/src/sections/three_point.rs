@@ -85,16 +85,19 @@ pub(super) fn nodes(
     };
     let out = if section.side == Some(Side::Right) { 1.0 } else { -1.0 };
     let at = |[back, outboard, down]: [f64; 3]| Some([x - back, y + out * outboard, z + down].map(Length::of_si));
+    let said = |place: &Option<[Length; 3]>, usual| place.clone().or_else(|| at(usual));
+    let placed = |name: &str, place| NodeSection { name: Some(name.to_owned()), at: place, ..NodeSection::none() };
     let plain = |name: &str, place| NodeSection { name: Some(name.to_owned()), at: at(place), ..NodeSection::none() };
     let sphere = |name: &str| NodeSection { sphere: Some(name.to_owned()), ..NodeSection::none() };
     let rubs = |node: NodeSection, friction| NodeSection { friction: Some(Ratio::of_si(friction)), ..node };
     let [ring, tongue, shoulder] = FRICTION;
     let reel = NodeSection { retractor: section.retractor.clone(), ..plain("reel", REEL_M) };
-    let mut nodes = vec![reel, rubs(plain("d_ring", RING_M), ring)];
+    let mut nodes = vec![reel, rubs(placed("d_ring", said(&section.d_ring, RING_M)), ring)];
     if section.retractor.is_none() {
-        nodes = vec![plain("upper_anchor", RING_M)];
+        nodes = vec![placed("upper_anchor", said(&section.d_ring, RING_M))];
     }
-    let buckle = NodeSection { pretensioner: section.pretensioner.clone(), ..plain("buckle", BUCKLE_M) };
+    let buckle =
+        NodeSection { pretensioner: section.pretensioner.clone(), ..placed("buckle", said(&section.buckle, BUCKLE_M)) };
     nodes.extend([rubs(track(body, out), shoulder), sphere("chest"), rubs(buckle, tongue)]);
     let wing = |name: &str, side| NodeSection { name: Some(name.to_owned()), wing: Some(side), ..NodeSection::none() };
     let mut wings = [wing("right_wing", WingSide::Right), wing("left_wing", WingSide::Left)];
@@ -105,7 +108,7 @@ pub(super) fn nodes(
         Some(Lap::Wings) => nodes.extend(wings),
         Some(Lap::Pelvis) | None => nodes.push(sphere("pelvis")),
     }
-    nodes.push(plain("sill", SILL_M));
+    nodes.push(placed("sill", said(&section.anchor, SILL_M)));
     nodes
 }
 

@@ -1,4 +1,4 @@
-//! The templates of `occupant new`: a driver's scenario, and what the others change of it, section by section.
+//! The templates of `occupant new`: a driver's scenario, a cabin of solids, and what the others change of them, section by section.
 
 use super::STARTER;
 
@@ -43,19 +43,19 @@ struct Section<'a> {
 impl Template {
     /// The scenario.
     pub(super) fn text(self) -> String {
-        let driver = STARTER;
+        let (driver, cabin) = (STARTER, include_str!("cabin.toml"));
         match self {
             Template::Driver => driver.to_owned(),
-            Template::RightHandDrive => changed(&mirrored(driver), include_str!("right-hand-drive.toml")),
-            Template::RearSeat => changed(driver, include_str!("rear-seat.toml")),
-            Template::Side => changed(driver, include_str!("side.toml")),
-            Template::Rollover => changed(driver, include_str!("rollover.toml")),
-            Template::Edr => changed(driver, include_str!("edr.toml")),
+            Template::RightHandDrive => changed(driver, include_str!("right-hand-drive.toml")),
+            Template::RearSeat => changed(cabin, include_str!("rear-seat.toml")),
+            Template::Side => changed(cabin, include_str!("side.toml")),
+            Template::Rollover => changed(cabin, include_str!("rollover.toml")),
+            Template::Edr => changed(cabin, include_str!("edr.toml")),
             Template::Sled => include_str!("sled.toml").to_owned(),
             Template::Neck => include_str!("neck.toml").to_owned(),
             Template::Pedestrian => include_str!("pedestrian.toml").to_owned(),
-            Template::Sensors => changed(driver, include_str!("sensors.toml")),
-            Template::Drive => changed(driver, include_str!("drive.toml")),
+            Template::Sensors => changed(cabin, include_str!("sensors.toml")),
+            Template::Drive => changed(cabin, include_str!("drive.toml")),
             Template::Study => include_str!("study.toml").to_owned(),
         }
     }
@@ -100,22 +100,4 @@ fn sections(text: &str) -> Vec<Section<'_>> {
     }
     sections.push(Section { name, comments: &text[start..head], text: &text[head..end] });
     sections
-}
-
-/// The car in a mirror: lateral places change their sign, and what has a side in its name the other one.
-fn mirrored(text: &str) -> String {
-    text.split_inclusive('\n').map(mirrored_line).collect()
-}
-
-fn mirrored_line(line: &str) -> String {
-    // the lateral ones among the numbers of y = 1 and of lists of [x, y, z]
-    let (between, each) = match line.split(" = ").next() {
-        Some("y") => (" = ", 2),
-        Some("anchors" | "centre" | "ends" | "points") => (", ", 3),
-        _ => return line.replace("left_", "\0").replace("right_", "left_").replace('\0', "right_"),
-    };
-    let opposite = |number: &str| number.strip_prefix('-').map_or_else(|| format!("-{number}"), str::to_owned);
-    let numbers = line.split(between).enumerate();
-    let turned: Vec<_> = numbers.map(|(i, n)| if i % each == 1 { opposite(n) } else { n.to_owned() }).collect();
-    turned.join(between)
 }

@@ -1,0 +1,79 @@
+//! What the inside of a class of cars measures. Ours, of the size that published interior dimensions of 2000 to 2020 have (SAE J1100
+//! names); single models lie some centimetres beside them.
+
+use crate::sections::{CarClass, CarSection, si_or};
+
+/// Stature at which the driver's seat stands at its design place, m: the mean of women and men.
+pub(super) const MEAN_STATURE_M: f64 = 1.69;
+/// How far a driver's seat moves back per stature; SAE J4004.
+pub(super) const TRACK_PER_STATURE: f64 = 0.433;
+
+/// Lengths in m, angles in degrees.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Measures {
+    /// H30.
+    pub(super) seat_height: f64,
+    /// W20.
+    pub(super) seat_offset: f64,
+    /// L50.
+    pub(super) couple: f64,
+    /// W3.
+    pub(super) shoulder_room: f64,
+    /// Roof over the front H-point.
+    pub(super) roof: f64,
+    /// Heels of the driver ahead of the design H-point.
+    pub(super) heels: f64,
+    /// Centre of the wheel ahead of and above the design H-point.
+    pub(super) wheel: [f64; 2],
+    /// A18.
+    pub(super) wheel_angle_deg: f64,
+    /// W9.
+    pub(super) wheel_diameter: f64,
+    /// Face of the panel ahead of the H-point, its top above it.
+    pub(super) panel: [f64; 2],
+    /// Face of the knee bolster ahead of the H-point.
+    pub(super) bolster: f64,
+}
+
+/// H30, L6, H17, A18, W9, W20, W3, L50, roof.
+fn dimensions(class: CarClass) -> [f64; 9] {
+    match class {
+        CarClass::Small => [0.255, 0.55, 0.635, 24.0, 0.37, 0.335, 1.36, 0.76, 0.88],
+        CarClass::Sedan | CarClass::Sled => [0.25, 0.55, 0.64, 24.0, 0.38, 0.36, 1.45, 0.83, 0.88],
+        CarClass::Suv => [0.32, 0.50, 0.70, 28.0, 0.38, 0.37, 1.50, 0.85, 0.91],
+        CarClass::Van => [0.35, 0.47, 0.74, 33.0, 0.385, 0.42, 1.60, 0.90, 0.95],
+        CarClass::Pickup => [0.33, 0.49, 0.72, 28.0, 0.385, 0.42, 1.65, 0.93, 0.93],
+    }
+}
+
+/// From the heel of a shoe on the pedal to its ball, m; SAE J826.
+const HEEL_TO_BALL_M: f64 = 0.203;
+/// From the wheel's centre to the face of the panel, m; ours.
+const WHEEL_TO_PANEL_M: f64 = 0.29;
+/// From the face of the bolster to that of the panel above it, m; ours.
+const BOLSTER_BEFORE_PANEL_M: f64 = 0.06;
+
+impl Measures {
+    /// Of a class, with what the scenario says.
+    pub(super) fn of(car: &CarSection) -> Measures {
+        let [h30, l6, h17, a18, w9, w20, w3, l50, roof] = dimensions(car.class.unwrap_or_default());
+        let seat_height = si_or(&car.seat_height, h30);
+        // ball of the foot ahead of the mean driver's H-point
+        let ball = 0.718 - 0.24 * seat_height + 0.41 * l6;
+        let ahead = si_or(&car.wheel.ahead, ball - l6);
+        let panel = si_or(&car.panel.ahead, ball - l6 + WHEEL_TO_PANEL_M);
+        Measures {
+            seat_height,
+            seat_offset: si_or(&car.seat_offset, w20),
+            couple: si_or(&car.couple, l50),
+            shoulder_room: si_or(&car.shoulder_room, w3),
+            roof: si_or(&car.roof, roof),
+            heels: ball - HEEL_TO_BALL_M,
+            wheel: [ahead, si_or(&car.wheel.above, h17 - h30)],
+            wheel_angle_deg: car.wheel.angle.as_ref().map_or(a18, |angle| angle.si().to_degrees()),
+            wheel_diameter: si_or(&car.wheel.diameter, w9),
+            panel: [panel, si_or(&car.panel.above, 0.40)],
+            bolster: si_or(&car.panel.bolster, panel - BOLSTER_BEFORE_PANEL_M),
+        }
+    }
+}

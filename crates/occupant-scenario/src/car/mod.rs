@@ -1,0 +1,211 @@
+//! `[car]` written out: the inside of a car in the words of the other sections, under what the scenario says itself.
+
+mod classes;
+mod ride;
+mod seats;
+mod shell;
+
+use std::fmt::Write as _;
+
+use serde::Deserialize;
+
+use crate::check::check_parts;
+use crate::expand::{over, written};
+use crate::presets;
+use crate::sections::{BodySection, CarClass, CarSeatSection, CarSection, Side, schema};
+use classes::Measures;
+use placed_text::{Diagnostics, Document, Node, Problem, Sources, Table, did_you_mean, one_of, with_key};
+
+/// The section of a car: it is checked before it is written out.
+pub(super) const CAR: [&str; 1] = ["car"];
+/// Sections of those who sit in it.
+const BODIES: [&str; 2] = ["body", "occupants"];
+
+/// Whether a scenario has a car in words.
+pub(super) fn is_there(root: &Node) -> bool {
+    root.get("car").is_some()
+}
+
+/// What is wrong with a car whose words are right.
+pub(super) fn check(document: &Document) -> Diagnostics {
+    let mut problems = Diagnostics::new();
+    let names: Vec<&str> = SEATS.iter().map(|(name, ..)| *name).collect();
+    let seats = document.root.get("car").and_then(|car| car.get("seats")).and_then(Node::as_table);
+    for name in seats.into_iter().flat_map(Table::keys).filter(|name| !names.contains(&name.as_str())) {
+        let problem =
+            Problem::error(with_key("car.seats", name), format!("`{name}` is not a seat"), one_of(&names, '`'));
+        problems.add(problem.with_hint(did_you_mean(name, &names, '`')), |problem| document.place(problem));
+    }
+    problems
+}
+
+/// The scenario with its car written out; as it is where it has none, or one whose words are wrong.
+pub(super) fn whole(sources: &mut Sources, root: &Node) -> Node {
+    if !is_there(root) {
+        return root.clone();
+    }
+    let mut read = Document { sources: sources.clone(), main: root.span.source, root: root.clone() };
+    if check_parts(&mut read, schema(), &CAR).has_errors() {
+        return root.clone();
+    }
+    // for their quantities: what they lack the car gives them
+    check_parts(&mut read, schema(), &BODIES);
+    let document = words(&read.root).and_then(|text| written(TITLE, &text));
+    let Some(document) = document else { return root.clone() };
+    let id = sources.add(TITLE, document.shared());
+    over(document.root.moved_to(id), root)
+}
+
+/// What messages call a car that was written out.
+const TITLE: &str = "car";
+
+fn words(root: &Node) -> Option<String> {
+    let section = CarSection::deserialize(root.get("car")?).ok()?;
+    let riders = riders(root);
+    let car = Car { measures: Measures::of(&section), section: &section };
+    Some(car.words(&riders))
+}
+
+/// Somebody in a seat.
+pub(super) struct Rider {
+    /// Where his own sections stand: nothing, or "occupants.NAME.".
+    prefix: String,
+    /// The seat's name.
+    seat: String,
+    /// Standing height, m.
+    stature_m: f64,
+    /// What of the body is not said.
+    lacks: Lacks,
+}
+
+/// What a scenario does not say of a body, and a car's rider therefore gets.
+#[derive(Clone, Copy, Default)]
+struct Lacks {
+    /// Which body it is.
+    body: bool,
+    /// Which joints it has.
+    joints: bool,
+    /// It is a grown-up with the joints of a person, of whom nothing is said that gives way.
+    flesh: bool,
+    /// Nothing else says how it begins.
+    posture: bool,
+}
+
+/// Seats by name: row, and side from -1 (left) over 0 to 1; of the front row 1 is the driver.
+pub(super) const SEATS: [(&str, usize, f64); 8] = [
+    ("driver", 0, 1.0),
+    ("passenger", 0, -1.0),
+    ("rear_left", 1, -1.0),
+    ("rear_middle", 1, 0.0),
+    ("rear_right", 1, 1.0),
+    ("third_left", 2, -1.0),
+    ("third_middle", 2, 0.0),
+    ("third_right", 2, 1.0),
+];
+
+/// Those who sit in a seat of the car.
+fn riders(root: &Node) -> Vec<Rider> {
+    let Some(several) = root.get("occupants").and_then(Node::as_table) else {
+        return rider(root, "", "driver").into_iter().collect();
+    };
+    let sits = |(name, entry): (&String, &placed_text::Entry)| rider(&entry.node, &format!("occupants.{name}."), name);
+    several.iter().filter_map(sits).collect()
+}
+
+fn rider(own: &Node, prefix: &str, usual: &str) -> Option<Rider> {
+    let said = own.get("posture").and_then(|posture| posture.get("seat")).and_then(Node::as_str);
+    let seat = said.unwrap_or(usual);
+    let elsewhere = own.get("vehicle").and_then(Node::as_str).is_some_and(|vehicle| vehicle != "vehicle");
+    if elsewhere || SEATS.iter().all(|(name, ..)| *name != seat) {
+        return None;
+    }
+    let (body, joints) = (own.get("body"), own.get("joints"));
+    let section = body.and_then(|body| BodySection::deserialize(body).ok());
+    let person = section.as_ref().map_or_else(|| presets::person_of(None), |own| presets::person_of(Some(own)));
+    let says =
+        |node: Option<&Node>, keys: &[&str]| node.is_some_and(|node| keys.iter().any(|key| node.get(key).is_some()));
+    let preset = joints.and_then(|joints| joints.get("preset")).and_then(Node::as_str);
+    let is_person = joints.is_none() || preset.is_some_and(|preset| presets::OF_PEOPLE.contains(&preset));
+    let lacks = Lacks {
+        body: !says(body, &["preset", "sex", "stature", "mass", "segments", "joints"]),
+        joints: !says(joints, &["preset"]) && !says(body, &["joints"]),
+        flesh: is_person
+            && person.is_some()
+            && !says(body, &["chest", "pelvis", "abdomen", "segments", "segment_count"]),
+        posture: !says(Some(own), &["initial_state", "mount", "stance"]),
+    };
+    let stature_m = person.map_or(classes::MEAN_STATURE_M, |person| person.stature_m);
+    Some(Rider { prefix: prefix.to_owned(), seat: seat.to_owned(), stature_m, lacks })
+}
+
+/// A car with all its distances.
+pub(super) struct Car<'a> {
+    measures: Measures,
+    section: &'a CarSection,
+}
+
+impl Car<'_> {
+    fn words(&self, riders: &[Rider]) -> String {
+        let mut text = String::new();
+        text.push_str(SOURCES);
+        text.push_str(include_str!("materials.toml"));
+        if riders.iter().any(|rider| !rider.prefix.is_empty()) {
+            text.push_str("[contact]\nskin = \"flesh\"\n\n");
+        }
+        let seats = self.seats(riders);
+        for rider in riders {
+            text.push_str(&self.ride(rider, riders.len()));
+        }
+        for seat in &seats {
+            text.push_str(&seat.words());
+        }
+        if self.section.class != Some(CarClass::Sled) {
+            text.push_str(&self.shell(&seats));
+        } else {
+            text.push_str(&self.foot_rest());
+        }
+        if riders.iter().any(|rider| rider.seat == "driver") {
+            text.push_str(&self.wheel());
+        }
+        text
+    }
+
+    /// +1 where the driver sits right of the middle, else -1.
+    fn drivers_side(&self) -> f64 {
+        if self.section.drive == Some(Side::Right) { 1.0 } else { -1.0 }
+    }
+
+    fn seat(&self, name: &str) -> CarSeatSection {
+        self.section.seats.get(name).cloned().unwrap_or_default()
+    }
+}
+
+/// Where the numbers come from.
+const SOURCES: &str = r#"
+[provenance]
+car = "ours: distances of the size that SAE J1100 dimensions of a class have; no particular car; the driver's place by stature after SAE J4004"
+"car.materials" = "ours, of the size of seats, panels and floors of a car; not measured, not fitted"
+"car.bags" = "made up: no measured inflator may be shipped"
+"#;
+
+/// A length, m, as a text.
+fn m(length: f64) -> String {
+    format!("\"{length} m\"")
+}
+
+/// A list of lengths.
+fn list(lengths: &[f64]) -> String {
+    format!("[{}]", lengths.iter().map(|length| m(*length)).collect::<Vec<_>>().join(", "))
+}
+
+/// A list of points.
+fn points<const N: usize>(points: &[[f64; N]]) -> String {
+    format!("[{}]", points.iter().map(|point| list(point)).collect::<Vec<_>>().join(", "))
+}
+
+/// A prism seen from the side between two lateral faces; `more` are further lines.
+fn prism(name: &str, material: &str, profile: &[[f64; 2]], [y, half_width]: [f64; 2], more: &str) -> String {
+    let mut text = format!("[solids.{name}]\nkind = \"prism\"\nmaterial = \"{material}\"\n");
+    _ = writeln!(text, "profile = {}\ny = {}\nhalf_width = {}\n{more}", points(profile), m(y), m(half_width));
+    text
+}

@@ -1,0 +1,167 @@
+//! Whoever sits in a car: body, posture and belt where the scenario does not say them, and the belt's parts.
+
+use super::seats::Seat;
+use super::{Car, Rider, SEATS, list, m};
+use crate::sections::{AnchorSection, CarBelt, CarClass, si_or};
+
+/// Belt places from the H-point: behind, outboard, above, m. Ours, of a usual car.
+const D_RING_M: [f64; 3] = [0.27, 0.27, 0.66];
+const BUCKLE_M: [f64; 3] = [0.10, -0.19, -0.06];
+const ANCHOR_M: [f64; 3] = [0.16, 0.25, -0.22];
+/// The inner anchor of a lap belt.
+const INNER_ANCHOR_M: [f64; 3] = [0.16, -0.23, -0.22];
+
+/// The belt of one among several, by name.
+const BELT: &str = "belt";
+
+/// From the floor to a heel that stands on it, m.
+pub(super) const SOLE_M: f64 = 0.03;
+
+/// Heels of passengers ahead of their H-point and below the front one.
+const PASSENGER_HEELS_M: f64 = 0.70;
+
+impl Car<'_> {
+    /// All of one rider's own.
+    pub(super) fn ride(&self, rider: &Rider, riders: usize) -> String {
+        let Some((name, row, side)) = SEATS.iter().find(|(name, ..)| *name == rider.seat) else { return String::new() };
+        let seat = self.placed(name, *row, *side, Some(rider));
+        let mut text = body(rider, riders);
+        if rider.lacks.posture {
+            text += &self.posture(rider, &seat);
+        }
+        text + &self.belt(rider, &seat)
+    }
+
+    fn posture(&self, rider: &Rider, seat: &Seat) -> String {
+        let lean = seat.recline_deg;
+        let is_driver = seat.name == "driver" && self.section.class != Some(CarClass::Sled);
+        let heels = if is_driver {
+            [self.measures.heels, self.measures.seat_height]
+        } else {
+            let ahead = PASSENGER_HEELS_M.min(self.measures.heels);
+            [seat.h[0] + ahead, self.measures.seat_height]
+        };
+        let arms = if is_driver {
+            let [ahead, above] = self.measures.wheel;
+            format!("hands = {}\n", list(&[ahead - HANDS_BEFORE_RIM_M, -above]))
+        } else {
+            // hands on the thighs
+            String::from("upper_arms = \"15 deg\"\nelbows = \"-75 deg\"\n")
+        };
+        format!(
+            "[{}posture]\nseat = \"{}\"\nlower_torso = \"{} deg\"\nmiddle_torso = \"{} deg\"\nupper_torso = \"{} deg\"\n{}head = \"{} deg\"\n\
+             {arms}heels = {}\n\n",
+            rider.prefix,
+            seat.name,
+            lean,
+            lean - 3.0,
+            lean - 2.0,
+            if rider.lacks.flesh { format!("neck = \"{} deg\"\n", 0.45 * lean) } else { String::new() },
+            (lean - 30.0).max(5.0),
+            list(&heels),
+        )
+    }
+
+    fn belt(&self, rider: &Rider, seat: &Seat) -> String {
+        let (prefix, own) = (&rider.prefix, &seat.own);
+        let name = if prefix.is_empty() { seat.name } else { BELT };
+        // outboard is where the nearer door is; a middle seat's belt comes from the right
+        let out = if seat.h[1] < 0.0 { -1.0 } else { 1.0 };
+        let at = |said: &AnchorSection, [behind, outboard, above]: [f64; 3]| {
+            let [x, y, z] = seat.h;
+            let place = [si_or(&said.behind, behind), si_or(&said.outboard, outboard), si_or(&said.above, above)];
+            [x - place[0], y + out * place[1], z - place[2]]
+        };
+        let kind = own.belt.unwrap_or_default();
+        let inner = if kind == CarBelt::Lap { INNER_ANCHOR_M } else { BUCKLE_M };
+        let (buckle, anchor) = (at(&own.buckle, inner), at(&own.anchor, ANCHOR_M));
+        match kind {
+            CarBelt::None => String::new(),
+            CarBelt::Lap => format!(
+                "[{prefix}belts.{name}]\nsphere = \"pelvis\"\nanchors = [{}, {}]\nk1 = \"110 kN/m\"\nmu1 = 0.5\nslack = {}\n\n",
+                list(&anchor),
+                list(&buckle),
+                m(si_or(&own.slack, 0.0)),
+            ),
+            CarBelt::ThreePoint => {
+                let side = if out < 0.0 { "left" } else { "right" };
+                let mut belt = format!(
+                    "[{prefix}belts.{name}]\npreset = \"three_point\"\nside = \"{side}\"\nretractor = \"{name}\"\nd_ring = {}\nbuckle = {}\nanchor = {}\n",
+                    list(&at(&own.d_ring, D_RING_M)),
+                    list(&buckle),
+                    list(&anchor),
+                );
+                if rider.lacks.flesh {
+                    belt += "lap = \"wings\"\n";
+                }
+                belt + "\n" + &retractor(prefix, seat)
+            }
+        }
+    }
+}
+
+/// Hands on the rim, seen from the side: their middles this far before its plane.
+const HANDS_BEFORE_RIM_M: f64 = 0.05;
+
+/// Segments of each of so many riders: all together are at most 48.
+fn segment_count(riders: usize) -> usize {
+    match riders {
+        0..=2 => 19,
+        3 => 15,
+        _ => 12,
+    }
+}
+
+fn body(rider: &Rider, riders: usize) -> String {
+    let (prefix, lacks) = (&rider.prefix, rider.lacks);
+    let mut text = String::new();
+    if let Some(own) = prefix.strip_suffix('.') {
+        text += &format!("[{own}]\nvehicle = \"vehicle\"\n\n");
+    }
+    text += &format!("[{prefix}body]\n");
+    if lacks.body {
+        text += "preset = \"male50\"\n";
+    }
+    if lacks.flesh {
+        text += &format!("segment_count = {}\n", segment_count(riders));
+        text += "chest = \"person\"\npelvis = \"flesh\"\nabdomen = \"person\"\n";
+    }
+    text += &format!("[{prefix}joints]\n");
+    if lacks.joints {
+        text += "preset = \"person\"\n";
+    }
+    text + "\n"
+}
+
+/// Retractor, limiter and pretensioner of a seat's belt.
+fn retractor(prefix: &str, seat: &Seat) -> String {
+    let own = &seat.own;
+    let name = if prefix.is_empty() { seat.name } else { BELT };
+    let limiter = seat.name;
+    let force = si_or(&own.limiter, 3000.0);
+    // loose webbing comes first, then the film, at no more than the spool's tension
+    let loose = si_or(&own.slack, 0.0);
+    let film = si_or(&own.film, 0.03);
+    let start = if loose > 0.0 {
+        (format!("\"0 m\", \"{loose} m\""), "\"0 N\", \"10 N\"")
+    } else {
+        ("\"0 m\"".to_owned(), "\"0 N\"")
+    };
+    let (starts, held) = start;
+    let film = loose + film;
+    let pulls = si_or(&own.pretensioner, if seat.row == 0 { 0.1 } else { 0.0 });
+    let pretensioner = if pulls > 0.0 {
+        format!(
+            "pretensioner = {{ trigger = \"crash\", delay = \"3 ms\", times = [\"0 ms\", \"8 ms\"], pull = [\"0 m\", \"{pulls} m\"], stall_force = \"2 kN\" }}\n"
+        )
+    } else {
+        String::new()
+    };
+    format!(
+        "[{prefix}retractors.{name}]\non_spool = \"0.8 m\"\nspool_tension = \"6 N\"\nlock = {{ trigger = \"sensor\", payout = \"5 mm\" }}\nlimiter = \"{limiter}\"\n\
+         {pretensioner}\n[limiters.{limiter}]\npayout = [{starts}, \"{film} m\", \"{} m\", \"{} m\"]\nforce = [{held}, \"{force} N\", \"{force} N\", \"{} N\"]\n\n",
+        film + 0.47,
+        film + 0.52,
+        3.0 * force,
+    )
+}
