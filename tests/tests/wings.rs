@@ -1,5 +1,6 @@
 //! Lap belts on the iliac wings of a pelvis, and what happens when they slide up from it.
 
+use occupant_core::diagnosis::diagnose;
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Series, channels};
 use occupant_core::results::outcome::Status;
@@ -49,6 +50,10 @@ const ACROSS: f64 = 0.25;
 
 /// The case with anchors so far below the level as seen from the wings.
 fn held(below_rad: f64, more: &[&str]) -> Model {
+    Model::new(setup(&held_text(below_rad), more)).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+fn held_text(below_rad: f64) -> String {
     let body = setup(HELD, &[]).body;
     let sphere = &body.spheres[body.sphere("pelvis").unwrap()];
     let (c, r) = (sphere.centre_from_lower_end_m, sphere.radius_m);
@@ -57,8 +62,7 @@ fn held(below_rad: f64, more: &[&str]) -> Model {
         let z = c.z + r * NORMAL_RAD.sin() - 0.6 * below_rad.sin();
         format!("[{x}, {}, {}]", -side * 0.95 * r, -z)
     };
-    let text = HELD.replace("[-0.5, -0.1, 0]", &anchor(1.0)).replace("[-0.5, 0.1, 0]", &anchor(-1.0));
-    Model::new(setup(&text, more)).unwrap_or_else(|problems| panic!("{problems}"))
+    HELD.replace("[-0.5, -0.1, 0]", &anchor(1.0)).replace("[-0.5, 0.1, 0]", &anchor(-1.0))
 }
 
 const CHANNELS: [&str; 6] = [
@@ -123,6 +127,35 @@ fn what_slides_off_a_wing_presses_the_abdomen() {
     assert_below("balance, J", balance, 1e-2);
 }
 
+/// A belt that pulls slowly presses the flesh before the pelvis with its own force once, on wings as on the sphere of the pelvis: as deep
+/// as the curve of the flesh says, and at 12 kN not beyond the 45 mm that lie before the bone.
+#[test]
+fn flesh_before_the_pelvis_bears_the_belt_once() {
+    // far from where the belt would slide off as it sinks
+    let below = 0.3_f64;
+    let depth_m = |force: f64| match force {
+        _ if force < 1200.0 => force / 60e3,
+        _ if force < 6200.0 => 0.02 + (force - 1200.0) / (5000.0 / 0.015),
+        _ => 0.035 + (force - 6200.0) / 1e6,
+    };
+    for tension in [500.0, 2000.0, 6000.0] {
+        let reel = format!("retractors.reel.spool_tension={tension}");
+        // so much damping that it never goes back
+        let damper = "body.plates.flesh.damper={ linear = 5000 }";
+        let model = held(below, &["body.pelvis=flesh", &reel, damper, "time.end=0.6"]);
+        let known = channels(&model);
+        let find = |name: &str| known.iter().find(|c| c.name == name).cloned().unwrap();
+        let names = ["plate.flesh.deflection", "plate.flesh.force", "strap.lap.left_right.force"];
+        let mut watch = Series::new(names.map(find).to_vec());
+        simulate(&model, &mut watch).unwrap();
+        let [depth, force, pull] = [0, 1, 2].map(|i| *watch.values[i].last().unwrap());
+        let asked = 2.0 * pull * (below.cos() + below.sin()) / 2_f64.sqrt();
+        assert_below("force on the flesh", (force / asked - 1.0).abs(), 0.03);
+        assert_below("depth of the flesh, m", (depth - depth_m(force)).abs(), 1e-4);
+        assert_within("tension, N", pull, [0.95 * tension, 1.05 * tension]);
+    }
+}
+
 /// An abdomen that is pressed in farther than its force is known says so.
 #[test]
 fn an_abdomen_beyond_its_data_is_told_of() {
@@ -146,6 +179,30 @@ fn an_abdomen_beyond_its_data_is_told_of() {
 #[test]
 fn wings_end_alike_side_by_side() {
     ends_alike_side_by_side(|i| held(0.05 * f64::from(i) - 0.2, &[]));
+}
+
+/// A loop round the sphere of a pelvis cannot slide off it: a pull that would draw it up over the wings is told of, before the run and after it.
+#[test]
+fn a_loop_that_would_slide_off_the_wings_is_told_of() {
+    for (below, slides) in [(0.3, false), (-0.1, true)] {
+        let text = held_text(below);
+        let nodes = r#"  { name = "left", wing = "left" },
+  { name = "right", wing = "right" },
+"#;
+        assert!(text.contains(nodes));
+        let model = Model::new(setup(&text.replace(nodes, "  { sphere = \"pelvis\" },\n"), &[])).unwrap();
+        let warned = diagnose(&model).lap_belts;
+        assert_eq!(warned.len(), usize::from(slides), "{warned:?}");
+        let mut summarizer = Summarizer::new();
+        simulate(&model, &mut summarizer).unwrap();
+        let caveats = summarizer.summary(None).unwrap().caveats;
+        let told = caveats.iter().find(|caveat| caveat.name == "submarining_pelvis");
+        assert_eq!(told.is_some(), slides, "{below}");
+        let spoils = ["straps.lap_reel_sill.peak", "pelvis.peak", "chest.peak"];
+        assert!(told.is_none_or(|told| spoils.iter().all(|figure| told.touches(figure))));
+    }
+    let warned = [0.12, 0.07].map(|below| diagnose(&held(below, &[])).lap_belts.len());
+    assert_eq!(warned, [0, 1], "wings");
 }
 
 /// What makes no sense is refused with its place.

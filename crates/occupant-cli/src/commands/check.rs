@@ -56,6 +56,15 @@ pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
             units.say(open.loss_m_s, "m/s", 1)
         ));
     }
+    for lap in &diagnosis.lap_belts {
+        say(&format!(
+            "warning: belt {} pulls on {} at {:.0}° against the normal of the iliac wings, friction holds it to {:.0}°: it slides up towards the abdomen (submarining)\n = help: anchors lower and farther ahead, or a pelvis that leans back less; `lap = \"wings\"` of the preset three_point and nodes with `wing` let it slide",
+            lap.belt,
+            lap.part,
+            lap.angle_rad.to_degrees(),
+            lap.held_rad.to_degrees()
+        ));
+    }
     match too_long(&diagnosis) {
         Some(message) => {
             say(&format!("error: {message}"));

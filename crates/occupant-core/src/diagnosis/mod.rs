@@ -4,6 +4,7 @@
 
 mod ahead;
 mod friction;
+mod lap;
 mod rates;
 mod start;
 
@@ -15,6 +16,7 @@ pub use crate::forces::rate::Rate;
 use crate::forces::table::Tables;
 pub use ahead::OpenAhead;
 pub use friction::{FrictionWatch, UnstableFriction};
+pub use lap::LapBelt;
 pub use rates::{RK4_STABILITY_LIMIT, SphereRate};
 pub use start::{ContactStart, FrictionFigures, SeatStart, SphereBehind};
 
@@ -48,6 +50,9 @@ pub struct Diagnosis {
     /// Occupants without a belt in whose way ahead neither panel nor windscreen stands.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub open_ahead: Vec<OpenAhead>,
+    /// Lap belts that begin so that they slide up on the iliac wings.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub lap_belts: Vec<LapBelt>,
     /// Corners of two surfaces within reach that a sphere may come round without touching either.
     pub corners: Vec<[String; 2]>,
     /// Parts of the body with those that they can touch.
@@ -172,6 +177,7 @@ pub fn diagnose(model: &Model) -> Diagnosis {
         friction: start::friction(model),
         behind: start::behind(model, &mobility),
         open_ahead: ahead::open_ahead(model),
+        lap_belts: lap::sliding(model),
         corners: start::corners(model),
         self_contact: start::self_contact(model),
         elements: start.elements,

@@ -52,6 +52,11 @@ const RING_M: [f64; 3] = [0.40, 0.27, -0.64];
 const BUCKLE_M: [f64; 3] = [0.06, -0.19, 0.04];
 const SILL_M: [f64; 3] = [0.12, 0.25, 0.20];
 
+/// Length of the trunk of the man for whom the ring's height is, the notches of its height adjuster and how far that goes down and up, m.
+const TRUNK_M: f64 = 0.4617;
+const NOTCH_M: f64 = 0.02;
+const ADJUSTS_M: [f64; 2] = [-0.06, 0.04];
+
 /// Friction of webbing over a steel ring, over a tongue and over a clothed shoulder; ours, of the size of ATB's.
 const FRICTION: [f64; 3] = [0.1, 0.15, 0.25];
 
@@ -91,10 +96,11 @@ pub(super) fn nodes(
     let sphere = |name: &str| NodeSection { sphere: Some(name.to_owned()), ..NodeSection::none() };
     let rubs = |node: NodeSection, friction| NodeSection { friction: Some(Ratio::of_si(friction)), ..node };
     let [ring, tongue, shoulder] = FRICTION;
+    let ring_m = [RING_M[0], RING_M[1], RING_M[2] - adjusted_m(body)];
     let reel = NodeSection { retractor: section.retractor.clone(), ..plain("reel", REEL_M) };
-    let mut nodes = vec![reel, rubs(placed("d_ring", said(&section.d_ring, RING_M)), ring)];
+    let mut nodes = vec![reel, rubs(placed("d_ring", said(&section.d_ring, ring_m)), ring)];
     if section.retractor.is_none() {
-        nodes = vec![placed("upper_anchor", said(&section.d_ring, RING_M))];
+        nodes = vec![placed("upper_anchor", said(&section.d_ring, ring_m))];
     }
     let buckle =
         NodeSection { pretensioner: section.pretensioner.clone(), ..placed("buckle", said(&section.buckle, BUCKLE_M)) };
@@ -110,6 +116,15 @@ pub(super) fn nodes(
     }
     nodes.push(placed("sill", said(&section.anchor, SILL_M)));
     nodes
+}
+
+/// How far the ring's height adjuster is moved up for a body, m: to where the ring stands above the shoulder as it does for a man of
+/// medium size.
+fn adjusted_m(body: &Body) -> f64 {
+    let trunk = body.tree.segments().filter(|segment| body.tree.is_trunk(*segment));
+    let trunk_m: f64 = trunk.map(|segment| body.segment(segment).length_m).sum();
+    let [down, up] = ADJUSTS_M;
+    (NOTCH_M * ((trunk_m - TRUNK_M) / NOTCH_M).round()).clamp(down, up)
 }
 
 /// Across the shoulder on the outboard side, from beside the neck over the collarbone to below the arm's root, in a plane that

@@ -7,12 +7,10 @@ use nalgebra::{Point3, Vector3};
 use super::builder::Builder;
 use super::nodes::WingSide;
 use occupant_core::body::{Body, Segment, Shares};
+pub(super) use occupant_core::forces::chain::wing::ACROSS;
+use occupant_core::forces::chain::wing::{ANGLES_RAD, DRAG_N_S_M};
 use occupant_core::forces::chain::{Next, Track, Wing};
 
-/// Friction of webbing across a wing.
-pub(super) const ACROSS: f64 = 0.25;
-/// Angles of the wing's ends and of where the webbing begins on it, above ahead, rad: the notch, below the spine, on the crest.
-const ANGLES_RAD: [f64; 3] = [0.0, 0.44, 1.13];
 /// How far a wing is from the middle, as a part of the sphere's radius.
 const BESIDE: f64 = 0.95;
 
@@ -37,7 +35,7 @@ pub(super) fn track(b: &mut Builder, path: &str, body: &Body, side: WingSide) ->
     let then = Some(abdomen(body, above, 0.5 * y, r));
     Some((
         sphere.segment.index(),
-        Track { points_m: ANGLES_RAD.map(point), friction: ACROSS, drag_n_s_m: 100.0, wing: Some(wing), then },
+        Track { points_m: ANGLES_RAD.map(point), friction: ACROSS, drag_n_s_m: DRAG_N_S_M, wing: Some(wing), then },
     ))
 }
 

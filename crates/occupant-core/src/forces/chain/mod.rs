@@ -18,6 +18,7 @@ mod reel;
 mod results;
 mod site;
 mod tension;
+pub mod wing;
 
 use crate::body::Body;
 use crate::forces::belt::STRETCH;

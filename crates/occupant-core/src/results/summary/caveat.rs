@@ -259,6 +259,21 @@ impl Caveat {
         Some(Caveat::new(format!("submarining_{side}"), text, figures))
     }
 
+    /// Belts round the sphere of a pelvis whose pull would have drawn them off its wings at a time, s.
+    pub(super) fn would_submarine(body: &Body, sphere: usize, belts: &str, own: Vec<String>, time_s: f64) -> Self {
+        let part = &body.spheres[sphere];
+        let text = format!(
+            "the pull of {belts} on {} would have drawn it up over the crests of the iliac wings by {:.1} ms: submarining, which a belt round a sphere \
+             cannot show; the wings' place is a guess; {}",
+            part.name,
+            1e3 * time_s,
+            not_to_be_quoted("the belt's, pelvis and chest")
+        );
+        let chest = body.tree.landmarks_at(part.segment).chest;
+        let spoiled = [Some(part.segment), chest].into_iter().flatten().flat_map(|segment| figures_of(body, segment));
+        Caveat::new(format!("submarining_{}", word(&part.name)), text, own.into_iter().chain(spoiled).collect())
+    }
+
     /// A plate that was pressed in farther than any test did.
     pub(super) fn pressed(plate: &str, most: Peak, known: Known) -> Self {
         let seen = match known {

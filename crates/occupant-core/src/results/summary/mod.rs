@@ -14,6 +14,7 @@ mod peak;
 mod person;
 mod searle;
 mod signs;
+mod slide;
 mod strokes;
 mod summarizer;
 mod throw;

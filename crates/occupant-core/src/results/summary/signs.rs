@@ -3,6 +3,7 @@
 use super::caveat::{Caveat, Turned};
 use super::elements::Elements;
 use super::peak::Peak;
+use super::slide::Slides;
 use super::strokes::Strokes;
 use crate::body::{Body, Segment};
 use crate::forces::bag::Bag;
@@ -59,6 +60,7 @@ pub(super) struct Signs {
     /// By bag and by its spheres: when the sphere first touched what stands behind the bag, s, and what that was.
     behind: Vec<Vec<Option<(f64, usize)>>>,
     strokes: Strokes,
+    slides: Slides,
     /// By segment: how far from its spheres it went through a surface.
     cuts: Vec<Sunk>,
     /// By pair: whether it had passed at the start, whether the sphere's limb went through it.
@@ -118,6 +120,7 @@ impl Signs {
             bags: model.setup().bags.iter().map(|bag| vec![[None; 2]; bag.spheres.len()]).collect(),
             behind: model.setup().bags.iter().map(|bag| vec![None; bag.spheres.len()]).collect(),
             strokes: Strokes::new(model),
+            slides: Slides::new(model.setup()),
             deep: spheres,
             cuts: vec![Sunk::NONE; body.tree.segments().len()],
             begun: vec![[false; 2]; model.system().forces.contacts.pairs.len()],
@@ -148,6 +151,7 @@ impl Signs {
         self.see_chains(sample);
         self.see_bags(sample);
         self.strokes.see(sample);
+        self.slides.see(sample);
         if !self.is_begun || time_s - self.seen_s >= LOOK_S {
             for group in &model.system().forces.contacts.groups {
                 self.see_group(sample, group);
@@ -311,6 +315,7 @@ impl Signs {
             .chain(self.of_chains(body, chains))
             .chain(self.of_bags(body, surfaces, bags))
             .chain(self.strokes.caveats())
+            .chain(self.slides.caveats(body))
             .collect()
     }
 

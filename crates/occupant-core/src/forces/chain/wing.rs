@@ -1,0 +1,74 @@
+//! The iliac wings of a pelvis: where webbing lies on them, and how it slides up on them.
+//!
+//! All numbers are guesses: no drawing of a pelvis was at hand.
+
+/// Friction of webbing across a wing.
+pub const ACROSS: f64 = 0.25;
+/// Drag of webbing across a wing, N·s/m.
+pub const DRAG_N_S_M: f64 = 100.0;
+/// Webbing that pulls with less stays where it lies, N: a lighter pull is that of a drive, not of a crash. Ours.
+const LEAST_N: f64 = 1000.0;
+/// Angles of the wing's ends and of where the webbing begins on it, above ahead, rad: the notch, below the spine, on the crest.
+pub const ANGLES_RAD: [f64; 3] = [0.0, 0.44, 1.13];
+
+/// Tangent of the angle of a strap's pull against a wing's normal at an angle above ahead, positive towards the abdomen. The belt pulls back
+/// and `below_rad` down, seen by the pelvis, and across from wing to wing with the same tension.
+pub fn across(angle_rad: f64, below_rad: f64) -> f64 {
+    let (sine, cosine) = occupant_units::trig::sin_cos(angle_rad - below_rad);
+    sine / (cosine * cosine + 1.0).sqrt()
+}
+
+/// Where webbing lies that slides on the wings as a belt on a track does, all of whose pull is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slider {
+    /// Angle above ahead where it lies, rad.
+    angle_rad: f64,
+    is_off: bool,
+}
+
+impl Default for Slider {
+    fn default() -> Self {
+        Slider { angle_rad: ANGLES_RAD[1], is_off: false }
+    }
+}
+
+impl Slider {
+    /// Goes on by `time_s` under the belt's whole pull ahead and up, in axes of the pelvis, N, on wings of a radius, m. Whether it has come off.
+    pub fn go(&mut self, [ahead, up]: [f64; 2], radius_m: f64, time_s: f64) -> bool {
+        let force = ahead.hypot(up);
+        if force < LEAST_N {
+            return self.is_off;
+        }
+        let below_rad = occupant_units::trig::atan2(-up, -ahead);
+        let tangent = across(self.angle_rad, below_rad);
+        let (_, cosine) = occupant_units::trig::sin_cos(self.angle_rad - below_rad);
+        let held = 0.5 * force * (cosine * cosine + 1.0).sqrt();
+        let slips = (tangent.abs() - ACROSS).max(0.0) * held / DRAG_N_S_M;
+        // no farther at once than to where friction holds it
+        let most = (time_s * slips / radius_m).min((tangent.abs() - ACROSS).max(0.0));
+        self.angle_rad = (self.angle_rad + most.copysign(tangent)).max(ANGLES_RAD[0]);
+        self.is_off |= self.angle_rad > ANGLES_RAD[2] || (cosine < 0.0 && tangent > 0.0);
+        self.is_off
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn webbing_slides_off_beyond_the_cone_of_friction_alone() {
+        let mut slider = [Slider::default(); 5];
+        let pull = |below: f64| [-8e3 * below.cos(), -8e3 * below.sin()];
+        for _ in 0..100 {
+            assert!(!slider[0].go(pull(0.12), 0.1, 2e-3));
+            assert!(!slider[2].go([0.0, 0.0], 0.1, 2e-3));
+            // too light to be a crash, and straight down on the thighs
+            assert!(!slider[3].go([-900.0, 0.0], 0.1, 2e-3));
+            assert!(!slider[4].go([3e3, -8e3], 0.1, 2e-3));
+            slider[1].go(pull(0.0), 0.1, 2e-3);
+        }
+        assert_eq!([slider[0], slider[2]], [Slider::default(); 2]);
+        assert!(slider[1].is_off);
+    }
+}
