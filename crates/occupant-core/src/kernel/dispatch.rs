@@ -74,7 +74,7 @@ impl System<f64> {
         situation: Situation<'_, f64>,
         history: &mut History<f64>,
     ) -> (&'s Kinematics<f64>, &'s [Wrench<f64>; MOST_SEGMENTS]) {
-        self.derive_once(scratch, situation, history, &mut ());
+        self.bear_once(scratch, situation, history, &mut ());
         (&scratch.kinematics, &scratch.load.wrench)
     }
 
@@ -91,8 +91,7 @@ impl System<f64> {
         scratch.write_rate(&self.skeleton, situation.state, rate);
     }
 
-    /// [`System::derive`] in instructions that every processor has. It is inlined whole wherever it is called: outside the
-    /// steps of a run that is here alone.
+    /// [`System::derive`] in instructions that every processor has: outside the steps of a run that is here alone.
     #[inline(never)]
     fn derive_once(
         &self,
@@ -101,7 +100,20 @@ impl System<f64> {
         history: &mut History<f64>,
         observer: &mut dyn Observer<f64>,
     ) {
-        self.derive(scratch, situation, history, observer);
+        self.bear_once(scratch, situation, history, observer);
+        self.solve(scratch, situation);
+    }
+
+    /// [`System::bear`] in the same way. It is inlined whole wherever it is called.
+    #[inline(never)]
+    fn bear_once(
+        &self,
+        scratch: &mut Scratch<f64>,
+        situation: Situation<'_, f64>,
+        history: &mut History<f64>,
+        observer: &mut dyn Observer<f64>,
+    ) {
+        self.bear(scratch, situation, history, observer);
     }
 }
 

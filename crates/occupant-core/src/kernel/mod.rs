@@ -183,7 +183,20 @@ impl<S: Scalar> System<S> {
         history: &mut History<S>,
         observer: &mut (impl Observer<S> + ?Sized),
     ) {
-        let Scratch { kinematics: k, carried, load, sweep, frames: own } = scratch;
+        self.bear(scratch, situation, history, observer);
+        self.solve(scratch, situation);
+    }
+
+    /// Motion and loads.
+    #[inline(always)]
+    fn bear(
+        &self,
+        scratch: &mut Scratch<S>,
+        situation: Situation<'_, S>,
+        history: &mut History<S>,
+        observer: &mut (impl Observer<S> + ?Sized),
+    ) {
+        let Scratch { kinematics: k, carried, load, frames: own, .. } = scratch;
         let Situation { state, mut frames, accepted } = situation;
         if let Some(own) = own {
             **own = *frames;
@@ -197,13 +210,19 @@ impl<S: Scalar> System<S> {
         let at = Instant { k, state, frames, carried, spheres: &self.spheres, accepted };
         load.clear(self.skeleton.layout.len(), self.skeleton.slides.len());
         self.forces.apply(&at, history, observer, load); // Q_f + R (48), and F_s
+    }
+
+    /// Accelerations from motion and loads.
+    #[inline(always)]
+    fn solve(&self, scratch: &mut Scratch<S>, situation: Situation<'_, S>) {
+        let Scratch { kinematics: k, load, sweep, frames: own, .. } = scratch;
         // q̈ from q̇ and q (114)
         let mut drive = [S::zero(); MOST_SLIDES];
         for (i, drive) in drive[..k.sliding].iter_mut().enumerate() {
             *drive = k.slides[i].axis.dot(load.rides[i]) - load.resist[i];
         }
-        let motion = Some((frames, &mut load.power[..]));
-        sweep.solve(&self.skeleton, k, state.hinge_rate(), (&load.wrench, &drive), motion);
+        let motion = Some((own.as_deref().unwrap_or(situation.frames), &mut load.power[..]));
+        sweep.solve(&self.skeleton, k, situation.state.hinge_rate(), (&load.wrench, &drive), motion);
     }
 
     /// Moves the frames that columns carry, which stand among `frames` where their parents carry them.

@@ -2,7 +2,7 @@
 //! its joints too.
 //!
 //! Our decision (the report has none): joints locked, posture kept; the six freedoms of the rigid body are found by a
-//! damped Newton iteration on the resultant force and moment of contacts, belts and weight, every contact on its loading
+//! damped quasi-Newton iteration on the resultant force and moment of contacts, belts and weight, every contact on its loading
 //! curve, at rest relative to the vehicle. Directions that nothing resists are left alone; what friction holds stays. Where that
 //! finds no rest, since the feet do not reach the floor yet, say, the body goes down in potential energy until something carries it.
 
@@ -32,6 +32,8 @@ use placed_text::Problems;
 pub(super) const LEVER_M: f64 = 0.3;
 /// Iterations at most.
 const ITERATIONS: usize = 200;
+/// A step that leaves more than this part of the load has shown that the slopes are others.
+const POOR: f64 = 0.5;
 /// Elements that are looked at in search of rest, at most: about a second's work. What is left over then is told as ever.
 pub(super) const MOST_LOOKS: usize = 2_000_000;
 
@@ -159,36 +161,48 @@ pub(crate) fn settle(
 ) -> (State<f64>, Settled) {
     let weight_n = setup.body.mass_kg() * setup.gravity_m_s2;
     let mut body = Resting::new(setup, *data, system, vehicle);
-    let mut x = Vector6::zeros();
-    let mut r = body.load(&moved(&state, &x));
+    let r = body.load(&state);
     let free = not_held(&r, weight_n, vehicle);
-    r = free * r;
-    let (mut damping, mut slopes) = (1e-3, None);
-    for _ in 0..ITERATIONS {
-        if r.norm() < 1e-9 * weight_n.max(1.0) || body.looks > MOST_LOOKS {
-            break;
-        }
-        let mut residual = |x: &Vector6<f64>| free * body.load(&moved(&state, &(free * x)));
-        let j = *slopes.get_or_insert_with(|| jacobian(&x, &mut residual));
-        let normal = j.tr_mul(&j);
-        let gradient = j.tr_mul(&r);
-        let scale = normal.diagonal().max();
-        let damped = normal + Matrix6::from_diagonal_element(damping * scale + 1e-9);
-        let step = damped.lu().solve(&gradient).map(|s| limited(-s));
-        let Some(step) = step else { break };
-        let next = residual(&(x + step));
-        if next.norm() < r.norm() {
-            (x, r, damping, slopes) = (x + step, next, (damping * 0.3).max(1e-12), None);
-        } else if damping > 1e9 {
-            break;
-        } else {
-            damping *= 4.0;
-        }
-    }
+    let (x, r) = balanced(free * r, 1e-9 * weight_n.max(1.0), |x| {
+        let load = free * body.load(&moved(&state, &(free * x)));
+        (body.looks <= MOST_LOOKS).then_some(load)
+    });
     let (end, found) = (moved(&state, &x), settled(setup, &x, &r));
     let lower = || lowered(Locked { body, free }, &state, weight_n);
     let rests = r.amax() < REST * weight_n.max(1.0);
     if rests { None } else { lower() }.unwrap_or((end, found))
+}
+
+/// How far a damped Newton iteration comes from x = 0, where `load` is `r`, to where it is less than `enough`, N: there, and the
+/// load there; it ends where `load` gives none. Differences give the slopes where nothing is known of them, or what is known
+/// leads nowhere; else each step corrects them by what it found (Broyden 1965).
+fn balanced(
+    mut r: Vector6<f64>,
+    enough: f64,
+    mut load: impl FnMut(&Vector6<f64>) -> Option<Vector6<f64>>,
+) -> (Vector6<f64>, Vector6<f64>) {
+    let (mut x, mut damping, mut known, mut is_fresh) = (Vector6::zeros(), 1e-3, None, true);
+    for _ in 0..ITERATIONS {
+        if r.norm() < enough {
+            break;
+        }
+        is_fresh |= known.is_none();
+        let Some(j) = known.take().or_else(|| slopes(&x, &r, &mut load)) else { break };
+        let Some(step) = step(&j, &r, damping) else { break };
+        let Some(next) = load(&(x + step)) else { break };
+        let gain = next.norm() / r.norm();
+        if gain < 1.0 {
+            let corrected = j + (next - r - j * step) * step.transpose() / step.norm_squared();
+            (known, is_fresh) = ((gain < POOR).then_some(corrected), false);
+            (x, r, damping) = (x + step, next, (damping * 0.1).max(1e-12));
+        } else if is_fresh {
+            if damping > 1e9 {
+                break;
+            }
+            (known, damping) = (Some(j), damping * 4.0);
+        }
+    }
+    (x, r)
 }
 
 /// A body that goes down farther than this to its rest, m, or turns farther, rad, falls from its seat.
@@ -283,9 +297,13 @@ struct Resting<'s, 'd> {
 impl<'s, 'd> Resting<'s, 'd> {
     fn new(setup: &'s Setup, data: Data<'d>, system: &System<f64>, vehicle: &FrameMotion) -> Self {
         let still = standing(setup, vehicle);
+        let mut system = system.clone();
+        // what acts between segments moves no body whose joints are locked
+        (system.forces.joints, system.forces.limits) = Default::default();
+        system.forces.muscles.clear();
         let history = History::new(&system.forces, Memory::none());
-        let (k, scratch) = (Box::new(Kinematics::blank()), Box::new(Scratch::blank(system)));
-        Resting { setup, data, system: system.clone(), still, history, k, scratch, looks: 0 }
+        let (k, scratch) = (Box::new(Kinematics::blank()), Box::new(Scratch::blank(&system)));
+        Resting { setup, data, system, still, history, k, scratch, looks: 0 }
     }
 
     /// Resultant force (N) and moment about T1 over the lever (N) of contacts, belts and weight, by which belts are laid.
@@ -386,15 +404,25 @@ fn turning(
     }
 }
 
-/// Central differences over a hundredth of a millimetre to either side (or the like in rotation).
-fn jacobian(x: &Vector6<f64>, residual: &mut impl FnMut(&Vector6<f64>) -> Vector6<f64>) -> Matrix6<f64> {
-    let h = 1e-5;
+/// −(JᵀJ + λ1)⁻¹Jᵀr, shortened where it is too long.
+fn step(j: &Matrix6<f64>, r: &Vector6<f64>, damping: f64) -> Option<Vector6<f64>> {
+    let normal = j.tr_mul(j);
+    let shift = Matrix6::from_diagonal_element(damping * normal.diagonal().max() + 1e-9);
+    (normal + shift).lu().solve(&j.tr_mul(r)).map(|s| limited(-s))
+}
+
+/// Differences over a thousandth of a millimetre (or the like in rotation) from x, where the load is `r`.
+fn slopes(
+    x: &Vector6<f64>,
+    r: &Vector6<f64>,
+    load: &mut impl FnMut(&Vector6<f64>) -> Option<Vector6<f64>>,
+) -> Option<Matrix6<f64>> {
+    let h = 1e-6;
     let mut j = Matrix6::zeros();
     for i in 0..6 {
-        let (mut up, mut down) = (*x, *x);
-        up[i] += h;
-        down[i] -= h;
-        j.set_column(i, &((residual(&up) - residual(&down)) / (2.0 * h)));
+        let mut beside = *x;
+        beside[i] += h;
+        j.set_column(i, &((load(&beside)? - r) / h));
     }
-    j
+    Some(j)
 }

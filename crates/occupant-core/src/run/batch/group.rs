@@ -174,7 +174,7 @@ impl<L: Machine> Group<L> {
     fn fetch_start(&mut self, i: usize, run: &mut Course) {
         if let Some(rear) = self.bench.as_mut().and_then(|bench| bench.rear.as_mut()) {
             let Start { state, memory } = &mut *rear.latest;
-            run.state = state.zip(&run.state, |lanes, _| lanes.lane(i));
+            run.state.each(state, |x, lanes| *x = lanes.lane(i));
             memory.each(&mut run.history.memory, &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i));
             run.history.look_again();
         }
@@ -186,7 +186,7 @@ impl<L: Machine> Group<L> {
         if let (Some(lanes), Some(rear)) = (lanes, &mut run.rear) {
             let Start { state, memory } = &mut *lanes.latest;
             rear.step = Some(step);
-            rear.state = state.zip(&rear.state, |lanes, _| lanes.lane(i));
+            rear.state.each(state, |x, lanes| *x = lanes.lane(i));
             memory.each(&mut rear.history.memory, &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i));
             rear.history.look_again();
         }
@@ -227,7 +227,7 @@ impl<L: Machine> Group<L> {
         if let Some(bench) = &mut self.bench {
             let put = &mut |lanes: &mut L, x: &mut f64| lanes.set_lane(i, *x);
             bench.history.memory.each(&mut place.run.history.memory, put);
-            bench.state = bench.state.zip(&place.run.state, |lanes, x| lanes.with_lane(i, x));
+            bench.state.each(&place.run.state, |lanes, x| lanes.set_lane(i, x));
         }
         match next {
             Next::GoesOn => {
@@ -251,17 +251,23 @@ impl<L: Machine> Group<L> {
 
     /// The state of `run`, which is in place `i`.
     fn lane_state(&self, i: usize, run: &Course) -> State<f64> {
-        let bench = self.bench.as_ref();
-        bench.map_or(run.state, |bench| bench.state.zip(&run.state, |lanes, _| lanes.lane(i)))
+        let mut state = run.state;
+        if let Some(bench) = &self.bench {
+            state.each(&bench.state, |x, lanes| *x = lanes.lane(i));
+        }
+        state
     }
 
-    /// Brings the history of the run in place `i` up to date.
+    /// Brings the history of the run in place `i` up to date. What is far from touching stays left out where no contact has
+    /// begun or ended meanwhile.
     fn fetch_history(&mut self, i: usize, run: &mut Course) {
-        if let Some(bench) = &mut self.bench {
-            let fetch = &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i);
-            bench.history.memory.each(&mut run.history.memory, fetch);
+        let Some(bench) = &mut self.bench else { return };
+        let (lanes, own) = (&mut bench.history.memory, &mut run.history.memory);
+        let is_like = lanes.contacts.iter().zip(&own.contacts).all(|(lanes, own)| lanes.phase.lane(i) == own.phase);
+        lanes.each(own, &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i));
+        if !is_like {
+            run.history.look_again();
         }
-        run.history.look_again();
     }
 
     /// Finishes the only run left with the scalar kernel.
