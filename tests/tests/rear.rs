@@ -66,7 +66,7 @@ fn a_head_that_floats_meets_its_restraint_when_the_car_has_come_up() {
     // readings every 0.1 ms, of which the first beyond 1 N counts
     assert!((contact.value.unwrap() - due_s - 1e-4).abs() < 3e-4, "{contact:?} {due_s}");
     assert!(contact.to_s.unwrap() > contact.from_s.unwrap() + 0.04, "{contact:?}");
-    assert!(of(&all, "rebound_speed").value.unwrap() > 0.5 && of(&all, "nic").value.unwrap() > 1.0);
+    assert!(of(&all, "nic").value.unwrap() > 1.0);
 }
 
 #[test]
