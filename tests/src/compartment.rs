@@ -118,6 +118,7 @@ impl Compartment {
             bags: Vec::new(),
             own: Default::default(),
             columns: Vec::new(),
+            hinges: Vec::new(),
             joints: JointSystem::new(&system.joints, &skeleton, |_| f64::NAN),
             limits: Vec::new(),
             muscles: Vec::new(),

@@ -26,6 +26,8 @@ use placed_text::Problems;
 pub trait Element: Copy + Debug {
     /// Whether results speak of the kind only where a model has elements of it.
     const OPTIONAL: bool = false;
+    /// Sums of other kinds (places) that the elements add to as well.
+    const SHARES: &'static [usize] = &[];
     /// Energies that the elements hold, of which the first is their first place in the energy ledger.
     const STORED: &'static [StoredEnergy];
     /// The work sums that they add to.
@@ -291,8 +293,8 @@ pub struct Load<S> {
     pub wrench: [Wrench<S>; MOST_SEGMENTS],
     /// By body, W.
     pub power: [Work<S>; MOST_BODIES],
-    /// Forces of each body on the frames that give way, space axes, N.
-    pub(crate) onto: [[V3<S>; MOST_GIVING]; MOST_BODIES],
+    /// Forces of each body on the frames that give way, and their moments about the origin of space, space axes, N and N·m.
+    pub(crate) onto: [[Wrench<S>; MOST_GIVING]; MOST_BODIES],
     /// Behind the place there of each frame that gives way; 0 of others.
     giving: [u8; MOST_FRAMES],
     body_of: [u8; MOST_SEGMENTS],
@@ -320,7 +322,7 @@ impl<S: Scalar> Load<S> {
         }
         let (wrench, power) = ([Wrench::zero(); MOST_SEGMENTS], [Work::zero(); MOST_BODIES]);
         let (bodies, own) = (layout.trunks().len(), [S::zero(); MOST_OWN]);
-        let onto = [[V3::zero(); MOST_GIVING]; MOST_BODIES];
+        let onto = [[Wrench::zero(); MOST_GIVING]; MOST_BODIES];
         let (outer, knees) = ([V3::zero(); MOST_SEGMENTS], [V3::zero(); MOST_LEGS]);
         let (none, segments) = ([0; MOST_FRAMES], layout.len());
         let (rides, resist) = ([V3::zero(); MOST_SLIDES], [S::zero(); MOST_SLIDES]);
@@ -337,7 +339,7 @@ impl<S: Scalar> Load<S> {
     pub(crate) fn clear(&mut self, segments: usize, slides: usize) {
         self.wrench[..segments].fill(Wrench::zero());
         self.power[..self.bodies].fill(Work::zero());
-        self.onto[..self.bodies].fill([V3::zero(); MOST_GIVING]);
+        self.onto[..self.bodies].fill([Wrench::zero(); MOST_GIVING]);
         self.knees[..2 * self.bodies].fill(V3::zero());
         self.segments = segments;
         self.rides[..slides].fill(V3::zero());
@@ -378,13 +380,15 @@ impl<S: Scalar> Load<S> {
         self.bodies
     }
 
-    /// Notes that a frame feels the opposite of a force on a segment, in space axes, N, where it is `live`.
+    /// Notes that a frame feels the opposite of a force on a segment that acts at a point, and of a moment beside it, in space axes, N,
+    /// m and N·m, where it is `live`.
     #[inline(always)]
-    pub(crate) fn push(&mut self, frame: usize, segment: usize, force: V3<S>, live: S::Mask) {
+    pub(crate) fn push(&mut self, [frame, segment]: [usize; 2], force: V3<S>, at: V3<S>, twist: V3<S>, live: S::Mask) {
         let Some(place) = self.giving.get(frame).and_then(|behind| behind.checked_sub(1)) else { return };
         let body = self.body_of[segment] as usize % MOST_BODIES;
         let onto = &mut self.onto[body][place as usize % MOST_GIVING];
-        *onto = V3::select(live, *onto - force, *onto);
+        onto.force = V3::select(live, onto.force - force, onto.force);
+        onto.moment = V3::select(live, onto.moment - at.cross(force) - twist, onto.moment);
     }
 
     /// Books the power that the body of one segment gives to that of another, if they are two, where they are `live`, W.

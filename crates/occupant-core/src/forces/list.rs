@@ -3,7 +3,7 @@
 use super::bag::Bags;
 use super::belt::Belts;
 use super::chain::Chains;
-use super::column::Columns;
+use super::column::{Columns, Hinges};
 use super::contact::Contacts;
 use super::element::{Element, Hints, Instant, Load, Misfit, StoredEnergy, Unlike, WorkSum};
 use super::joint::JointMoments;
@@ -278,6 +278,7 @@ macro_rules! kinds {
                 $(if $Kind::STORED.iter().any(|own| is(own.quantity)) || $Kind::SUMS.iter().any(|own| is(own.quantity)) {
                     tells = !$Kind::OPTIONAL || $Kind::most_actions(&self.$kind) > 0;
                 })+
+                $(tells |= $Kind::SHARES.iter().any(|at| is(SUMS[*at].quantity)) && $Kind::most_actions(&self.$kind) > 0;)+
                 tells
             }
 
@@ -474,6 +475,7 @@ kinds! {
     bags: Bags,
     own: OwnForces,
     columns: Columns,
+    hinges: Hinges,
     joints: JointMoments,
     limits: JointLimits,
     muscles: Muscles,

@@ -13,7 +13,7 @@ use crate::motion::vector::{V3, v3};
 use nalgebra::Vector3;
 
 /// How many numbers a reading has.
-pub(crate) const READINGS: usize = 26 + CHEST_POINTS;
+pub(crate) const READINGS: usize = REAR + 3;
 /// Where the force of the neck stands in a reading, before its moment.
 pub(crate) const NECK: usize = 15;
 /// Where the femurs stand, right and left.
@@ -22,6 +22,9 @@ pub(crate) const FEMURS: usize = 21;
 pub(crate) const PLACE: usize = 23;
 /// Where deflections of the chest stand: of the breastbone, then of the points of [`POINTS`].
 pub(crate) const CHEST: usize = 26;
+/// Where what tests from behind read stands: acceleration of T1 ahead, speed ahead of the head and place ahead of the pelvis in the
+/// body's home.
+pub(crate) const REAR: usize = CHEST + CHEST_POINTS;
 /// How many they are.
 pub(crate) const CHEST_POINTS: usize = 1 + POINTS.len();
 /// Points of a chest beside the breastbone, as bodies name them.
@@ -39,6 +42,8 @@ pub(crate) struct Instruments<S> {
     /// Segments that carry the accelerometers of head, chest and pelvis.
     accelerometers: [Option<usize>; 3],
     neck: Option<Neck<S>>,
+    /// The segment that the chest carries towards the head, at whose joint T1 is, where there is one.
+    above_t1: Option<usize>,
     /// Right and left.
     legs: [Option<Leg>; 2],
     /// The head's sphere.
@@ -110,6 +115,9 @@ impl Instruments<f64> {
             head: tree[joint].distal.index(),
             condyles: condyles_m.map_or(V3::zero(), |place| V3::of(&place)),
         });
+        let all = marks.instruments().map(|segment| segment.map(Segment::index));
+        let carried = |n: &usize| layout.parent(*n);
+        let above_t1 = std::iter::successors(all[0], carried).find(|n| all[1].is_some() && layout.parent(*n) == all[1]);
         let leg = |(side, limb): (usize, Option<Limb>)| {
             let thigh = limb?.upper;
             let knees = tree.joints().map(|joint| &tree[joint]).filter(|row| row.proximal == thigh);
@@ -122,8 +130,9 @@ impl Instruments<f64> {
         let head = if row.name.is_empty() { "head".to_owned() } else { format!("{}.head", row.name) };
         let [right, left] = [(0, marks.legs.right), (1, marks.legs.left)].map(leg);
         Instruments {
-            accelerometers: marks.instruments().map(|segment| segment.map(Segment::index)),
+            accelerometers: all,
             neck,
+            above_t1,
             legs: [right, left],
             head: body.sphere(&head),
             home,
@@ -138,7 +147,8 @@ impl<S: Copy> Instruments<S> {
         let neck = self.neck.as_ref().map(|neck| (&neck.from, neck.head));
         self.accelerometers == other.accelerometers
             && neck == other.neck.as_ref().map(|neck| (&neck.from, neck.head))
-            && (&self.legs, self.head, self.home) == (&other.legs, other.head, other.home)
+            && (&self.legs, self.head, self.home, self.above_t1)
+                == (&other.legs, other.head, other.home, other.above_t1)
             && self.chest.iter().zip(&other.chest).all(|pair| match pair {
                 (Some(a), Some(b)) => a.is_like(b),
                 (a, b) => a.is_none() && b.is_none(),
@@ -155,6 +165,7 @@ impl<S: Copy> Instruments<S> {
         Instruments {
             accelerometers: self.accelerometers,
             neck: self.neck.as_ref().zip(other.neck.as_ref()).map(neck),
+            above_t1: self.above_t1,
             legs: self.legs.clone(),
             head: self.head,
             home: self.home,
@@ -207,6 +218,7 @@ impl<S: Scalar> Instruments<S> {
             let sum = point.plates().fold(S::zero(), |sum, (plate, share)| sum + share * k.slides[plate].way);
             reading[CHEST + i] = sum;
         }
+        self.read_rear(system, from, frames, &mut reading);
         for (i, leg) in self.legs.iter().enumerate() {
             let Some(Leg { thigh, knee, shanks }) = leg else { continue };
             let mut along = from.knees[*knee];
@@ -217,6 +229,27 @@ impl<S: Scalar> Instruments<S> {
             reading[FEMURS + i] = -along.dot(k.axes[*thigh].z);
         }
         reading
+    }
+}
+
+impl<S: Scalar> Instruments<S> {
+    /// What tests from behind read.
+    #[inline(always)]
+    fn read_rear(&self, system: &System<S>, from: &Carried<'_, S>, frames: &Frames<S>, reading: &mut Reading<S>) {
+        let (k, home, skeleton) = (from.k, &frames[self.home], &system.skeleton);
+        let [head, chest, pelvis] = self.accelerometers;
+        if let (Some(chest), Some(above)) = (chest, self.above_t1) {
+            let gravity = v3(S::zero(), S::zero(), skeleton.gravity);
+            let felt = from.accelerations.at(k, chest, k.joint[above] - k.joint[chest]) + gravity;
+            reading[REAR] = felt.dot(k.axes[chest].x);
+        }
+        if let Some(head) = head {
+            let place = k.cg(skeleton, head);
+            reading[REAR + 1] = (k.cg_velocity(skeleton, head) - home.velocity_at(place)).dot(home.axes.x);
+        }
+        if let Some(pelvis) = pelvis {
+            reading[REAR + 2] = (k.cg(skeleton, pelvis) - home.origin).dot(home.axes.x);
+        }
     }
 }
 

@@ -125,7 +125,7 @@ pub struct Scratch<S> {
     carried: Vec<Moving<S>>,
     load: Load<S>,
     sweep: Sweep<S>,
-    /// Where columns carry their frames; none where there are none.
+    /// Where columns and hinges carry their frames; none where there are none.
     frames: Option<Box<Frames<S>>>,
 }
 
@@ -133,13 +133,12 @@ impl<S: Scalar> Scratch<S> {
     /// Nothing written yet of a system like this.
     #[inline(always)]
     pub fn blank(system: &System<S>) -> Self {
-        let columns = &system.forces.columns;
         Scratch {
             kinematics: Kinematics::blank(),
             carried: vec![Moving::space(); system.carriers.len()],
-            load: Load::zero(&system.skeleton.layout, columns.iter().map(|column| column.frame)),
+            load: Load::zero(&system.skeleton.layout, system.forces.giving()),
             sweep: Sweep::blank(&system.skeleton),
-            frames: (!columns.is_empty()).then(|| Box::new(Frames::still(S::zero()))),
+            frames: system.forces.gives().then(|| Box::new(Frames::still(S::zero()))),
         }
     }
 
@@ -225,10 +224,11 @@ impl<S: Scalar> System<S> {
         sweep.solve(&self.skeleton, k, situation.state.hinge_rate(), (&load.wrench, &drive), motion);
     }
 
-    /// Moves the frames that columns carry, which stand among `frames` where their parents carry them.
+    /// Moves the frames that columns and hinges carry, which stand among `frames` where their parents carry them.
     #[inline(always)]
     pub(crate) fn carry(&self, state: &State<S>, frames: &mut Frames<S>) {
         column::carry(&self.forces.columns, state, frames);
+        column::carry(&self.forces.hinges, state, frames);
     }
 
     /// A sphere's centre seen from its segment's joint, in space, and its velocity; all in space axes.

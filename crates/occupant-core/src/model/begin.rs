@@ -76,9 +76,10 @@ pub(super) fn begin(
     rest.iter().for_each(|rest| rest.keep(forces));
     let own = forces.own();
     if own.len() > MOST_OWN {
-        let found = format!("plates, bags, columns, reflexes and own forces with {} numbers of a state", own.len());
+        let found =
+            format!("plates, bags, columns, hinges, reflexes and own forces with {} numbers of a state", own.len());
         let expected = format!(
-            "at most {MOST_OWN}: two for each plate, five for each bag, one more for each inflator, three for each column and each muscle with a reflex, one for each own force"
+            "at most {MOST_OWN}: two for each plate, five for each bag, one more for each inflator, three for each column, each hinge and each muscle with a reflex, one for each own force"
         );
         problems.error("bags", found, expected);
         return None;

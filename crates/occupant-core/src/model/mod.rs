@@ -251,9 +251,9 @@ impl Model {
     /// Motion of the vehicle at `t_s` within a step whose middle is `step_middle_s`.
     pub(crate) fn vehicle(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> FrameMotion {
         let path = &self.setup.path;
-        // only mounts and columns feel accelerations
+        // only mounts, columns and hinges feel accelerations
         let is_mounted = self.system.skeleton.roots.iter().any(|root| root.mount.is_some());
-        let is_felt = is_mounted || !self.system.forces.columns.is_empty();
+        let is_felt = is_mounted || self.system.forces.gives();
         let motion = if is_felt { VehiclePath::motion_within } else { VehiclePath::motion };
         motion(path, t_s, step_middle_s, cursor)
     }

@@ -294,7 +294,7 @@ pub struct Setup {
     pub chains: Vec<Chain>,
     /// Air bags.
     pub bags: Vec<Bag>,
-    /// Steering columns that give way, each of which carries one of `frames`.
+    /// Steering columns and hinges that give way, each of which carries one of `frames`.
     pub columns: Vec<Column>,
     /// What resists the deflections of the body's plates.
     pub bands: Vec<Band>,
@@ -442,6 +442,7 @@ impl Setup {
             bags: &self.bags,
             own: OwnData { forces: &self.own_forces, others: self.frames.len() },
             columns: ColumnData { columns: &self.columns, gravity_m_s2: self.gravity_m_s2 },
+            hinges: ColumnData { columns: &self.columns, gravity_m_s2: self.gravity_m_s2 },
             joints: &self.joints,
             limits: &self.joints,
             muscles: &self.joints,

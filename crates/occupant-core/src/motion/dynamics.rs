@@ -146,7 +146,7 @@ impl<S: Scalar> Accelerations<S> {
 
     /// Acceleration of what is fixed to segment `n` at `r` from its joint.
     #[inline(always)]
-    fn at(&self, k: &Kinematics<S>, n: usize, r: V3<S>) -> V3<S> {
+    pub(crate) fn at(&self, k: &Kinematics<S>, n: usize, r: V3<S>) -> V3<S> {
         let w = k.omega[n];
         self.joint[n] + self.alpha[n].cross(r) + w.cross(w.cross(r))
     }

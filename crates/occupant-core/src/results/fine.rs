@@ -4,17 +4,21 @@
 //! between. Numbers of steps have the precision of an `f32`, in a run as in its file; those of outputs alone, from which
 //! derivatives are made, are whole.
 
-use crate::kernel::instruments::{CHEST, CHEST_POINTS, PLACE, Reading};
+use crate::kernel::instruments::{CHEST, CHEST_POINTS, PLACE, REAR, Reading};
 use crate::model::Model;
 use crate::model::setup::Integrator;
+use crate::results::rear;
 use crate::results::sample::Sample;
 
 /// So often readings are taken unless a setup asks otherwise, s: as SAE J211 asks for CFC 1000.
 pub const READINGS_S: f64 = 1e-4;
 
 /// Numbers of the instruments of one body in a sample: those of a reading without the place of the head; behind them, where any
-/// body has a chest that gives way, its deflections.
+/// body has a chest that gives way, its deflections; behind them, of a blow from behind, [`REAR_SIGNALS`].
 pub(crate) const SIGNALS: usize = PLACE;
+
+/// Of T1, of the head restraint, of the head's speed and of the pelvis' place.
+pub(crate) const REAR_SIGNALS: usize = 4;
 
 /// The readings of a run since its last output.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -27,6 +31,8 @@ pub struct Fine {
     pub(crate) bodies: Vec<usize>,
     /// Numbers of each in a sample.
     each: usize,
+    /// How many of these are of a blow from behind.
+    pub(crate) rear: usize,
     /// Number of the next sample.
     pub(crate) next: usize,
     /// The step before: its time and readings.
@@ -47,7 +53,9 @@ impl Fine {
         let is_read =
             |of: usize, marks: &crate::body::Landmarks| of == 0 || marks.instruments().iter().any(Option::is_some);
         let bodies: Vec<usize> = bodies.filter(|(of, row)| is_read(*of, &row.landmarks)).map(|(of, _)| of).collect();
-        let each = if model.body().chests.is_empty() { SIGNALS } else { SIGNALS + CHEST_POINTS };
+        let rear = if rear::restraints(model).is_empty() { 0 } else { REAR_SIGNALS };
+        let chest = if model.body().chests.is_empty() { 0 } else { CHEST_POINTS };
+        let each = SIGNALS + chest + rear;
         let count = each * bodies.len();
         let time = &model.setup().time;
         let interval_s = interval_s(model);
@@ -58,6 +66,7 @@ impl Fine {
             interval_s,
             bodies,
             each,
+            rear,
             next: 0,
             before_s: f64::NAN,
             before: vec![f64::NAN; count],
@@ -78,12 +87,17 @@ impl Fine {
         self.next == 0
     }
 
-    /// Looks at the readings of a step, by body.
-    pub(crate) fn see(&mut self, time_s: f64, readings: &[Reading<f64>]) {
+    /// Looks at the readings of a step and at the forces of head restraints on heads, N, by body; the latest ones where none are told.
+    pub(crate) fn see(&mut self, time_s: f64, readings: &[Reading<f64>], held: &[f64]) {
         for (to, &of) in self.now.chunks_exact_mut(self.each.max(1)).zip(&self.bodies) {
-            let (own, chest) = to.split_at_mut(SIGNALS);
+            let (own, more) = to.split_at_mut(SIGNALS);
+            let (chest, rear) = more.split_at_mut(more.len() - self.rear);
             own.copy_from_slice(&readings[of][..SIGNALS]);
             chest.copy_from_slice(&readings[of][CHEST..][..chest.len()]);
+            if let [t1, force, speed, place] = rear {
+                [*t1, *speed, *place] = [readings[of][REAR], readings[of][REAR + 1], readings[of][REAR + 2]];
+                *force = held.get(of).copied().unwrap_or(*force);
+            }
         }
         if self.next == 0 {
             let is_of_outputs = self.is_of_outputs;
@@ -131,7 +145,13 @@ impl Fine {
             (self.interval_s, self.start_s) = (sample.model.setup().time.output_s, sample.time_s);
             self.is_of_outputs = true;
         }
-        self.see(sample.time_s, sample.readings);
+        let held = rear::held(sample);
+        self.see(sample.time_s, sample.readings, &held);
+    }
+
+    /// The part of a sample of one body that is of a blow from behind.
+    pub(crate) fn rear_of<'s>(&self, sample: &'s [f64]) -> &'s [f64] {
+        &sample[self.each - self.rear..]
     }
 
     /// Number and readings of the samples since the last output, of a body among those that are read.

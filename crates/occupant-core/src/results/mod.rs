@@ -9,6 +9,7 @@ pub mod fine;
 pub mod outcome;
 pub mod peaks;
 pub mod reaction;
+pub(crate) mod rear;
 pub mod recorder;
 pub mod sample;
 pub mod summary;

@@ -11,6 +11,7 @@ use crate::results::checkpoint::Checkpoint;
 use crate::results::fine::Fine;
 use crate::results::outcome::FirstTouch;
 use crate::results::peaks::{EXCURSIONS, FELT, Peaks};
+use crate::results::rear;
 use crate::results::sample::Switched;
 use crate::results::summary::Peak;
 use crate::run::bars::Bars;
@@ -106,6 +107,12 @@ struct Look {
     starts_m: Vec<[f64; 3]>,
     /// By part.
     sums: Vec<Sum>,
+    /// Surfaces that are head restraints in a blow from behind; by sphere, whose head it is of; by body, the force of a restraint on
+    /// its head, N.
+    restraints: Vec<usize>,
+    heads: Vec<Option<usize>>,
+    held: Vec<f64>,
+    holding: Vec<V3<f64>>,
 }
 
 /// What a part of the body feels at one instant.
@@ -154,7 +161,8 @@ impl Seen {
         }
         if !self.peaks.are_unknown() {
             self.look.at(model, time_s, (met, felt), phase, &mut self.peaks);
-            self.fine.see(time_s, &felt.readings);
+            self.look.hold(model, met);
+            self.fine.see(time_s, &felt.readings, &self.look.held);
             self.compare(model, time_s, met, felt);
         }
     }
@@ -212,11 +220,34 @@ impl Look {
         let body = model.body();
         let parts: Vec<&str> = body.parts().collect();
         let part_of = |part: &str| parts.iter().position(|of| *of == part).unwrap_or(0);
+        let bodies = model.system().instruments.len();
         let none = Sum { force_n: V3::zero(), hardest: Peak::NONE, surface: 0 };
         Look {
             part_of: body.spheres.iter().map(|sphere| part_of(&sphere.part)).collect(),
             starts_m: starts_m(model),
             sums: vec![none; parts.len()],
+            restraints: rear::restraints(model),
+            heads: rear::heads(model),
+            held: vec![0.0; bodies],
+            holding: vec![V3::zero(); bodies],
+        }
+    }
+
+    /// Adds up the forces of head restraints on heads.
+    fn hold(&mut self, model: &Model, met: &[Touching]) {
+        if self.restraints.is_empty() {
+            return;
+        }
+        self.holding.fill(V3::zero());
+        let contacts = &model.system().forces.contacts;
+        for Meeting { sphere, pair, part, force_n, .. } in met.iter().map(|one| one.meeting) {
+            let Some(of) = self.heads[sphere] else { continue };
+            if self.restraints.contains(&contacts.surface(pair, part)) {
+                self.holding[of] += force_n;
+            }
+        }
+        for (held, sum) in self.held.iter_mut().zip(&self.holding) {
+            *held = sum.norm_squared().sqrt();
         }
     }
 

@@ -1,4 +1,4 @@
-//! Steering columns among `[frames]`: the [`Column`]s they come to.
+//! Steering columns and hinges among `[frames]`: the [`Column`]s they come to.
 
 use nalgebra::{Point3, Vector3};
 
@@ -7,17 +7,19 @@ use super::builder::Builder;
 use super::frames::{FrameKind, FrameSection};
 use super::functions::{function, listed, points};
 use super::quantity::{Quantity, all_si, point};
-use occupant_core::forces::column::Column;
+use occupant_core::forces::column::{Column, Hinge};
 use occupant_core::forces::function::{Function, Shape};
 use occupant_core::model::setup::OtherFrame;
 use placed_text::with_key;
 
-/// What a column has and a panel has not.
-const OWN: [&str; 7] = ["axis", "mass", "stroke", "force", "shape", "beyond", "unload_slope"];
+/// What columns and hinges have and a panel has not; what a column has and a hinge has not; the other way round.
+const OWN: [&str; 4] = ["axis", "mass", "shape", "beyond"];
+const SLIDES: [&str; 3] = ["stroke", "force", "unload_slope"];
+const TURNS: [&str; 5] = ["centre", "inertia", "angle", "moment", "unload_stiffness"];
 
-/// All columns; `frames` are the frames besides space and the first vehicle.
+/// All columns and hinges; `frames` are the frames besides space and the first vehicle.
 pub(super) fn columns(b: &mut Builder, scenario: &Scenario, frames: &[OtherFrame]) -> Vec<Column> {
-    let all = scenario.frames.iter().filter(|(_, section)| section.is_column());
+    let all = scenario.frames.iter().filter(|(_, section)| section.gives());
     let known = all.filter_map(|(name, s)| Some((name, s, frames.iter().position(|frame| frame.name == *name)?)));
     known.collect::<Vec<_>>().into_iter().map(|(name, s, frame)| column(b, name, s, frame)).collect()
 }
@@ -25,45 +27,66 @@ pub(super) fn columns(b: &mut Builder, scenario: &Scenario, frames: &[OtherFrame
 fn column(b: &mut Builder, name: &str, s: &FrameSection, frame: usize) -> Column {
     let path = with_key("frames", name);
     let axis = s.axis.as_ref().map_or_else(Vector3::zeros, |axis| Vector3::from(all_si(axis)));
-    let curve = points(b, &path, ["stroke", "force"], listed(&s.stroke), listed(&s.force));
+    let turns = s.kind == Some(FrameKind::Hinge);
+    let curve = if turns {
+        points(b, &path, ["angle", "moment"], listed(&s.angle), listed(&s.moment))
+    } else {
+        points(b, &path, ["stroke", "force"], listed(&s.stroke), listed(&s.force))
+    };
     let shape: Shape = s.shape.unwrap_or_default();
+    let place = |place: &Option<_>| place.as_ref().map_or_else(Point3::origin, point);
+    let slope = s.unload_slope.as_ref().map(Quantity::si);
     Column {
         name: name.to_owned(),
         frame,
         axis,
         mass_kg: b.needed(&path, "mass", &s.mass),
-        hub_m: s.origin.as_ref().map_or_else(Point3::origin, point),
+        hub_m: place(if turns { &s.centre } else { &s.origin }),
         force: Function { shape, ..function(curve, &s.beyond, &None, &None, 1.0) },
-        unload_n_per_m: s.unload_slope.as_ref().map(Quantity::si),
+        unload_n_per_m: if turns { s.unload_stiffness.as_ref().map(Quantity::si) } else { slope },
+        hinge: turns.then(|| Hinge { at_m: place(&s.origin), inertia_kg_m2: b.needed(&path, "inertia", &s.inertia) }),
     }
 }
 
 impl FrameSection {
-    /// Whether it is a column.
-    pub(super) fn is_column(&self) -> bool {
-        self.kind == Some(FrameKind::Column)
+    /// Whether it goes where it is pushed.
+    pub(super) fn gives(&self) -> bool {
+        matches!(self.kind, Some(FrameKind::Column | FrameKind::Hinge))
     }
 
-    /// Reports keys of the other kind, and what the own lacks.
+    /// Reports keys of the other kinds, and what the own lacks.
     pub(super) fn check_keys(&self, b: &mut Builder, path: &str) {
-        if self.is_column() {
-            let (found, expected) =
-                ("a path of a column, which goes where it is pushed", "`kind = \"panel\"`, or no path");
-            b.refuse_keys(path, &["path"], |_| found.to_owned(), expected);
-            for (key, is_there) in [("axis", self.axis.is_some()), ("stroke", self.stroke.is_some())] {
-                if !is_there {
-                    b.error(
-                        path,
-                        format!("`{path}` has no key `{key}`"),
-                        "`axis`, `mass`, `stroke` and `force` of a column",
-                    );
-                }
-            }
-        } else {
-            b.refuse_keys(path, &OWN, |key| format!("`{key}` of a panel"), "`kind = \"column\"` beside it");
-            if self.path.is_none() {
-                b.error(path, format!("`{path}` has no key `path`"), "path = { kind = … }, or `kind = \"column\"`");
-            }
+        let (keys, others, expected): (&[(&str, bool)], _, _) = match self.kind {
+            Some(FrameKind::Column) => (
+                &[("axis", self.axis.is_some()), ("stroke", self.stroke.is_some())],
+                &TURNS[..],
+                "`axis`, `mass`, `stroke` and `force` of a column",
+            ),
+            Some(FrameKind::Hinge) => (
+                &[("axis", self.axis.is_some()), ("centre", self.centre.is_some()), ("angle", self.angle.is_some())],
+                &SLIDES[..],
+                "`origin`, `axis`, `mass`, `centre`, `inertia`, `angle` and `moment` of a hinge",
+            ),
+            _ => return self.check_panel(b, path),
+        };
+        let kind = if self.kind == Some(FrameKind::Hinge) { "hinge" } else { "column" };
+        let found = format!("a path of a {kind}, which goes where it is pushed");
+        b.refuse_keys(path, &["path"], |_| found.clone(), "`kind = \"panel\"`, or no path");
+        let other = if kind == "hinge" { "column" } else { "hinge" };
+        b.refuse_keys(path, others, |key| format!("`{key}` of a {kind}"), &format!("`kind = \"{other}\"` beside it"));
+        for (key, _) in keys.iter().filter(|(_, is_there)| !is_there) {
+            b.error(path, format!("`{path}` has no key `{key}`"), expected);
+        }
+    }
+
+    fn check_panel(&self, b: &mut Builder, path: &str) {
+        b.refuse_keys(path, &OWN, |key| format!("`{key}` of a panel"), "`kind = \"column\"` or \"hinge\" beside it");
+        for (keys, kind) in [(&SLIDES[..], "column"), (&TURNS[..], "hinge")] {
+            b.refuse_keys(path, keys, |key| format!("`{key}` of a panel"), &format!("`kind = \"{kind}\"` beside it"));
+        }
+        if self.path.is_none() {
+            let expected = "path = { kind = … }, or `kind = \"column\"` or \"hinge\"";
+            b.error(path, format!("`{path}` has no key `path`"), expected);
         }
     }
 }

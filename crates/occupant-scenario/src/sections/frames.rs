@@ -9,7 +9,7 @@ use super::drive;
 use super::path::{self, PathSection};
 use super::quantity::{NOT_NEGATIVE, POSITIVE, point, si_or};
 use super::solids::SolidSection;
-use super::{Force, Length, Mass, Ratio, Scenario, Stiffness};
+use super::{Angle, Force, Inertia, Length, Mass, Moment, Ratio, RotationalStiffness, Scenario, Stiffness};
 use occupant_core::forces::contact::surface::{Facing, Frame, Outline, Surface};
 use occupant_core::forces::function::{Beyond, Shape};
 use occupant_core::model::setup::OtherFrame;
@@ -36,34 +36,47 @@ pub(crate) struct GroundSection {
     pub(crate) below: Option<Length>,
 }
 
-/// A frame that moves within another: an intruding panel, or a steering column that gives way. Geometry on it is given in the axes
-/// of its parent, where it is before it moves.
+/// A frame that moves within another: an intruding panel, a steering column that gives way, or a hinge, such as the recliner of the back
+/// of a seat. Geometry on it is given in the axes of its parent, where it is before it moves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("x-together" = [["stroke", "force"]]))]
+#[schemars(extend("x-together" = [["stroke", "force"], ["angle", "moment"]]))]
 pub(crate) struct FrameSection {
-    /// A panel, which moves as `path` says, or a column, which goes along `axis` where bodies and bags push it; "panel" if absent.
+    /// A panel, which moves as `path` says, a column, which goes along `axis` where bodies and bags push it, or a hinge, which turns about
+    /// `axis`; "panel" if absent.
     pub(crate) kind: Option<FrameKind>,
     /// What it moves against: a vehicle, or a panel above it; "vehicle" if absent.
     pub(crate) parent: Option<String>,
-    /// The point of the parent about which a panel turns, or the middle of the mass that strokes; [0, 0, 0] if absent.
+    /// The point of the parent about which a panel or a hinge turns, or the middle of the mass that strokes; [0, 0, 0] if absent.
     pub(crate) origin: Option<[Length; 3]>,
     /// How a panel is moved from where its geometry is given, along the parent's axes.
     pub(crate) path: Option<PathSection>,
-    /// The way that a column gives, along the parent's axes; any length.
+    /// The way that a column gives, or the axis about which a hinge turns by the right hand, along the parent's axes; any length. The back of
+    /// a seat that faces forward leans back about [0, 1, 0].
     pub(crate) axis: Option<[Ratio; 3]>,
-    /// Mass of all that strokes with a column.
+    /// Mass of all that strokes with a column or turns with a hinge.
     pub(crate) mass: Option<Mass<POSITIVE>>,
     /// Strokes of a column, from 0 on.
     pub(crate) stroke: Option<Vec<Length<NOT_NEGATIVE>>>,
     /// Force at each that makes it give; may fall. A last interval in which it rises is the end of the stroke.
     pub(crate) force: Option<Vec<Force<NOT_NEGATIVE>>>,
-    /// What the force is between points; "lines" if absent.
+    /// The middle of the mass that turns with a hinge, along the parent's axes, before it turns.
+    pub(crate) centre: Option<[Length; 3]>,
+    /// Its moment of inertia about a parallel of `axis` through `centre`.
+    pub(crate) inertia: Option<Inertia<POSITIVE>>,
+    /// Angles of a hinge, from 0 on.
+    pub(crate) angle: Option<Vec<Angle<NOT_NEGATIVE>>>,
+    /// Moment at each that makes it turn; may fall. It yields the way of `axis` alone; the other way it is a spring. A last interval in which
+    /// it rises is the end of its way.
+    pub(crate) moment: Option<Vec<Moment<NOT_NEGATIVE>>>,
+    /// What the force or moment is between points; "lines" if absent.
     pub(crate) shape: Option<Shape>,
     /// What it is beyond the last; "extends" if absent.
     pub(crate) beyond: Option<Beyond>,
-    /// Unloads and loads again with this slope, no less than the greatest of the force, which it is if absent.
+    /// A column unloads and loads again with this slope, no less than the greatest of the force, which it is if absent.
     pub(crate) unload_slope: Option<Stiffness<POSITIVE>>,
+    /// The same of a hinge.
+    pub(crate) unload_stiffness: Option<RotationalStiffness<POSITIVE>>,
     /// Name of a column of the library, which gives all that is not said beside it.
     #[schemars(extend("enum" = ["column_1969"]))]
     pub(crate) library: Option<String>,
@@ -77,6 +90,8 @@ pub(crate) enum FrameKind {
     Panel,
     /// It goes where it is pushed, and stays there.
     Column,
+    /// It turns where it is pushed, and stays there.
+    Hinge,
 }
 
 /// Who meets a surface or solid.
@@ -206,7 +221,7 @@ pub(super) fn frames(b: &mut Builder, s: &Scenario, gravity_m_s2: f64) -> Vec<Ot
             b.error(&with_key(&at, "parent"), format!("`{name}` hangs on one that does not stand before it"), expected);
         }
         let origin_m = section.origin.as_ref().map_or_else(Point3::origin, point);
-        let own = section.path.as_ref().filter(|_| !section.is_column());
+        let own = section.path.as_ref().filter(|_| !section.gives());
         let path =
             own.map_or(Some(VehiclePath::parked()), |own| moving(b, &["frames", name, "path"], own, gravity_m_s2));
         list.extend(path.map(|path| OtherFrame { name: name.clone(), path, parent: Some((parent, origin_m)) }));

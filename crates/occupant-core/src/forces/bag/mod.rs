@@ -211,7 +211,7 @@ fn bear<S: Scalar>(law: &BagLaw<S>, at: &Instant<'_, S>, now: &Now<S>, load: &mu
         let power = load.power_at(site.segment);
         power.sums[WORK] += taken;
         power.vehicle += normal.dot(carried) + friction.dot(place);
-        load.push(law.envelope.frame, site.segment, normal + friction, S::truth(true));
+        load.push([law.envelope.frame, site.segment], normal + friction, centre, lever.cross(friction), S::truth(true));
         load.press(site, Use::Bag, normal + friction, S::truth(true));
         pushes.forces[i] = normal + friction;
     }

@@ -9,20 +9,35 @@ pub(super) fn data(column: &Column, problems: &mut Problems) {
     let at = |key: &str| format!("{path}.{key}");
     let size = column.axis.norm();
     if !(size > 0.0 && size.is_finite()) {
-        problems.error(at("axis"), "no direction", "the way that it gives: away from the driver");
+        problems.error(
+            at("axis"),
+            "no direction",
+            if column.turns() { "the axis that it turns about" } else { "the way that it gives: away from the driver" },
+        );
     }
     if column.hub_m.iter().any(|c| !c.is_finite()) {
-        problems.error(at("origin"), "not finite numbers", "the middle of the mass that strokes");
+        let key = if column.turns() { "centre" } else { "origin" };
+        problems.error(at(key), "not finite numbers", "the middle of the mass that moves");
     }
     problems.check_positive(&at("mass"), column.mass_kg, "kg");
-    let falls = "forces of at least 0";
-    column.force.check(&at("force"), Goes::Anywhere, falls, problems);
+    if let Some(hinge) = column.hinge {
+        problems.check_positive(&at("inertia"), hinge.inertia_kg_m2, "kg m^2");
+        if hinge.at_m.iter().any(|c| !c.is_finite()) {
+            problems.error(at("origin"), "not finite numbers", "a point of the axis");
+        }
+    }
+    let (law, slope_key, what, unit) = match column.hinge {
+        None => ("force", "unload_slope", "force", "N/m"),
+        Some(_) => ("moment", "unload_stiffness", "moment", "N·m/rad"),
+    };
+    column.force.check(&at(law), Goes::Anywhere, &format!("{what}s of at least 0"), problems);
     let (steepest, slope) = (column.force.steepest_loading(), column.stiffness_n_per_m());
     if !(slope > 0.0 && slope.is_finite()) {
-        problems.error(at("force"), "a force that never rises", "a first rise, to where the column yields");
+        let expected = format!("a first rise, to where the {} yields", if column.turns() { "hinge" } else { "column" });
+        problems.error(at(law), format!("a {what} that never rises"), expected);
     } else if slope < steepest * (1.0 - 1e-9) {
-        let found = format!("{} N/m, the force rises by {} N/m", number(slope), number(steepest));
-        let expected = "no less than the greatest slope of the force: unloading would make energy";
-        problems.error(at("unload_slope"), found, expected);
+        let found = format!("{} {unit}, the {what} rises by {} {unit}", number(slope), number(steepest));
+        let expected = format!("no less than the greatest slope of the {what}: unloading would make energy");
+        problems.error(at(slope_key), found, expected);
     }
 }

@@ -1,29 +1,41 @@
-//! A steering column that gives way, as data.
+//! A frame that gives way along an axis or about one, as data.
 
 use nalgebra::{Point3, Vector3};
 
 use crate::forces::function::Function;
 
-/// An energy-absorbing steering column: a frame that bodies and bags push along an axis against a force that does not come back.
+/// A frame that bodies and bags push against a force that does not come back: along an axis, as an energy-absorbing steering
+/// column, or about one against a moment, as the back of a seat on its recliner.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     /// Its name, that of the frame.
     pub name: String,
     /// The frame (index in [`Setup::frames`](crate::model::setup::Setup::frames)), whose own path stands still in its parent.
     pub frame: usize,
-    /// â, the way that it gives, along the parent's axes; any length.
+    /// â, the way that it gives or the axis about which it turns by the right hand, along the parent's axes; any length.
     pub axis: Vector3<f64>,
-    /// m_h, of all that strokes, kg.
+    /// m_h, of all that moves, kg.
     pub mass_kg: f64,
-    /// The middle of that mass before it strokes, the parent's axes, m.
+    /// The middle of that mass before it moves, the parent's axes, m.
     pub hub_m: Point3<f64>,
-    /// f over the stroke: where it yields. What it says of unloading does not count.
+    /// f over the stroke (N over m) or the angle (N·m over rad): where it yields. What it says of unloading does not count.
     pub force: Function,
-    /// K, slope of unloading, N/m; the greatest slope of f if none.
+    /// K, slope of unloading, N/m or N·m/rad; the greatest slope of f if none.
     pub unload_n_per_m: Option<f64>,
+    /// Where it turns, if it does not go along the axis.
+    pub hinge: Option<Hinge>,
 }
 
-/// The columns of a setup.
+/// What turns about an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hinge {
+    /// A point of the axis, the parent's axes, m.
+    pub at_m: Point3<f64>,
+    /// J, about a parallel of the axis through the middle of the mass, kg·m².
+    pub inertia_kg_m2: f64,
+}
+
+/// The columns and hinges of a setup.
 #[derive(Clone, Copy, Debug)]
 pub struct ColumnData<'a> {
     /// All of them.
@@ -32,13 +44,32 @@ pub struct ColumnData<'a> {
     pub gravity_m_s2: f64,
 }
 
+impl<'a> ColumnData<'a> {
+    /// Those that turn, or those that do not, each with its place among all.
+    pub(super) fn those(self, turn: bool) -> impl Iterator<Item = (usize, &'a Column)> {
+        self.columns.iter().enumerate().filter(move |(_, column)| column.turns() == turn)
+    }
+}
+
 impl Column {
-    /// K, N/m.
+    /// Whether it turns.
+    pub fn turns(&self) -> bool {
+        self.hinge.is_some()
+    }
+
+    /// m_h, kg, or m_h r² + J, kg·m²: what resists being accelerated.
+    pub(super) fn inertia(&self) -> f64 {
+        let Some(hinge) = self.hinge else { return self.mass_kg };
+        let arm = self.axis.normalize().cross(&(self.hub_m - hinge.at_m));
+        hinge.inertia_kg_m2 + self.mass_kg * arm.norm_squared()
+    }
+
+    /// K, N/m or N·m/rad.
     pub(super) fn stiffness_n_per_m(&self) -> f64 {
         self.unload_n_per_m.unwrap_or_else(|| self.force.steepest_loading())
     }
 
-    /// The stroke at which it ends: where a last interval that rises begins, else its last point, m.
+    /// The stroke at which it ends: where a last interval that rises begins, else its last point, m or rad.
     pub(super) fn end_m(&self) -> f64 {
         match self.force.points[..] {
             [.., from, to] if to[1] > from[1] && from[0] > 0.0 => from[0],

@@ -1,4 +1,4 @@
-//! How a column moves, and what holds it.
+//! How a column or a hinge moves, and what holds it.
 //!
 //! ```text
 //! m_h ẍ = Q·â − S(x) − m_h â·(a_P − g)
@@ -6,12 +6,20 @@
 //! ```
 //!
 //! Q is the force of bodies and bags on the frame, a_P the acceleration of the parent's axes where the hub is. S²/2K is stored,
-//! ∫f − f²/2K at x_m is lost.
+//! ∫f − f²/2K at x_m is lost. A hinge at h with its mass at r from there turns by θ for x, against a moment:
+//!
+//! ```text
+//! (m_h |â × r|² + J) θ̈ = M·â − S(θ) − m_h â·(r × (a_h − g + α × r + (ω × âθ̇) × r + ω' × (ω' × r))) − J â·α
+//! ```
+//!
+//! M is the moment about h of what pushes it, a_h, ω, α are those of the parent, ω' = ω + âθ̇. J is all the inertia that it has about
+//! its own middle [D]: of a vehicle that turns about another axis than â no other counts.
 
 use super::data::{Column, ColumnData};
 use super::past::ColumnPast;
 use crate::forces::element::Instant;
 use crate::forces::function::FunctionLaw;
+use crate::motion::dynamics::Wrench;
 use crate::motion::frame::{Frames, Moving, VEHICLE};
 use crate::motion::scalar::Scalar;
 use crate::motion::state::State;
@@ -24,6 +32,8 @@ const UNITS: [f64; 3] = [1.0, 100.0, 1000.0];
 /// Constants of a column.
 #[derive(Clone, Debug)]
 pub struct ColumnLaw<S> {
+    /// Its place among all that give way.
+    pub(super) place: usize,
     /// Where its numbers stand among those that force elements own.
     first: usize,
     /// Its frame among those of an instant.
@@ -32,12 +42,24 @@ pub struct ColumnLaw<S> {
     axis: V3<S>,
     hub: V3<S>,
     mass: S,
+    /// What resists being accelerated: m_h, or m_h |â × r|² + J.
+    inertia: S,
+    turns: Option<Turns<S>>,
     gravity: S,
     force: FunctionLaw<S>,
     /// K.
     pub(super) stiffness: S,
     /// The stroke at which it ends.
     end: S,
+}
+
+/// What a hinge has besides.
+#[derive(Clone, Copy, Debug)]
+struct Turns<S> {
+    /// A point of the axis, axes of the frame.
+    at: V3<S>,
+    /// J.
+    inertia: S,
 }
 
 /// What a column does at one instant.
@@ -57,13 +79,16 @@ pub(super) struct Now<S> {
 }
 
 impl ColumnLaw<f64> {
-    pub(super) fn new(column: &Column, data: &ColumnData<'_>) -> Self {
+    pub(super) fn new((place, column): (usize, &Column), data: &ColumnData<'_>) -> Self {
         ColumnLaw {
+            place,
             first: 0,
             frame: VEHICLE + 1 + column.frame,
             axis: V3::of(&column.axis.normalize()),
             hub: V3::of(&column.hub_m.coords),
             mass: column.mass_kg,
+            inertia: column.inertia(),
+            turns: column.hinge.map(|hinge| Turns { at: V3::of(&hinge.at_m.coords), inertia: hinge.inertia_kg_m2 }),
             gravity: data.gravity_m_s2,
             force: FunctionLaw::new(&column.force),
             stiffness: column.stiffness_n_per_m(),
@@ -79,19 +104,29 @@ impl ColumnLaw<f64> {
 
     /// What ended a run, if it went beyond the end of its force.
     pub(super) fn overrun(&self, name: &str, past: &ColumnPast<f64>) -> Option<String> {
-        self.force.overrun(&format!("the stroke of {name}"), past.greatest, |x| format!("{:.1} mm", 1e3 * x))
+        let (of, shown): (_, fn(f64) -> String) = match self.turns {
+            None => ("stroke", |x| format!("{:.1} mm", 1e3 * x)),
+            Some(_) => ("turn", |x| format!("{:.1}°", x.to_degrees())),
+        };
+        self.force.overrun(&format!("the {of} of {name}"), past.greatest, shown)
     }
 }
 
 impl<S: Copy> ColumnLaw<S> {
     pub(super) fn zip<A: Copy, T>(&self, other: &ColumnLaw<A>, f: &impl Fn(S, A) -> T) -> Option<ColumnLaw<T>> {
-        let is_like = self.frame == other.frame && self.force.len() == other.force.len();
+        let is_like = self.frame == other.frame
+            && self.force.len() == other.force.len()
+            && self.turns.is_some() == other.turns.is_some();
+        let turns = |(a, b): (&Turns<S>, &Turns<A>)| Turns { at: a.at.zip(&b.at, f), inertia: f(a.inertia, b.inertia) };
         is_like.then(|| ColumnLaw {
+            place: self.place,
             first: self.first,
             frame: self.frame,
             axis: self.axis.zip(&other.axis, f),
             hub: self.hub.zip(&other.hub, f),
             mass: f(self.mass, other.mass),
+            inertia: f(self.inertia, other.inertia),
+            turns: self.turns.as_ref().zip(other.turns.as_ref()).map(turns),
             gravity: f(self.gravity, other.gravity),
             force: self.force.zip(&other.force, f),
             stiffness: f(self.stiffness, other.stiffness),
@@ -113,6 +148,14 @@ impl<S: Scalar> ColumnLaw<S> {
     #[inline(always)]
     pub(super) fn carry(&self, state: &State<S>, frames: &mut Frames<S>) {
         let Some([stroke, speed, _]) = self.moved(state) else { return };
+        if let Some(turns) = &self.turns {
+            let turned = rotation(self.axis, stroke);
+            let carried = frames[self.frame].carried(turns.at - turned.out(turns.at), &turned);
+            let spin = carried.axes.out(self.axis) * speed;
+            let velocity = carried.velocity - spin.cross(carried.axes.out(turns.at));
+            frames[self.frame] = Moving { velocity, omega: carried.omega + spin, ..carried };
+            return;
+        }
         let carried = frames[self.frame].carried(self.axis * stroke, &M3::identity());
         let velocity = carried.velocity + carried.axes.out(self.axis) * speed;
         frames[self.frame] = Moving { velocity, ..carried };
@@ -131,7 +174,7 @@ impl<S: Scalar> ColumnLaw<S> {
             own,
             force,
             set: greatest - top * give,
-            stored: half * (self.mass * speed * speed + force * force * give),
+            stored: half * (self.inertia * speed * speed + force * force * give),
             lost: kept + given - half * top * top * give,
             bottoms: S::select(greatest.lt(self.end), S::zero(), S::one()),
         }
@@ -143,10 +186,30 @@ impl<S: Scalar> ColumnLaw<S> {
         at.frames[self.frame].axes.out(self.axis)
     }
 
-    /// m_h â·(a_P − g), N.
+    /// Force of a body along â, N, or its moment about the axis, N·m.
     #[inline(always)]
-    pub(super) fn drag(&self, at: &Instant<'_, S>) -> S {
+    pub(super) fn along(&self, at: &Instant<'_, S>, onto: &Wrench<S>) -> S {
+        let (frame, axis) = (&at.frames[self.frame], self.axis(at));
+        match &self.turns {
+            None => axis.dot(onto.force),
+            Some(turns) => axis.dot(onto.moment - (frame.origin + frame.axes.out(turns.at)).cross(onto.force)),
+        }
+    }
+
+    /// m_h â·(a_P − g), N, or its moment about the axis, N·m; `speed` is ẋ.
+    #[inline(always)]
+    pub(super) fn drag(&self, at: &Instant<'_, S>, speed: S) -> S {
         let frame = &at.frames[self.frame];
+        if let Some(turns) = &self.turns {
+            let axis = self.axis(at);
+            let (lever, arm) = (frame.axes.out(turns.at), frame.axes.out(self.hub - turns.at));
+            let (spin, alpha) = (axis * speed, frame.alpha);
+            let parent = frame.omega - spin;
+            let mut felt = frame.acceleration + alpha.cross(lever) + parent.cross(parent.cross(lever));
+            felt += (alpha + parent.cross(spin)).cross(arm) + frame.omega.cross(frame.omega.cross(arm));
+            felt.z += self.gravity;
+            return axis.dot(arm.cross(felt)) * self.mass + axis.dot(alpha) * turns.inertia;
+        }
         let arm = frame.axes.out(self.hub);
         let mut felt = frame.acceleration + frame.alpha.cross(arm) + frame.omega.cross(frame.omega.cross(arm));
         felt.z += self.gravity;
@@ -157,9 +220,21 @@ impl<S: Scalar> ColumnLaw<S> {
     #[inline(always)]
     pub(super) fn flow(&self, now: &Now<S>, push: S, drag: S, rates: &mut [S]) {
         let speed = now.own[1];
-        let rate = [speed, (push - now.force - drag) / self.mass, (push - drag) * speed];
+        let rate = [speed, (push - now.force - drag) / self.inertia, (push - drag) * speed];
         for ((to, rate), unit) in rates[self.first..].iter_mut().zip(rate).zip(UNITS) {
             *to = rate * S::of(1.0 / unit);
         }
     }
+}
+
+/// The rotation by an angle about a unit axis: 1 + sin θ [â]× + (1 − cos θ) [â]×².
+#[inline(always)]
+fn rotation<S: Scalar>(axis: V3<S>, angle: S) -> M3<S> {
+    let (sin, cos) = angle.sin_cos();
+    let turned = |v: V3<S>| {
+        let across = axis.cross(v);
+        v + across * sin + axis.cross(across) * (S::one() - cos)
+    };
+    let M3 { x, y, z } = M3::identity();
+    M3 { x: turned(x), y: turned(y), z: turned(z) }
 }

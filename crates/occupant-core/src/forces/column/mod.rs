@@ -1,4 +1,4 @@
-//! Steering columns that give way: a frame with a mass, which bodies and bags push along an axis.
+//! Frames that give way: one with a mass, which bodies and bags push along an axis, a steering column, or about one, a hinge.
 //!
 //! The state owns place and speed of each (`law`), and the work that it takes up. A column carries its frame before anything
 //! acts on it; what pushes that frame is gathered by body (`Load::push`) and acts on the column after all others. What it
@@ -11,8 +11,8 @@ mod past;
 mod results;
 
 use crate::body::Body;
-use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkSum};
-use crate::forces::list::STORES;
+use crate::forces::element::{Element, Instant, Load, MOST_GIVING, StoredEnergy, Unlike, WorkSum};
+use crate::forces::list::{Forces, STORES};
 use crate::forces::rate::Rate;
 use crate::forces::sphere::Site;
 use crate::motion::frame::Frames;
@@ -20,7 +20,7 @@ use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::motion::state::State;
 use crate::quantity::Quantity;
-pub use data::{Column, ColumnData};
+pub use data::{Column, ColumnData, Hinge};
 pub use law::ColumnLaw;
 use occupant_units::unit::Unit;
 pub use past::ColumnPast;
@@ -32,20 +32,34 @@ const WORK: usize = 6;
 
 const OTHER_COLUMNS: Unlike = Unlike("the columns carry other frames or have other numbers of points of their force");
 
-/// The kind of force element: steering columns.
+/// A kind of force element: frames that give way along an axis, or about one.
 #[derive(Clone, Copy, Debug)]
-pub struct Columns;
+pub struct Giving<const TURNS: bool>;
+/// Steering columns.
+pub type Columns = Giving<false>;
+/// Hinges, as of the back of a seat.
+pub type Hinges = Giving<true>;
 
-impl Element for Columns {
-    const OPTIONAL: bool = true;
-    const STORED: &'static [StoredEnergy] = &[];
-    const SUMS: &'static [WorkSum] = &[WorkSum {
+impl<const TURNS: bool> Giving<TURNS> {
+    /// What columns and hinges take up is one sum, which stands among those of columns.
+    const WORK: &'static [WorkSum] = &[WorkSum {
         at: WORK,
         quantity: Quantity::number(Unit::Joule, |taken_j: &f64| *taken_j)
-            .channel("columns", "work taken up by columns")
-            .field(19, "columns", "work that columns took up since the start, of bodies and of their own weight"),
+            .channel("columns", "work taken up by columns and hinges")
+            .field(
+                19,
+                "columns",
+                "work that columns and hinges took up since the start, of bodies and of their own weight",
+            ),
     }];
-    const NAMES: [&'static str; 2] = ["column", "columns"];
+}
+
+impl<const TURNS: bool> Element for Giving<TURNS> {
+    const OPTIONAL: bool = true;
+    const SHARES: &'static [usize] = if TURNS { &[WORK] } else { &[] };
+    const STORED: &'static [StoredEnergy] = &[];
+    const SUMS: &'static [WorkSum] = if TURNS { &[] } else { Self::WORK };
+    const NAMES: [&'static str; 2] = if TURNS { ["hinge", "hinges"] } else { ["column", "columns"] };
 
     type Data<'a> = ColumnData<'a>;
     type Law<S> = Vec<ColumnLaw<S>>;
@@ -54,11 +68,11 @@ impl Element for Columns {
     type Action<S> = ColumnAction<S>;
 
     fn check(data: ColumnData<'_>, _body: &Body, problems: &mut Problems) {
-        data.columns.iter().for_each(|column| check::data(column, problems));
+        data.those(TURNS).for_each(|(_, column)| check::data(column, problems));
     }
 
     fn new(data: ColumnData<'_>, _body: &Body) -> Vec<ColumnLaw<f64>> {
-        data.columns.iter().map(|column| ColumnLaw::new(column, &data)).collect()
+        data.those(TURNS).map(|column| ColumnLaw::new(column, &data)).collect()
     }
 
     fn own(law: &mut Vec<ColumnLaw<f64>>, numbers: &mut Vec<f64>) {
@@ -97,8 +111,8 @@ impl Element for Columns {
     }
 
     fn failure(data: ColumnData<'_>, law: &Vec<ColumnLaw<f64>>, past: &[ColumnPast<f64>]) -> Option<String> {
-        let all = data.columns.iter().zip(law).zip(past);
-        all.into_iter().find_map(|((column, law), past)| law.overrun(&column.name, past))
+        let all = data.those(TURNS).zip(law).zip(past);
+        all.into_iter().find_map(|(((_, column), law), past)| law.overrun(&column.name, past))
     }
 
     fn confine(past: &mut ColumnPast<f64>) {
@@ -114,8 +128,8 @@ impl Element for Columns {
         load: &mut Load<S>,
         show: &mut impl FnMut(&ColumnAction<S>),
     ) {
-        for (i, (column, past)) in law.iter().zip(past).enumerate() {
-            act(column, i, at, past, load, show);
+        for (column, past) in law.iter().zip(past) {
+            act(column, at, past, load, show);
         }
     }
 
@@ -126,10 +140,10 @@ impl Element for Columns {
         _actions: &[ColumnAction<f64>],
         _mobility: &Mobility<'_>,
     ) -> Vec<Rate> {
-        let rate = |(column, law): (&Column, ColumnLaw<f64>)| {
-            Rate::of_spring(column.name.clone(), Self::NAMES[0].to_owned(), column.mass_kg, law.stiffness)
+        let rate = |((_, column), law): ((usize, &Column), ColumnLaw<f64>)| {
+            Rate::of_spring(column.name.clone(), Self::NAMES[0].to_owned(), column.inertia(), law.stiffness)
         };
-        data.columns.iter().zip(Self::new(data, body)).map(rate).collect()
+        data.those(TURNS).zip(Self::new(data, body)).map(rate).collect()
     }
 
     /// It stores nothing that the ledger of a body has, and so stands in no body's books.
@@ -140,18 +154,30 @@ impl Element for Columns {
     fn stored_j(_actions: &[ColumnAction<f64>], _stored_j: &mut [f64; STORES]) {}
 }
 
+impl<S> Forces<S> {
+    /// Whether any frame gives way.
+    pub(crate) fn gives(&self) -> bool {
+        !(self.columns.is_empty() && self.hinges.is_empty())
+    }
+
+    /// Frames that give way, in the order of their places.
+    pub(crate) fn giving(&self) -> impl Iterator<Item = usize> {
+        let all = || self.columns.iter().chain(&self.hinges);
+        (0..MOST_GIVING).filter_map(move |place| all().find(|one| one.place == place).map(|one| one.frame))
+    }
+}
+
 /// Moves the frames of columns, which stand among `frames` as their parents carry them, by their strokes.
 #[inline(always)]
 pub(crate) fn carry<S: Scalar>(law: &[ColumnLaw<S>], state: &State<S>, frames: &mut Frames<S>) {
     law.iter().for_each(|column| column.carry(state, frames));
 }
 
-/// What column `i` does. The work of a body along the stroke, which its books have as one of the frame, is the column's; what the
+/// What a column does. The work of a body along the stroke, which its books have as one of the frame, is the column's; what the
 /// motion of the parent does to the hub stands in the books of the first body, on both sides.
 #[inline(always)]
 fn act<S: Scalar>(
     law: &ColumnLaw<S>,
-    i: usize,
     at: &Instant<'_, S>,
     past: &mut ColumnPast<S>,
     load: &mut Load<S>,
@@ -163,11 +189,11 @@ fn act<S: Scalar>(
     if at.accepted {
         past.greatest = past.greatest.max(own[0]);
     }
-    let (now, axis, drag) = (law.now(own, past), law.axis(at), law.drag(at));
+    let (now, drag) = (law.now(own, past), law.drag(at, own[1]));
     let (speed, mut push) = (own[1], S::zero());
     let bodies = load.bodies();
     for (onto, power) in load.onto.iter().zip(&mut load.power).take(bodies) {
-        let along = axis.dot(onto[i]);
+        let along = law.along(at, &onto[law.place % MOST_GIVING]);
         push += along;
         power.sums[WORK] += along * speed;
         power.vehicle += along * speed;

@@ -1,10 +1,12 @@
 //! What a column contributes to results.
 
-use occupant_units::unit::Unit::{Joule, Metre, MetrePerSecond, Newton, One, Second};
+use occupant_units::unit::Unit::{
+    Joule, Metre, MetrePerSecond, Newton, NewtonMetre, One, Radian, RadianPerSecond, Second,
+};
 
 use super::law::Now;
 use super::past::ColumnPast;
-use super::{Column, Columns};
+use super::{Column, Giving};
 use crate::forces::element::Element;
 use crate::forces::shown::{Named, OneOf, Reported, Shown, Tracked, Tracker};
 use crate::forces::stored::Archive;
@@ -75,7 +77,7 @@ const LEAST_J: f64 = 1e-3;
 /// A stroke that stays and is more than rounding, m.
 const GIVEN_M: f64 = 1e-6;
 
-type Of = Quantity<OneOf<Columns>>;
+type Of<const TURNS: bool> = Quantity<OneOf<Giving<TURNS>>>;
 
 const fn peak(column: TableColumn) -> Tracked {
     Tracked { column, time: None, at_least_zero: true }
@@ -90,12 +92,9 @@ const fn scaled(scale: f64, column: TableColumn) -> TableColumn {
     TableColumn { scale, ..column }
 }
 
-impl Reported for Columns {
-    const MESSAGE: &'static str = "Column";
-    const TELLS: bool = true;
-
+impl<const TURNS: bool> Giving<TURNS> {
     #[rustfmt::skip]
-    const QUANTITIES: &'static [Of] = &[
+    const ALONG: &'static [Of<TURNS>] = &[
         Of::number(Metre, |c| c.stroke).channel("stroke", "stroke of the {}").field(2, "stroke", "way along its axis since the start"),
         Of::number(MetrePerSecond, |c| c.speed).channel("speed", "speed of stroke of the {}").field(3, "speed", "speed along its axis"),
         Of::number(Newton, |c| c.force).channel("force", "force that holds the {}").field(4, "force", "force that holds it, against the stroke"),
@@ -106,13 +105,42 @@ impl Reported for Columns {
     ];
 
     #[rustfmt::skip]
-    const PEAKS: &'static [Tracked] = &[
+    const ABOUT: &'static [Of<TURNS>] = &[
+        Of::number(Radian, |c| c.stroke).channel("angle", "turn of the {}").field(2, "angle", "turn about its axis since the start"),
+        Of::number(RadianPerSecond, |c| c.speed).channel("rate", "rate of turn of the {}").field(3, "rate", "rate of turn about its axis"),
+        Of::number(NewtonMetre, |c| c.force).channel("moment", "moment that holds the {}").field(4, "moment", "moment that holds it, against the turn"),
+        Of::number(NewtonMetre, |c| c.push).channel("push", "moment of bodies and bags on the {}").field(5, "push", "moments of bodies and bags on it, about its axis"),
+        Of::number(Joule, |c| c.taken).channel("work", "work taken up by the {}").field(6, "work", "work that it took up since the start"),
+        Of::number(Joule, |c| c.stored).channel("stored", "energy of the {}").field(7, "stored", "kinetic energy of its turn and what it would give back"),
+        Of::number(Joule, |c| c.lost).channel("lost", "energy lost in the {}").field(8, "lost", "what it does not give back"),
+    ];
+
+    #[rustfmt::skip]
+    const PEAKS_ALONG: &'static [Tracked] = &[
         timed(scaled(1e3, TableColumn::number("stroke_max_m", "stroke, mm", 1)).measure("stroke_max", Metre), "stroke_max_time_s", "stroke_max_time"),
         timed(scaled(1e-3, TableColumn::number("peak_n", "force, kN", 2)).measure("peak", Newton), "peak_time_s", "peak_time"),
         peak(TableColumn::number("energy_j", "work, J", 1).measure("energy", Joule)),
         timed(TableColumn::number("bottomed", "bottomed", 0), "bottomed_time_s", "bottomed_time"),
         peak(scaled(1e6, TableColumn::number("book_error", "book, 1e-6", 1)).measure("book_error", One)),
     ];
+
+    #[rustfmt::skip]
+    const PEAKS_ABOUT: &'static [Tracked] = &[
+        timed(scaled(DEGREES, TableColumn::number("angle_max_rad", "turn, °", 1)).measure("angle_max", Radian), "angle_max_time_s", "angle_max_time"),
+        timed(TableColumn::number("peak_n_m", "moment, N·m", 0).measure("peak", NewtonMetre), "peak_time_s", "peak_time"),
+        peak(TableColumn::number("energy_j", "work, J", 1).measure("energy", Joule)),
+        timed(TableColumn::number("bottomed", "bottomed", 0), "bottomed_time_s", "bottomed_time"),
+        peak(scaled(1e6, TableColumn::number("book_error", "book, 1e-6", 1)).measure("book_error", One)),
+    ];
+}
+
+const DEGREES: f64 = 180.0 / std::f64::consts::PI;
+
+impl<const TURNS: bool> Reported for Giving<TURNS> {
+    const MESSAGE: &'static str = if TURNS { "Hinge" } else { "Column" };
+    const TELLS: bool = true;
+    const QUANTITIES: &'static [Of<TURNS>] = if TURNS { Self::ABOUT } else { Self::ALONG };
+    const PEAKS: &'static [Tracked] = if TURNS { Self::PEAKS_ABOUT } else { Self::PEAKS_ALONG };
 
     #[inline(always)]
     fn track<S: Scalar>(c: &ColumnAction<S>, tracker: &mut impl Tracker<S>) {
@@ -122,15 +150,18 @@ impl Reported for Columns {
     }
 
     fn keep(past: &mut Vec<ColumnPast<f64>>, like: Option<&[ColumnPast<f64>]>, file: &mut dyn Archive) {
-        let number = if like.is_some() { 59 } else { 58 };
-        let meaning = "what each column remembers: its greatest stroke, its book";
+        let (first, stem, meaning) = match TURNS {
+            false => (58, "columns", "what each column remembers: its greatest stroke, its book"),
+            true => (72, "hinges", "what each hinge remembers: its greatest turn, its book"),
+        };
+        let number = if like.is_some() { first + 1 } else { first };
         let mut list = Vec::new();
         for column in &*past {
             column.map(&mut |x| list.push(x));
         }
-        let list = file.numbers(FieldWords { number, stem: "columns", meaning }, list);
+        let list = file.numbers(FieldWords { number, stem, meaning }, list);
         if list.len() % ColumnPast::<f64>::SIZE != 0 {
-            return file.refuse("a list of columns with parts missing");
+            return file.refuse(&format!("a list of {stem} with parts missing"));
         }
         let column = |numbers: &[f64]| {
             let mut numbers = numbers.iter().copied();
@@ -140,24 +171,31 @@ impl Reported for Columns {
     }
 
     fn named<'a>(data: Self::Data<'a>) -> Vec<Named<'a>> {
-        data.columns.iter().map(|column| Named { name: &column.name, sphere: None }).collect()
+        data.those(TURNS).map(|(_, column)| Named { name: &column.name, sphere: None }).collect()
     }
 
     fn start_table(shown: &Shown<'_, Self>) -> Option<Table> {
-        if shown.data.columns.is_empty() {
+        if shown.data.those(TURNS).next().is_none() {
             return None;
         }
-        let columns = [
+        let slides = [
             TableColumn::number("mass_kg", "mass, kg", 2),
             scaled(1e-3, TableColumn::number("most_n", "force up to, kN", 2)),
             scaled(1e3, TableColumn::number("end_m", "ends at, mm", 0)),
             scaled(1e-6, TableColumn::number("unload_n_per_m", "unloads, kN/mm", 2)),
         ];
-        let row = |column: &Column| {
-            let numbers = [column.mass_kg, column.force.greatest_n(), column.end_m(), column.stiffness_n_per_m()];
+        let turns = [
+            TableColumn::number("inertia_kg_m2", "inertia, kg·m²", 2),
+            TableColumn::number("most_n_m", "moment up to, N·m", 0),
+            scaled(DEGREES, TableColumn::number("end_rad", "ends at, °", 0)),
+            scaled(1e-3 / DEGREES, TableColumn::number("unload_n_m_per_rad", "unloads, kN·m/°", 3)),
+        ];
+        let columns = if TURNS { turns } else { slides };
+        let row = |(_, column): (usize, &Column)| {
+            let numbers = [column.inertia(), column.force.greatest_n(), column.end_m(), column.stiffness_n_per_m()];
             (column.name.clone(), numbers.map(|number| Cell::Number(Some(number))).to_vec())
         };
-        Some(Table::new(Self::NAMES[0], &columns, shown.data.columns.iter().map(row)))
+        Some(Table::new(Self::NAMES[0], &columns, shown.data.those(TURNS).map(row)))
     }
 
     const BY_STEPS: &'static [&'static str] = &[BOTTOMS];

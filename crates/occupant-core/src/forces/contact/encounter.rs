@@ -181,7 +181,7 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         on.moment = V3::select(load.lanes, on.moment + moment, on.moment);
         let vehicle = &mut all.power_at(self.site.segment).vehicle;
         *vehicle = S::select(load.lanes, *vehicle + carrying, *vehicle);
-        all.push(self.group.frame, self.site.segment, force, load.lanes);
+        all.push([self.group.frame, self.site.segment], force, self.centre, twist, load.lanes);
         all.press(self.site, self.group.by, force, load.lanes);
     }
 

@@ -128,7 +128,7 @@ pub struct Pushes<'s, 'l> {
 }
 
 impl Pushes<'_, '_> {
-    /// A force on a point, N. On a frame it moves nothing but a steering column that gives way; its work is the vehicle's.
+    /// A force on a point, N. On a frame it moves nothing but one that gives way; its work is the vehicle's.
     pub fn force(&mut self, on: &Place, force_n: Vector3<f64>) {
         let motion = self.scene.motion(on);
         let power_w = force_n.dot(&motion.velocity_m_s);
@@ -149,7 +149,8 @@ impl Pushes<'_, '_> {
                 let home = self.home.unwrap_or_default();
                 self.load.power_at(home).vehicle -= power_w;
                 if let Some(segment) = self.home.filter(|_| frame.segment().is_none()) {
-                    self.load.push(frame.index(&[]), segment, -force, true);
+                    let at = V3::of(&motion.place_m);
+                    self.load.push([frame.index(&[]), segment], -force, at, V3::zero(), true);
                 }
             }
             // of what there is not: the run ends with it

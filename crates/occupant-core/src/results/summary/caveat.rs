@@ -4,7 +4,7 @@ use crash_measures::injury::Measure;
 use crash_measures::measure::Dummy;
 use serde::Serialize;
 
-use super::strokes::Known;
+use super::strokes::{Beyond, Known};
 use super::{Ejection, Exit, Peak, RunStatus, Summary, Throw, word};
 use crate::body::{Body, Chest, Joint, Limb, Segment};
 use crate::forces::chain::{Chain, Site};
@@ -314,8 +314,14 @@ impl Caveat {
     }
 
     /// A column that stroked farther than its force is known.
-    pub(super) fn stroked(column: &str, beyond: Peak, last_m: f64) -> Self {
-        let (way, last) = (mm(last_m + beyond.value), mm(last_m));
+    pub(super) fn stroked(Beyond { name: column, turns }: &Beyond, beyond: Peak, last: f64) -> Self {
+        let shown = |x: f64| if *turns { format!("{:.1}°", x.to_degrees()) } else { mm(x) };
+        let (way, last) = (shown(last + beyond.value), shown(last));
+        if *turns {
+            let text =
+                format!("{column} turned {way} {}, its moment ends at {last}; {}", at(beyond), not_to_be_quoted("its"));
+            return Caveat::new(format!("{column}_beyond_turn"), text, vec![format!("hinges.{column}.*")]);
+        }
         let text =
             format!("{column} stroked {way} {}, its force ends at {last}; {}", at(beyond), not_to_be_quoted("its"));
         Caveat::new(format!("{column}_beyond_stroke"), text, vec![format!("columns.{column}.*")])

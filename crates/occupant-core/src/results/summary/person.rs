@@ -3,7 +3,7 @@
 use super::{Acceleration, Accelerations, Excursion, Level, Peak, Person};
 use crate::model::Model;
 use crate::model::setup::STANDARD_GRAVITY_M_S2;
-use crate::results::fine::{Fine, SIGNALS};
+use crate::results::fine::{Fine, REAR_SIGNALS, SIGNALS};
 use crate::results::peaks::{EXCURSIONS, FELT, Peaks};
 use crash_measures::injury::{self, ChestPoint, Options, Readings, Signals, Special};
 use crash_measures::measure::{Peak as Extreme, ThreeMs};
@@ -36,7 +36,7 @@ impl Watched {
                 mass_kg: own().map(|segment| body.segment(segment).mass_kg).sum(),
                 has_head: body.sphere(&head).is_some(),
                 has: row.landmarks.instruments().map(|segment| segment.is_some() && segment != told),
-                signals: begun(model, fine, row.name),
+                signals: begun(model, fine, row.name, row.landmarks.instruments().iter().all(Option::is_some)),
             }
         };
         fine.bodies.iter().map(watched).collect()
@@ -52,8 +52,11 @@ impl Watched {
                 let is_read = self.has.get(n / 3).is_none_or(|has| *has);
                 values.push(if is_read { *number } else { f64::NAN });
             }
-            for (values, number) in self.signals.special.values_mut().zip(&sample[SIGNALS..]) {
-                values.push(*number);
+            let rear = REAR.iter().copied().zip(fine.rear_of(sample));
+            for (which, number) in CHEST.into_iter().zip(&sample[SIGNALS..]).chain(rear) {
+                if let Some(values) = self.signals.special.get_mut(&which) {
+                    values.push(*number);
+                }
             }
         }
     }
@@ -108,8 +111,18 @@ impl Watched {
 /// Samples for which there is room from the start, 100 s at 10 kHz; a longer run takes more as it goes.
 const MOST_ROOM: usize = 1_000_000;
 
+/// Deflections of a chest in the order of a sample, and what a blow from behind adds.
+const CHEST: [Special; 5] = [
+    Special::ChestDeflection,
+    Special::ChestPoint(ChestPoint::ALL[0]),
+    Special::ChestPoint(ChestPoint::ALL[1]),
+    Special::ChestPoint(ChestPoint::ALL[2]),
+    Special::ChestPoint(ChestPoint::ALL[3]),
+];
+const REAR: [Special; REAR_SIGNALS] = [Special::T1, Special::HeadRestraint, Special::HeadSpeed, Special::PelvisPlace];
+
 /// Signals with room for a whole run.
-fn begun(model: &Model, fine: &Fine, name: &str) -> Signals {
+fn begun(model: &Model, fine: &Fine, name: &str, is_whole: bool) -> Signals {
     let mut signals = Signals { interval_s: fine.interval_s, ..Signals::new() };
     let room = Fine::most(model).max(model.output_count()).min(MOST_ROOM);
     signals.all_mut().for_each(|values| values.reserve(room));
@@ -119,6 +132,9 @@ fn begun(model: &Model, fine: &Fine, name: &str) -> Signals {
         signals.special.extend(all.map(|which| (which, Vec::with_capacity(room))));
         let is_dummy = chest.preset.starts_with("dummy");
         signals.person = (!is_dummy).then_some(injury::Person { chest_depth_m: chest.depth_m, age_years: None });
+    }
+    if fine.rear > 0 && is_whole {
+        signals.special.extend(REAR.map(|which| (which, Vec::with_capacity(room))));
     }
     signals
 }

@@ -186,7 +186,7 @@ impl Signs {
         for ((joint, most_rad), own) in self.limits.iter().zip(elements.of("joints", peaks)) {
             signs.joints[*joint].see_limit(own[0].value, *most_rad, own[0].time_s);
         }
-        signs.strokes.see_steps(elements.of("columns", peaks));
+        signs.strokes.see_steps(elements.of("columns", peaks).chain(elements.of("hinges", peaks)));
         signs.strokes.see_plates(elements.of("plates", peaks));
         signs
     }

@@ -3,14 +3,28 @@
 use super::caveat::Caveat;
 use super::peak::Peak;
 use crate::body::Plate;
+use crate::forces::column::Column;
 use crate::forces::plate::{Band, DEEP};
 use crate::model::Model;
 use crate::results::sample::Sample;
 
-/// By column: its name, the last point of its force, m, and the greatest stroke beyond it, m. By plate: its name, how far it is known,
+/// By column, then by hinge: which it is, the last point of its force, m or rad, and the greatest stroke beyond it. By plate: its name, how far it is known,
 /// and the greatest deflection, m.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Strokes(Vec<(String, f64, Peak)>, Vec<(String, Known, Peak)>);
+pub(super) struct Strokes(Vec<(Beyond, f64, Peak)>, Vec<(String, Known, Peak)>);
+
+/// A column or a hinge by its name.
+#[derive(Clone, Debug)]
+pub(super) struct Beyond {
+    pub(super) name: String,
+    pub(super) turns: bool,
+}
+
+impl Beyond {
+    fn of(column: &Column) -> Self {
+        Beyond { name: column.name.clone(), turns: column.turns() }
+    }
+}
 
 /// How far a plate is known.
 #[derive(Clone, Copy, Debug)]
@@ -38,16 +52,19 @@ impl Known {
 
 impl Strokes {
     pub(super) fn new(model: &Model) -> Self {
-        let columns = model.setup().columns.iter();
+        let columns = |turn: bool| model.setup().columns.iter().filter(move |column| column.turns() == turn);
         let plates = model.body().plates.iter().enumerate();
         let bands = &model.setup().bands;
         let plate = |(i, plate): (usize, &Plate)| (plate.name.clone(), Known::of(i, plate, bands), Peak::NONE);
-        let columns = columns.map(|column| (column.name.clone(), column.force.end(), Peak::NONE));
+        let columns = columns(false).chain(columns(true));
+        let columns = columns.map(|column| (Beyond::of(column), column.force.end(), Peak::NONE));
         Strokes(columns.collect(), plates.map(plate).collect())
     }
 
     pub(super) fn see(&mut self, sample: &Sample<'_>) {
-        for ((_, last_m, beyond), action) in self.0.iter_mut().zip(&sample.actions.columns) {
+        for ((_, last_m, beyond), action) in
+            self.0.iter_mut().zip(sample.actions.columns.iter().chain(&sample.actions.hinges))
+        {
             beyond.see(action.stroke - *last_m, sample.time_s);
         }
         for ((.., most), action) in self.1.iter_mut().zip(&sample.actions.plates) {
@@ -74,6 +91,6 @@ impl Strokes {
         let beyond = self.0.iter().filter(|(.., beyond)| beyond.value > 0.0);
         let deep = self.1.iter().filter(|(_, known, most)| most.value > known.most_m());
         let deep = deep.map(|(name, known, most)| Caveat::pressed(name, *most, *known));
-        beyond.map(|(name, last_m, beyond)| Caveat::stroked(name, *beyond, *last_m)).chain(deep)
+        beyond.map(|(of, last, beyond)| Caveat::stroked(of, *beyond, *last)).chain(deep)
     }
 }

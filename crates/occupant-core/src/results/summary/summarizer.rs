@@ -173,7 +173,7 @@ impl Summarizer {
         let mut fine = self.fine.clone();
         if self.are_of_steps {
             // up to the end of the run, which may lie within a step
-            fine.see(self.latest_s, &self.latest);
+            fine.see(self.latest_s, &self.latest, &[]);
         }
         let one = |(place, one): (usize, &Watched)| {
             let (person, signals) = one.person(place, &self.options, &fine, peaks, self.are_of_steps);
