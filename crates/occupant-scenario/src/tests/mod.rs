@@ -4,6 +4,7 @@ mod accuracy;
 mod bags;
 mod belts;
 mod bodies;
+mod car;
 mod carts;
 mod caveats;
 mod collide;

@@ -1,0 +1,101 @@
+//! Cars in words.
+
+use super::belts::changed;
+use super::{build, complaint};
+use occupant_core::model::setup::Setup;
+
+/// A scenario that says nothing but its car.
+fn of(car: &str) -> String {
+    format!(
+        "title = \"car\"\n[time]\nend = 0.1\n[path]\nkind = \"pulse\"\nshape = \"half_sine\"\nspeed = \"50 km/h\"\n\
+         delta_v = \"50 km/h\"\nduration = \"0.1 s\"\n[car]\n{car}\n"
+    )
+}
+
+fn solid<'s>(setup: &'s Setup, name: &str) -> &'s occupant_core::forces::contact::solid::Solid {
+    setup.solids.iter().find(|solid| solid.name == name).unwrap_or_else(|| panic!("no {name}"))
+}
+
+#[test]
+fn whoever_says_nothing_but_a_car_gets_a_driver_with_belt_and_bag() {
+    for class in ["small", "sedan", "suv", "van", "pickup"] {
+        let (model, said) = changed(&of(&format!("class = \"{class}\"")), &[]).unwrap();
+        assert!(said.is_empty(), "{class}: {said}");
+        let setup = model.setup();
+        assert_eq!(setup.body.segments.len(), 19);
+        assert_eq!((setup.bags.len(), setup.columns.len()), (1, 1));
+        assert_eq!(setup.body.plates.len(), 5, "{class}");
+    }
+    let sled = build(&of("class = \"sled\""));
+    assert!(sled.bags.is_empty() && sled.solids.iter().all(|solid| solid.name != "windscreen"));
+}
+
+#[test]
+fn a_wheel_stands_where_it_was_measured() {
+    let car = of("wheel = { ahead = \"36 cm\", above = \"38 cm\", angle = \"31 deg\", diameter = \"39 cm\" }\ndrive = \"right\"");
+    let setup = build(&car);
+    let text = format!("{:?}", solid(&setup, "wheel_rim"));
+    for number in ["0.36, 0.36, -0.38", "0.195"] {
+        assert!(text.contains(number), "{number} in {text}");
+    }
+}
+
+#[test]
+fn what_a_scenario_says_is_laid_over_the_car() {
+    let own = of("") + "[solids.wheel_rim]\nmaterial = \"padding\"\n[solids.console]\nkind = \"box\"\nmaterial = \"padding\"\n\
+                       centre = [0.2, 0, 0.1]\nlengths = [0.5, 0.2, 0.2]\n[materials.foam]\nk1 = \"9 kN/m\"\n";
+    let (setup, plain) = (build(&own), build(&of("")));
+    assert_eq!(setup.solids.len(), plain.solids.len() + 1);
+    let rim = |setup: &Setup| solid(setup, "wheel_rim").material;
+    assert_ne!(rim(&setup), rim(&plain));
+}
+
+#[test]
+fn a_number_set_afterwards_is_one_that_was_written() {
+    let draft = |text: &str| crate::Draft::read(text, crate::Format::Toml, "s.toml").unwrap();
+    let written = draft(&of("[car.seats.driver]\nrecline = 27\nlimiter = \"4.5 kN\""));
+    let mut set = draft(&of("")).prepared();
+    for change in ["car.seats.driver.recline=27", "car.seats.driver.limiter=4.5 kN"] {
+        set.set(change).unwrap();
+    }
+    let of = |draft: crate::Draft| format!("{:?}", draft.load(&super::no_files).unwrap().build().unwrap().0);
+    assert!(of(set) == of(written));
+}
+
+#[test]
+fn the_seat_of_a_tall_driver_stands_farther_back() {
+    let back = |body: &str| {
+        let setup = build(&(of("") + "[body]\n" + body + "\n[joints]\npreset = \"person\"\n"));
+        let text = format!("{:?}", solid(&setup, "driver_foam"));
+        (setup, text)
+    };
+    let (_, tall) = back("sex = \"male\"\nstature = \"1.88 m\"\nmass = \"90 kg\"");
+    let (_, short) = back("sex = \"female\"\nstature = \"1.52 m\"\nmass = \"50 kg\"");
+    assert_ne!(tall, short);
+}
+
+#[test]
+fn three_people_sit_in_a_van() {
+    let people = "class = \"van\"\n[occupants.driver]\n[occupants.passenger]\nbody = { preset = \"female05\" }\n[occupants.rear_left]\n\
+                  body = { preset = \"female50\" }";
+    let setup = build(&of(people));
+    assert_eq!(setup.bags.len(), 2);
+    assert_eq!(setup.body.tree.bodies().len(), 3);
+}
+
+#[test]
+fn what_is_wrong_with_a_car_is_said_at_its_place() {
+    for (car, expected) in [
+        ("class = \"saloon\"", "\"sedan\""),
+        ("[car.seats.drivr]\ntrack = 0", "did you mean `driver`?"),
+        ("[car.seats.driver]\nrecline = \"20 cm\"", "not the unit of an angle"),
+        ("[car.seats.driver]\nlimiter = -1", "out of range"),
+        ("[car.seats.driver]\nbelt = \"four_point\"", "\"three_point\""),
+        ("wheel = { ahed = 1 }", "did you mean `ahead`?"),
+        ("[solids.wheel_rim]\nmaterial = \"leather\"", "leather"),
+        ("[solids.wheel_rim]\nradiuss = 1", "did you mean `radius`?"),
+    ] {
+        let said = complaint(&of(car));
+        assert!(said.contains(expected), "{car}: {said}");
+    }
+}
