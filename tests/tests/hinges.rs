@@ -35,7 +35,7 @@ origin = [0.2, 0, 0.3]
 mass = 15
 centre = [0.2, 0, -0.1]
 inertia = 0.6
-angle = [0, 0.02, 1.5]
+angle = [0, "0.02 rad", "1.5 rad"]
 moment = ["0 N m", "1200 N m", "1200 N m"]
 
 [surfaces.plate]
@@ -85,7 +85,7 @@ fn figures(setup: Setup) -> impl Fn(&str) -> f64 {
 fn under_a_long_pulse_it_leans_as_far_as_work_says() {
     let pulse = "path={ kind = \"pulse\", shape = \"square\", speed = \"120 m/s\", direction = [-1, 0, 0], delta_v = \"120 m/s\", duration = \"600 ms\" }";
     let moment = "frames.back.moment=[\"0 N m\", \"1000 N m\", \"1000 N m\"]";
-    let set = [pulse, moment, "time.end=550 ms", "frames.back.angle=[0, 0.002, 2]"];
+    let set = [pulse, moment, "time.end=550 ms", "frames.back.angle=[0, \"0.002 rad\", \"2 rad\"]"];
     let of = figures(space("", &set));
     let (push, mut angle) = (15.0 * 200.0 * 0.4, 1.0_f64);
     for _ in 0..60 {
@@ -113,7 +113,8 @@ fn it_swings_as_a_spring_before_it_yields() {
 #[test]
 fn the_turning_of_its_vehicle_leans_it() {
     let turn = "path={ kind = \"table\", interpolation = \"spline\", columns = [\"t[s]\", \"yaw[rad]\"], rows = [[0, 0], [0.1, 1], [0.2, 2]] }";
-    let (values, _) = traced(space("", &[turn, "time.end=50 ms", "frames.back.angle=[0, 0.2, 1.5]"]), &[ANGLE]);
+    let (values, _) =
+        traced(space("", &[turn, "time.end=50 ms", "frames.back.angle=[0, \"0.2 rad\", \"1.5 rad\"]"]), &[ANGLE]);
     // by hand: x = 0.2 − 0.4 sin θ, z = −0.4 cos θ from the axis; θ̈ (m r²+J) = −m ω² x 0.4 cos θ − K θ
     let (mut angle, mut rate, h) = (0.0_f64, 0.0_f64, 1e-6);
     let felt = |t: f64| (-15.0 * 100.0 * (0.2 - 0.4 * t.sin()) * 0.4 * t.cos() - 6e3 * t) / INERTIA;
@@ -132,7 +133,7 @@ fn the_turning_of_its_vehicle_leans_it() {
 fn a_mass_that_stays_is_stopped_by_the_plateau() {
     let set = [
         "surfaces.plate.material=\"clay\"",
-        "frames.back.angle=[0, 0.0005, 1.5]",
+        "frames.back.angle=[0, \"0.0005 rad\", \"1.5 rad\"]",
         "time.end=60 ms",
         "integrator.step=2 us",
     ];

@@ -46,7 +46,7 @@ fn tables_take_no_more_than_80_columns() {
     let tables = [
         done(here, &["check", "case.toml"]),
         done(here, &["measures", "case.mcap"]),
-        done(here, &["channels", "head"]),
+        done(here, &["channels", "--of", "case.toml", "head"]),
         done(here, &["sweep", "study.toml", "-o", "out"]),
         done(here, &["study", "report", "out"]),
         run,

@@ -8,9 +8,15 @@ fn channels_are_found_by_words_of_their_names_and_meanings() {
     let channels = |words: &[&str]| answer(folder.path(), &[&["channels"], words].concat());
     let all = out(&channels(&[]));
     let has = |list: &str, name: &str| list.lines().any(|line| line.split_whitespace().next() == Some(name));
-    assert!(has(&all, "head.acceleration.{x,y,z,resultant}") && has(&all, "belt.lap.force"), "{all}");
-    let belts = out(&channels(&["Belt"]));
-    assert!(has(&belts, "belt.lap.force") && !has(&belts, "head.acceleration.{x,y,z,resultant}"), "{belts}");
+    assert!(
+        has(&all, "head.acceleration.{x,y,z,resultant}") && has(&all, "strap.driver.d_ring_shoulder.force"),
+        "{all}"
+    );
+    let belts = out(&channels(&["Strap"]));
+    assert!(
+        has(&belts, "strap.driver.d_ring_shoulder.force") && !has(&belts, "head.acceleration.{x,y,z,resultant}"),
+        "{belts}"
+    );
     assert!(belts.lines().count() < all.lines().count());
     // of a scenario, and the same of its results
     fs::write(folder.path().join("case.toml"), include_str!("../recording/short.toml")).expect("written");

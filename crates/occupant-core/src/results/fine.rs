@@ -87,16 +87,17 @@ impl Fine {
         self.next == 0
     }
 
-    /// Looks at the readings of a step and at the forces of head restraints on heads, N, by body; the latest ones where none are told.
+    /// Looks at the readings of a step and at the forces of head restraints on heads, N, by body; those of the step before where none are told.
     pub(crate) fn see(&mut self, time_s: f64, readings: &[Reading<f64>], held: &[f64]) {
-        for (to, &of) in self.now.chunks_exact_mut(self.each.max(1)).zip(&self.bodies) {
+        let before = self.before.chunks_exact(self.each.max(1));
+        for ((to, before), &of) in self.now.chunks_exact_mut(self.each.max(1)).zip(before).zip(&self.bodies) {
             let (own, more) = to.split_at_mut(SIGNALS);
             let (chest, rear) = more.split_at_mut(more.len() - self.rear);
             own.copy_from_slice(&readings[of][..SIGNALS]);
             chest.copy_from_slice(&readings[of][CHEST..][..chest.len()]);
             if let [t1, force, speed, place] = rear {
                 [*t1, *speed, *place] = [readings[of][REAR], readings[of][REAR + 1], readings[of][REAR + 2]];
-                *force = held.get(of).copied().unwrap_or(*force);
+                *force = held.get(of).copied().unwrap_or(before[self.each - self.rear + 1]);
             }
         }
         if self.next == 0 {

@@ -36,7 +36,38 @@ pub(super) fn check(document: &Document) -> Diagnostics {
             Problem::error(with_key("car.seats", name), format!("`{name}` is not a seat"), one_of(&names, '`'));
         problems.add(problem.with_hint(did_you_mean(name, &names, '`')), |problem| document.place(problem));
     }
+    bounded(document, document.root.get("car"), "car", &mut problems);
     problems
+}
+
+/// What numbers of a car lie between: its key, the least and the greatest in SI units, and how a message says them.
+#[rustfmt::skip]
+const BETWEEN: [(&str, f64, f64, &str); 24] = [
+    ("seat_height", 0.05, 0.8, "5 cm to 80 cm"), ("seat_offset", 0.05, 1.2, "5 cm to 1.2 m"), ("couple", 0.4, 2.0, "0.4 m to 2 m"),
+    ("shoulder_room", 0.8, 2.5, "0.8 m to 2.5 m"), ("roof", 0.5, 2.0, "0.5 m to 2 m"), ("ahead", 0.1, 1.5, "10 cm to 1.5 m"),
+    ("above", -1.0, 1.5, "-1 m to 1.5 m"), ("angle", 0.0, 1.4, "0 to 80 degrees"), ("diameter", 0.2, 0.6, "20 cm to 60 cm"),
+    ("column_force", 100.0, 1e6, "100 N to 1 MN"), ("column_stroke", 0.005, 0.5, "5 mm to 0.5 m"), ("bolster", 0.2, 1.5, "20 cm to 1.5 m"),
+    ("bolster_stiffness", 1e3, 1e7, "1 kN/m to 10 MN/m"), ("delay", 0.0, 1.0, "0 to 1 s"), ("vent", 0.01, 100.0, "0.01 to 100"),
+    ("track", -0.5, 0.5, "-0.5 m to 0.5 m"), ("height", -0.3, 0.3, "-0.3 m to 0.3 m"), ("recline", 0.0, 1.4, "0 to 80 degrees"),
+    ("y", -1.5, 1.5, "-1.5 m to 1.5 m"), ("foam", 0.01, 100.0, "0.01 to 100"), ("head_gap", 0.0, 0.5, "0 to 0.5 m"),
+    ("head_height", 0.3, 1.2, "0.3 m to 1.2 m"), ("limiter", 100.0, 1e6, "100 N to 1 MN"), ("film", 0.001, 0.4, "1 mm to 0.4 m"),
+];
+const OTHERS_M: [&str; 4] = ["slack", "pretensioner", "behind", "outboard"];
+
+/// Reports numbers that no car has.
+fn bounded(document: &Document, node: Option<&Node>, path: &str, problems: &mut Diagnostics) {
+    for (key, entry) in node.and_then(Node::as_table).into_iter().flatten() {
+        let path = with_key(path, key);
+        bounded(document, Some(&entry.node), &path, problems);
+        let other = (key.as_str(), -1.0, 1.0, "at most 1 m");
+        let known = BETWEEN.iter().find(|(known, ..)| known == key).copied();
+        let limits = known.or_else(|| OTHERS_M.contains(&key.as_str()).then_some(other));
+        let (Some((_, least, most, told)), Some(si)) = (limits, entry.node.si) else { continue };
+        if !(least..=most).contains(&si) {
+            let found = format!("`{key}` of {si} in SI units: no car has that");
+            problems.add(Problem::error(path, found, told), |problem| document.place(problem));
+        }
+    }
 }
 
 /// The scenario with its car written out; as it is where it has none, or one whose words are wrong.
@@ -89,6 +120,8 @@ struct Lacks {
     flesh: bool,
     /// Nothing else says how it begins.
     posture: bool,
+    /// Nothing says where its arms are.
+    arms: bool,
 }
 
 /// Seats by name: row, and side from -1 (left) over 0 to 1; of the front row 1 is the driver.
@@ -132,6 +165,7 @@ fn rider(own: &Node, prefix: &str, usual: &str) -> Option<Rider> {
         flesh: is_person
             && person.is_some()
             && !says(body, &["chest", "pelvis", "abdomen", "segments", "segment_count"]),
+        arms: !says(own.get("posture"), &["upper_arms", "elbows", "left_upper_arm", "right_upper_arm"]),
         posture: !says(Some(own), &["initial_state", "mount", "stance"]),
     };
     let stature_m = person.map_or(classes::MEAN_STATURE_M, |person| person.stature_m);

@@ -6,7 +6,7 @@ use crate::sections::{AnchorSection, CarBelt, CarClass, si_or};
 
 /// Belt places from the H-point: behind, outboard, above, m. Ours, of a usual car.
 const D_RING_M: [f64; 3] = [0.27, 0.27, 0.66];
-const BUCKLE_M: [f64; 3] = [0.10, -0.19, -0.06];
+const BUCKLE_M: [f64; 3] = [0.10, -0.19, -0.12];
 const ANCHOR_M: [f64; 3] = [0.16, 0.25, -0.22];
 /// The inner anchor of a lap belt.
 const INNER_ANCHOR_M: [f64; 3] = [0.16, -0.23, -0.22];
@@ -41,7 +41,7 @@ impl Car<'_> {
             let ahead = PASSENGER_HEELS_M.min(self.measures.heels);
             [seat.h[0] + ahead, self.measures.seat_height]
         };
-        let arms = if is_driver {
+        let arms = if is_driver && rider.lacks.arms {
             let [ahead, above] = self.measures.wheel;
             format!("hands = {}\n", list(&[ahead - HANDS_BEFORE_RIM_M, -above]))
         } else {

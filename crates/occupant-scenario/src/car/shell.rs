@@ -60,7 +60,15 @@ impl Car<'_> {
         let panel = [[a + 0.03, top + 0.03], [a, -0.18], [a + 0.45, -0.18], [a + 0.45, top + 0.08], [a + 0.10, top]];
         let (base, head) = ([a + 0.46, top + 0.10], [0.45, -self.measures.roof]);
         let screen = [base, head, [head[0] + 0.04, head[1] - 0.04], [base[0] + 0.04, base[1] - 0.04]];
-        prism("knee_bolster", "bolster", &bolster, sides, "rounding = \"0.02 m\"\n")
+        let stiffness = self.section.panel.bolster_stiffness.as_ref().map(|stiffness| stiffness.si());
+        let own = stiffness.map_or_else(String::new, |k| {
+            format!(
+                "[materials.knee_bolster]\nk1 = \"{k} N/m\"\ndelta_b = \"50 mm\"\nk2 = \"{} N/m\"\nmu1 = 0.2\nfriction = 0.4\n\n",
+                3.0 * k
+            )
+        });
+        let material = if stiffness.is_some() { "knee_bolster" } else { "bolster" };
+        own + &prism("knee_bolster", material, &bolster, sides, "rounding = \"0.02 m\"\n")
             + &prism("instrument_panel", "padding", &panel, sides, "rounding = \"0.03 m\"\n")
             + &prism("windscreen", "glass", &screen, [0.0, w - 0.02], "")
     }

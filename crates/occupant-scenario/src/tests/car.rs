@@ -32,7 +32,9 @@ fn whoever_says_nothing_but_a_car_gets_a_driver_with_belt_and_bag() {
 
 #[test]
 fn a_wheel_stands_where_it_was_measured() {
-    let car = of("wheel = { ahead = \"36 cm\", above = \"38 cm\", angle = \"31 deg\", diameter = \"39 cm\" }\ndrive = \"right\"");
+    let car = of(
+        "wheel = { ahead = \"36 cm\", above = \"38 cm\", angle = \"31 deg\", diameter = \"39 cm\" }\ndrive = \"right\"",
+    );
     let setup = build(&car);
     let text = format!("{:?}", solid(&setup, "wheel_rim"));
     for number in ["0.36, 0.36, -0.38", "0.195"] {
@@ -42,7 +44,8 @@ fn a_wheel_stands_where_it_was_measured() {
 
 #[test]
 fn what_a_scenario_says_is_laid_over_the_car() {
-    let own = of("") + "[solids.wheel_rim]\nmaterial = \"padding\"\n[solids.console]\nkind = \"box\"\nmaterial = \"padding\"\n\
+    let own = of("")
+        + "[solids.wheel_rim]\nmaterial = \"padding\"\n[solids.console]\nkind = \"box\"\nmaterial = \"padding\"\n\
                        centre = [0.2, 0, 0.1]\nlengths = [0.5, 0.2, 0.2]\n[materials.foam]\nk1 = \"9 kN/m\"\n";
     let (setup, plain) = (build(&own), build(&of("")));
     assert_eq!(setup.solids.len(), plain.solids.len() + 1);
@@ -75,6 +78,14 @@ fn the_seat_of_a_tall_driver_stands_farther_back() {
 }
 
 #[test]
+fn arms_that_are_said_are_not_put_on_the_wheel() {
+    let setup = build(&(of("") + "[posture]\nupper_arms = 30\nelbows = -60\n"));
+    assert!(format!("{:?}", setup.posture).contains("hands_m: None"));
+    let stiffer = build(&of("panel = { bolster_stiffness = \"70 kN/m\" }"));
+    assert_eq!(stiffer.materials.len(), build(&of("")).materials.len() + 1);
+}
+
+#[test]
 fn three_people_sit_in_a_van() {
     let people = "class = \"van\"\n[occupants.driver]\n[occupants.passenger]\nbody = { preset = \"female05\" }\n[occupants.rear_left]\n\
                   body = { preset = \"female50\" }";
@@ -92,6 +103,10 @@ fn what_is_wrong_with_a_car_is_said_at_its_place() {
         ("[car.seats.driver]\nlimiter = -1", "out of range"),
         ("[car.seats.driver]\nbelt = \"four_point\"", "\"three_point\""),
         ("wheel = { ahed = 1 }", "did you mean `ahead`?"),
+        ("[car.seats.driver]\ntrack = 10", "no car has that"),
+        ("[car.seats.driver]\nrecline = 120", "0 to 80 degrees"),
+        ("[car.seats.driver]\nd_ring = { behind = 3 }", "at most 1 m"),
+        ("wheel = { diameter = \"1 mm\" }", "20 cm to 60 cm"),
         ("[solids.wheel_rim]\nmaterial = \"leather\"", "leather"),
         ("[solids.wheel_rim]\nradiuss = 1", "did you mean `radius`?"),
     ] {
