@@ -231,10 +231,13 @@ impl<S: Scalar> ColumnLaw<S> {
 #[inline(always)]
 fn rotation<S: Scalar>(axis: V3<S>, angle: S) -> M3<S> {
     let (sin, cos) = angle.sin_cos();
-    let turned = |v: V3<S>| {
-        let across = axis.cross(v);
-        v + across * sin + axis.cross(across) * (S::one() - cos)
-    };
     let M3 { x, y, z } = M3::identity();
-    M3 { x: turned(x), y: turned(y), z: turned(z) }
+    M3 { x: turned(axis, x, sin, cos), y: turned(axis, y, sin, cos), z: turned(axis, z, sin, cos) }
+}
+
+/// A vector turned about a unit axis.
+#[inline(always)]
+fn turned<S: Scalar>(axis: V3<S>, v: V3<S>, sin: S, cos: S) -> V3<S> {
+    let across = axis.cross(v);
+    v + across * sin + axis.cross(across) * (S::one() - cos)
 }

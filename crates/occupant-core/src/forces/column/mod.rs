@@ -170,7 +170,9 @@ impl<S> Forces<S> {
 /// Moves the frames of columns, which stand among `frames` as their parents carry them, by their strokes.
 #[inline(always)]
 pub(crate) fn carry<S: Scalar>(law: &[ColumnLaw<S>], state: &State<S>, frames: &mut Frames<S>) {
-    law.iter().for_each(|column| column.carry(state, frames));
+    for column in law {
+        column.carry(state, frames);
+    }
 }
 
 /// What a column does. The work of a body along the stroke, which its books have as one of the frame, is the column's; what the

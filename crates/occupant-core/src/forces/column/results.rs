@@ -175,9 +175,7 @@ impl<const TURNS: bool> Reported for Giving<TURNS> {
     }
 
     fn start_table(shown: &Shown<'_, Self>) -> Option<Table> {
-        if shown.data.those(TURNS).next().is_none() {
-            return None;
-        }
+        shown.data.those(TURNS).next()?;
         let slides = [
             TableColumn::number("mass_kg", "mass, kg", 2),
             scaled(1e-3, TableColumn::number("most_n", "force up to, kN", 2)),
