@@ -232,6 +232,37 @@ fn heels_out_of_reach_are_an_error_that_says_by_how_much() {
     assert!(near.contains("away from the seat"), "{near}");
 }
 
+/// Where the hands begin that should be at [x, z], m, and what is said of them.
+fn hands_at(hands_m: [f64; 2]) -> (Vec<Vector3<f64>>, String) {
+    let mut setup = seated(|s| s.hands_m = Some(hands_m));
+    setup.time.end_s = setup.time.start_s + 1e-4;
+    let model = Model::new(setup).unwrap();
+    let hands = ["left_hand", "right_hand"].map(|name| model.body().sphere(name).unwrap());
+    let mut seen = Vec::new();
+    let watch = Watch(|s: &Sample<'_>| {
+        if seen.is_empty() {
+            seen.extend(hands.map(|hand| s.sphere_centre_m(hand).coords));
+        }
+    });
+    simulate(&model, watch).unwrap();
+    (seen, model.warnings().iter().map(|problem| problem.to_string()).collect())
+}
+
+#[test]
+fn hands_are_where_they_should_be_or_on_the_line_to_it() {
+    for hands_m in [[0.30, -0.25], [0.15, -0.40], [0.25, 0.05]] {
+        let (hands, said) = hands_at(hands_m);
+        assert!(said.is_empty(), "{said}");
+        for hand in &hands {
+            assert_below("hand x, m", hand.x - hands_m[0], 1e-9);
+            assert_below("hand z, m", hand.z - hands_m[1], 1e-9);
+        }
+        assert!(hands[0].y < hands[1].y - 0.2);
+    }
+    let (hands, said) = hands_at([2.0, -0.3]);
+    assert!(hands.iter().all(|hand| hand.x < 1.0) && said.contains("arms are too short"), "{said}");
+}
+
 #[test]
 fn a_cushion_that_faces_down_is_an_error() {
     let mut setup = seated(|_| {});

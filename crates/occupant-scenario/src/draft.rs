@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::car;
 use super::check::{check_parts, check_words, references, units_of};
-use super::expand::expand;
+use super::expand::{expand, written_out};
 use super::kind::UnitSystem;
 use super::loaded::{Loaded, Resolver};
 use super::overrides::{needs_explicit, put};
@@ -165,7 +165,7 @@ impl Draft {
         }
         // where the words are right, names are looked up when the plain data are built
         if problems.has_errors() {
-            let root = expand(&mut whole.sources, &whole.root);
+            let root = written_out(&mut whole.sources, &whole.root);
             let unknown = references(&root, Some(&shape::names(&TTI12)));
             if !unknown.is_empty() {
                 let whole = Document { root, ..whole.clone() };

@@ -50,7 +50,12 @@ pub(super) fn written(title: &str, text: &str) -> Option<Document> {
 
 /// The explicit form of a scenario tree that has passed the check.
 pub(super) fn expand(sources: &mut Sources, root: &Node) -> Node {
-    let root = &car::whole(sources, root);
+    let whole = car::whole(sources, root);
+    written_out(sources, &whole)
+}
+
+/// The same of a tree whose car is written out.
+pub(super) fn written_out(sources: &mut Sources, root: &Node) -> Node {
     let mut explicit = root.clone();
     let sets = root.get("joint_sets").cloned();
     if let Some(table) = explicit.as_table_mut() {

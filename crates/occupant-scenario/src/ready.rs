@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::car;
 use super::check::check_parts;
-use super::expand::expand;
+use super::expand::written_out;
 use super::living;
 use super::presets::IN_LIBRARY;
 use super::sections::{Scenario, schema};
@@ -38,7 +38,7 @@ impl Ready {
     pub(crate) fn of(root: Node, mut document: Document) -> Result<Ready, Diagnostics> {
         let scenario: Scenario = document.sections("scenario")?;
         let whole = document.root.clone();
-        document.root = expand(&mut document.sources, &whole);
+        document.root = written_out(&mut document.sources, &whole);
         let explicit = complete(document.sections("scenario")?);
         let Document { sources, main, root: explicit_root } = document;
         Ok(Ready { sources, main, root, whole, scenario, explicit_root, explicit })

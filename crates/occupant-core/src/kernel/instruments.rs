@@ -44,6 +44,8 @@ pub(crate) struct Instruments<S> {
     neck: Option<Neck<S>>,
     /// The segment that the chest carries towards the head, at whose joint T1 is, where there is one.
     above_t1: Option<usize>,
+    /// Whether what tests from behind read is read.
+    is_rear: bool,
     /// Right and left.
     legs: [Option<Leg>; 2],
     /// The head's sphere.
@@ -82,11 +84,13 @@ struct Beyond {
 
 impl Instruments<f64> {
     /// Fits `system`, of these bodies, with those of each: `sites` tells by body the frame of its home and where its condyles
-    /// are.
-    pub(crate) fn fit(system: &mut System<f64>, body: &Body, sites: &[(usize, Option<Vector3<f64>>)]) {
+    /// are, `is_rear` whether what tests from behind read is read.
+    pub(crate) fn fit(system: &mut System<f64>, body: &Body, sites: &[(usize, Option<Vector3<f64>>)], is_rear: bool) {
         let (rows, layout) = (body.tree.bodies(), &system.skeleton.layout);
         let all = rows.iter().enumerate().zip(sites);
-        system.instruments = all.map(|((of, row), site)| Instruments::of(body, layout, of, row, *site)).collect();
+        let fitted =
+            all.map(|((of, row), site)| Instruments { is_rear, ..Instruments::of(body, layout, of, row, *site) });
+        system.instruments = fitted.collect();
         let legs = system.instruments.iter().flat_map(|own| own.legs.iter().flatten());
         for Leg { thigh, knee, .. } in legs {
             let half_m = 0.5 * body.segment(body.tree.segment(*thigh)).length_m;
@@ -133,6 +137,7 @@ impl Instruments<f64> {
             accelerometers: all,
             neck,
             above_t1,
+            is_rear: false,
             legs: [right, left],
             head: body.sphere(&head),
             home,
@@ -147,8 +152,8 @@ impl<S: Copy> Instruments<S> {
         let neck = self.neck.as_ref().map(|neck| (&neck.from, neck.head));
         self.accelerometers == other.accelerometers
             && neck == other.neck.as_ref().map(|neck| (&neck.from, neck.head))
-            && (&self.legs, self.head, self.home, self.above_t1)
-                == (&other.legs, other.head, other.home, other.above_t1)
+            && (&self.legs, self.head, self.home, self.above_t1, self.is_rear)
+                == (&other.legs, other.head, other.home, other.above_t1, other.is_rear)
             && self.chest.iter().zip(&other.chest).all(|pair| match pair {
                 (Some(a), Some(b)) => a.is_like(b),
                 (a, b) => a.is_none() && b.is_none(),
@@ -166,6 +171,7 @@ impl<S: Copy> Instruments<S> {
             accelerometers: self.accelerometers,
             neck: self.neck.as_ref().zip(other.neck.as_ref()).map(neck),
             above_t1: self.above_t1,
+            is_rear: self.is_rear,
             legs: self.legs.clone(),
             head: self.head,
             home: self.home,
@@ -218,7 +224,9 @@ impl<S: Scalar> Instruments<S> {
             let sum = point.plates().fold(S::zero(), |sum, (plate, share)| sum + share * k.slides[plate].way);
             reading[CHEST + i] = sum;
         }
-        self.read_rear(system, from, frames, &mut reading);
+        if self.is_rear {
+            self.read_rear(system, from, frames, &mut reading);
+        }
         for (i, leg) in self.legs.iter().enumerate() {
             let Some(Leg { thigh, knee, shanks }) = leg else { continue };
             let mut along = from.knees[*knee];

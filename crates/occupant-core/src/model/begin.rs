@@ -7,6 +7,7 @@ use crate::forces::sphere::Site;
 use crate::forces::{Data, Forces, History, Instant};
 use crate::kernel::System;
 use crate::kernel::instruments::Instruments;
+use crate::model::behind::restraints;
 use crate::model::limp::{Rest, sink};
 use crate::model::pose::hang;
 use crate::model::seat::{Seat, SeatPlane, Seated, seat};
@@ -43,7 +44,8 @@ pub(super) fn begin(
     let data = setup.forces(faces);
     let forces = Forces::new(&data, &setup.body);
     let mut system = System::new(skeleton, Site::all(&setup.body), forces);
-    Instruments::fit(&mut system, &setup.body, &setup.instrument_sites());
+    let is_rear = !restraints(setup).is_empty();
+    Instruments::fit(&mut system, &setup.body, &setup.instrument_sites(), is_rear);
     let Placed { mut state, seated, mut settled, unsettled, rest } = if alone.is_empty() {
         place(setup, faces, &data, &system, &vehicle, problems)?
     } else {

@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 mod begin;
+pub(crate) mod behind;
 mod descent;
 mod limp;
 mod pose;

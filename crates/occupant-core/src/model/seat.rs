@@ -101,7 +101,7 @@ pub(crate) fn seat(
         match seating.hands_m {
             Some(hands) => {
                 let t1_m = pose.t1_m(body, pelvis.segment, lower_end);
-                posed(&reach(body, &seating.angles_rad, &posed, t1_m, hands))
+                posed(&reach(body, &seating.angles_rad, &posed, t1_m, hands, problems))
             }
             None => pose,
         }
@@ -231,8 +231,9 @@ fn reach(
     posed: &impl Fn(&[(String, f64)]) -> Pose,
     t1_m: Vector3<f64>,
     hands_m: [f64; 2],
+    problems: &mut Problems,
 ) -> Vec<(String, f64)> {
-    let mut angles = angles_rad.to_vec();
+    let (mut angles, mut short_m) = (angles_rad.to_vec(), 0.0_f64);
     for arm in body.tree.landmarks().arms() {
         let Some(elbow) = body.tree.bearer(arm.lower).filter(|joint| body.tree[*joint].is_hinge()) else { continue };
         let (upper, elbow) = (body.tree[arm.upper].name, body.tree[elbow].name);
@@ -260,7 +261,14 @@ fn reach(
         // a segment that leans back by γ has its lower end ahead by as much
         let angle = |v: Vector3<f64>| occupant_units::trig::atan2(v.x, v.z);
         let lean = angle(target) - angle(hand);
+        short_m = short_m.max(target.xz().norm() - hand.xz().norm());
         angles = with(lean, least).into_iter().take(2).chain(angles).collect();
+    }
+    if short_m > 1e-3 {
+        let [x, z] = hands_m;
+        let found =
+            format!("the arms are too short by {short_m:.3} m for hands at [{x:.3}, {z:.3}] m: they point there");
+        problems.warning("posture.hands", found, "hands that the arms of this body reach");
     }
     angles
 }

@@ -6,6 +6,7 @@
 
 use crate::kernel::instruments::{CHEST, CHEST_POINTS, PLACE, REAR, Reading};
 use crate::model::Model;
+use crate::model::behind::restraints;
 use crate::model::setup::Integrator;
 use crate::results::rear;
 use crate::results::sample::Sample;
@@ -53,7 +54,7 @@ impl Fine {
         let is_read =
             |of: usize, marks: &crate::body::Landmarks| of == 0 || marks.instruments().iter().any(Option::is_some);
         let bodies: Vec<usize> = bodies.filter(|(of, row)| is_read(*of, &row.landmarks)).map(|(of, _)| of).collect();
-        let rear = if rear::restraints(model).is_empty() { 0 } else { REAR_SIGNALS };
+        let rear = if restraints(model.setup()).is_empty() { 0 } else { REAR_SIGNALS };
         let chest = if model.body().chests.is_empty() { 0 } else { CHEST_POINTS };
         let each = SIGNALS + chest + rear;
         let count = each * bodies.len();

@@ -5,6 +5,7 @@ use crate::forces::contact::{PairHistory, Touch};
 use crate::forces::shown::Tracker;
 use crate::kernel::instruments::{PLACE, READINGS, Reading};
 use crate::model::Model;
+use crate::model::behind::restraints;
 use crate::motion::kinematics::Kinematics;
 use crate::motion::vector::V3;
 use crate::results::checkpoint::Checkpoint;
@@ -226,7 +227,7 @@ impl Look {
             part_of: body.spheres.iter().map(|sphere| part_of(&sphere.part)).collect(),
             starts_m: starts_m(model),
             sums: vec![none; parts.len()],
-            restraints: rear::restraints(model),
+            restraints: restraints(model.setup()),
             heads: rear::heads(model),
             held: vec![0.0; bodies],
             holding: vec![V3::zero(); bodies],

@@ -64,7 +64,7 @@ fn bounded(document: &Document, node: Option<&Node>, path: &str, problems: &mut 
         let limits = known.or_else(|| OTHERS_M.contains(&key.as_str()).then_some(other));
         let (Some((_, least, most, told)), Some(si)) = (limits, entry.node.si) else { continue };
         if !(least..=most).contains(&si) {
-            let found = format!("`{key}` of {si} in SI units: no car has that");
+            let found = format!("{}: no car has that `{key}`", document.sources.slice(entry.node.span));
             problems.add(Problem::error(path, found, told), |problem| document.place(problem));
         }
     }
@@ -193,14 +193,8 @@ impl Car<'_> {
         for seat in &seats {
             text.push_str(&seat.words());
         }
-        if self.section.class != Some(CarClass::Sled) {
-            text.push_str(&self.shell(&seats));
-        } else {
-            text.push_str(&self.foot_rest());
-        }
-        if riders.iter().any(|rider| rider.seat == "driver") {
-            text.push_str(&self.wheel());
-        }
+        let is_sled = self.section.class == Some(CarClass::Sled);
+        text.push_str(&if is_sled { self.foot_rest() } else { self.shell(&seats) });
         text
     }
 

@@ -27,12 +27,12 @@ impl Car<'_> {
         let seat = self.placed(name, *row, *side, Some(rider));
         let mut text = body(rider, riders);
         if rider.lacks.posture {
-            text += &self.posture(rider, &seat);
+            text += &self.posture(rider, &seat, riders);
         }
         text + &self.belt(rider, &seat)
     }
 
-    fn posture(&self, rider: &Rider, seat: &Seat) -> String {
+    fn posture(&self, rider: &Rider, seat: &Seat, riders: usize) -> String {
         let lean = seat.recline_deg;
         let is_driver = seat.name == "driver" && self.section.class != Some(CarClass::Sled);
         let heels = if is_driver {
@@ -56,7 +56,11 @@ impl Car<'_> {
             lean,
             lean - 3.0,
             lean - 2.0,
-            if rider.lacks.flesh { format!("neck = \"{} deg\"\n", 0.45 * lean) } else { String::new() },
+            if rider.lacks.flesh && segment_count(riders) > 12 {
+                format!("neck = \"{} deg\"\n", 0.45 * lean)
+            } else {
+                String::new()
+            },
             (lean - 30.0).max(5.0),
             list(&heels),
         )
@@ -139,20 +143,24 @@ fn retractor(prefix: &str, seat: &Seat) -> String {
     let name = if prefix.is_empty() { seat.name } else { BELT };
     let limiter = seat.name;
     let force = si_or(&own.limiter, 3000.0);
-    // loose webbing comes first, then the film, at no more than the spool's tension
-    let loose = si_or(&own.slack, 0.0);
     let film = si_or(&own.film, 0.03);
-    let start = if loose > 0.0 {
+    let pulls = si_or(&own.pretensioner, if seat.row == 0 { 0.1 } else { 0.0 });
+    // a pretensioner takes loose webbing up first; what it leaves comes before the film, at little more than the spool's tension
+    let slack = si_or(&own.slack, 0.0);
+    let (loose, pulled) = ((slack - pulls).max(0.0), (pulls - slack).max(0.0));
+    let (starts, held) = if loose > 0.0 {
         (format!("\"0 m\", \"{loose} m\""), "\"0 N\", \"10 N\"")
     } else {
         ("\"0 m\"".to_owned(), "\"0 N\"")
     };
-    let (starts, held) = start;
     let film = loose + film;
-    let pulls = si_or(&own.pretensioner, if seat.row == 0 { 0.1 } else { 0.0 });
-    let pretensioner = if pulls > 0.0 {
+    let pretensioner = if pulled > 0.0 {
+        // it moves evenly, and pulls from when the slack is gone
+        let free = if slack > 0.0 { format!("\"{} s\", ", 0.008 * slack / pulls) } else { String::new() };
+        let still = if slack > 0.0 { "\"0 m\", " } else { "" };
         format!(
-            "pretensioner = {{ trigger = \"crash\", delay = \"3 ms\", times = [\"0 ms\", \"8 ms\"], pull = [\"0 m\", \"{pulls} m\"], stall_force = \"2 kN\" }}\n"
+            "pretensioner = {{ trigger = \"crash\", delay = \"3 ms\", times = [\"0 s\", {free}\"8 ms\"], pull = [\"0 m\", {still}\"{pulled} m\"], \
+             stall_force = \"2 kN\" }}\n"
         )
     } else {
         String::new()

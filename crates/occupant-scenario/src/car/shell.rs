@@ -8,7 +8,7 @@ use super::{Car, list, m, points, prism};
 use crate::sections::si_or;
 use occupant_units::trig::sin_cos;
 
-/// Half the width of the cabin where nothing is said of a side: as far as the doors.
+/// Thickness of a door.
 const DOOR_M: f64 = 0.20;
 
 impl Car<'_> {
@@ -48,7 +48,9 @@ impl Car<'_> {
     pub(super) fn shell(&self, seats: &[Seat]) -> String {
         let last = seats.iter().map(|seat| seat.row).max().unwrap_or(0).max(1) as f64;
         let rear = -last * self.measures.couple - 0.75;
-        self.foot_rest() + &self.ahead() + &self.around(rear) + &self.bags(seats)
+        let drives = seats.iter().any(|seat| seat.name == "driver" && seat.is_taken());
+        let wheel = if drives { self.wheel() } else { String::new() };
+        self.foot_rest() + &self.ahead() + &self.around(rear) + &wheel + &self.bags(seats)
     }
 
     /// Bolster, panel and windscreen.
@@ -117,12 +119,12 @@ impl Car<'_> {
     fn rim(&self) -> ([f64; 3], [f64; 3]) {
         let [ahead, above] = self.measures.wheel;
         let (sin, cos) = sin_cos(self.measures.wheel_angle_deg.to_radians());
-        let y = self.drivers_side() * self.measures.seat_offset;
+        let y = si_or(&self.seat("driver").y, self.drivers_side() * self.measures.seat_offset);
         ([ahead, y, -above], [cos, 0.0, sin])
     }
 
     /// Rim, hub and column.
-    pub(super) fn wheel(&self) -> String {
+    fn wheel(&self) -> String {
         let (centre, along) = self.rim();
         let (force, stroke) =
             (si_or(&self.section.wheel.column_force, 2500.0), si_or(&self.section.wheel.column_stroke, 0.1));

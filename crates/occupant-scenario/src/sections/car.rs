@@ -147,7 +147,7 @@ pub(crate) struct CarSeatSection {
     pub(crate) pretensioner: Option<Length<NOT_NEGATIVE>>,
     /// Webbing that a locked retractor still gives, the film on its spool; 30 mm if absent.
     pub(crate) film: Option<Length<POSITIVE>>,
-    /// Loose webbing: what the spool gives before it holds; a pretensioner takes it up; 0 if absent.
+    /// Loose webbing: a pretensioner takes it up first; what is left the belt gives before it holds. 0 if absent.
     pub(crate) slack: Option<Length<NOT_NEGATIVE>>,
     /// Upper anchor of the belt from the H-point.
     #[serde(default)]

@@ -67,14 +67,43 @@ fn a_number_set_afterwards_is_one_that_was_written() {
 
 #[test]
 fn the_seat_of_a_tall_driver_stands_farther_back() {
-    let back = |body: &str| {
-        let setup = build(&(of("") + "[body]\n" + body + "\n[joints]\npreset = \"person\"\n"));
-        let text = format!("{:?}", solid(&setup, "driver_foam"));
-        (setup, text)
+    let ahead = |body: &str| {
+        let text = of("") + "[body]\n" + body + "\n[joints]\npreset = \"person\"\n";
+        let mut draft = crate::Draft::read(&text, crate::Format::Toml, "s.toml").unwrap();
+        let found = draft.get("solids.driver_foam.profile[1][0]").unwrap();
+        let placed_text::Value::String(text) = &found[0].1 else { panic!("{found:?}") };
+        text.trim_end_matches(" m").parse::<f64>().unwrap()
     };
-    let (_, tall) = back("sex = \"male\"\nstature = \"1.88 m\"\nmass = \"90 kg\"");
-    let (_, short) = back("sex = \"female\"\nstature = \"1.52 m\"\nmass = \"50 kg\"");
-    assert_ne!(tall, short);
+    let tall = ahead("sex = \"male\"\nstature = \"1.88 m\"\nmass = \"90 kg\"");
+    let short = ahead("sex = \"female\"\nstature = \"1.52 m\"\nmass = \"50 kg\"");
+    assert!((short - tall - 0.433 * (1.88 - 1.52)).abs() < 1e-12, "{short} {tall}");
+}
+
+#[test]
+fn a_sled_has_no_wheel_and_a_wheel_follows_its_driver() {
+    let sled = build(&of("class = \"sled\""));
+    assert!(sled.columns.is_empty() && sled.solids.iter().all(|solid| !solid.name.contains("wheel")));
+    let beside = build(&of("[car.seats.driver]\ny = \"-30 cm\""));
+    assert!(format!("{:?}", solid(&beside, "wheel_rim")).contains("-0.3"));
+}
+
+#[test]
+fn a_pretensioner_takes_slack_up_first() {
+    let pull = |seat: &str| {
+        let mut draft =
+            crate::Draft::read(&of(&format!("[car.seats.driver]\n{seat}")), crate::Format::Toml, "s.toml").unwrap();
+        let all = draft.get("retractors.driver.pretensioner.pull[*]").unwrap_or_default();
+        let lost = draft.get("limiters.driver.payout[1]").unwrap();
+        (all.len(), format!("{:?}", all.last()), format!("{:?}", lost[0].1))
+    };
+    assert_eq!(pull("slack = 0").0, 2);
+    let (count, last, film) = pull("slack = \"4 cm\"");
+    assert!(count == 3 && last.contains("0.06") && film.contains("0.03"), "{last} {film}");
+    let (count, _, loose) = pull("slack = \"15 cm\"");
+    assert!(count == 0 && loose.contains("0.04") | loose.contains("0.05"), "{loose}");
+    for slack in ["0", "\"1 mm\"", "\"10 cm\"", "\"50 cm\""] {
+        build(&of(&format!("[car.seats.driver]\nslack = {slack}")));
+    }
 }
 
 #[test]
@@ -92,6 +121,10 @@ fn three_people_sit_in_a_van() {
     let setup = build(&of(people));
     assert_eq!(setup.bags.len(), 2);
     assert_eq!(setup.body.tree.bodies().len(), 3);
+    let four = build(&of(
+        "class = \"van\"\n[occupants.driver]\n[occupants.passenger]\n[occupants.rear_left]\n[occupants.third_right]",
+    ));
+    assert_eq!(four.body.segments.len(), 48);
 }
 
 #[test]
