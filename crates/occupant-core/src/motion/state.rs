@@ -168,12 +168,6 @@ impl<S: Copy> State<S> {
         State { numbers: from_fn(|i| f(self.numbers[i], other.numbers[i])), shape: self.shape }
     }
 
-    /// f called with every number that is used and the one in the same place of `other`, of the same shape.
-    #[inline(always)]
-    pub(crate) fn each<A: Copy>(&mut self, other: &State<A>, f: impl Fn(&mut S, A)) {
-        self.numbers_mut().iter_mut().zip(other.numbers()).for_each(|(own, other)| f(own, *other));
-    }
-
     /// What stands where.
     #[inline(always)]
     pub fn shape(&self) -> Shape {

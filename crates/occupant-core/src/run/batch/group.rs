@@ -174,7 +174,7 @@ impl<L: Machine> Group<L> {
     fn fetch_start(&mut self, i: usize, run: &mut Course) {
         if let Some(rear) = self.bench.as_mut().and_then(|bench| bench.rear.as_mut()) {
             let Start { state, memory } = &mut *rear.latest;
-            run.state.each(state, |x, lanes| *x = lanes.lane(i));
+            each(&mut run.state, state, |x, lanes| *x = lanes.lane(i));
             memory.each(&mut run.history.memory, &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i));
             run.history.look_again();
         }
@@ -186,7 +186,7 @@ impl<L: Machine> Group<L> {
         if let (Some(lanes), Some(rear)) = (lanes, &mut run.rear) {
             let Start { state, memory } = &mut *lanes.latest;
             rear.step = Some(step);
-            rear.state.each(state, |x, lanes| *x = lanes.lane(i));
+            each(&mut rear.state, state, |x, lanes| *x = lanes.lane(i));
             memory.each(&mut rear.history.memory, &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i));
             rear.history.look_again();
         }
@@ -227,7 +227,7 @@ impl<L: Machine> Group<L> {
         if let Some(bench) = &mut self.bench {
             let put = &mut |lanes: &mut L, x: &mut f64| lanes.set_lane(i, *x);
             bench.history.memory.each(&mut place.run.history.memory, put);
-            bench.state.each(&place.run.state, |lanes, x| lanes.set_lane(i, x));
+            each(&mut bench.state, &place.run.state, |lanes, x| lanes.set_lane(i, x));
         }
         match next {
             Next::GoesOn => {
@@ -253,7 +253,7 @@ impl<L: Machine> Group<L> {
     fn lane_state(&self, i: usize, run: &Course) -> State<f64> {
         let mut state = run.state;
         if let Some(bench) = &self.bench {
-            state.each(&bench.state, |x, lanes| *x = lanes.lane(i));
+            each(&mut state, &bench.state, |x, lanes| *x = lanes.lane(i));
         }
         state
     }
@@ -288,4 +288,10 @@ impl<L: Machine> Group<L> {
         }
         ControlFlow::Continue(())
     }
+}
+
+/// f called with every number that is used and the one in the same place of `other`, of the same shape.
+#[inline(always)]
+fn each<A: Copy, B: Copy>(own: &mut State<A>, other: &State<B>, f: impl Fn(&mut A, B)) {
+    own.numbers_mut().iter_mut().zip(other.numbers()).for_each(|(own, other)| f(own, *other));
 }
