@@ -1,4 +1,5 @@
-//! `[car]` written out: the inside of a car in the words of the other sections, under what the scenario says itself.
+//! `[car]` written out: the inside of a car in the words of the other sections, under what the scenario says itself. Dummies in one word
+//! are written out with it.
 
 mod classes;
 mod ride;
@@ -10,6 +11,7 @@ use std::fmt::Write as _;
 use serde::Deserialize;
 
 use crate::check::check_parts;
+use crate::dummies;
 use crate::expand::{over, written};
 use crate::presets;
 use crate::sections::{BodySection, CarClass, CarSeatSection, CarSection, Side, schema};
@@ -21,9 +23,9 @@ pub(super) const CAR: [&str; 2] = ["car", "vehicles"];
 /// Sections of those who sit in it.
 const BODIES: [&str; 2] = ["body", "occupants"];
 
-/// Whether a scenario has a car in words.
+/// Whether a scenario has a car or a dummy in words.
 pub(super) fn is_there(root: &Node) -> bool {
-    cars(root).next().is_some()
+    cars(root).next().is_some() || dummies::any(root)
 }
 
 /// The cars of a scenario: the vehicle's name that stands before the names of all its parts, none of the first, and where it stands.
@@ -93,10 +95,12 @@ pub(super) fn whole(sources: &mut Sources, root: &Node) -> Node {
     }
     // for their quantities: what they lack the car gives them
     check_parts(&mut read, schema(), &BODIES);
-    let document = words(&read.root).and_then(|text| written(TITLE, &text));
-    let Some(document) = document else { return root.clone() };
-    let id = sources.add(TITLE, document.shared());
-    over(document.root.moved_to(id), root)
+    let texts = [dummies::words(&read.root), words(&read.root).unwrap_or_default()];
+    texts.iter().filter(|text| !text.is_empty()).fold(root.clone(), |root, text| {
+        let Some(document) = written(TITLE, text) else { return root };
+        let id = sources.add(TITLE, document.shared());
+        over(document.root.moved_to(id), &root)
+    })
 }
 
 /// What messages call a car that was written out.
@@ -104,6 +108,7 @@ pub(super) const TITLE: &str = "car";
 
 fn words(root: &Node) -> Option<String> {
     let riders: Vec<Rider> = cars(root).flat_map(|(vehicle, _)| riders(root, vehicle)).collect();
+    cars(root).next()?;
     let mut text = String::from(SOURCES) + include_str!("materials.toml");
     if riders.iter().any(|rider| !rider.prefix.is_empty()) {
         text += "[contact]\nskin = \"flesh\"\n\n";
@@ -191,11 +196,11 @@ fn rider(own: &Node, prefix: &str, usual: &str, vehicle: Option<&str>) -> Option
     let preset = joints.and_then(|joints| joints.get("preset")).and_then(Node::as_str);
     let is_person = joints.is_none() || preset.is_some_and(|preset| presets::OF_PEOPLE.contains(&preset));
     let lacks = Lacks {
-        body: !says(body, &["preset", "sex", "stature", "mass", "segments", "joints"]),
-        joints: !says(joints, &["preset"]) && !says(body, &["joints"]),
+        body: !says(body, &["preset", "dummy", "sex", "stature", "mass", "segments", "joints"]),
+        joints: !says(joints, &["preset"]) && !says(body, &["joints", "dummy"]),
         flesh: is_person
             && person.is_some()
-            && !says(body, &["chest", "pelvis", "abdomen", "segments", "segment_count"]),
+            && !says(body, &["dummy", "chest", "pelvis", "abdomen", "segments", "segment_count"]),
         arms: !says(own.get("posture"), &["upper_arms", "elbows", "left_upper_arm", "right_upper_arm"]),
         posture: !says(Some(own), &["initial_state", "mount", "stance"]),
     };
