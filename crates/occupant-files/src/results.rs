@@ -63,7 +63,7 @@ impl Results {
         let bytes = input_file::read(path)?;
         let mut run = StoredRun::read(&bytes).map_err(|e| no_results(path, &e))?;
         if run.run.is_empty() || run.checkpoints.is_empty() {
-            return Err(no_results(path, &format!("it holds no outputs of a run{}", run.because())));
+            return Err(no_results(path, &format!("it contains no outputs of a run{}", run.because())));
         }
         let (loaded, model, _) = stored(path, &run)?;
         let (lost, mut flaw, (status, reason)) = (run.lost(), run.flaw(), run.ending());
@@ -71,7 +71,7 @@ impl Results {
         match wrong {
             Some((i, e)) if i > 0 && e.is_blown_up() => {
                 let at_ms = in_ms(run.checkpoints[i].time_s);
-                flaw = flaw.or(Some(format!("of a run that blew up: its numbers at {at_ms} ms are beyond all bounds")));
+                flaw = flaw.or(Some(format!("a run that became unstable: its numbers at {at_ms} ms are beyond all bounds")));
                 run.checkpoints.truncate(i);
             }
             Some((_, e)) => return Err(no_results(path, &e.to_string())),
@@ -130,15 +130,15 @@ impl Results {
         let mut notes = Vec::new();
         notes.extend(self.flaw.iter().map(|flaw| format!("{name} is {flaw}")));
         if self.lost.is_some() {
-            notes.push(format!("of {name} only the outputs up to the first that is missing are used"));
+            notes.push(format!("only the outputs of {name} before the first missing one are used"));
         } else if let Some(reason) = &self.reason {
-            notes.push(format!("{name} holds a run that did not complete: {reason}"));
+            notes.push(format!("the run in {name} did not complete: {reason}"));
         }
         notes.extend(self.span());
         let theirs = self.run.get("program").map_or("?", String::as_str);
         if theirs != program() {
             notes.push(format!(
-                "{name} was written by {theirs}, this is {}: loads are computed anew from its states and may differ",
+                "{name} was written by {theirs}, this is {}: loads are recomputed from its states and may differ",
                 program()
             ));
         }
@@ -226,7 +226,7 @@ impl Results {
 
     /// The summary that was made, of this run however it ended.
     fn told(&self, model: &Model, (summarizer, friction): &(Summarizer, FrictionWatch)) -> Result<Summary, Failure> {
-        let mut summary = summarizer.summary(None).ok_or_else(|| self.refused("the run left no summary"))?;
+        let mut summary = summarizer.summary(None).ok_or_else(|| self.refused("the run has no summary"))?;
         if self.is_complete() {
             let caveats = steps::caveats(model, friction, &summary);
             summary.caveats.extend(caveats);
@@ -247,7 +247,7 @@ impl Results {
 
 fn no_results(path: &Path, reason: &str) -> Failure {
     Failure::with_help(
-        format!("{} holds no results: {reason}", path.display()),
-        "give an MCAP file that `occupant run` has written",
+        format!("{} contains no results: {reason}", path.display()),
+        "give an .mcap file written by `occupant run`",
     )
 }

@@ -51,7 +51,7 @@ impl Ending {
     pub fn broken(panic: &(dyn Any + Send)) -> Ending {
         let text = panic.downcast_ref::<String>().map(String::as_str);
         let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
-        Ending::Broken(format!("the program broke off: {}", text.unwrap_or("without a word")))
+        Ending::Broken(format!("the program stopped: {}", text.unwrap_or("without a word")))
     }
 
     /// Why the run has no results; none if it has.

@@ -41,11 +41,11 @@ use placed_text::shown;
 
 use crate::base::{Done, Failure, hear_jobs, say, survive_long_files, written};
 
-/// Simulates the occupant of a car in a crash or a violent manoeuvre.
+/// Simulate the people in a car during a crash or a violent manoeuvre
 #[derive(Debug, Parser)]
 #[command(name = "occupant", version, propagate_version = false, max_term_width = 100)]
-#[command(after_help = "Exit codes: 0 done; 1 ran, and a check failed, the integration failed or it was \
-interrupted; 2 could not run.\n\nStart with: occupant new my-case.toml && occupant run my-case.toml")]
+#[command(after_help = "Start with: occupant new my-case.toml && occupant run my-case.toml\nThen: occupant report my-case.mcap --open\n\n\
+Exit codes: 0 success; 1 a run failed or was interrupted, or a check failed; 2 wrong input, nothing was run.")]
 struct Cli {
     #[command(subcommand)]
     command: Command,

@@ -40,8 +40,8 @@ impl Failure {
     pub fn ending(output: &Path, endings: &str) -> Self {
         let name = output.display();
         Failure::with_help(
-            format!("-o {name}: the ending names no format"),
-            &format!("use a name that ends with {endings}"),
+            format!("-o {name}: unknown file format"),
+            &format!("use one of the extensions {endings}"),
         )
     }
 

@@ -101,7 +101,7 @@ fn table_of(path: &Path, columns: Option<&str>) -> Result<Recording, Failure> {
     let bytes = input_file::read(path)?;
     let (text, encoding) = decoded(&bytes).map_err(|found| {
         Trouble::of(path, found, "a text table")
-            .hint("a run of this program has the ending .mcap, an ISO-MME test .mme")
+            .hint("a run of this program has the extension .mcap, an ISO-MME test .mme")
     })?;
     let mut recording = table::read(path, &text, columns, sha256(&bytes))?;
     recording.notes.extend(encoding.map(|name| format!("{} was read as {name}", path.display())));

@@ -147,18 +147,18 @@ impl ErrorEstimate {
         off.sort_by(|a, b| b.relative().total_cmp(&a.relative()));
         let named = off.iter().take(MOST_NAMED).map(|f| format!("{} {} %", f.name, number(100.0 * f.relative(), 1)));
         let figures = match (named.collect::<Vec<_>>().join(", "), off.len().saturating_sub(MOST_NAMED)) {
-            (none, _) if none.is_empty() => "no figure by more than 0.1 %".to_owned(),
+            (none, _) if none.is_empty() => "no result by more than 0.1 %".to_owned(),
             (some, 0) => some,
             (some, more) => format!("{some} and {more} more above 0.1 %"),
         };
         let mut lines = vec![
             ("integration error", format!("head path {}; {figures}", units.say(self.head_path_m * 1e3, "mm", 3))),
-            ("", format!("estimated against {}, {} evaluations", self.against, self.evaluations)),
+            ("", format!("estimated from {}, {} evaluations", self.against, self.evaluations)),
         ];
         if self.head_path_m > CHAOTIC_M {
             lines.push((
                 "",
-                "the motion makes much of little: quote what is stable in an ensemble (--ensemble)".to_owned(),
+                "the motion amplifies small differences: quote only results that are stable in an ensemble (--ensemble)".to_owned(),
             ));
         }
         facts(&lines)

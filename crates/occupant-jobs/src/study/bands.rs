@@ -62,15 +62,15 @@ impl StudyBands<'_> {
             && let Some(sample) = all.find(|s| self.there(*s) == There::Other)
         {
             return Err(Failure::with_help(
-                format!("{} holds other bands", self.file(sample).display()),
-                "--force replaces them; the same --channel resume",
+                format!("{} contains other bands", self.file(sample).display()),
+                "--force replaces them; the same --channel resumes",
             ));
         }
         fs::create_dir_all(&self.folder)
             .map_err(|e| Failure::plain(format!("{} cannot be made: {e}", self.folder.display())))?;
         tell_damaged(&self.sums.damaged());
         for sample in (0..samples).filter(|s| self.there(*s) != There::Bands) {
-            let done = format!("the bands of {sample} of {samples} samples are there; the same command resumes");
+            let done = format!("the bands of {sample} of {samples} samples are complete; run the same command again to resume");
             self.write(sample).map_err(|failure| failure.with_done(&done))?;
             if !quiet {
                 say(&format!("sample {sample}: {}", self.file(sample).display()));

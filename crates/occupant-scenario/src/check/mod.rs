@@ -117,7 +117,7 @@ impl Checker<'_> {
         };
         let found = match &node.value {
             Value::Float(x) if !x.is_finite() => format!("`{x}`"),
-            value => format!("{} where {} should stand", value.kind(), view.noun()),
+            value => format!("{} instead of {}", value.kind(), view.noun()),
         };
         self.report(node.span, Problem::error(path, found, view.wanted()).with_hint(hint));
     }
@@ -176,7 +176,7 @@ impl Checker<'_> {
                 self.report(node.span, Problem::error(path, found, expected).with_hint(did_you_mean(text, names, '"')));
             }
             value => {
-                let found = format!("{} where a name in quotes should stand", value.kind());
+                let found = format!("{} instead of a name in quotes", value.kind());
                 self.report(node.span, Problem::error(path, found, expected));
             }
         }
@@ -187,7 +187,7 @@ impl Checker<'_> {
         let names: Vec<&str> = cases.iter().map(|(name, _)| *name).collect();
         let Some(table) = node.as_table() else {
             let expected = format!("a table with a key `kind`, {}", one_of(&names, '"'));
-            let found = format!("{} where a table should stand", node.value.kind());
+            let found = format!("{} instead of a table", node.value.kind());
             return self.report(node.span, Problem::error(path, found, expected));
         };
         let Some(tag) = table.get("kind") else {

@@ -93,7 +93,7 @@ impl Folder {
         if self.manifest_path().exists() {
             done
         } else {
-            format!("nothing is left: {} was removed", self.path.display())
+            format!("{} was removed", self.path.display())
         }
     }
 
@@ -149,13 +149,13 @@ impl Folder {
         let read = serde_json::from_slice(&bytes).map_err(|error| error.to_string());
         let possible = |manifest: Manifest| match manifest.samples {
             0..=MOST_RUNS => match manifest.texts.iter().find(|text| !stays_within(&text.copy)) {
-                Some(text) => Err(format!("`copy` is {}, which is no file of the folder", text.copy)),
+                Some(text) => Err(format!("`copy` is {}, which is not a file of the folder", text.copy)),
                 None => Ok(manifest),
             },
-            n => Err(format!("`samples` is {n}, and there are at most {MOST_RUNS}")),
+            n => Err(format!("`samples` is {n}; at most {MOST_RUNS} are possible")),
         };
         read.and_then(possible).map(Some).map_err(|error| Problem::Damaged {
-            found: format!("is no manifest of a {}: {error}", self.holds.word),
+            found: format!("is not the manifest of a {}: {error}", self.holds.word),
             path,
         })
     }
