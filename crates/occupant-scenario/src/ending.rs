@@ -108,6 +108,6 @@ mod tests {
         assert_eq!(of(Status::Completed, Balance::Doubtful), Some(Ending::Completed));
         assert_eq!(of(Status::Stopped, Balance::Lost), None);
         let off = of(Status::Completed, Balance::Lost).and_then(|ending| ending.reason());
-        assert_eq!(off.as_deref(), Some("its energy balance is off by 12 % of the greatest kinetic energy"));
+        assert_eq!(off.as_deref(), Some("its energy balance is off by 12 % of the largest kinetic energy"));
     }
 }

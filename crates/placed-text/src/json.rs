@@ -103,7 +103,7 @@ mod tests {
         let error = read("{\"a\": 1,\n \"a\": 2}").unwrap_err().to_string();
         assert_eq!(
             error,
-            "error: key `a` a second time\n --> t.json:2:2\n  |\n2 |  \"a\": 2}\n  |  ^^^\n  = expected: each key once"
+            "error: key `a` twice\n --> t.json:2:2\n  |\n2 |  \"a\": 2}\n  |  ^^^\n  = expected: each key once"
         );
     }
 

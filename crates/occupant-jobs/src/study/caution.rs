@@ -200,7 +200,7 @@ mod tests {
         assert!(index(&estimate(0.25, 0.36), 0, &found(100, 0)).is_some());
         assert!(index(&estimate(0.25, f64::NAN), 0, &found(100, 0)).is_some());
         assert!(index(&estimate(0.3, 0.3), 0, &found(94, 6)).is_some());
-        assert_eq!(index(&estimate(0.0, 0.01), 1, &found(300, 0)).as_deref(), Some("carried by 4 of 300 points"));
+        assert_eq!(index(&estimate(0.0, 0.01), 1, &found(300, 0)).as_deref(), Some("depends on 4 of 300 points"));
         assert!(index(&estimate(0.0, 0.0), 2, &found(299, 0)).is_some());
         assert_eq!(index(&estimate(0.0, 0.0), 2, &found(300, 0)), None);
         let effect_of = |effects, high| Effect {

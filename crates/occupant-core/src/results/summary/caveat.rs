@@ -160,7 +160,7 @@ impl Caveat {
     /// A body that does not rest where the run puts it, and its figures of the first 50 ms.
     pub(super) fn unbalanced(left: &Settled, early: Vec<String>) -> Self {
         let text = format!(
-            "the body is not in balance at the start: {:.0} N of its weight of {:.0} N are not carried, so results of the first {:.0} ms show how it settles. Set posture.settle = true, or move the surfaces so that they just carry it",
+            "the body is not in balance at the start: a force of {:.0} N is left over (weight {:.0} N), so results of the first {:.0} ms show how it settles. Set posture.settle = true, or move the surfaces so that they just carry it",
             left.residual_force_n,
             left.weight_n,
             1e3 * Settled::FADES_S
