@@ -275,7 +275,8 @@ fn an_extension_by_cards_says_how_far_it_is_off() {
     let (code, _, by_run) = convert(folder.path(), &["run.mcap", "--extend", "0.25", "-o", "same.dat"]);
     assert_eq!(code, 0, "{by_run}");
     for said in [&by_deck, &by_run] {
-        let (_, figures) = said.split_once("From 0.200 s to 0.250 s, compared with the continued run: ").expect("figures");
+        let (_, figures) =
+            said.split_once("From 0.200 s to 0.250 s, compared with the continued run: ").expect("figures");
         let off =
             figures.split_once("the head is up to ").and_then(|(_, rest)| rest.split_once(" mm off")).expect("mm");
         let off_mm: f64 = off.0.parse().expect("a number");

@@ -269,7 +269,10 @@ fn recorders_signs_units_and_beginnings_are_asked_for_or_said() {
     )
     .unwrap();
     let said = spoken(here, &["import", "loss.csv", "--speed", "29 mph"]);
-    assert!(said.contains("start at 0.01 s; a value of 0 is added at 0 s") && !said.contains("becomes faster"), "{said}");
+    assert!(
+        said.contains("start at 0.01 s; a value of 0 is added at 0 s") && !said.contains("becomes faster"),
+        "{said}"
+    );
     done(here, &["check", "loss.toml"]);
     fs::write(here.join("gain.csv"), format!("Time (msec),Delta-V longitudinal (MPH)\n{}", rows(1.0))).unwrap();
     let said = spoken(here, &["import", "gain.csv", "--speed", "29 mph"]);

@@ -265,7 +265,7 @@ fn a_report_against_another_run_holds_both() {
     assert_eq!(read(folder.path(), "r.html").matches("\"poses\":").count(), 2);
     for (words, said) in [
         (&["report", "run.mcap", "-o", "r.txt"][..], "ends with .html"),
-        (&["report", "run.mcap", "-o", "x.html", "--against", "case.toml"], "contains no results"),
+        (&["report", "run.mcap", "-o", "x.html", "--against", "case.toml"], "is a scenario or a study"),
     ] {
         let output = answer(folder.path(), words);
         assert_eq!(code(&output), 2, "{words:?}");

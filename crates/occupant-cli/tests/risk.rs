@@ -200,7 +200,7 @@ fn uneven_and_coarse_samples_are_refused_with_a_remedy() {
 
     steady(folder.path(), "ax[g],ay[g]", "-10,0", 200);
     let (_, _, said) = occupant(folder.path(), &["risk", "a.csv"]);
-    assert!(said.contains("the sample rate is too low for any class; --filter none"), "{said}");
+    assert!(said.contains("the sample rate is too low for any class; use --filter none"), "{said}");
 }
 
 #[test]

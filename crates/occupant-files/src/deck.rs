@@ -58,7 +58,8 @@ pub fn from_deck(path: &Path, bytes: &[u8]) -> Result<FromDeck, Failure> {
     }
     let [deck] = &decks[..] else {
         let found = format!("{name} contains {} decks", decks.len());
-        let help = format!("convert each to a scenario with `occupant convert {name} -o NAME.toml`, and run them one by one");
+        let help =
+            format!("convert each to a scenario with `occupant convert {name} -o NAME.toml`, and run them one by one");
         return Err(Failure::with_help(found, &help));
     };
     let beside = compartment_beside(path);

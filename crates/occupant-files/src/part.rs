@@ -56,9 +56,10 @@ impl Results {
         let is_early =
             self.is_complete() && self.given_end().is_some() && self.own_end_s().is_none_or(|own_s| to_s < own_s);
         match () {
-            () if first.index > 0 && first.peaks.is_empty() => {
-                Some(Part::Whole(format!("the file begins at {} ms: no result includes the time before", in_ms(from_s))))
-            }
+            () if first.index > 0 && first.peaks.is_empty() => Some(Part::Whole(format!(
+                "the file begins at {} ms: no result includes the time before",
+                in_ms(from_s)
+            ))),
             () if is_early => {
                 let end = self.given_end().unwrap_or_default();
                 Some(Part::Whole(format!(

@@ -24,7 +24,7 @@ use super::mcap::StoredRun;
 use super::part::{Part, in_ms};
 use super::scenario::{format_of, stored};
 use super::steps;
-use crate::base::{Failure, input_file, program, sha256};
+use crate::base::{Failure, ending, input_file, program, quoted, sha256};
 
 /// A run that was recorded.
 pub struct Results {
@@ -71,7 +71,8 @@ impl Results {
         match wrong {
             Some((i, e)) if i > 0 && e.is_blown_up() => {
                 let at_ms = in_ms(run.checkpoints[i].time_s);
-                flaw = flaw.or(Some(format!("a run that became unstable: its numbers at {at_ms} ms are beyond all bounds")));
+                flaw = flaw
+                    .or(Some(format!("a run that became unstable: its numbers at {at_ms} ms are beyond all bounds")));
                 run.checkpoints.truncate(i);
             }
             Some((_, e)) => return Err(no_results(path, &e.to_string())),
@@ -206,14 +207,14 @@ impl Results {
     ///
     /// # Errors
     /// More outputs than a run may have; a run that fails before.
-    pub fn summary_again(&self, options: Options, interval_s: f64) -> Result<Summary, Failure> {
+    pub fn summary_again(&self, options: Options, interval_s: f64, watch: impl Recorder) -> Result<Summary, Failure> {
         let mut setup = self.model.setup().clone();
         setup.time.end_s = self.outcome().time_s;
         setup.output.readings_s = Some(interval_s);
         let again = |what: String| self.refused(&format!("it cannot be run again: {what}"));
         let model = Model::new(setup).map_err(|problems| again(self.loaded.diagnose(&problems).to_string()))?;
         let mut seen = (Summarizer::judging(options), FrictionWatch::new());
-        let outcome = attempt(&model, &mut seen).map_err(|e| again(e.to_string()))?;
+        let outcome = attempt(&model, (&mut seen, watch)).map_err(|e| again(e.to_string()))?;
         if let Status::Failed(error) = outcome.status {
             return Err(again(error.to_string()));
         }
@@ -246,8 +247,13 @@ impl Results {
 }
 
 fn no_results(path: &Path, reason: &str) -> Failure {
-    Failure::with_help(
-        format!("{} contains no results: {reason}", path.display()),
-        "give an .mcap file written by `occupant run`",
-    )
+    let name = path.display();
+    if ["toml", "json"].contains(&ending(path).as_str()) {
+        let results = quoted(path.with_extension("mcap").display());
+        return Failure::with_help(
+            format!("{name} is a scenario or a study, not the results of a run"),
+            &format!("run it with `occupant run {}`, then give {results}", quoted(name)),
+        );
+    }
+    Failure::with_help(format!("{name} contains no results: {reason}"), "give an .mcap file written by `occupant run`")
 }

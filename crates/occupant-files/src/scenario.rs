@@ -81,7 +81,8 @@ pub fn source(args: &ScenarioArgs) -> Result<Source, Failure> {
     };
     // a key of studies that no scenario has
     if draft.get("base").is_ok() {
-        let help = format!("run it with `occupant sweep {}`; its `base` names the scenario that it varies", quoted(&name));
+        let help =
+            format!("run it with `occupant sweep {}`; its `base` names the scenario that it varies", quoted(&name));
         return Err(Failure::with_help(format!("{name} is a study, not a scenario"), &help));
     }
     for assignment in &args.overrides {

@@ -111,10 +111,7 @@ fn known(maps: &[MapArgument], goals: &[(String, Unit, Goal)]) -> Result<(), Fai
     let like = goals.iter().map(|(name, ..)| name.as_str());
     let near: Vec<&str> = like.filter(|name| name.split('.').next() == stranger.split('.').next()).collect();
     let hint = if near.is_empty() { "see the list in measures.md".to_owned() } else { near.join(", ") };
-    Err(Failure::with_help(
-        format!("--map: no injury measure uses `{stranger}`"),
-        &format!("measures use {hint}"),
-    ))
+    Err(Failure::with_help(format!("--map: no injury measure uses `{stranger}`"), &format!("measures use {hint}")))
 }
 
 fn wanted(name: &str, unit: Unit) -> Wanted {

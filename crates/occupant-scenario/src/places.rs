@@ -107,8 +107,7 @@ impl Draft {
         let mark = Value::String("\u{0}".to_owned());
         let mut root = self.document.root.clone();
         let node = Node::new(root.span, mark.clone());
-        put(&mut root, Some(explicit), steps, node)
-            .map_err(|found| misplaced(found, "the path of an existing key"))?;
+        put(&mut root, Some(explicit), steps, node).map_err(|found| misplaced(found, "the path of an existing key"))?;
         let marked = expand(&mut self.document.sources.clone(), &root);
         let mut found = Vec::new();
         collect(&marked, &mark, &mut Vec::new(), &mut found);

@@ -89,7 +89,11 @@ impl Recorder for Log {
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
         let latest_s = self.series.time_s.last().copied();
         if latest_s.is_some_and(|latest_s| latest_s > sample.time_s) {
-            return Err(format!("an output at {} s after one at {latest_s:?} s: it belongs to another run", sample.time_s).into());
+            return Err(format!(
+                "an output at {} s after one at {latest_s:?} s: it belongs to another run",
+                sample.time_s
+            )
+            .into());
         }
         self.series.record(sample)?;
         self.summarizer.record(sample)

@@ -125,7 +125,7 @@ impl Problems {
     pub fn check_unique<'n>(&mut self, path: &str, what: &str, names: impl Iterator<Item = &'n str>) {
         let mut known = HashSet::new();
         for name in names.filter(|name| !known.insert(*name)) {
-            self.error(format!("{path}.{name}"), format!("the {what} name {name} is used twice"), "unique names");
+            self.error(format!("{path}.{name}"), format!("a second {what} named {name}"), "unique names");
         }
     }
 

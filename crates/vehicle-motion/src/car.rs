@@ -320,9 +320,7 @@ pub enum CarError {
         rear_m: f64,
     },
     /// Moments that no body has.
-    #[error(
-        "the inertia is impossible: it must be symmetric, with positive moments, none above the sum of the others"
-    )]
+    #[error("the inertia is impossible: it must be symmetric, with positive moments, none above the sum of the others")]
     Inertia,
     /// The body without its wheels has no mass or inertia left.
     #[error("the wheels have all of the vehicle's mass or inertia")]

@@ -46,14 +46,14 @@ pub(crate) fn channels(args: &Args) -> Result<(), Failure> {
     if found.is_empty() {
         if let Some(file) = args.word.as_ref().filter(|word| args.of.is_none() && is_file(word)) {
             let help = format!("occupant channels --of {}", quoted(file));
-            return Err(Failure::with_help(format!("{file} is a file, not a word in the name or meaning of a channel"), &help));
+            return Err(Failure::with_help(
+                format!("{file} is a file, not a word in the name or meaning of a channel"),
+                &help,
+            ));
         }
         if let Some(label) = measure(&word) {
             let help = "`occupant measures RUN.mcap` prints the measures of a run";
-            return Err(Failure::with_help(
-                format!("{label} is a measure, one number per run, not a channel"),
-                help,
-            ));
+            return Err(Failure::with_help(format!("{label} is a measure, one number per run, not a channel"), help));
         }
         let words: Vec<&str> = all.iter().flat_map(|channel| channel.name.split(['.', '_'])).collect();
         let help = did_you_mean(&word, &words, '`').unwrap_or_else(|| "`occupant channels` lists them all".to_owned());

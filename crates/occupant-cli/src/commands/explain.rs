@@ -134,7 +134,13 @@ impl<'a> Key<'a> {
         };
         let is_named = |key: &&Key| wanted.len() == 1 && key.name() == wanted[0];
         let found: Vec<Key> = all.iter().filter(is_at).cloned().collect();
-        let found = if found.is_empty() { all.iter().filter(is_named).cloned().collect() } else { found };
+        // the section before keys elsewhere: `belt` is looked for among belts first
+        let is_section = |key: &&Key| wanted.len() == 1 && key.path.strip_suffix('s') == Some(wanted[0]);
+        let found = if found.is_empty() {
+            all.iter().filter(is_section).chain(all.iter().filter(is_named)).cloned().collect()
+        } else {
+            found
+        };
         let is_word = |key: &&Key| names(key.schema()).contains(&format!("\"{path}\""));
         let found: Vec<Key> = if found.is_empty() { all.iter().filter(is_word).cloned().collect() } else { found };
         if let (true, Some((_, key))) = (found.is_empty(), ALSO.iter().find(|(word, _)| is_called(path, word))) {

@@ -102,7 +102,10 @@ pub(crate) fn import(args: &Args) -> Result<(), Failure> {
     // curves under the names of channels are of use alone
     let has_channels = imported.recording.signals.iter().any(|signal| signal.name.contains('.'));
     if made.path.is_none() && is_table(&args.source) && !has_channels {
-        return Err(Failure::plain(format!("{} contains no vehicle motion: nothing was written", args.source.display())));
+        return Err(Failure::plain(format!(
+            "{} contains no vehicle motion: nothing was written",
+            args.source.display()
+        )));
     }
     write(args, &name, &imported, &made)
 }

@@ -15,6 +15,7 @@ use serde::Serialize;
 use super::flags::history::{TestArgs, interval};
 use super::tables::measures::{remarks, risks, side_by_side, table};
 use super::tables::summary::Marks;
+use crate::base::progress::Progress;
 use crate::base::{Done, Failure, Units, UnitsArg, json, note, one_of, print};
 use occupant_files::results::Results;
 use occupant_jobs::files::history::{FAMILIES, family_name};
@@ -149,7 +150,7 @@ impl Judged {
                 notes.push(format!(
                     "running the case again with samples every {interval_ms} ms; the file has one every {own_ms} ms"
                 ));
-                results.summary_again(options, interval_s)?
+                results.summary_again(options, interval_s, Progress::new(false))?
             }
         };
         Ok(Judged { file: file.display().to_string(), results, summary, interval_ms, notes })

@@ -49,10 +49,7 @@ pub(crate) fn new(args: &Args) -> Result<(), Failure> {
     }
     let name = file.display();
     if file.extension().is_some_and(|e| !e.eq_ignore_ascii_case("toml")) {
-        return Err(Failure::with_help(
-            format!("{name}: the template is written as TOML"),
-            "use the extension .toml",
-        ));
+        return Err(Failure::with_help(format!("{name}: the template is written as TOML"), "use the extension .toml"));
     }
     publish(&file, args.force, args.template.text().as_bytes())?;
     if !args.quiet {

@@ -225,7 +225,7 @@ fn one(args: &Args) -> Result<(Done, Summary, Units), Failure> {
     let ensemble =
         ensemble.map(|wanted| wanted.run(&opened, &run.summary, histories, &interrupt, progress::show(args.quiet)));
     let estimate = (args.estimate_error && run.completed && !interrupt.is_asked())
-        .then(|| estimate(&opened, &run.summary, &run.head, &interrupt));
+        .then(|| estimate(&opened, &run.summary, &run.head, &interrupt, progress::show(args.quiet)));
     if let Some(estimate) = estimate.as_ref().and_then(told) {
         // what may be chance is now known
         run.summary.caveats.retain(|caveat| caveat.name != Caveat::CHANCE);
@@ -277,10 +277,7 @@ fn existing_at(args: &Args, name: &Path, chosen: &ScenarioArgs, opened: &Opened)
     let unasked = args.output.is_none() && args.resume.is_none() && !args.force;
     let is_earlier = unasked && is_earlier(name, chosen, opened);
     if is_earlier {
-        say(&format!(
-            "note: replacing {}, an earlier run of this scenario (use -o to keep it)",
-            name.display()
-        ));
+        say(&format!("note: replacing {}, an earlier run of this scenario (use -o to keep it)", name.display()));
     }
     Existing::by(args.force || is_earlier)
 }

@@ -78,7 +78,7 @@ fn figures_that_cannot_be_trusted_say_so_wherever_they_stand() {
         assert_eq!(code(&output), 0, "{}", err(&output));
         output
     };
-do not quote     let neck = "neck beyond its stop: 119° at 131.7 ms, the stop ends at 60°; neck results";
+    let neck = "neck beyond its stop: 119° at 131.7 ms, the stop ends at 60°; do not quote neck results";
     let table = out(&said(&["run", scenario, "-o", "a.mcap"]));
     assert!(table.contains(&format!("! {neck}\n")), "{table}");
     assert!(row(&table, "Nij")[1].ends_with('!') && !row(&table, "HIC15")[1].ends_with('!'), "{table}");

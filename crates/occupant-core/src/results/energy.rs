@@ -266,7 +266,9 @@ impl EnergyCheck {
             _ if !balance_error.is_finite() => "not known".to_owned(),
             Balance::Lost => format!("off by {:.0} % of the {reference}", 100.0 * balance_error),
             _ if self.balance == Balance::Lost => {
-                format!("meaningless: a kinetic energy of {kinetic_j:.1e} J relative to the vehicle is impossible for an occupant")
+                format!(
+                    "meaningless: a kinetic energy of {kinetic_j:.1e} J relative to the vehicle is impossible for an occupant"
+                )
             }
             _ => format!("off by {:.1} % of the {reference}", 100.0 * balance_error),
         }

@@ -39,10 +39,7 @@ impl Failure {
     /// Could not run: the ending of an output names no kind of file that it can be.
     pub fn ending(output: &Path, endings: &str) -> Self {
         let name = output.display();
-        Failure::with_help(
-            format!("-o {name}: unknown file format"),
-            &format!("use one of the extensions {endings}"),
-        )
+        Failure::with_help(format!("-o {name}: unknown file format"), &format!("use the extension {endings}"))
     }
 
     /// The same, and what was done before.

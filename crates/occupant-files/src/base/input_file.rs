@@ -84,10 +84,7 @@ fn within(size: u64, most: u64) -> io::Result<()> {
         return Ok(());
     }
     let size = size as f64 / 1e6;
-    Err(io::Error::new(
-        ErrorKind::InvalidData,
-        format!("it has {size:.1} MB; the limit for such a file is {most} MB"),
-    ))
+    Err(io::Error::new(ErrorKind::InvalidData, format!("it has {size:.1} MB; the limit for such a file is {most} MB")))
 }
 
 /// What comes out of a pipe, until all who write it have closed it; `most` in MB.

@@ -235,7 +235,10 @@ fn unknown(model: &Model, name: &str, others: &[&str]) -> Failure {
     let inside = matching(model, &format!("*{name}*"));
     let help = match (nearest, inside.first()) {
         (Some(nearest), _) => format!("did you mean `{nearest}`?"),
-        (None, Some(one)) => format!("give a complete name, such as `{}`, or use `*` for any part; `occupant channels` lists them", one.name),
+        (None, Some(one)) => format!(
+            "give a complete name, such as `{}`, or use `*` for any part; `occupant channels` lists them",
+            one.name
+        ),
         (None, None) => {
             "names look like head.acceleration.x, belt.lap.force, energy.balance; `occupant channels` lists them"
                 .to_owned()

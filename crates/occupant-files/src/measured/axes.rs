@@ -19,6 +19,5 @@ pub const AXES: [(&str, &str, Axes); 4] = [
 
 impl Axes {
     /// What is said where nobody said it.
-    pub const TAKEN: &str =
-        "axes are taken as x forward, y right, z down (SAE J670); use --axes z_up for x forward, y left, z up (ISO 8855)";
+    pub const TAKEN: &str = "axes are taken as x forward, y right, z down (SAE J670); use --axes z_up for x forward, y left, z up (ISO 8855)";
 }

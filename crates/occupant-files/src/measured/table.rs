@@ -264,8 +264,7 @@ impl Reader<'_> {
             self.wrong(table.lines[i], "a line without a time", "times that increase");
         }
         let all: Vec<usize> = (0..time_s.len()).filter(|&i| late(i)).collect();
-        let goes_back =
-            (all.len() + 1 == time_s.len()).then_some("times decrease: reverse the order of the rows");
+        let goes_back = (all.len() + 1 == time_s.len()).then_some("times decrease: reverse the order of the rows");
         // many are one mistake
         let more = if all.len() > EACH { format!(" (and {} more like it)", all.len() - 1) } else { String::new() };
         for &i in all.iter().take(if all.len() > EACH { 1 } else { EACH }) {

@@ -39,7 +39,9 @@ const OPEN: Layout = Layout {
     object: Some("name"),
     units: ["m", "rad"],
     axes: Axes::ZUp,
-    note: Some("a trajectory follows the middle of the rear axle; give the distance of the centre of gravity ahead of it with --cg"),
+    note: Some(
+        "a trajectory follows the middle of the rear axle; give the distance of the centre of gravity ahead of it with --cg",
+    ),
     without_units: None,
 };
 
@@ -105,7 +107,9 @@ pub(super) fn read(
         return Err(Trouble::of(path, found, "times that increase").into());
     }
     if rows.len() < 2 {
-        return Err(Trouble::of(path, format!("{} places", rows.len()), "a trajectory with at least two positions").into());
+        return Err(
+            Trouble::of(path, format!("{} places", rows.len()), "a trajectory with at least two positions").into()
+        );
     }
     let time_s: Vec<f64> = rows.iter().map(|row| row[0]).collect();
     let signal = |(i, name): (usize, &&str)| Signal {
@@ -126,8 +130,10 @@ pub(super) fn read(
 pub(super) fn one_vehicle(path: &Path, vehicle: Option<u32>) -> Result<(), Trouble> {
     match vehicle {
         None | Some(1) => Ok(()),
-        Some(number) => Err(Trouble::of(path, format!("no vehicle {number}"), "1, because the file has no vehicle numbers")
-            .hint("choose one of several objects with --object")),
+        Some(number) => {
+            Err(Trouble::of(path, format!("no vehicle {number}"), "1, because the file has no vehicle numbers")
+                .hint("choose one of several objects with --object"))
+        }
     }
 }
 
@@ -257,7 +263,12 @@ fn rows(
         let row: Option<Vec<f64>> = columns[..7].iter().map(number).collect();
         let Some(row) = row.and_then(|row| Row::try_from(row).ok()) else {
             let expected = format!("numbers for {}", layout.heads.join(", "));
-            return Err(Trouble::at(path, sources.position(*line).line, "a line that does not belong to this table", expected));
+            return Err(Trouble::at(
+                path,
+                sources.position(*line).line,
+                "a line that does not belong to this table",
+                expected,
+            ));
         };
         let own = columns.get(7).and_then(|&i| cells.get(i)).map_or("", |cell| cell.text);
         let name = names.iter().position(|name| name == own).unwrap_or_else(|| {
@@ -322,7 +333,8 @@ fn of_scenario(path: &Path, text: &str, object: Option<&str>) -> Result<Vec<Row>
     }
     let row = |vertex: &Node| {
         let place = vertex.descendants().find(|n| n.has_tag_name("WorldPosition"));
-        let place = place.ok_or_else(|| Trouble::at(path, line(*vertex), "no WorldPosition", "positions in the world"))?;
+        let place =
+            place.ok_or_else(|| Trouble::at(path, line(*vertex), "no WorldPosition", "positions in the world"))?;
         let number = |node: Node, name: &str, needed: bool| match node.attribute(name) {
             None if !needed => Ok(0.0),
             None => Err(Trouble::at(path, line(node), format!("no `{name}`"), "a time, x and y of each vertex")),

@@ -115,7 +115,9 @@ fn two_runs(request: &Request<'_>, run: &Results, remarks: &mut Remarks) -> Resu
         let signal = other.channel.name;
         // what never happens in the other run (no contact, no belt) cannot be rated
         if other.values.iter().all(|v| v.abs() < ZERO) {
-            remarks.notes.push(format!("{signal}: zero throughout in {}, so it is not rated", request.measured.display()));
+            remarks
+                .notes
+                .push(format!("{signal}: zero throughout in {}, so it is not rated", request.measured.display()));
             continue;
         }
         couples.push(Couple {

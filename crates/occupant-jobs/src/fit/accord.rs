@@ -66,7 +66,9 @@ impl Accord {
             ));
         }
         if !(1.0 / PEAKS..=PEAKS).contains(&ratio) {
-            return Some(format!("the peak of {of} is {ratio:.3} times the computed one: check its unit, or set `gain`"));
+            return Some(format!(
+                "the peak of {of} is {ratio:.3} times the computed one: check its unit, or set `gain`"
+            ));
         }
         let (ms, falls) = (1e3 * self.lag_s, 100.0 * (1.0 - self.falls_to));
         (self.lag_s.abs() >= LAG_S && self.falls_to < FALLS_TO).then(|| {

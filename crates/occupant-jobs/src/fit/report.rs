@@ -23,10 +23,7 @@ fn overview(result: &FitResult) -> String {
     let tests: Vec<&str> = result.tests.iter().map(|t| t.file.as_str()).collect();
     let mut lines = vec![
         ("fit", format!("{} to {}", result.study.file, tests.join(", "))),
-        (
-            "score",
-            format!("{:.5} ({}), before {before}; 0 is a perfect match", result.score.after, result.objective),
-        ),
+        ("score", format!("{:.5} ({}), before {before}; 0 is a perfect match", result.score.after, result.objective)),
         (
             "evaluations",
             format!(

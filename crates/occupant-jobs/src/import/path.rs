@@ -141,7 +141,9 @@ fn keys_of_sensors(
     let told = request.speed.map(str::to_owned).or(known).or_else(recorded);
     let speed_m_s = told.as_deref().and_then(|speed| super::speed(speed).ok());
     let speed = told.unwrap_or_else(|| {
-        notes.push("the record has no vehicle speed: `speed` is set to 50 km/h; give the real one with --speed".to_owned());
+        notes.push(
+            "the record has no vehicle speed: `speed` is set to 50 km/h; give the real one with --speed".to_owned(),
+        );
         "50 km/h".to_owned()
     });
     let mut keys = vec!["kind = \"sensors\"".to_owned(), format!("speed = {}", text(&speed))];
@@ -196,7 +198,9 @@ fn keys_of_places(request: &Request) -> Result<Vec<String>, Failure> {
         Some(PathFilter::Frequency(hertz)) => {
             Some(format!("filter = \"{hertz} Hz\"             # smooths the table from here on"))
         }
-        Some(PathFilter::Class(_)) => return Err(other_filter("a frequency for positions and angles, such as '15 Hz'")),
+        Some(PathFilter::Class(_)) => {
+            return Err(other_filter("a frequency for positions and angles, such as '15 Hz'"));
+        }
     };
     let after = "after = \"coast\"             # beyond the last row".to_owned();
     Ok(["kind = \"table\"".to_owned()].into_iter().chain(offset).chain(filter).chain([after]).collect())

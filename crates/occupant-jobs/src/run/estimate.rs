@@ -11,7 +11,7 @@ use occupant_core::run::simulate::attempt;
 use serde::Serialize;
 
 use crate::base::text_table::{facts, number};
-use crate::base::{Failure, Interrupt, Units};
+use crate::base::{Failure, Interrupt, Show, Units};
 use crate::files::scenario::Opened;
 
 /// A figure that differs by more than this part of itself is named in the table.
@@ -77,6 +77,7 @@ pub fn estimate(
     summary: &Summary,
     path: &[Point3<f64>],
     interrupt: &Interrupt,
+    show: Show,
 ) -> Result<ErrorEstimate, Failure> {
     let unfinished = |reason: String| Failure::broke_off(format!("the error cannot be estimated: {reason}"));
     let setup = opened.model.setup();
@@ -84,8 +85,13 @@ pub fn estimate(
     let model = Model::new(Setup { integrator, ..setup.clone() })
         .map_err(|problems| unfinished(opened.loaded.diagnose(&problems).to_string()))?;
     let (mut summarizer, mut finer_path) = (Summarizer::new(), Vec::new());
-    let head = Watch(|sample: &Sample<'_>| finer_path.push(head_m(sample)));
+    let bar = show.bar(model.output_count() as u64, "outputs of the finer run");
+    let head = Watch(|sample: &Sample<'_>| {
+        finer_path.push(head_m(sample));
+        bar.iter().for_each(|bar| bar.set_position(sample.index as u64 + 1));
+    });
     let outcome = attempt(&model, (interrupt.clone(), (&mut summarizer, head)));
+    bar.iter().for_each(|bar| bar.clear());
     let outcome = outcome.map_err(|error| unfinished(error.to_string()))?;
     match (outcome.status, summarizer.summary(None)) {
         (Status::Completed, Some(finer)) => Ok(ErrorEstimate {

@@ -141,9 +141,7 @@ impl Linear {
             Design::Morris { .. } => {
                 "the runs of Morris trajectories depend on one another, so rank correlation and regression would not be valid"
             }
-            Design::OneAtATime { .. } => {
-                "a one-at-a-time design shows no interactions: only the tornado is available"
-            }
+            Design::OneAtATime { .. } => "a one-at-a-time design shows no interactions: only the tornado is available",
             _ => "",
         };
         if !without.is_empty() {

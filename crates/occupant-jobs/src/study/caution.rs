@@ -37,9 +37,7 @@ const NAMED: usize = 3;
 pub fn rules() -> [String; 8] {
     [
         format!("a Sobol index whose 95 % interval is wider than {INDEX_WIDTH}: its first digit is unknown"),
-        format!(
-            "a Sobol index that depends on fewer than {CARRYING} points: its interval is too narrow"
-        ),
+        format!("a Sobol index that depends on fewer than {CARRYING} points: its interval is too narrow"),
         format!(
             "a Morris effect with fewer than {TRAJECTORIES} trajectories, or whose interval is wider than the effect"
         ),
@@ -149,8 +147,7 @@ pub fn of_the_study(opened: &Stored, gathered: &Gathered) -> Vec<String> {
     }
     if study.parameters.is_empty() && study.design == Design::Single {
         notes.push(
-            "The study varies only the small changes of its ensemble: there is no parameter to analyse."
-                .to_owned(),
+            "The study varies only the small changes of its ensemble: there is no parameter to analyse.".to_owned(),
         );
     }
     notes

@@ -125,10 +125,7 @@ fn spread(html: &mut Html, of: &Finding<'_>) {
     if unstable > 0 {
         html.text(
             "p class=\"note\"",
-            &format!(
-                "In {unstable} of {} samples this result is not stable in the ensemble.",
-                stable + unstable
-            ),
+            &format!("In {unstable} of {} samples this result is not stable in the ensemble.", stable + unstable),
         );
     }
     if of.analysis.constant {

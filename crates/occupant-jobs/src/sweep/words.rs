@@ -12,9 +12,7 @@ use crate::files::study_folder::Held;
 /// Warns where a file system has no locks; `doing` is what two processes could be at in one folder.
 pub fn warn_unlocked(held: &Held, doing: &str, quiet: bool) {
     if let (Some(reason), false) = (&held.unlocked, quiet) {
-        say(&format!(
-            "warning: this file system has no locks ({reason}): make sure that no two processes are {doing}"
-        ));
+        say(&format!("warning: this file system has no locks ({reason}): make sure that no two processes are {doing}"));
     }
 }
 
@@ -58,11 +56,8 @@ pub fn judged(census: &Census) -> Done {
         return Done::Well;
     }
     let why = census.first.first().map_or(String::new(), |(index, reason)| format!("; sample {index}: {reason}"));
-    let all = if census.refused == census.finished() {
-        "every sample is invalid"
-    } else {
-        "no sample has valid results"
-    };
+    let all =
+        if census.refused == census.finished() { "every sample is invalid" } else { "no sample has valid results" };
     say(&format!("error: {all}{why}\n = help: `occupant sweep STUDY --dry-run` tries the corners of the study"));
     Done::Unwell
 }

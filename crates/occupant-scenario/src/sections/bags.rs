@@ -232,7 +232,8 @@ impl Parts<'_> {
         let at = with_key(path, "frame");
         let frame = b.frame(self.scenario, &at, s.frame.as_deref());
         if self.scenario.vehicle_of(frame) != Some(Frame::Vehicle) {
-            let found = format!("`{}`, which does not move with the first vehicle", s.frame.as_deref().unwrap_or_default());
+            let found =
+                format!("`{}`, which does not move with the first vehicle", s.frame.as_deref().unwrap_or_default());
             b.error(&at, found, "\"vehicle\", or a frame that moves with it; air bags elsewhere are not supported");
         }
         frame

@@ -178,7 +178,8 @@ fn bend_limit(b: &mut Builder, path: &str, section: &BendLimitSection) -> Bend<f
     let within = points.first().zip(points.last()).is_some_and(|(first, last)| last[0] - first[0] < turn - 1e-9);
     if points.len() < 4 || azimuths.len() != angles.len() || !(rise && starts && within) {
         let found = format!("{} azimuths and {} angles", azimuths.len(), angles.len());
-        let expected = "four or more increasing azimuths within 360°, the first from −180° to 180°, and an angle for each";
+        let expected =
+            "four or more increasing azimuths within 360°, the first from −180° to 180°, and an angle for each";
         b.error(&with_key(path, "azimuths"), found, expected);
         return Bend::new(Curve::constant(f64::NAN), torque);
     }

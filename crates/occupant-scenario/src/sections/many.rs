@@ -273,7 +273,9 @@ fn warn_of_unmet(b: &mut Builder, s: &Scenario, world: &Setup, members: &[(Strin
         let Some((first, others)) = unmet.split_first() else { continue };
         let more = if others.is_empty() { String::new() } else { format!(" and {} more", others.len()) };
         let name = if name.is_empty() { "the occupant" } else { name };
-        let found = format!("{name} passes through {first}{more}: by default, only those who start in its vehicle touch a surface");
+        let found = format!(
+            "{name} passes through {first}{more}: by default, only those who start in its vehicle touch a surface"
+        );
         let expected = "meets = \"all\" if others can come in front of it, else \"own\"";
         let problem = Problem::warning(with_key("surfaces", first), found, expected);
         b.report(problem.with_hint(Some("a solid can be touched by all, from all sides")));

@@ -132,7 +132,12 @@ impl Parts<'_> {
         }
         let then = s.then.as_ref().and_then(|then| self.next(b, &format!("{path}.then"), then));
         if let Some(side) = s.wing {
-            b.refuse_keys(path, &["normal", "pretensioner"], |key| format!("`{key}` in a node with `wing`"), "neither of them");
+            b.refuse_keys(
+                path,
+                &["normal", "pretensioner"],
+                |key| format!("`{key}` in a node with `wing`"),
+                "neither of them",
+            );
             let track = wings::track(b, path, self.body, side);
             let across = si_or(&s.across, wings::ACROSS);
             let drag_n_s_m = 1e3 / si_or(&s.slide_speed, SLIDE_M_S);
@@ -153,12 +158,7 @@ impl Parts<'_> {
             return Site::Vehicle(at, stroke);
         };
         let index = self.segment(b, path, segment).unwrap_or(0);
-        b.refuse_keys(
-            path,
-            &["pretensioner"],
-            |key| format!("`{key}` in a node on the body"),
-            "a node on the vehicle",
-        );
+        b.refuse_keys(path, &["pretensioner"], |key| format!("`{key}` in a node on the body"), "a node on the vehicle");
         match &s.track {
             Some(points) => Site::Track(
                 index,

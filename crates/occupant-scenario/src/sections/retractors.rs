@@ -118,7 +118,11 @@ impl Parts<'_> {
             return Device { limiter, second: None, reel: None };
         };
         if s.limiter.is_some() {
-            b.error(&format!("{path}.limiter"), "a belt with both a limiter and a retractor", "`limiter` of the retractor");
+            b.error(
+                &format!("{path}.limiter"),
+                "a belt with both a limiter and a retractor",
+                "`limiter` of the retractor",
+            );
         }
         if section.second_limiter.is_some() && section.limiter.is_none() {
             b.error(path, "a retractor with a second limiter but no first", "`limiter` of the retractor");

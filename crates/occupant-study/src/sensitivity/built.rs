@@ -102,7 +102,10 @@ impl Built {
             }
             in_order(times_s, shifts)
         } else {
-            notes.push(format!("{}: close to its value other devices fire, or other corners of a path apply", parameter.name));
+            notes.push(format!(
+                "{}: close to its value other devices fire, or other corners of a path apply",
+                parameter.name
+            ));
             Vec::new()
         };
         if let Some(time_s) = coincidence(base, &shifts) {
@@ -114,7 +117,10 @@ impl Built {
         }
         if let Some(reason) = &family.one_sided {
             let reason = reason.lines().next().unwrap_or_default();
-            notes.push(format!("{}: a derivative to one side only, because the other is invalid: {reason}", parameter.name));
+            notes.push(format!(
+                "{}: a derivative to one side only, because the other is invalid: {reason}",
+                parameter.name
+            ));
         }
         let phases = |m: &Model| m.start().history.memory.contacts.iter().map(|p| p.phase.to_bits()).collect();
         let at_base: Vec<u64> = phases(base);

@@ -152,7 +152,8 @@ fn changes(given: &[String]) -> Result<Tolerances, Failure> {
 
 /// A part such as `10 %` or 0.1, above 0.
 fn part(flag: &str, text: &str) -> Result<f64, Failure> {
-    let refused = |found: String| Failure::with_help(format!("{flag} {text}: {found}"), "give a fraction such as '10 %'");
+    let refused =
+        |found: String| Failure::with_help(format!("{flag} {text}: {found}"), "give a fraction such as '10 %'");
     let value = ratio(text);
     let value = value.map_err(|e| refused(format!("{}; expected {}", e.found, e.expected)))?;
     if value > 0.0 && value.is_finite() { Ok(value) } else { Err(refused("it is not above 0".to_owned())) }

@@ -17,8 +17,9 @@ use occupant_jobs::sweep::plan::Plan;
 
 /// The part to compute, and the variable that says so.
 pub(crate) fn shard(given: Option<&str>) -> Result<(Shard, Option<&'static str>), Failure> {
-    let refused =
-        |found: String| Failure::with_help(found, "use --shard 1/1 to compute everything, regardless of the environment");
+    let refused = |found: String| {
+        Failure::with_help(found, "use --shard 1/1 to compute everything, regardless of the environment")
+    };
     if let Some(text) = given {
         let shard = Shard::parse(text).map_err(|e| refused(format!("--shard: {e}")))?;
         return Ok((shard, None));

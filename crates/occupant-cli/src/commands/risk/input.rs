@@ -142,7 +142,10 @@ fn unsampled(name: &str, interval_s: f64) -> Failure {
 fn motion(args: &Args, name: &str, notes: &mut Vec<String>) -> Result<(Motion, Axes), Failure> {
     let vehicle = args.vehicle.as_deref().map(|number| {
         number.parse().map_err(|_| {
-            Failure::with_help(format!("--vehicle {number}: a record has numbered vehicles"), "give a number, such as 2")
+            Failure::with_help(
+                format!("--vehicle {number}: a record has numbered vehicles"),
+                "give a number, such as 2",
+            )
         })
     });
     let reading = Reading { vehicle: vehicle.transpose()?, object: None, columns: args.columns.as_deref() };
@@ -252,8 +255,10 @@ fn doubt_of_gravity(record: &AccelerationRecord, included: bool) -> Option<Strin
 fn remedy(nyquist_hz: f64) -> String {
     // the corner of one pass of two lies at 2.08 times the class
     let fits = ChannelClass::ALL.into_iter().rev().find(|class| 2.1 * class.hertz() < nyquist_hz);
-    let class =
-        fits.map_or_else(|| "the sample rate is too low for any class".to_owned(), |c| format!("use --filter CFC{}", c.hertz()));
+    let class = fits.map_or_else(
+        || "the sample rate is too low for any class".to_owned(),
+        |c| format!("use --filter CFC{}", c.hertz()),
+    );
     format!("{class}; use --filter none for data that are filtered already")
 }
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use occupant_core::run::batch::Kernel;
 
-use crate::base::{Existing, Failure, listen, say};
+use crate::base::{Existing, Failure, listen, progress, say};
 use crate::commands::flags::sweep::engine;
 use occupant_jobs::ensemble::bands::choose;
 use occupant_jobs::files::study_folder::checksums::Checksums;
@@ -65,6 +65,7 @@ pub(crate) fn bands(args: &BandsArgs) -> Result<(), Failure> {
         engine: &engine(args.threads, Kernel::best())?,
         interrupt: &interrupt,
         sums: Checksums::open(&args.folder, |name| name.starts_with("bands/"))?,
+        show: progress::show(args.quiet),
     };
-    bands.write_all(Existing::by(args.force), args.quiet)
+    bands.write_all(Existing::by(args.force))
 }

@@ -62,10 +62,7 @@ pub(crate) fn report(args: &ReportArgs) -> Result<(), Failure> {
 /// Refuses names that are no page, and files of the sweep itself.
 fn refuse_names(page: &Path, tables: &Tables, args: &ReportArgs) -> Result<(), Failure> {
     if !is_page(page) {
-        return Err(Failure::with_help(
-            format!("{} is not an .html file", page.display()),
-            "use the extension .html",
-        ));
+        return Err(Failure::with_help(format!("{} is not an .html file", page.display()), "use the extension .html"));
     }
     let names = ["results.parquet", "ensemble.parquet"];
     let own = |table: &PathBuf| {

@@ -135,7 +135,10 @@ fn seating(seat: &SeatStart, units: Units) -> String {
     if let Some(s) = seat.unsettled.filter(Settled::is_unbalanced) {
         let left = [s.residual_force_n, s.weight_n].map(|n| units.say(n, "N", 0));
         let left = format!("a force of {} (weight {})", left[0], left[1]);
-        lines.push(("unsettled", format!("{left} is left over and disturbs the first 50 ms; set posture.settle = true")));
+        lines.push((
+            "unsettled",
+            format!("{left} is left over and disturbs the first 50 ms; set posture.settle = true"),
+        ));
     }
     facts(&lines)
 }

@@ -199,7 +199,12 @@ impl Caveat {
 
     /// A sphere that went deeper into a surface than anything gives way.
     pub(super) fn too_deep(body: &Body, sphere: usize, surface: &str, depth: Peak, most_m: f64) -> Self {
-        let seen = format!("{} deep in {surface} {}; {} is the most that is meaningful", mm(depth.value), at(depth), mm(most_m));
+        let seen = format!(
+            "{} deep in {surface} {}; {} is the most that is meaningful",
+            mm(depth.value),
+            at(depth),
+            mm(most_m)
+        );
         Caveat::of_sphere(body, sphere, "too_deep", seen)
     }
 
@@ -221,7 +226,10 @@ impl Caveat {
     /// Webbing that was stretched beyond the last point of its curve.
     pub(super) fn stretched(strap: &str, beyond: Peak, last: f64) -> Self {
         let [strain, last] = [last + beyond.value, last].map(|strain| 1e2 * strain);
-        let seen = format!("webbing {strap} stretched by {strain:.1} % {}, beyond the end of its curve at {last:.1} %", at(beyond));
+        let seen = format!(
+            "webbing {strap} stretched by {strain:.1} % {}, beyond the end of its curve at {last:.1} %",
+            at(beyond)
+        );
         let text = format!("{seen}; {}", not_to_be_quoted("its"));
         Caveat::new(format!("{strap}_stretched"), text, vec![format!("straps.{}.*", word(strap))])
     }
@@ -311,12 +319,18 @@ impl Caveat {
         let shown = |x: f64| if *turns { format!("{:.1}°", x.to_degrees()) } else { mm(x) };
         let (way, last) = (shown(last + beyond.value), shown(last));
         if *turns {
-            let text =
-                format!("{column} turned {way} {}, beyond the end of its moment curve at {last}; {}", at(beyond), not_to_be_quoted("its"));
+            let text = format!(
+                "{column} turned {way} {}, beyond the end of its moment curve at {last}; {}",
+                at(beyond),
+                not_to_be_quoted("its")
+            );
             return Caveat::new(format!("{column}_beyond_turn"), text, vec![format!("hinges.{column}.*")]);
         }
-        let text =
-            format!("{column} stroked {way} {}, beyond the end of its force curve at {last}; {}", at(beyond), not_to_be_quoted("its"));
+        let text = format!(
+            "{column} stroked {way} {}, beyond the end of its force curve at {last}; {}",
+            at(beyond),
+            not_to_be_quoted("its")
+        );
         Caveat::new(format!("{column}_beyond_stroke"), text, vec![format!("columns.{column}.*")])
     }
 

@@ -21,10 +21,7 @@ pub(super) fn late(motion: &Motion) -> Option<String> {
     let all: Vec<usize> = motion.time_s.windows(2).enumerate().filter(|(_, pair)| odd(pair)).map(|(i, _)| i).collect();
     let [before, after] = all[..] else { return None };
     (after == before + 1 && motion.time_s.len() > 10).then(|| {
-        format!(
-            "the time {} s does not fit the others: correct it, or remove its row",
-            number(motion.time_s[after])
-        )
+        format!("the time {} s does not fit the others: correct it, or remove its row", number(motion.time_s[after]))
     })
 }
 

@@ -90,11 +90,7 @@ impl Folder {
 
     /// What was done, unless the folder was taken away with it.
     pub fn still(&self, done: String) -> String {
-        if self.manifest_path().exists() {
-            done
-        } else {
-            format!("{} was removed", self.path.display())
-        }
+        if self.manifest_path().exists() { done } else { format!("{} was removed", self.path.display()) }
     }
 
     /// The file of the rows so far.

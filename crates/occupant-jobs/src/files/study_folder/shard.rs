@@ -20,7 +20,8 @@ impl Shard {
     /// What is wrong with it.
     pub fn parse(text: &str) -> Result<Shard, String> {
         let form = "part/number of parts, such as 3/8";
-        let (number, count) = text.split_once('/').ok_or_else(|| format!("`{text}` is not a shard; expected {form}"))?;
+        let (number, count) =
+            text.split_once('/').ok_or_else(|| format!("`{text}` is not a shard; expected {form}"))?;
         let read = |word: &str| {
             let word = word.trim();
             word.parse::<u64>().map_err(|_| format!("`{word}` in `{text}` is not a whole number; expected {form}"))
@@ -47,8 +48,9 @@ impl Shard {
             return Ok(Some((shard, "OCCUPANT_SHARD")));
         }
         let number = |name: &str| {
-            let read =
-                |text: String| text.trim().parse::<u64>().map_err(|_| format!("{name}: `{text}` is not a whole number"));
+            let read = |text: String| {
+                text.trim().parse::<u64>().map_err(|_| format!("{name}: `{text}` is not a whole number"))
+            };
             get(name).map(read).transpose()
         };
         let Some(id) = number("SLURM_ARRAY_TASK_ID")? else {

@@ -284,9 +284,7 @@ pub(super) fn check_names(b: &mut Builder, s: &Scenario) {
 /// Warns of what a load does that moves with the vehicle.
 fn warn_of_load(b: &mut Builder, at: &str, load_kg: f64, mass_kg: f64) {
     if load_kg > 0.1 * mass_kg {
-        let found = format!(
-            "a fixed load of {load_kg:.0} kg in a vehicle of {mass_kg:.0} kg"
-        );
+        let found = format!("a fixed load of {load_kg:.0} kg in a vehicle of {mass_kg:.0} kg");
         let expected = "at most a tenth of its mass: heavier people and cargo move relative to the vehicle and push it";
         b.report(Problem::warning(with_key(at, "payload"), found, expected));
     }

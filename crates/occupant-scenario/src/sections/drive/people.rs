@@ -91,9 +91,7 @@ impl Scenario {
             );
             let expected = "a panel in [frames] that intrudes as far, a seat farther away, or a milder collision";
             let problem = match self.has_panel(number) {
-                true => {
-                    Problem::warning(&ball.who, found, "a panel in [frames] that intrudes as far: check yours")
-                }
+                true => Problem::warning(&ball.who, found, "a panel in [frames] that intrudes as far: check yours"),
                 false => Problem::error(&ball.who, found, expected),
             };
             b.report(problem);
@@ -155,8 +153,9 @@ impl Solved {
             let front_m = own.car.body.front_m - own.car.front.ahead_m;
             if damage.front_m() > front_m {
                 let found = format!("{} is crushed by {:.2} m at its front", own.name, damage.front_m());
-                let expected =
-                    format!("at most {front_m:.2} m, the distance to its front axle: class stiffness does not model the firewall");
+                let expected = format!(
+                    "at most {front_m:.2} m, the distance to its front axle: class stiffness does not model the firewall"
+                );
                 b.report(Problem::warning(with_key("drive.vehicles", &own.name), found, expected));
             }
         }
