@@ -391,7 +391,7 @@ fn figures_of_an_unbalanced_start_are_marked() {
     };
     assert_eq!(caveat(&["time.end=20 ms"]), None);
     let marked = caveat(&["time.end=20 ms", pressed]).expect("7.2 kN are left over");
-    assert!(marked.text.contains("7188 N are left over of a weight of 740 N"), "{}", marked.text);
+    assert!(marked.text.contains("a force of 7188 N is left over (weight 740 N)"), "{}", marked.text);
     for figure in ["pelvis.peak", "contacts.left_knee.peak", "hic15"] {
         assert!(marked.touches(figure), "{figure}: {:?}", marked.figures);
     }

@@ -236,7 +236,7 @@ fn so_is_one_of_other_elements() {
         ("two solids of one name", |s| s.solids[1].name = s.solids[0].name.clone(), "second"),
     ];
     let several: &[Row] = &[
-        ("one of several without a name of its own", |s| s.members[1].name = s.members[0].name.clone(), "second"),
+        ("one of several without a unique name", |s| s.members[1].name = s.members[0].name.clone(), "second"),
         ("one of several in no frame", |s| s.members[0].home = Frame::Other(77), "frame 77"),
         (
             "one of several left out",

@@ -133,7 +133,7 @@ fn check_provenance(b: &mut Builder, written: &Scenario) {
     for topic in written.provenance.keys() {
         let is_path = topic.contains('.') && !topic.contains(' ');
         if is_path && locate(&b.document.root, topic).is_none() {
-            let found = format!("`{topic}` is no part of the scenario");
+            let found = format!("`{topic}` is not part of the scenario");
             let expected = "a path such as materials.seat, or a topic in words";
             b.report(Problem::warning(with_key("provenance", topic), found, expected));
         }

@@ -16,76 +16,76 @@ use occupant_core::model::setup::{OtherFrame, TimeSpan};
 use occupant_core::vehicle::VehiclePath;
 use placed_text::{Problem, with_key};
 
-/// What sets something off.
+/// A trigger: what fires a device.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub(crate) enum TriggerSection {
-    /// A time.
+    /// At a time.
     Time {
-        /// When.
+        /// The time.
         at: Time,
     },
-    /// A vehicle's acceleration along its floor, of its centre of gravity.
+    /// The acceleration of a vehicle's centre of gravity, in the plane of its floor or along `direction`.
     VehicleAcceleration {
-        /// Whose; the first's if absent.
+        /// Name of the vehicle; the first if absent.
         vehicle: Option<String>,
-        /// The way of it that counts, along the vehicle's axes, any length: [-1, 0, 0] is that of a blow on the front; any way along the
-        /// floor if absent.
+        /// Direction along which the acceleration counts, vehicle axes, any length: [-1, 0, 0] for an impact on the front. Any direction
+        /// in the plane of the floor if absent.
         direction: Option<[Ratio; 3]>,
-        /// How strong it must be.
+        /// Threshold.
         threshold: Acceleration<POSITIVE>,
-        /// For how long without a break; 0 if absent.
+        /// Minimum duration without a break; 0 if absent.
         #[serde(rename = "for")]
         lasting: Option<Time<NOT_NEGATIVE>>,
     },
-    /// A vehicle's change of speed along its floor since its acceleration last rose above `wake`.
+    /// A vehicle's change of velocity, in the plane of its floor, since its acceleration last rose above `wake`.
     DeltaV {
-        /// Whose; the first's if absent.
+        /// Name of the vehicle; the first if absent.
         vehicle: Option<String>,
-        /// How great it must be.
+        /// Threshold.
         threshold: Speed<POSITIVE>,
-        /// Acceleration below which it counts from 0 again.
+        /// Acceleration below which integration restarts from 0.
         wake: Acceleration<POSITIVE>,
     },
-    /// The first of others that fires.
+    /// The first of other triggers to fire.
     Any {
         /// Names of triggers.
         of: Vec<String>,
     },
-    /// The last of others that fires.
+    /// The last of other triggers to fire.
     All {
         /// Names of triggers.
         of: Vec<String>,
     },
-    /// The tension where the belt leaves its first node, of the belt whose device answers.
+    /// The tension at the first node of the belt to which the device belongs.
     BeltTension {
-        /// How great it must be.
+        /// Threshold.
         threshold: Force<POSITIVE>,
-        /// For how long without a break; 0 if absent.
+        /// Minimum duration without a break; 0 if absent.
         #[serde(rename = "for")]
         lasting: Option<Time<NOT_NEGATIVE>>,
     },
-    /// Webbing that has left the spool that answers, since the start.
+    /// Webbing paid out by the device's own spool since the start.
     Payout {
-        /// How much it must be.
+        /// Threshold.
         threshold: Length<POSITIVE>,
-        /// For how long without a break; 0 if absent.
+        /// Minimum duration without a break; 0 if absent.
         #[serde(rename = "for")]
         lasting: Option<Time<NOT_NEGATIVE>>,
     },
-    /// The speed at which webbing leaves the spool that answers.
+    /// Pay-out speed at the device's own spool.
     PayoutSpeed {
-        /// How great it must be.
+        /// Threshold.
         threshold: Speed<POSITIVE>,
-        /// For how long without a break; 0 if absent.
+        /// Minimum duration without a break; 0 if absent.
         #[serde(rename = "for")]
         lasting: Option<Time<NOT_NEGATIVE>>,
     },
-    /// The acceleration of webbing that leaves the spool that answers: its speed less the average over 5 ms, over 5 ms.
+    /// Pay-out acceleration at the device's own spool: its speed minus the average over 5 ms, divided by 5 ms.
     PayoutAcceleration {
-        /// How great it must be.
+        /// Threshold.
         threshold: Acceleration<POSITIVE>,
-        /// For how long without a break; 0 if absent.
+        /// Minimum duration without a break; 0 if absent.
         #[serde(rename = "for")]
         lasting: Option<Time<NOT_NEGATIVE>>,
     },
@@ -127,7 +127,7 @@ impl Triggers<'_> {
             Fires::Watch(..) => {
                 b.error(
                     path,
-                    format!("\"{name}\", a trigger that belts watch"),
+                    format!("\"{name}\", a trigger on a belt"),
                     "a trigger by time or by the vehicle's motion",
                 );
                 None
@@ -164,9 +164,9 @@ pub(super) fn triggers<'s>(b: &mut Builder, scenario: &'s Scenario, paths: Paths
         match search.found(name, MOST) {
             Ok(Some(Fires::At(at_s))) if at_s <= time.end_s => drop(fires.insert(name.as_str(), Fires::At(at_s))),
             Ok(Some(watch @ Fires::Watch(..))) => drop(fires.insert(name.as_str(), watch)),
-            // those of a car in words wait for blows that need not come
+            // triggers of a car in words may wait for an impact that does not come
             Ok(_) if is_of_car(b, name) => {}
-            Ok(_) => b.report(Problem::warning(at, "a trigger that never fires in this run", "one that does")),
+            Ok(_) => b.report(Problem::warning(at, "this trigger does not fire in this run", "a trigger that fires")),
             Err([found, expected]) => b.error(&at, found, expected),
         }
     }
@@ -189,8 +189,8 @@ fn is_too_much(b: &mut Builder, scenario: &Scenario, time: &TimeSpan) -> bool {
     if count > MOST {
         b.error("triggers", format!("{count} triggers"), format!("at most {MOST}"));
     } else if motion_s > MOST_MOTION_S {
-        let found = format!("{motion_s} s of the vehicle's motion to look at");
-        b.error("triggers", found, format!("at most {MOST_MOTION_S} s for all triggers together: a shorter run"));
+        let found = format!("triggers that look at {motion_s} s of vehicle motion in all");
+        b.error("triggers", found, format!("at most {MOST_MOTION_S} s: a shorter run or fewer triggers"));
     }
     count > MOST || motion_s > MOST_MOTION_S
 }
@@ -227,7 +227,7 @@ impl<'s> Search<'s> {
             let expected = "another kind of trigger, or a path with interpolate = \"spline\"";
             path.has_accelerations()
                 .then_some(path)
-                .ok_or(["a trigger by acceleration with a path that has none", expected])
+                .ok_or(["a trigger by acceleration on a path without accelerations", expected])
         };
         match trigger {
             TriggerSection::Time { at } => Ok(Some(Fires::At(at.si()))),
@@ -273,15 +273,15 @@ impl<'s> Search<'s> {
     /// When others fire, s; none of one that does not.
     fn times_s(&mut self, names: &'s [String], depth: usize) -> Result<Vec<Option<f64>>, [&'static str; 2]> {
         if depth == 0 {
-            let found = "triggers that wait for one another in a circle";
-            return Err([found, "triggers of which the last waits for none"]);
+            let found = "triggers that wait for one another in a loop";
+            return Err([found, "triggers without a loop"]);
         }
         let mut list = Vec::new();
         for name in names.iter().filter(|name| self.scenario.triggers.contains_key(*name)) {
             match self.found(name, depth - 1)? {
                 Some(Fires::Watch(..)) => {
                     let expected = "triggers by time or by the vehicle's motion";
-                    return Err(["a group with a trigger that belts watch", expected]);
+                    return Err(["a group that contains a trigger on a belt", expected]);
                 }
                 Some(Fires::At(at_s)) => list.push(Some(at_s)),
                 None => list.push(None),

@@ -51,7 +51,7 @@ fn what_is_wrong_with_belts_is_said_at_its_place() {
             "`slack` with a retractor",
         ),
         (&[WEBBING, BELT, "belts.b.nodes[2].on=\"upper_torse\""], "did you mean \"upper_torso\"?"),
-        (&[WEBBING, BELT, "webbings.w.force=[0, 4000]"], "as many in one as in the other"),
+        (&[WEBBING, BELT, "webbings.w.force=[0, 4000]"], "the same number in both"),
         (&[WEBBING, BELT, "webbings.w.force=[0, 4000, 4000]"], "forces that rise from point to point"),
         (
             &[WEBBING, BELT, "limiters.l={ payout = [0, 0.1, 0.2], force = [0, 4000, 3000] }", "belts.b.limiter=\"l\""],
@@ -68,7 +68,7 @@ fn what_is_wrong_with_belts_is_said_at_its_place() {
                 "triggers.p={ kind = \"payout\", threshold = 0.1 }",
                 "muscles.neck={ trigger = \"p\", rise = 0.03, stiffness = 3 }",
             ],
-            "a trigger that belts watch",
+            "a trigger on a belt",
         ),
         (&["belts.lap.k1=5e4", "belts.lap.k2=4e4", "belts.lap.delta_b=0.01"], "softer than k1"),
     ] {

@@ -95,7 +95,7 @@ fn an_absurd_vehicle_does_not_hide_the_error_of_the_energy_balance() {
     let energy = serde_json::to_value(&summary).unwrap()["energy"].clone();
     assert_eq!(
         (&energy["reference"], &energy["balance"]),
-        (&"greatest work of gravity and force elements".into(), &"lost".into())
+        (&"largest work of gravity and force elements".into(), &"lost".into())
     );
     let [error, reference_j, kinetic_j] =
         ["balance_error", "reference_j", "greatest_kinetic_j"].map(|key| energy[key].as_f64().unwrap());

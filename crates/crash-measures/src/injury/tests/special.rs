@@ -97,7 +97,7 @@ fn of_a_person_no_limit_and_no_risk_of_a_dummy_is_told() {
         assert!(own.limits.is_empty() && own.risks.is_empty(), "{own:?}");
     }
     assert!(of(&found, "cti").remark.as_deref().unwrap().contains("no more"));
-    assert!(of(&found, "chest_compression").remark.as_deref().unwrap().contains("24 %, more than six at 38 %"));
+    assert!(of(&found, "chest_compression").remark.as_deref().unwrap().contains("24 %, and more than six at 38 %"));
     // of a dummy the same numbers have them
     assert!(!of(&assess(&signals, &Options::default()), "chest_deflection").limits.is_empty());
 }
