@@ -181,7 +181,7 @@ impl Reported for Bags {
 
     fn keep(past: &mut Vec<BagPast<f64>>, like: Option<&[BagPast<f64>]>, file: &mut dyn Archive) {
         let number = if like.is_some() { 54 } else { 53 };
-        let meaning = "what each bag remembers: whether it has fired, its gas's book, of 4 vents, of 12 spheres";
+        let meaning = "what each bag remembers: whether it has fired, its gas's book, of 4 vents, of 20 spheres";
         let mut list = Vec::new();
         for bag in &*past {
             bag.map(&mut |x| list.push(x));

@@ -331,7 +331,9 @@ impl Caveat {
     pub(super) fn of_bag(body: &Body, sphere: usize, sign: &str, bag: &str, time_s: f64) -> Self {
         let at = format!("at {:.1} ms", 1e3 * time_s);
         let seen = if sign == "caught" {
-            format!("was within the bag {bag} when it fired, {at}: it hits nobody as it unfolds")
+            format!(
+                "was within the bag {bag} when it fired, {at}: of its blow as it unfolds nothing but a guess is known"
+            )
         } else {
             format!("pressed the bag {bag} in as far as its mount or its middle {at}")
         };
