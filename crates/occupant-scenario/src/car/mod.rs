@@ -42,7 +42,7 @@ pub(super) fn check(document: &Document) -> Diagnostics {
 
 /// What numbers of a car lie between: its key, the least and the greatest in SI units, and how a message says them.
 #[rustfmt::skip]
-const BETWEEN: [(&str, f64, f64, &str); 24] = [
+const BETWEEN: [(&str, f64, f64, &str); 25] = [
     ("seat_height", 0.05, 0.8, "5 cm to 80 cm"), ("seat_offset", 0.05, 1.2, "5 cm to 1.2 m"), ("couple", 0.4, 2.0, "0.4 m to 2 m"),
     ("shoulder_room", 0.8, 2.5, "0.8 m to 2.5 m"), ("roof", 0.5, 2.0, "0.5 m to 2 m"), ("ahead", 0.1, 1.5, "10 cm to 1.5 m"),
     ("above", -1.0, 1.5, "-1 m to 1.5 m"), ("angle", 0.0, 1.4, "0 to 80 degrees"), ("diameter", 0.2, 0.6, "20 cm to 60 cm"),
@@ -50,7 +50,7 @@ const BETWEEN: [(&str, f64, f64, &str); 24] = [
     ("bolster_stiffness", 1e3, 1e7, "1 kN/m to 10 MN/m"), ("delay", 0.0, 1.0, "0 to 1 s"), ("vent", 0.01, 100.0, "0.01 to 100"),
     ("track", -0.5, 0.5, "-0.5 m to 0.5 m"), ("height", -0.3, 0.3, "-0.3 m to 0.3 m"), ("recline", 0.0, 1.4, "0 to 80 degrees"),
     ("y", -1.5, 1.5, "-1.5 m to 1.5 m"), ("foam", 0.01, 100.0, "0.01 to 100"), ("head_gap", 0.0, 0.5, "0 to 0.5 m"),
-    ("head_height", 0.3, 1.2, "0.3 m to 1.2 m"), ("limiter", 100.0, 1e6, "100 N to 1 MN"), ("film", 0.001, 0.4, "1 mm to 0.4 m"),
+    ("head_height", 0.3, 1.2, "0.3 m to 1.2 m"), ("back_moment", 50.0, 1e5, "50 N*m to 100 kN*m"), ("limiter", 100.0, 1e6, "100 N to 1 MN"), ("film", 0.001, 0.4, "1 mm to 0.4 m"),
 ];
 const OTHERS_M: [&str; 4] = ["slack", "pretensioner", "behind", "outboard"];
 

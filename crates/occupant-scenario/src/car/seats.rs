@@ -79,13 +79,14 @@ impl Seat {
             if self.row == 0 { String::new() } else { format!("group = \"row_{}_{part}\"\n", self.row + 1) }
         };
         let rounded = |part: &str, radius: f64| format!("{}rounding = {}\n", group(part), m(radius));
+        let leaning = |part: &str, radius: f64| rounded(part, radius) + &self.rides();
         let all = |points: &[[f64; 2]]| points.iter().map(|point| self.at(*point)).collect::<Vec<_>>();
         let back = |points: &[[f64; 2]]| points.iter().map(|point| self.along(*point)).collect::<Vec<_>>();
         let foam = all(&[[-0.11, 0.12], [0.35, 0.08], [0.35, 0.28], [-0.11, 0.32]]);
         let b = -BACK_BEHIND_M;
         let cover = back(&[[-0.14, b], [0.56, b], [0.56, b - 0.17], [-0.14, b - 0.17]]);
         let mut text = prism(&format!("{name}_foam"), &self.foam(), &foam, across, &rounded("foam", 0.02));
-        text += &prism(&format!("{name}_back"), &self.foam(), &cover, across, &rounded("back", 0.02));
+        text += &prism(&format!("{name}_back"), &self.foam(), &cover, across, &leaning("back", 0.02));
         if self.taken {
             let pan = all(&[[-0.09, 0.17], [0.33, 0.133], [0.33, 0.27], [-0.09, 0.31]]);
             let ramp = all(&[[0.13, 0.16], [0.28, 0.12], [0.33, 0.12], [0.33, 0.26], [0.13, 0.28]]);
@@ -94,13 +95,32 @@ impl Seat {
             text += &prism(&format!("{name}_ramp"), "pan", &ramp, steel, &of_pan);
         }
         let frame = back(&[[-0.12, b - 0.07], [0.54, b - 0.07], [0.54, b - 0.16], [-0.12, b - 0.16]]);
-        text += &prism(&format!("{name}_frame"), "frame", &frame, steel, &rounded("frame", 0.01));
-        text + &self.head_restraint() + &self.place()
+        text += &prism(&format!("{name}_frame"), "frame", &frame, steel, &leaning("frame", 0.01));
+        text + &self.recliner() + &self.head_restraint() + &self.place()
     }
 
     /// The foam's material: that of all, or a stiffer or softer one of its own.
     fn foam(&self) -> String {
         if self.own.foam.is_some() { format!("{}_foam", self.name) } else { "foam".to_owned() }
+    }
+
+    /// The line that lets a part of the back go with its hinge, where it has one.
+    fn rides(&self) -> String {
+        if self.own.back_moment.is_some() { format!("frame = \"{}_recliner\"\n", self.name) } else { String::new() }
+    }
+
+    /// The hinge of a back that yields backwards.
+    fn recliner(&self) -> String {
+        let Some(moment) = self.own.back_moment.as_ref().map(|moment| moment.si()) else { return String::new() };
+        let place = |[x, z]: [f64; 2]| list(&[x, self.h[1], z]);
+        format!(
+            "[frames.{}_recliner]\nkind = \"hinge\"\naxis = [0, 1, 0]\norigin = {}\nmass = \"12 kg\"\ncentre = {}\ninertia = \"0.5 kg m^2\"\n\
+             angle = [\"0 deg\", \"3 deg\", \"45 deg\", \"55 deg\"]\nmoment = [\"0 N m\", \"{moment} N m\", \"{moment} N m\", \"{} N m\"]\n\n",
+            self.name,
+            place(self.along([-0.08, -0.12])),
+            place(self.along([0.30, -0.19])),
+            8.0 * moment,
+        )
     }
 
     fn head_restraint(&self) -> String {
@@ -109,10 +129,11 @@ impl Seat {
         let [x, z] = self.along([top - 0.10, front - 0.05]);
         format!(
             "[solids.{}_head_restraint]\nkind = \"box\"\nmaterial = \"padding\"\ncentre = {}\nlengths = [\"0.10 m\", \"0.26 m\", \"0.20 m\"]\n\
-             pitch = \"{} deg\"\nrounding = \"0.03 m\"\n\n",
+             pitch = \"{} deg\"\nrounding = \"0.03 m\"\n{}\n",
             self.name,
             list(&[x, self.h[1], z]),
             self.recline_deg / 2.0,
+            self.rides(),
         )
     }
 

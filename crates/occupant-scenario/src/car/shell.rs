@@ -74,7 +74,7 @@ impl Car<'_> {
         let material = if stiffness.is_some() { "knee_bolster" } else { "bolster" };
         own + &prism("knee_bolster", material, &bolster, sides, "rounding = \"0.02 m\"\n")
             + &prism("instrument_panel", "padding", &panel, sides, "rounding = \"0.03 m\"\n")
-            + &prism("windscreen", "glass", &screen, [0.0, w - 0.02], "")
+            + &prism("windscreen", "windscreen", &screen, [0.0, w - 0.02], "")
     }
 
     /// Roof, doors, windows, pillars and what is behind.
@@ -100,7 +100,7 @@ impl Car<'_> {
             let window = [[base, low, sill], [top[0], high, top[1]], [rear, high, top[1]], [rear, low, sill]];
             _ = write!(
                 text,
-                "[solids.{side}_window]\nkind = \"prism\"\nmaterial = \"glass\"\npoints = {}\nhalf_width = \"0.01 m\"\n\n",
+                "[solids.{side}_window]\nkind = \"prism\"\nmaterial = \"window\"\npoints = {}\nhalf_width = \"0.01 m\"\n\n",
                 points(&window),
             );
             let front = [[base, low * 0.99, -above + 0.02], [top[0], high, top[1] + 0.02]];

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::quantity::{NOT_NEGATIVE, POSITIVE};
 use super::three_point::Side;
-use super::{Angle, Force, Length, Ratio, Stiffness, Time};
+use super::{Angle, Force, Length, Moment, Ratio, Stiffness, Time};
 
 /// A class of cars.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -163,6 +163,9 @@ pub(crate) struct CarSeatSection {
     pub(crate) y: Option<Length>,
     /// Factor on the stiffness of its foam; 1 if absent.
     pub(crate) foam: Option<Ratio<POSITIVE>>,
+    /// Moment about its recliner at which the back gives way backwards, head restraint and all: 1 to 3 kN*m in front seats of today, by
+    /// what tests of seats say. It does not give way if absent.
+    pub(crate) back_moment: Option<Moment<POSITIVE>>,
     /// Head restraint behind the head of an average man, the backset; 50 mm if absent.
     pub(crate) head_gap: Option<Length<NOT_NEGATIVE>>,
     /// Top of the head restraint over the H-point along the back; 0.80 m if absent.

@@ -147,3 +147,30 @@ fn what_is_wrong_with_a_car_is_said_at_its_place() {
         assert!(said.contains(expected), "{car}: {said}");
     }
 }
+
+#[test]
+fn bags_beside_stand_on_the_side_that_is_asked() {
+    let names = |car: &str| build(&of(car)).bags.iter().map(|bag| bag.name.clone()).collect::<Vec<_>>();
+    assert_eq!(
+        names("bags = { driver = false, curtain = \"both\", side = \"left\" }"),
+        ["left_curtain", "right_curtain", "driver_side"]
+    );
+    // right-hand drive: nobody sits on the left
+    assert_eq!(
+        names("drive = \"right\"\nbags = { driver = false, curtain = \"left\", side = \"left\" }"),
+        ["left_curtain"]
+    );
+    assert_eq!(names("bags = { driver = false, side = \"none\" }"), [""; 0]);
+    let setup = build(&of("bags = { curtain = \"left\" }"));
+    assert!(setup.bags[1].mount_m.y < -0.5 && setup.bags[1].cover_kg > 0.0, "{:?}", setup.bags[1]);
+}
+
+#[test]
+fn a_back_that_yields_takes_its_frame_and_head_restraint_along() {
+    let setup = build(&of("[car.seats.driver]\nback_moment = \"1.2 kN*m\""));
+    let moving = |name: &str| setup.solids.iter().find(|solid| solid.name == name).map(|solid| solid.frame);
+    let hinge = moving("driver_back");
+    assert!(hinge.is_some() && hinge != moving("driver_foam"));
+    assert_eq!([moving("driver_frame"), moving("driver_head_restraint")], [hinge; 2]);
+    assert_eq!(moving("passenger_back"), moving("driver_foam"));
+}

@@ -224,11 +224,11 @@ impl Reported for Bags {
     fn sections(shown: &Shown<'_, Self>) -> Vec<Section> {
         let both = shown.data.iter().zip(shown.actions);
         let sections = both.flat_map(|(bag, action)| {
-            let own = outline::sections(bag, action.scale).into_iter();
-            own.map(|section| Section {
-                corners_m: section.corners_m.iter().map(|corner| (shown.place_m)(bag.frame, *corner)).collect(),
-                ..section
-            })
+            let pressing = |(sphere, _): &(usize, f64)| {
+                ((shown.centre_m)(*sphere, Use::Bag), shown.body.spheres[*sphere].radius_m)
+            };
+            let spheres: Vec<_> = bag.spheres.iter().filter(|_| action.fired > 0.0).map(pressing).collect();
+            outline::sections(bag, action.scale, |point| (shown.place_m)(bag.frame, point), &spheres)
         });
         sections.collect()
     }

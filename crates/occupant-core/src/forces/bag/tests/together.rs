@@ -187,3 +187,26 @@ fn a_cover_leaves_its_momentum_to_what_is_in_its_way() {
     assert_eq!(push(0.3, 0.03, [0.41, 0.0]).0, push(0.0, 0.03, [0.41, 0.0]).0);
     assert_eq!(push(0.3, 0.02, [0.28 + 0.12, 30.0]).0, push(0.0, 0.02, [0.28 + 0.12, 30.0]).0);
 }
+
+/// A picture of a dome that a sphere presses: no corner stands within the sphere, and what is beside it stands as before.
+#[test]
+fn pictures_show_a_bag_pressed_in() {
+    let shape = Shape::Dome { axis: Vector3::z(), depth_m: 0.30, radius_m: 0.33, face_radius_m: 0.55, edge_m: 0.05 };
+    let capsule = Shape::Capsule { ends_m: [Point3::new(0.0, -0.5, 0.2), Point3::new(0.0, 0.5, 0.2)], radius_m: 0.12 };
+    for shape in [shape, capsule] {
+        let bag = Bag { shape, ..closed() };
+        let (middle, radius) = (Point3::new(0.02, 0.05, 0.33), 0.1);
+        let place = |point: Point3<f64>| point;
+        let [plain, pressed] = [&[][..], &[(middle, radius)]].map(|list| outline::sections(&bag, 1.0, place, list));
+        let corners = plain.iter().zip(&pressed).flat_map(|(a, b)| a.corners_m.iter().zip(&b.corners_m));
+        let mut moved = 0;
+        for (before, after) in corners {
+            assert!((after - middle).norm() > radius - 1e-12, "{after}");
+            if (before - middle).norm() < radius {
+                moved += 1;
+                assert!(((after - middle).norm() - radius).abs() < 1e-12, "{after}");
+            }
+        }
+        assert!(moved > 3, "{moved}");
+    }
+}
