@@ -447,7 +447,7 @@ fn a_heavy_body_far_away_does_not_hide_what_the_occupant_has_lost() {
     let (alone, beside) = (of(cart), of(&format!("{cart}{truck}")));
     assert_eq!((alone.balance, beside.balance), (Balance::Lost, Balance::Lost), "{alone:?} {beside:?}");
     assert!(alone.balance_error > 0.1 && beside.balance_error > 0.1, "{alone:?} {beside:?}");
-    assert_eq!(beside.reference, "greatest energy of one of the bodies");
+    assert_eq!(beside.reference, "largest energy of one of the bodies");
 }
 
 #[test]

@@ -371,7 +371,7 @@ fn a_body_whose_feet_hang_tips_until_they_stand() {
 /// Friction holds what the 6 N of a spool pull at one shoulder; without it they turned the body by 6 degrees.
 #[test]
 fn the_spool_of_a_retractor_does_not_turn_a_seated_body() {
-    let start = start(setup(include_str!("../../scenarios/three-point.toml"), &[]));
+    let start = start(setup(include_str!("../../tests/data/hand/three-point.toml"), &[]));
     assert!(start.model.start().settled.unwrap().moved_m > 1e-3);
     let [l, r] = [tti12::LEFT_LOWER_LEG, tti12::RIGHT_LOWER_LEG].map(|n| start.joints_m[n.index()][0]);
     assert_below("one knee ahead of the other, m", l.x - r.x, 1e-3);
@@ -391,7 +391,7 @@ fn figures_of_an_unbalanced_start_are_marked() {
     };
     assert_eq!(caveat(&["time.end=20 ms"]), None);
     let marked = caveat(&["time.end=20 ms", pressed]).expect("7.2 kN are left over");
-    assert!(marked.text.contains("7188 N are left over of a weight of 740 N"), "{}", marked.text);
+    assert!(marked.text.contains("a force of 7188 N is left over (weight 740 N)"), "{}", marked.text);
     for figure in ["pelvis.peak", "contacts.left_knee.peak", "hic15"] {
         assert!(marked.touches(figure), "{figure}: {:?}", marked.figures);
     }

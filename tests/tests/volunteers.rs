@@ -153,7 +153,7 @@ fn a_neck_of_one_joint_is_no_persons() {
         for (joints, kind) in [("joints.preset=person", "warning: "), (ALIVE, "error: ")] {
             let said = told(joints, body);
             let name = joints.split('=').next_back().unwrap();
-            let found = format!("{kind}the neck of \"{name}\" in a body whose neck is one joint");
+            let found = format!("{kind}the neck of \"{name}\" in a body with a one-joint neck");
             assert!(said.contains(&found), "{joints} {body}: {said}");
         }
         assert!(!told("joints.preset=gebod", body).contains("one joint"));

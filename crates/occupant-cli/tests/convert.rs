@@ -48,14 +48,14 @@ fn a_deck_stands_in_the_compartment_beside_it() {
     let committed = std::fs::read_to_string(decks().join("report/unbelted.toml")).expect("committed");
     let (code, out, said) = convert(folder.path(), &["unbelted.dat"]);
     assert_eq!((code, &out), (0, &committed), "{said}");
-    assert!(said.contains("its compartment is that of compartment.toml"), "{said}");
+    assert!(said.contains("its compartment comes from compartment.toml"), "{said}");
     let run = |words: &[&str]| {
         let output = Command::cargo_bin("occupant").expect("built").current_dir(folder.path()).args(words).output();
         let output = output.expect("runs");
         String::from_utf8_lossy(&[output.stdout, output.stderr].concat()).into_owned()
     };
     let said = run(&["check", "unbelted.dat"]);
-    assert!(said.contains("its compartment is that of compartment.toml"), "{said}");
+    assert!(said.contains("its compartment comes from compartment.toml"), "{said}");
     std::fs::write(folder.path().join("converted.toml"), out).expect("written");
     let peak = |name: &str| {
         let said = run(&["run", name, "--json", "--no-mcap", "-q"]);
@@ -140,7 +140,7 @@ fn a_run_is_extended_by_cards() {
     assert_eq!(convert(folder.path(), &[deck, "--extend", "0.1"]).0, 2);
     let (code, out, said) = convert(folder.path(), &[deck, "--extend", "0.3"]);
     assert_eq!((code, out.as_str()), (2, ""), "no deck without a path to its end");
-    assert!(said.contains("--extend 0.3 s lies beyond the last station of the vehicle's path, 0.25 s"), "{said}");
+    assert!(said.contains("--extend 0.3 s is after the last station of the vehicle's path, 0.25 s"), "{said}");
 }
 
 #[test]
@@ -275,7 +275,8 @@ fn an_extension_by_cards_says_how_far_it_is_off() {
     let (code, _, by_run) = convert(folder.path(), &["run.mcap", "--extend", "0.25", "-o", "same.dat"]);
     assert_eq!(code, 0, "{by_run}");
     for said in [&by_deck, &by_run] {
-        let (_, figures) = said.split_once("From 0.200 s to 0.250 s, against the run that goes on: ").expect("figures");
+        let (_, figures) =
+            said.split_once("From 0.200 s to 0.250 s, compared with the continued run: ").expect("figures");
         let off =
             figures.split_once("the head is up to ").and_then(|(_, rest)| rest.split_once(" mm off")).expect("mm");
         let off_mm: f64 = off.0.parse().expect("a number");

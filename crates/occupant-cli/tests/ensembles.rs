@@ -102,7 +102,7 @@ fn what_can_not_be_is_refused_before_anything_is_run() {
         (&["--ensemble", "10", "--threads", "0"], "invalid value"),
         (&["--ensemble", "10", "--change", "posture"], "it has no ="),
         (&["--ensemble", "10", "--change", "posture=2 mm"], "expected"),
-        (&["--ensemble", "10", "--change", "belts=2 mm"], "nothing is called `belts`"),
+        (&["--ensemble", "10", "--change", "belts=2 mm"], "unknown name `belts`"),
         (&["--ensemble", "10", "--change", "path=-1 %"], "not from 0"),
         (&["--ensemble", "10", "--stable-within", "0"], "not above 0"),
         (&["--ensemble", "10", "--channels", "head.aceleration.x"], "head.acceleration.x"),
@@ -225,7 +225,7 @@ fn members_part_when_chest_and_head_strike_the_wheel() {
     assert_eq!(&bytes("b.parquet")[..4], b"PAR1");
     assert_eq!(&bytes("b.png")[1..4], b"PNG");
     let svg = String::from_utf8(bytes("b.svg")).unwrap();
-    assert!(svg.contains(">belt.lap.force</text>") && svg.contains("90 % of the members"));
+    assert!(svg.contains(">belt.lap.force</text>") && svg.contains("90 % of the runs"));
     assert!(!svg.contains("NaN"));
 }
 

@@ -132,9 +132,9 @@ fn a_sweep_has_a_folder_of_its_own_and_says_what_comes_next() {
     assert!(told.contains("next       occupant study report study"), "{told}");
     assert!(told.contains("least") && told.contains("head.peak"), "{told}");
     let matrix = done(here, &["study", "report", "study"]);
-    assert!(matrix.starts_with("rank correlations, without unit; †") && matrix.contains("speed"), "{matrix}");
+    assert!(matrix.starts_with("rank correlations, dimensionless; †") && matrix.contains("speed"), "{matrix}");
     let page = fs::read_to_string(here.join("study/report.html")).unwrap();
-    assert!(page.contains("What matters for what") && page.contains("<summary>Pictures"));
+    assert!(page.contains("What matters for which result") && page.contains("<summary>Pictures"));
     let refused = answer(here, &["sweep", "case"]);
     assert!(err(&refused).contains("error"), "{}", err(&refused));
 }

@@ -73,12 +73,12 @@ fn each_flaw_of_a_record_is_said_with_its_remedy() {
         (
             "rates in rad/s under deg/s",
             table(HEADINGS, all([1.0, 1.0, 1.0, radians, radians, radians])),
-            "no rate goes beyond 1.6 deg/s (mean of 10 ms): are they in rad/s? --columns says so, such as 'wx[rad/s]'",
+            "no rate exceeds 1.6 deg/s (mean of 10 ms): if rates are in rad/s, use --columns, such as 'wx[rad/s]'",
         ),
         (
             "g under m/s^2",
             table(&HEADINGS.replace("[g]", "[m/s^2]"), all([1.0, 1.6, 1.0, 1.0, 1.0, 1.0])),
-            "g (mean of 10 ms): are they in g? --columns says so, such as 'ax[g]'",
+            "g (mean of 10 ms): if they are in g, use --columns, such as 'ax[g]'",
         ),
         (
             "x to the back",
@@ -88,7 +88,7 @@ fn each_flaw_of_a_record_is_said_with_its_remedy() {
         (
             "whole g",
             table(HEADINGS, |t, m| (t, [m[0].round(), m[1].round(), m[2].round(), m[3], m[4], m[5]])),
-            "ax, ay, az are rounded to 1 g: what stays below 0.5 g is lost; `risk --sensor-error offset='0.5 g'`",
+            "ax, ay, az are rounded to 1 g: anything below 0.5 g is lost; `occupant risk --sensor-error offset='0.5 g'`",
         ),
     ] {
         fs::write(here.join("a.csv"), text).unwrap();
@@ -119,7 +119,7 @@ fn each_flaw_of_a_record_is_said_with_its_remedy() {
         format!("t[s],x[m]\n{}", (0..100).map(line).collect::<String>())
     };
     for (text, words) in [
-        (places(0.0, 0.01), "x jumps in one row, at 0.4 s to 6.09 m: a slip?"),
+        (places(0.0, 0.01), "x jumps in one row, at 0.4 s to 6.09 m. If it is a mistake"),
         (places(0.003, 0.0), "the time 0.403 s is out of step with all others"),
         (places(0.0, 0.0), ""),
     ] {
@@ -199,7 +199,7 @@ fn the_place_of_a_test_is_the_quiet_one_of_those_that_agree() {
         .unwrap();
     let said = spoken(here, &["risk", "a.csv"]);
     assert!(
-        said.contains("the path is that of SILLRI, which rings least of the 3 of 4 places whose velocity change ahead is -56 km/h within a tenth"),
+        said.contains("the path is that of SILLRI, which has the least ringing of the 3 of 4 locations with a forward delta-v of -56 km/h ± 10 %"),
         "{said}"
     );
     assert!(said.contains("do not agree on its velocity change ahead, km/h: ENGN -76.2"), "{said}");
@@ -222,7 +222,7 @@ fn the_speed_that_a_recorder_tells_is_used() {
     )
     .unwrap();
     let said = spoken(here, &["import", "edr.csv"]);
-    assert!(said.contains("`speed` is Vehicle speed at 0 s, 68.4 km/h; --speed says otherwise"), "{said}");
+    assert!(said.contains("`speed` is Vehicle speed at 0 s, 68.4 km/h; change it with --speed"), "{said}");
     assert!(done(here, &["check", "edr.toml"]).contains("19.000 m/s at the start"));
     let said = spoken(here, &["import", "edr.csv", "-f", "--speed", "50 km/h"]);
     assert!(!said.contains("68.4") && done(here, &["check", "edr.toml"]).contains("13.889 m/s at the start"), "{said}");

@@ -207,7 +207,7 @@ fn a_report_is_one_file_whose_data_stay_data() {
 #[test]
 fn peaks_of_all_elements_have_their_own_units() {
     let folder = tempfile::tempdir().expect("a folder");
-    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/three-point.toml");
+    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/hand/three-point.toml");
     let words = ["run", scenario, "--json", "-o", "run.mcap", "--set", "time.end=90 ms"];
     let run = answer(folder.path(), &words);
     let summary: serde_json::Value = serde_json::from_slice(&run.stdout).expect("JSON");
@@ -265,7 +265,7 @@ fn a_report_against_another_run_holds_both() {
     assert_eq!(read(folder.path(), "r.html").matches("\"poses\":").count(), 2);
     for (words, said) in [
         (&["report", "run.mcap", "-o", "r.txt"][..], "ends with .html"),
-        (&["report", "run.mcap", "-o", "x.html", "--against", "case.toml"], "holds no results"),
+        (&["report", "run.mcap", "-o", "x.html", "--against", "case.toml"], "is a scenario or a study"),
     ] {
         let output = answer(folder.path(), words);
         assert_eq!(code(&output), 2, "{words:?}");
@@ -423,13 +423,13 @@ fn three_runs_stand_abreast_with_ride_down_and_work() {
     let chest = [0, 2].map(|run| value(run, "chest, ride-down distance").expect("a distance"));
     // measured: 0.12 and 2.94 in
     assert!(chest[0] < 0.5 && chest[1] > 2.5, "{chest:?}");
-    assert_eq!(value(0, "Work taken up by belt lap"), None);
-    assert!(value(1, "Work taken up by belt lap").expect("work") > 0.0);
-    assert!(value(2, "Work taken up by belt torso").expect("work") > 0.0);
-    assert!(value(0, "Work taken up by panel_lower_face").expect("work") > 0.0);
+    assert_eq!(value(0, "Energy absorbed by belt lap"), None);
+    assert!(value(1, "Energy absorbed by belt lap").expect("work") > 0.0);
+    assert!(value(2, "Energy absorbed by belt torso").expect("work") > 0.0);
+    assert!(value(0, "Energy absorbed by panel_lower_face").expect("work") > 0.0);
     // by themselves: what the body does on a belt is its force along the way of the sphere that it goes round
     for (belt, sphere) in [("lap", "pelvis"), ("torso", "chest")] {
-        let own = value(2, &format!("Work taken up by belt {belt}")).expect("work");
+        let own = value(2, &format!("Energy absorbed by belt {belt}")).expect("work");
         let j_per_in_lbf = 0.112_984_829;
         let work = work_on_belt(folder.path(), "cart-lap-torso.mcap", belt, sphere) / j_per_in_lbf;
         // measured: 371.3 for 371.9, 6706.9 for 6707.6 in·lbf

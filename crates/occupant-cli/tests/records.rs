@@ -101,7 +101,7 @@ fn a_test_of_nhtsa_becomes_a_path_a_scenario_and_curves() {
     let here = folder.path();
     let said = spoken(here, &["import", "v00001", "-o", "crash.toml"]);
     for words in [
-        "note: curve 007, LAP BELT: Not installed, has no file: left out",
+        "note: curve 007, LAP BELT: Not installed, has no file: skipped",
         "wrote crash-path.csv: accelerations and rates of the centre of gravity, 170 times",
         "wrote crash.toml",
         "wrote crash-curves.csv: 5 signals",
@@ -245,7 +245,7 @@ fn the_vehicle_that_is_asked_for_is_imported() {
     fs::write(here.join("two.csv"), text).unwrap();
     let path = || fs::read_to_string(here.join("two-path.csv")).unwrap();
     let said = spoken(here, &["import", "two.csv"]);
-    assert!(said.contains("the path is that of vehicle 1; --vehicle takes another: 1, 2"), "{said}");
+    assert!(said.contains("the path is that of vehicle 1; choose another with --vehicle: 1, 2"), "{said}");
     assert!(path().contains("\n1,10,0,"), "{}", path());
     let said = spoken(here, &["import", "two.csv", "-f", "--vehicle", "2"]);
     assert!(path().contains("\n1,80,0,0,0,0,9\n") && !said.contains("takes another"), "{said}{}", path());
@@ -270,7 +270,7 @@ fn angles_that_wrap_go_on() {
         let lines: String = yaws.iter().enumerate().map(line).collect();
         fs::write(here.join("spin.csv"), format!("{heads}\n{lines}")).unwrap();
         let said = spoken(here, &["import", "spin.csv", "-f"]);
-        assert!(said.contains("yaw jumped by more than half a turn: turns were added"), "{said}");
+        assert!(said.contains("yaw jumped by more than half a turn: full turns were added"), "{said}");
         let path = fs::read_to_string(here.join("spin-path.csv")).unwrap();
         let last = |line: &str| line.rsplit(',').next().unwrap().parse::<f64>().unwrap();
         let found: Vec<f64> = path.lines().skip(1).map(last).collect();
@@ -331,9 +331,9 @@ fn a_whole_record_of_nhtsa_is_read() {
     fs::write(here.join("v99999.EV5"), record.replace('\n', "\r\n")).unwrap();
     let said = spoken(folder.path(), &["import", "v99999ascii", "-o", "crash.toml"]);
     for words in [
-        "note: curve 006, SHOULDER BELT: Not installed, has no file: left out",
+        "note: curve 006, SHOULDER BELT: Not installed, has no file: skipped",
         "note: curve 013, BOTTOM OF ENGINE X: No valid data after 67ms, has the status CF",
-        "note: the path is that of FLLR; --at takes another: FLLR, ENGN",
+        "note: the path is that of FLLR; choose another with --at: FLLR, ENGN",
         "wrote crash-path.csv: accelerations at FLLR, 170 times",
         "wrote crash-curves.csv: 10 signals",
     ] {
@@ -386,7 +386,7 @@ fn what_is_wrong_with_a_record_is_said_with_its_place() {
         (vec!["import", "log.csv", "--object", "Nobody"], "no object `Nobody`"),
         (vec!["import", "nurbs.xosc"], "a Nurbs\n --> nurbs.xosc:2"),
         (vec!["import", "odd.csv"], "ax has no unit that is known"),
-        (vec!["import", "ego.xosc", "--at", "SILL"], "no such place of the vehicle"),
+        (vec!["import", "ego.xosc", "--at", "SILL"], "no forward accelerometer"),
         (vec!["import", "ego.xosc", "--cg", "-1"], "--cg"),
         (vec!["import", "none.csv"], "none.csv"),
     ] {

@@ -200,7 +200,7 @@ fn uneven_and_coarse_samples_are_refused_with_a_remedy() {
 
     steady(folder.path(), "ax[g],ay[g]", "-10,0", 200);
     let (_, _, said) = occupant(folder.path(), &["risk", "a.csv"]);
-    assert!(said.contains("no class fits so few samples; --filter none"), "{said}");
+    assert!(said.contains("the sample rate is too low for any class; use --filter none"), "{said}");
 }
 
 #[test]
@@ -287,7 +287,7 @@ fn the_page_of_a_run_has_what_risk_says_of_its_vehicle() {
     };
     let risk = page(&["risk", "a.mcap"]);
     let from = risk.find("<h2>Measures").expect("measures");
-    let to = risk.find("<h2>Where it comes from").expect("an origin");
+    let to = risk.find("<h2>Source").expect("an origin");
     assert!(risk[from..to].contains("MASH 2016") && risk[from..to].contains("PHD"));
     let both = page(&["report", "a.mcap", "b.mcap"]);
     assert!(both.contains(&risk[from..to]));
@@ -330,5 +330,5 @@ fn classes_and_levels_are_the_best_whose_bounds_are_all_kept() {
     // a bound that could not be looked at
     steady(folder.path(), "ax[g],ay[g],az[g]", "-4,0,0", 10_000);
     let out = occupant(folder.path(), &["risk", "a.csv", "--rule", "en1317-2010"]).1;
-    assert!(out.contains("not known: THIV was not measured"), "{out}");
+    assert!(out.contains("unknown: THIV was not measured"), "{out}");
 }

@@ -108,9 +108,9 @@ fn the_text_is_a_table_and_what_limits_it() {
         "belts.torso.peak",
         "N/(N/m)",
         "up to ±",
-        "places where the motion is not smooth",
+        "the motion is not smooth at",
         "belt lap tightens",
-        "to the bit",
+        "to the last bit",
     ] {
         assert!(text.contains(part), "no {part} in\n{text}");
     }

@@ -27,7 +27,7 @@ fn figures_that_a_finer_run_has_otherwise_are_marked_where_they_stand() {
     let words = ["run", "case.toml", "--no-mcap", "--set", "integrator.step=0.5 ms", "--estimate-error"];
     let told = done(folder.path(), &words);
     // 21 % of the femurs' duration; no figure of what is nothing in a plane motion
-    assert!(told.contains("figures are not determined: with rk4 at a quarter of the step"), "{told}");
+    assert!(told.contains("results are not determined: with rk4 at a quarter of the step"), "{told}");
     let json = done(folder.path(), &[&words[..], &["--json", "-q"]].concat());
     let answer: serde_json::Value = serde_json::from_str(&json).expect("JSON");
     let caveats = answer["caveats"].as_array().expect("a list");
@@ -57,11 +57,11 @@ fn patterns_that_fit_nothing_are_noted_and_names_are_told_all_at_once() {
     done(folder.path(), &["run", "case.toml", "--set", "time.end=20 ms", "-q", "-o", "x.mcap"]);
     let said =
         spoken(folder.path(), &["export", "x.mcap", "--channels", "head.acceleration.*,nothing.*", "-o", "x.csv"]);
-    assert!(said.contains("no channel fits `nothing.*`") && said.contains("wrote 4 channels"), "{said}");
+    assert!(said.contains("no channel matches `nothing.*`") && said.contains("wrote 4 channels"), "{said}");
     let output =
         answer(folder.path(), &["export", "x.mcap", "--channels", "head.x,nothing,head.acceleration.x", "-o", "y.csv"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(err(&output).contains("no channel is called `head.x`, `nothing`"), "{}", err(&output));
+    assert!(err(&output).contains("there is no channel `head.x`, `nothing`"), "{}", err(&output));
     // files and measures are no words of channels
     for (word, said) in [("x.mcap", "occupant channels --of x.mcap"), ("HIC", "HIC15 is a measure")] {
         let output = answer(folder.path(), &["channels", word]);
@@ -97,7 +97,7 @@ fn keys_are_found_by_what_people_call_them() {
         assert!(told.starts_with(key), "{word}: {told}");
     }
     let output = answer(folder.path(), &["explain", "ejection"]);
-    assert!(output.status.code() == Some(2) && err(&output).contains("is no key but a result"), "{}", err(&output));
+    assert!(output.status.code() == Some(2) && err(&output).contains("is a result, not a key"), "{}", err(&output));
 }
 
 #[test]
@@ -207,7 +207,8 @@ fn friction_that_is_too_stiff_for_the_step_marks_every_figure() {
 #[test]
 fn how_far_a_column_went_beyond_its_force_does_not_depend_on_the_outputs() {
     let folder = folder();
-    fs::write(folder.path().join("c.toml"), include_str!("../../../scenarios/column-driver.toml")).expect("written");
+    fs::write(folder.path().join("c.toml"), include_str!("../../../tests/data/hand/column-driver.toml"))
+        .expect("written");
     let beyond = |interval: &str| {
         let interval = format!("output.interval={interval}");
         let words = ["run", "c.toml", "--no-mcap", "--set", "belts.driver=null", "--set", &interval];

@@ -42,7 +42,7 @@ pub fn compartment_beside(deck: &Path) -> Option<PathBuf> {
 
 /// Says of what compartment a conversion is.
 pub fn of_compartment(file: Option<&Path>) -> String {
-    file.map_or(String::new(), |file| format!("its compartment is that of {}\n", file.display()))
+    file.map_or(String::new(), |file| format!("its compartment comes from {}\n", file.display()))
 }
 
 /// The scenario of the only deck of a file, in the compartment that stands beside it.
@@ -57,14 +57,15 @@ pub fn from_deck(path: &Path, bytes: &[u8]) -> Result<FromDeck, Failure> {
         return Err(Failure::CouldNotRun(format!("{diagnostics}\n{name}: nothing was run")));
     }
     let [deck] = &decks[..] else {
-        let found = format!("{name} holds {} decks", decks.len());
-        let help = format!("occupant convert {name} -o NAME.toml makes a scenario of each, to be run one by one");
+        let found = format!("{name} contains {} decks", decks.len());
+        let help =
+            format!("convert each to a scenario with `occupant convert {name} -o NAME.toml`, and run them one by one");
         return Err(Failure::with_help(found, &help));
     };
     let beside = compartment_beside(path);
     let compartment = beside.as_deref().map(compartment).transpose()?;
     let options = ConvertOptions { deck_name: file_name(path), compartment, ..ConvertOptions::default() };
-    let help = "occupant convert has options for such a deck, and writes a scenario to be run";
+    let help = "`occupant convert` has options for such a deck; run the scenario that it writes";
     let converted = deck.to_scenario(&options).map_err(|error| Failure::with_help(format!("{name}: {error}"), help));
     let Conversion { toml, report } = converted?;
     let found = if diagnostics.is_empty() { String::new() } else { format!("{diagnostics}\n\n") };

@@ -24,7 +24,7 @@ impl Results {
         let [from_ms, to_ms] = [first.time_s, last.time_s].map(in_ms);
         if first.index > 0 {
             let whole = if first.peaks.is_empty() {
-                "nothing that is told of it counts what was before"
+                "no result includes the time before"
             } else {
                 "peaks and measures count from the start of the run; events, throws, ejections and caveats from there"
             };
@@ -56,13 +56,14 @@ impl Results {
         let is_early =
             self.is_complete() && self.given_end().is_some() && self.own_end_s().is_none_or(|own_s| to_s < own_s);
         match () {
-            () if first.index > 0 && first.peaks.is_empty() => {
-                Some(Part::Whole(format!("the file begins at {} ms: nothing counts what was before", in_ms(from_s))))
-            }
+            () if first.index > 0 && first.peaks.is_empty() => Some(Part::Whole(format!(
+                "the file begins at {} ms: no result includes the time before",
+                in_ms(from_s)
+            ))),
             () if is_early => {
                 let end = self.given_end().unwrap_or_default();
                 Some(Part::Whole(format!(
-                    "the run was ended at {} ms by {end}: all figures are those up to there",
+                    "the run was ended at {} ms by {end}: all results are up to that time",
                     in_ms(to_s)
                 )))
             }

@@ -24,7 +24,7 @@ use super::mcap::StoredRun;
 use super::part::{Part, in_ms};
 use super::scenario::{format_of, stored};
 use super::steps;
-use crate::base::{Failure, input_file, program, sha256};
+use crate::base::{Failure, ending, input_file, program, quoted, sha256};
 
 /// A run that was recorded.
 pub struct Results {
@@ -63,7 +63,7 @@ impl Results {
         let bytes = input_file::read(path)?;
         let mut run = StoredRun::read(&bytes).map_err(|e| no_results(path, &e))?;
         if run.run.is_empty() || run.checkpoints.is_empty() {
-            return Err(no_results(path, &format!("it holds no outputs of a run{}", run.because())));
+            return Err(no_results(path, &format!("it contains no outputs of a run{}", run.because())));
         }
         let (loaded, model, _) = stored(path, &run)?;
         let (lost, mut flaw, (status, reason)) = (run.lost(), run.flaw(), run.ending());
@@ -71,7 +71,8 @@ impl Results {
         match wrong {
             Some((i, e)) if i > 0 && e.is_blown_up() => {
                 let at_ms = in_ms(run.checkpoints[i].time_s);
-                flaw = flaw.or(Some(format!("of a run that blew up: its numbers at {at_ms} ms are beyond all bounds")));
+                flaw = flaw
+                    .or(Some(format!("a run that became unstable: its numbers at {at_ms} ms are beyond all bounds")));
                 run.checkpoints.truncate(i);
             }
             Some((_, e)) => return Err(no_results(path, &e.to_string())),
@@ -130,15 +131,15 @@ impl Results {
         let mut notes = Vec::new();
         notes.extend(self.flaw.iter().map(|flaw| format!("{name} is {flaw}")));
         if self.lost.is_some() {
-            notes.push(format!("of {name} only the outputs up to the first that is missing are used"));
+            notes.push(format!("only the outputs of {name} before the first missing one are used"));
         } else if let Some(reason) = &self.reason {
-            notes.push(format!("{name} holds a run that did not complete: {reason}"));
+            notes.push(format!("the run in {name} did not complete: {reason}"));
         }
         notes.extend(self.span());
         let theirs = self.run.get("program").map_or("?", String::as_str);
         if theirs != program() {
             notes.push(format!(
-                "{name} was written by {theirs}, this is {}: loads are computed anew from its states and may differ",
+                "{name} was written by {theirs}, this is {}: loads are recomputed from its states and may differ",
                 program()
             ));
         }
@@ -206,14 +207,14 @@ impl Results {
     ///
     /// # Errors
     /// More outputs than a run may have; a run that fails before.
-    pub fn summary_again(&self, options: Options, interval_s: f64) -> Result<Summary, Failure> {
+    pub fn summary_again(&self, options: Options, interval_s: f64, watch: impl Recorder) -> Result<Summary, Failure> {
         let mut setup = self.model.setup().clone();
         setup.time.end_s = self.outcome().time_s;
         setup.output.readings_s = Some(interval_s);
         let again = |what: String| self.refused(&format!("it cannot be run again: {what}"));
         let model = Model::new(setup).map_err(|problems| again(self.loaded.diagnose(&problems).to_string()))?;
         let mut seen = (Summarizer::judging(options), FrictionWatch::new());
-        let outcome = attempt(&model, &mut seen).map_err(|e| again(e.to_string()))?;
+        let outcome = attempt(&model, (&mut seen, watch)).map_err(|e| again(e.to_string()))?;
         if let Status::Failed(error) = outcome.status {
             return Err(again(error.to_string()));
         }
@@ -226,7 +227,7 @@ impl Results {
 
     /// The summary that was made, of this run however it ended.
     fn told(&self, model: &Model, (summarizer, friction): &(Summarizer, FrictionWatch)) -> Result<Summary, Failure> {
-        let mut summary = summarizer.summary(None).ok_or_else(|| self.refused("the run left no summary"))?;
+        let mut summary = summarizer.summary(None).ok_or_else(|| self.refused("the run has no summary"))?;
         if self.is_complete() {
             let caveats = steps::caveats(model, friction, &summary);
             summary.caveats.extend(caveats);
@@ -246,8 +247,13 @@ impl Results {
 }
 
 fn no_results(path: &Path, reason: &str) -> Failure {
-    Failure::with_help(
-        format!("{} holds no results: {reason}", path.display()),
-        "give an MCAP file that `occupant run` has written",
-    )
+    let name = path.display();
+    if ["toml", "json"].contains(&ending(path).as_str()) {
+        let results = quoted(path.with_extension("mcap").display());
+        return Failure::with_help(
+            format!("{name} is a scenario or a study, not the results of a run"),
+            &format!("run it with `occupant run {}`, then give {results}", quoted(name)),
+        );
+    }
+    Failure::with_help(format!("{name} contains no results: {reason}"), "give an .mcap file written by `occupant run`")
 }

@@ -19,8 +19,8 @@ pub struct ScenarioArgs {
     #[cfg_attr(feature = "clap", arg(value_name = "SCENARIO"))]
     pub scenario: PathBuf,
 
-    /// Change a value, such as --set path.speed='30 mph' or --set joints.*.damping=2; =null takes it away, such as --set
-    /// belts.torso=null; may be repeated; the title says it
+    /// Change a value, such as --set path.speed='30 mph' or --set joints.*.damping=2; =null removes it, such as --set
+    /// belts.torso=null. May be repeated. The title of the run lists the changes
     #[cfg_attr(feature = "clap", arg(long = "set", value_name = "PATH.TO.KEY=VALUE"))]
     pub overrides: Vec<String>,
 }
@@ -65,10 +65,10 @@ pub fn source(args: &ScenarioArgs) -> Result<Source, Failure> {
     let name = path.display().to_string();
     let refuse = |problems: Diagnostics| refused(&name, &problems);
     if ending(path) == "mcap" {
-        let found = format!("{name} is what a run has written, not a scenario");
+        let found = format!("{name} holds the results of a run, not a scenario");
         return Err(Failure::with_help(
             found,
-            &format!("occupant measures {0} and occupant report {0} tell of it", quoted(&name)),
+            &format!("to look at it, use `occupant measures {0}` or `occupant report {0}`", quoted(&name)),
         ));
     }
     let deck = (format_of(path).is_none() && is_deck(&bytes)).then(|| from_deck(path, &bytes)).transpose()?;
@@ -81,7 +81,8 @@ pub fn source(args: &ScenarioArgs) -> Result<Source, Failure> {
     };
     // a key of studies that no scenario has
     if draft.get("base").is_ok() {
-        let help = format!("occupant sweep {} runs it; `base` names the scenario that it varies", quoted(&name));
+        let help =
+            format!("run it with `occupant sweep {}`; its `base` names the scenario that it varies", quoted(&name));
         return Err(Failure::with_help(format!("{name} is a study, not a scenario"), &help));
     }
     for assignment in &args.overrides {
@@ -157,7 +158,7 @@ impl Tables {
     /// A file that cannot be read.
     pub fn get(&self, name: &str) -> Result<Vec<u8>, String> {
         let found = self.0.iter().find(|(table, _)| table == name);
-        found.map(|(_, bytes)| bytes.clone()).ok_or_else(|| "it was not there at the beginning".to_owned())
+        found.map(|(_, bytes)| bytes.clone()).ok_or_else(|| "it was not there when the run began".to_owned())
     }
 
     /// Scenario, model and warnings of a draft.
@@ -182,7 +183,7 @@ pub fn stored(file: &Path, run: &StoredRun) -> Result<(Loaded, Model, Diagnostic
     input_file::scenario_fits(bytes).map_err(|error| unreadable(format!(" {error}")))?;
     let resolver = |table: &str| {
         let found = run.attachments.get(table).or_else(|| run.attachments.get(&file_name(Path::new(table))));
-        found.cloned().ok_or_else(|| format!("{name} does not hold it"))
+        found.cloned().ok_or_else(|| format!("{name} does not contain it"))
     };
     let loaded = Draft::read_bytes(bytes, format, RESOLVED)
         .and_then(|mut draft| {
@@ -198,7 +199,7 @@ pub fn stored(file: &Path, run: &StoredRun) -> Result<(Loaded, Model, Diagnostic
         .map_err(|problems| unreadable(format!("\n{problems}")))?;
     let model = loaded.model();
     let (model, warnings) =
-        model.map_err(|problems| Failure::plain(format!("the scenario in {name} is refused:\n{problems}")))?;
+        model.map_err(|problems| Failure::plain(format!("the scenario in {name} is invalid:\n{problems}")))?;
     Ok((loaded, model, warnings))
 }
 
@@ -208,8 +209,8 @@ fn document<'r>(
     run: &'r StoredRun,
 ) -> Result<(bool, Option<Format>, &'r [u8]), Failure> {
     if let Some(beyond) = run.run.get(BEYOND) {
-        let found = format!("{name} is of a run with what no scenario says: {beyond}");
-        let help = "the program that ran it can look at it and go on with it; any reader of MCAP can plot its messages";
+        let found = format!("{name} is from a run with parts that a scenario cannot describe: {beyond}");
+        let help = "use the program that ran it; any MCAP reader can plot its messages";
         return Err(Failure::with_help(found, help));
     }
     if let Some(bytes) = run.attachments.get(RESOLVED) {
@@ -217,7 +218,7 @@ fn document<'r>(
     }
     let as_read = run.run.get("scenario").and_then(|own| Some((own, run.attachments.get(own)?)));
     let found = as_read.map(|(own, bytes)| (false, format_of(Path::new(own)), &bytes[..]));
-    found.ok_or_else(|| Failure::plain(format!("{name} holds no scenario{}", run.because())))
+    found.ok_or_else(|| Failure::plain(format!("{name} contains no scenario{}", run.because())))
 }
 
 /// The format that the ending of the file name stands for, if any.
@@ -229,7 +230,7 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
     let found = format!("the scenario {} cannot be read: {error}", path.display());
     match error.kind() {
         std::io::ErrorKind::NotFound => {
-            Failure::with_help(found, "check the path, or write a starter scenario with `occupant new NAME.toml`")
+            Failure::with_help(found, "check the path, or make a scenario with `occupant new NAME.toml`")
         }
         _ => Failure::plain(found),
     }

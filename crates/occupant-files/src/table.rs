@@ -156,7 +156,7 @@ impl<W: Write + Send> Table<W> {
     pub fn new(to: W, form: Form, columns: &[(impl AsRef<str>, Kind)], about: &[(&str, String)]) -> io::Result<Self> {
         let mut names = std::collections::HashSet::new();
         if let Some((name, _)) = columns.iter().find(|(name, _)| !names.insert(name.as_ref())) {
-            return Err(invalid(format!("two columns named `{}`; expected names of their own", name.as_ref())));
+            return Err(invalid(format!("two columns named `{}`; expected unique names", name.as_ref())));
         }
         let writer = match form {
             Form::Csv => {

@@ -109,7 +109,10 @@ fn refuse_other_folder(folder: &Path, test: &str, force: bool) -> Result<(), Fai
         let found = entry.map_err(unreadable)?.file_name();
         if found != *test && found != "Channel" {
             return Err(Failure::with_help(
-                format!("{name} holds {}, no part of an ISO-MME test, and is not replaced", found.to_string_lossy()),
+                format!(
+                    "{name} contains {}, which is not part of an ISO-MME test, and is not replaced",
+                    found.to_string_lossy()
+                ),
                 "-o gives another name",
             ));
         }

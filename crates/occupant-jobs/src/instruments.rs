@@ -63,9 +63,9 @@ impl Instruments {
         let Some(first) = found.first() else {
             let names: Vec<&str> = recording.signals.iter().take(8).map(|signal| signal.name.as_str()).collect();
             return Err(Failure::with_help(
-                format!("{} has no signal that an injury measure is made of", recording.path.display()),
+                format!("{} has no signal for any injury measure", recording.path.display()),
                 &format!(
-                    "it has {}; say which is which, as --map '{}[g]=head.acceleration.x'",
+                    "it has {}; assign them with --map, such as '{}[g]=head.acceleration.x'",
                     names.join(", "),
                     names.first().unwrap_or(&"column")
                 ),
@@ -75,13 +75,13 @@ impl Instruments {
         let interval_s = uniform_interval(&first.time_s).map_err(|error| {
             Failure::with_help(
                 format!("{file}: {}: {error}", first.signal),
-                "measures need equal intervals: write the table at equal times",
+                "resample the table: measures need a constant sample interval",
             )
         })?;
         if let Some(other) = found.iter().find(|pair| pair.time_s != first.time_s) {
             return Err(Failure::with_help(
-                format!("{file}: {} has other times than {}", other.signal, first.signal),
-                "measures need all signals at the same times: write them as one table",
+                format!("{file}: {} has different times than {}", other.signal, first.signal),
+                "write all signals at the same times, as one table",
             ));
         }
         let signals = Signals { start_s: first.time_s[0] + shift_s, interval_s, ..filled(&found, &goals) };
@@ -95,7 +95,7 @@ fn is_whole(pair: &Pair, notes: &mut Vec<String>) -> bool {
     let missing: Vec<usize> = (0..pair.values.len()).filter(|i| pair.values[*i].is_nan()).collect();
     let Some(first) = missing.first() else { return true };
     notes.push(format!(
-        "{} is left out: {} of its {} values are missing, the first at {:.1} ms",
+        "{} is skipped: {} of its {} values are missing, the first at {:.1} ms",
         pair.signal,
         missing.len(),
         pair.values.len(),
@@ -111,10 +111,7 @@ fn known(maps: &[MapArgument], goals: &[(String, Unit, Goal)]) -> Result<(), Fai
     let like = goals.iter().map(|(name, ..)| name.as_str());
     let near: Vec<&str> = like.filter(|name| name.split('.').next() == stranger.split('.').next()).collect();
     let hint = if near.is_empty() { "see the list in measures.md".to_owned() } else { near.join(", ") };
-    Err(Failure::with_help(
-        format!("--map: no injury measure is made of `{stranger}`"),
-        &format!("measures are made of {hint}"),
-    ))
+    Err(Failure::with_help(format!("--map: no injury measure uses `{stranger}`"), &format!("measures use {hint}")))
 }
 
 fn wanted(name: &str, unit: Unit) -> Wanted {

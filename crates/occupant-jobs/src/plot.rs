@@ -55,7 +55,7 @@ pub fn plots(request: &Request<'_>) -> Result<(Vec<Figure>, Vec<String>), Failur
     if let Some(limit) = request.limits.iter().find(|l| !names.contains(&l.channel)) {
         return Err(Failure::with_help(
             format!("--limit: no plot shows the channel `{}`", limit.channel),
-            "name a channel that is drawn; --channel adds a plot",
+            "choose a channel that is plotted, or add a plot with --channel",
         ));
     }
     let material = Material {
@@ -67,7 +67,7 @@ pub fn plots(request: &Request<'_>) -> Result<(Vec<Figure>, Vec<String>), Failur
         window_s: request.window_s,
     };
     let figures = plots.iter().map(|plot| figure(plot, &material)).collect::<Result<_, _>>();
-    let separate = "give other channels a plot of their own with another --channel";
+    let separate = "put these channels on another plot with a second --channel";
     Ok((figures.map_err(|reason| Failure::with_help(reason, separate))?, notes))
 }
 
@@ -95,7 +95,7 @@ fn own_plot(names: &str, request: &Request<'_>) -> Result<Plot, Failure> {
             Err(refusal) => first_refusal = first_refusal.or(Some(refusal)),
         }
     }
-    Err(first_refusal.unwrap_or_else(|| Failure::plain("no run was given")))
+    Err(first_refusal.unwrap_or_else(|| Failure::plain("give a run")))
 }
 
 fn plot_of(names: &str, channels: &[Channel], axes: AxisChoice) -> Plot {
@@ -177,8 +177,8 @@ fn overlays(request: &Request<'_>, names: &[String], notes: &mut Vec<String>) ->
         let belonging = pairs(&recording, &wanted, request.map, request.seat, notes)?;
         if belonging.is_empty() {
             return Err(Failure::with_help(
-                format!("no signal of {} belongs to a channel that is drawn", path.display()),
-                "say which column is which channel: --map 'column[unit]=head.acceleration.x'",
+                format!("no signal of {} matches a plotted channel", path.display()),
+                "assign columns to channels: --map 'column[unit]=head.acceleration.x'",
             ));
         }
         for mut pair in belonging {

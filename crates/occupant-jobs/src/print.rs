@@ -20,13 +20,13 @@ pub fn read(path: &Path) -> Result<(Case, Option<String>), Failure> {
     let refused = |reason: String| {
         Failure::with_help(
             format!("{name} cannot be printed: {reason}"),
-            "give a file that `occupant run` of this version has written",
+            "give a file written by `occupant run` of this version",
         )
     };
     let file = StoredRun::read(&bytes).map_err(refused)?;
     if file.run.is_empty() {
         let why = file.because();
-        let found = format!("it is an MCAP file without the record `{RUN}`: no result of `occupant run`{why}");
+        let found = format!("it is an MCAP file without the record `{RUN}`, so not a result of `occupant run`{why}");
         return Err(refused(found));
     }
     let of_scenario = stored(path, &file)?;

@@ -185,7 +185,7 @@ impl Encoder {
         let mut command = Command::new(ENCODER);
         command.args(words).args(out).args(["-f", "mp4", "-"]);
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        let missing = |error| format!("an MP4 film is made by {ENCODER}, which cannot be started here: {error}");
+        let missing = |error| format!("an MP4 film needs {ENCODER}, which cannot be started here: {error}");
         let mut child = command.spawn().map_err(missing)?;
         let (stdout, stderr) = (child.stdout.take(), child.stderr.take());
         Ok(Encoder { child, film: thread::spawn(|| all_of(stdout)), trouble: thread::spawn(|| all_of(stderr)) })

@@ -72,7 +72,7 @@ fn png(svg: &str, pixels: f64) -> Result<Vec<u8>, String> {
 /// # Errors
 /// Text that is no SVG; a picture without or with too many pixels.
 pub(super) fn render(svg: &str, pixels: f64) -> Result<Pixmap, String> {
-    let unread = |e: &dyn Display| format!("the drawing is no SVG that can be rendered: {e}");
+    let unread = |e: &dyn Display| format!("the drawing cannot be rendered: {e}");
     let document = Document::parse(svg).map_err(|e| unread(&e))?;
     let tree = Tree::from_str(&with_outlines(svg, &document), &Options::default()).map_err(|e| unread(&e))?;
     let size = tree.size();

@@ -111,7 +111,7 @@ impl Draft {
         }
         for place in places {
             put(&mut self.document.root, explicit.as_ref(), &place, value.clone())
-                .map_err(|found| refuse(&name, found, "a path that exists in the scenario"))?;
+                .map_err(|found| refuse(&name, found, "the path of an existing key"))?;
         }
         Ok(())
     }
@@ -215,5 +215,5 @@ fn imply_error_control(root: &mut Node) {
 }
 
 fn leads_nowhere(source: &str, path: &str) -> Diagnostics {
-    refuse(source, format!("`{path}` leads to nothing in this scenario"), "a path to at least one place")
+    refuse(source, format!("this scenario has no `{path}`"), "the path of an existing key")
 }

@@ -51,7 +51,7 @@ impl Ending {
     pub fn broken(panic: &(dyn Any + Send)) -> Ending {
         let text = panic.downcast_ref::<String>().map(String::as_str);
         let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
-        Ending::Broken(format!("the program broke off: {}", text.unwrap_or("without a word")))
+        Ending::Broken(format!("the program stopped: {}", text.unwrap_or("without a word")))
     }
 
     /// Why the run has no results; none if it has.
@@ -108,6 +108,6 @@ mod tests {
         assert_eq!(of(Status::Completed, Balance::Doubtful), Some(Ending::Completed));
         assert_eq!(of(Status::Stopped, Balance::Lost), None);
         let off = of(Status::Completed, Balance::Lost).and_then(|ending| ending.reason());
-        assert_eq!(off.as_deref(), Some("its energy balance is off by 12 % of the greatest kinetic energy"));
+        assert_eq!(off.as_deref(), Some("its energy balance is off by 12 % of the largest kinetic energy"));
     }
 }

@@ -166,7 +166,7 @@ impl Kind {
             return self.text_si(text);
         }
         let Some(value) = written.number() else {
-            let found = format!("{} where {} should stand", written.kind(), self.noun);
+            let found = format!("{} instead of {}", written.kind(), self.noun);
             return Err(whole("", found, self.expected()));
         };
         let unit = self.bare_unit(units);

@@ -69,7 +69,7 @@ impl Loaded {
         if self.explicit.body.is_none() && self.explicit.occupants.is_empty() {
             let found = "the scenario has no occupant";
             let expected =
-                "`body` with `joints`, or `occupants`; `occupant drive` drives what stands in [drive] without people";
+                "`body` with `joints`, or `occupants`; to drive vehicles without people, use `occupant drive`";
             return Err(Diagnostics::from(self.document.place(Problem::error("", found, expected))));
         }
         let build = if self.explicit.has_several() { together } else { setup };

@@ -30,7 +30,7 @@ pub(super) fn put(root: &mut Node, explicit: Option<&Node>, steps: &[Step], valu
         path = with_step(&path, step);
         if let (Step::Key(key), Value::Table(table), true) = (step, &mut node.value, last && is_null(&value)) {
             let taken = Arc::make_mut(table).shift_remove(key);
-            return taken.map(|_| ()).ok_or_else(|| format!("nothing at `{path}` to be taken away"));
+            return taken.map(|_| ()).ok_or_else(|| format!("there is no `{path}` to remove"));
         }
         if let (Step::Key(key), Value::Table(table)) = (step, &mut node.value)
             && table.get(key).is_none()

@@ -5,8 +5,7 @@ use occupant_core::body::people::{Person, REFERENCE_PERSON};
 use occupant_core::diagnosis::BodyFigures;
 
 /// Of the presets of children.
-const CHILDREN: &str = "lengths of a child's segments follow from stature and sitting height alone, no survey of them \
-    was at hand: study them by ±15 % a segment at least";
+const CHILDREN: &str = "a child's segment lengths come from stature and sitting height alone, not from a survey: vary each by at least ±15 % in a study";
 
 impl Loaded {
     /// Adds to the figures of its body how far people differ, where it makes the body of a person or has a preset that is

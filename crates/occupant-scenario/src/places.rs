@@ -107,8 +107,7 @@ impl Draft {
         let mark = Value::String("\u{0}".to_owned());
         let mut root = self.document.root.clone();
         let node = Node::new(root.span, mark.clone());
-        put(&mut root, Some(explicit), steps, node)
-            .map_err(|found| misplaced(found, "a path that exists in the scenario"))?;
+        put(&mut root, Some(explicit), steps, node).map_err(|found| misplaced(found, "the path of an existing key"))?;
         let marked = expand(&mut self.document.sources.clone(), &root);
         let mut found = Vec::new();
         collect(&marked, &mark, &mut Vec::new(), &mut found);
@@ -118,8 +117,8 @@ impl Draft {
         }
         if found.is_empty() {
             let found = format!("`{}` changes nothing in this scenario", place.path);
-            let hint = "what is said of a single joint, segment or sphere wins over what is said of a group";
-            return Err(misplaced(found, "a path to something that counts").with_hint(Some(hint)));
+            let hint = "a value for a single joint, segment or sphere overrides that of its group";
+            return Err(misplaced(found, "the path of a value that is used").with_hint(Some(hint)));
         }
         if found == [steps] {
             return Ok(vec![place]);
@@ -189,7 +188,7 @@ fn nowhere(explicit: &Node, path: &str, steps: &[Step]) -> Problem {
         Some(Step::Key(key)) => did_you_mean(key, &names, '`'),
         _ => None,
     };
-    misplaced(format!("`{path}` matches nothing in the base scenario"), "a path to at least one value").with_hint(hint)
+    misplaced(format!("`{path}` matches nothing in the base scenario"), "the path of an existing value").with_hint(hint)
 }
 
 /// Words for both sides of what stands in a table.
@@ -227,8 +226,8 @@ fn wanted(view: &View) -> Option<Wanted> {
 }
 
 fn no_value(steps: &[Step]) -> Problem {
-    let found = format!("`{}` leads to a table or list, not to a single value", to_text(steps));
-    misplaced(found, "a path to numbers or names")
+    let found = format!("`{}` is a table or list, not a single value", to_text(steps));
+    misplaced(found, "the path of a number or a name")
 }
 
 /// The step of a path that leads nowhere, and what stands beside it.
@@ -240,7 +239,7 @@ fn unknown(view: &View, node: Option<&Node>, steps: &[Step], at: usize) -> Probl
     let Step::Key(key) = &steps[at] else {
         let found = match node.map(|n| &n.value) {
             Some(Value::Array(items)) => format!("{above} has only {} items", items.len()),
-            Some(_) => format!("{above} is no list"),
+            Some(_) => format!("{above} is not a list"),
             None => format!("{above} is not in the base scenario"),
         };
         return misplaced(found, "an index that exists, from 0");

@@ -61,11 +61,11 @@ impl Keep {
     pub(super) fn read(section: &KeepSection) -> Result<Keep, String> {
         match section {
             KeepSection::Words(words) => {
-                Keep::from_words(words).ok_or_else(|| format!("\"{words}\" says nothing about which runs to keep"))
+                Keep::from_words(words).ok_or_else(|| format!("\"{words}\" does not say which runs to keep"))
             }
             KeepSection::Indices(items) => {
                 let index =
-                    |item: &Json| item.as_u64().ok_or_else(|| format!("`{item}` is no index, which counts from 0"));
+                    |item: &Json| item.as_u64().ok_or_else(|| format!("`{item}` is not an index, counted from 0"));
                 Ok(Keep::of(items.iter().map(index).collect::<Result<_, _>>()?))
             }
         }

@@ -81,7 +81,7 @@ impl Case {
             Some(text) => text.to_toml(),
             None => {
                 let expected =
-                    "one that is read from a text as it is: `Scenario::set` changes texts, and adds whole tables";
+                    "a case read from an unchanged text: use `Scenario::set` to change the text or add tables";
                 Err(Error::new(ErrorKind::Text, format!("a case built or changed in code; expected {expected}")))
             }
         }
@@ -252,7 +252,7 @@ impl Case {
     /// Notes what was given a thing of another case.
     fn know(&mut self, name: &str, of: Origin) {
         if of != self.origin {
-            self.strange.push(format!("`{name}` was given something of another case"));
+            self.strange.push(format!("`{name}` was given a part of another case"));
         }
     }
 
@@ -287,7 +287,7 @@ impl Case {
     pub fn model(&self) -> Result<Model, Error> {
         self.check_triggers()?;
         if !self.strange.is_empty() {
-            let expected = "what this case, or the one that it is a clone of, has given";
+            let expected = "a part of this case, or of the one it was cloned from";
             return Err(Error::new(ErrorKind::Case, format!("{}; expected {expected}", self.strange.join("; "))));
         }
         let mut setup = self.setup.clone();

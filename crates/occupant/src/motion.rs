@@ -44,7 +44,7 @@ impl Case {
 /// The triggers that look ahead along a path that is no longer there.
 fn looked_ahead(triggers: &[String]) -> Error {
     let names: Vec<String> = triggers.iter().map(|name| with_key("triggers", name)).collect();
-    let found = "triggers that looked ahead along the path of the text, in whose place there is to be another";
+    let found = "triggers that were evaluated on the path of the text, which is to be replaced";
     let expected = "triggers by time or by what a belt does, set in the `Scenario` before it becomes a case";
     Error::new(ErrorKind::Case, format!("{}: {found}; expected {expected}", names.join(", ")))
 }

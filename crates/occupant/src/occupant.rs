@@ -25,7 +25,7 @@ impl Occupant {
     /// # Errors
     /// A size of which the surveys know nobody.
     pub fn person(sex: Sex, stature_m: f64, mass_kg: f64) -> Result<Self, Error> {
-        let found = || Error::new(ErrorKind::Input, format!("nobody of {stature_m} m and {mass_kg} kg is known"));
+        let found = || Error::new(ErrorKind::Input, format!("no person of {stature_m} m and {mass_kg} kg is known"));
         Ok(Occupant { body: Body::person(sex, stature_m, mass_kg).ok_or_else(found)?, joints: Joints::male50() })
     }
 

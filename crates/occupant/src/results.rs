@@ -63,7 +63,7 @@ impl Log {
         if !is_own || self.series.time_s.last().is_some_and(|latest_s| *latest_s > run.time_s()) {
             return Err(Error::new(
                 ErrorKind::Recording,
-                "another run than was recorded; expected the one of this log",
+                "a run other than the recorded one; expected the one of this log",
             ));
         }
         run.end(Status::Completed, &mut self)?;
@@ -71,7 +71,7 @@ impl Log {
     }
 
     fn results(self) -> Result<Results, Error> {
-        let none = || Error::new(ErrorKind::Recording, "a run of which nothing was recorded; expected `Run::record`");
+        let none = || Error::new(ErrorKind::Recording, "a run without a record; expected `Run::record`");
         let summary = self.summarizer.summary(None).ok_or_else(none)?;
         let model = self.model.ok_or_else(none)?;
         let figures = summary.figures(&model);
@@ -89,7 +89,11 @@ impl Recorder for Log {
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
         let latest_s = self.series.time_s.last().copied();
         if latest_s.is_some_and(|latest_s| latest_s > sample.time_s) {
-            return Err(format!("an output at {} s behind one at {latest_s:?} s: of another run", sample.time_s).into());
+            return Err(format!(
+                "an output at {} s after one at {latest_s:?} s: it belongs to another run",
+                sample.time_s
+            )
+            .into());
         }
         self.series.record(sample)?;
         self.summarizer.record(sample)

@@ -58,7 +58,7 @@ fn read_object(reader: &mut Reader, object: Object<'_>) -> Value {
         let key_span = span(reader, &property.name);
         let key = property.name.into_string();
         if table.contains_key(&key) {
-            reader.reject(key_span, &format!("key `{key}` a second time"), "each key once");
+            reader.reject(key_span, &format!("key `{key}` twice"), "each key once");
             continue;
         }
         table.insert(key, Entry { key_span, node: read_node(reader, property.value) });
@@ -103,7 +103,7 @@ mod tests {
         let error = read("{\"a\": 1,\n \"a\": 2}").unwrap_err().to_string();
         assert_eq!(
             error,
-            "error: key `a` a second time\n --> t.json:2:2\n  |\n2 |  \"a\": 2}\n  |  ^^^\n  = expected: each key once"
+            "error: key `a` twice\n --> t.json:2:2\n  |\n2 |  \"a\": 2}\n  |  ^^^\n  = expected: each key once"
         );
     }
 

@@ -152,7 +152,7 @@ impl<'de> Visitor<'de> for PlainOrQuantity {
     type Value = Written;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("true, false, a number or a text")
+        f.write_str("true, false, a number or text")
     }
 
     fn visit_bool<E>(self, truth: bool) -> Result<Written, E> {

@@ -54,7 +54,7 @@ pub fn parse(text: &str) -> Result<Vec<Step>, String> {
     }
     match (after_dot, text.trim()) {
         (true, "") => Err("an empty path".to_owned()),
-        (true, _) => Err(format!("`{text}` ends where a name should follow")),
+        (true, _) => Err(format!("`{text}` ends where a name must follow")),
         (false, _) => Ok(steps),
     }
 }
@@ -64,13 +64,13 @@ fn index_step(text: &str) -> Result<(Step, usize), String> {
     let inner = text[1..end].trim();
     let step = match inner {
         "*" => Step::Every,
-        _ => Step::Index(inner.parse().map_err(|_| format!("`{inner}` in brackets is no index, which counts from 0"))?),
+        _ => Step::Index(inner.parse().map_err(|_| format!("`{inner}` in brackets is not an index, counted from 0"))?),
     };
     Ok((step, end + 1))
 }
 
 fn quoted_step(text: &str) -> Result<(Step, usize), String> {
-    let inner = text[1..].find('"').ok_or_else(|| format!("a quote without its second one in `{text}`"))?;
+    let inner = text[1..].find('"').ok_or_else(|| format!("an unclosed quote in `{text}`"))?;
     Ok((Step::Key(text[1..=inner].to_owned()), inner + 2))
 }
 

@@ -78,7 +78,7 @@ fn read_node(reader: &mut Reader, span: Span, value: DeValue<'_>) -> Node {
             Ok(x) => Value::Float(x),
             Err(_) => reader.reject(span, "a number that cannot be read", "a decimal number"),
         },
-        DeValue::Datetime(_) => reader.reject(span, "a date or time of day", "a text, in quotes, or a number"),
+        DeValue::Datetime(_) => reader.reject(span, "a date or time of day", "text in quotes, or a number"),
     };
     Node::new(span, value)
 }

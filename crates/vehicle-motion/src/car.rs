@@ -231,7 +231,7 @@ impl Car {
             ("cornering stiffness", tyre.cornering_per_rad),
             ("slip stiffness", tyre.slip_stiffness),
             ("reference load", tyre.reference_load_n),
-            ("load of the greatest cornering stiffness", tyre.greatest_at),
+            ("load of the largest cornering stiffness", tyre.greatest_at),
             ("sliding speed", tyre.sliding_speed_m_s),
         ];
         for axle in [&self.front, &self.rear] {
@@ -250,7 +250,7 @@ impl Car {
             ("friction", tyre.friction),
             ("tyre damping", tyre.damping_n_s_per_m),
             ("rolling resistance", tyre.rolling),
-            ("share of sliding friction", tyre.sliding_share),
+            ("ratio of sliding friction", tyre.sliding_share),
             ("drag", self.drag_n_s2_per_m2),
             ("crown radius", tyre.crown_m),
             ("front damping", self.front.jounce_n_s_per_m.min(self.front.rebound_n_s_per_m)),
@@ -311,7 +311,7 @@ pub enum CarError {
     },
     /// Axles that do not stand on both sides of the centre of gravity.
     #[error(
-        "the axles stand {front_m} m and {rear_m} m ahead of the centre of gravity; expected the front ahead, the rear behind"
+        "the axles are {front_m} m and {rear_m} m ahead of the centre of gravity; expected the front axle ahead, the rear axle behind"
     )]
     Axles {
         /// Front, m.
@@ -320,12 +320,10 @@ pub enum CarError {
         rear_m: f64,
     },
     /// Moments that no body has.
-    #[error(
-        "the inertia is that of no body: it must be symmetric, its moments positive, none above the sum of the others"
-    )]
+    #[error("the inertia is impossible: it must be symmetric, with positive moments, none above the sum of the others")]
     Inertia,
     /// The body without its wheels has no mass or inertia left.
-    #[error("the wheels take all of the vehicle's mass or inertia")]
+    #[error("the wheels have all of the vehicle's mass or inertia")]
     Wheels,
     /// Shares that do not sum to one.
     #[error("the {what} shares sum to {sum}; expected four shares of at least 0 that sum to 1")]

@@ -16,7 +16,7 @@ pub struct Table {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TableError {
     /// Lists of unlike length, or empty.
-    #[error("{times} times and {values} values; expected as many of each, at least one")]
+    #[error("{times} times and {values} values; expected the same number of each, at least one")]
     Lengths {
         /// Number of times.
         times: usize,

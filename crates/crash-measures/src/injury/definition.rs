@@ -155,10 +155,10 @@ impl Definition {
 }
 
 /// Of measures that count from the head's contact.
-const NO_CONTACT: &str = "the head never rests on its restraint for 40 ms";
+const NO_CONTACT: &str = "the head is never in contact with its restraint for 40 ms";
 
 /// Of a measure without a part that it could be of.
-const NO_PART: &str = "the body has no such part, or a mount moves it as it is told";
+const NO_PART: &str = "the body has no such part, or a mount prescribes its motion";
 
 impl Measure {
     /// Whether the body has the part that it is of, and moves it by itself.
@@ -175,7 +175,7 @@ impl Measure {
         }
         let crossed: Vec<&str> = self.risks.iter().filter(|risk| !risk.agrees).map(|risk| risk.injury).collect();
         if !crossed.is_empty() {
-            let found = format!("the curves of {} cross: their risks are not to be quoted", crossed.join(", "));
+            let found = format!("the curves of {} cross: do not quote their risks", crossed.join(", "));
             self.remark = Some(self.remark.take().map_or_else(|| found.clone(), |known| format!("{known}; {found}")));
         }
     }

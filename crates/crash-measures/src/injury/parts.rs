@@ -156,8 +156,7 @@ impl Readings {
                 [BrokenRibs::Any, BrokenRibs::MoreThanSix].map(|ribs| Some(100.0 * even_odds_compression(ribs, age)?));
             let (any, many) = any.zip(many)?;
             Some(format!(
-                "of people of {age:.0} years one half has a rib broken at {any:.0} %, more than six at {many:.0} %: no risk, \
-                 one point of its curve"
+                "at age {age:.0}, half of all people have a broken rib at {any:.0} %, and more than six at {many:.0} %: one point of a risk curve, not a risk"
             ))
         });
         let of_deflection = at(deflection);
@@ -189,7 +188,7 @@ impl Readings {
 
     /// A criterion that only a dummy has: of a person it compares runs and says nothing of injury.
     fn yardstick(&self, finding: Finding) -> Finding {
-        let words = "a dummy's criterion: of a person it compares runs, no more";
+        let words = "a criterion for dummies: for a person, use it only to compare runs";
         let remark = self.person.map(|_| words.to_owned()).or(finding.remark.clone());
         Finding { remark, ..self.of_chest(finding) }
     }

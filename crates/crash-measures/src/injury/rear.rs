@@ -17,7 +17,7 @@ pub(super) const WHIPLASH: &[Definition] = &[
     measure("nic", "NIC, m²/s²", One, Cfc60, |r| Ok(at(r.nic()?.greatest))).limited(Quantity::Nic),
     measure("nic_at_contact", "NIC at head contact, m²/s²", One, Cfc60, Readings::nic_at_contact),
     measure("nkm", "Nkm", One, Cfc600, Readings::nkm).limited(Quantity::Nkm),
-    measure("neck_shear_ahead", "neck shear, head pushed ahead", Newton, Cfc1000, |r| {
+    measure("neck_shear_ahead", "neck shear, head pushed forward", Newton, Cfc1000, |r| {
         r.is_rear()?;
         Ok(at(peak_towards(1.0, &own(&r.neck_n)?[0], r.interval_s)?))
     })
@@ -28,7 +28,7 @@ pub(super) const WHIPLASH: &[Definition] = &[
         Ok(at(greatest_until(&t1, r.interval_s, end_s)?))
     })
     .limited(Quantity::T1Acceleration),
-    measure("head_contact_time", "head meets its restraint", Second, Cfc600, Readings::contact_time)
+    measure("head_contact_time", "head contact with restraint", Second, Cfc600, Readings::contact_time)
         .limited(Quantity::HeadContactTime),
     measure("rebound_speed", "head rebound", MetrePerSecond, Cfc60, |r| {
         let speed = r.special(Special::HeadSpeed)?;
@@ -37,7 +37,7 @@ pub(super) const WHIPLASH: &[Definition] = &[
     })
     .limited(Quantity::ReboundSpeed),
     measure("lower_neck_load", "lower neck load index", One, Cfc1000, Readings::lower_neck),
-    measure("pelvis_travel_back", "pelvis back in the seat", Metre, Cfc60, |r| {
+    measure("pelvis_travel_back", "pelvis travel into the seat", Metre, Cfc60, |r| {
         let place = r.special(Special::PelvisPlace)?;
         Ok(at(relative_travel(&place, &vec![0.0; place.len()], r.interval_s)?.back))
     }),

@@ -76,7 +76,7 @@ pub fn thiv(
         return Err(SignalError::OutOfRange {
             what: "head's lateral start (m)",
             found: flight.start_y_m,
-            expected: "a place inside the surfaces, which stand at positive distances",
+            expected: "a position between the surfaces, which are at positive distances",
         });
     }
     let heads = head_motion(ax_mps2, ay_mps2, yaw_rate_rps, dt_s, flight)?;
@@ -139,7 +139,7 @@ fn first_contact(heads: &[[f64; 4]], dt_s: f64, flight: HeadFlight) -> Result<(f
     }
     let reached = heads.iter().map(|head| head[0] - flight.start_x_m).fold(0.0, f64::max);
     Err(SignalError::NeverReached {
-        what: "theoretical head impact: forward flight (m); no side surface is met either",
+        what: "theoretical head impact: forward flight (m), without contact with a side surface",
         reached,
         needed: flight.forward_m,
     })

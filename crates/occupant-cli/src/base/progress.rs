@@ -1,6 +1,10 @@
-//! How far a run is, or many runs are: a bar on a terminal.
+//! How far a run is, or many runs are: a bar on a terminal; a line for work that shows no bar within two seconds.
 
 use std::fmt;
+use std::io::{IsTerminal, stderr};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+use std::{mem, thread};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use occupant_core::model::Model;
@@ -24,6 +28,55 @@ impl Progress {
     }
 }
 
+/// Work that takes longer than this is not silent.
+const SILENT: Duration = Duration::from_secs(2);
+
+/// The line of work that has no bar.
+enum Line {
+    NotYet,
+    Shown(ProgressBar),
+    /// A bar or the result has come.
+    Over,
+}
+
+static LINE: Mutex<Line> = Mutex::new(Line::NotYet);
+
+fn line() -> MutexGuard<'static, Line> {
+    LINE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Shows a line with the time so far on a terminal, once this work has been silent for two seconds.
+pub(crate) fn watch(work: String) {
+    if !stderr().is_terminal() {
+        return;
+    }
+    thread::spawn(move || {
+        thread::sleep(SILENT);
+        let mut line = line();
+        if matches!(*line, Line::NotYet) {
+            let spinner = styled(None, "{spinner} {msg}: {elapsed} so far", false);
+            spinner.set_message(work);
+            spinner.enable_steady_tick(SILENT / 10);
+            *line = Line::Shown(spinner);
+        }
+    });
+}
+
+/// Takes the line away for good: a bar or the result comes.
+pub(crate) fn end_line() {
+    if let Line::Shown(spinner) = mem::replace(&mut *line(), Line::Over) {
+        spinner.finish_and_clear();
+    }
+}
+
+/// Writes something to the terminal without disturbing the line.
+pub(crate) fn beside_line(write: impl FnOnce()) {
+    match &*line() {
+        Line::Shown(spinner) => spinner.suspend(write),
+        _ => write(),
+    }
+}
+
 /// A bar of many of `what`: how many, how fast, how long still, and what else is to be said.
 pub(crate) fn counted(what: &str) -> String {
     format!("{{bar:30}} {{pos}} of {{len}} {what}, {{rate}}, {{eta}} to go{{msg}}")
@@ -31,6 +84,11 @@ pub(crate) fn counted(what: &str) -> String {
 
 /// A bar on standard error where that is a terminal, else nothing.
 pub(crate) fn bar(length: Option<u64>, template: &str, quiet: bool) -> ProgressBar {
+    end_line();
+    styled(length, template, quiet)
+}
+
+fn styled(length: Option<u64>, template: &str, quiet: bool) -> ProgressBar {
     let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
     let bar = ProgressBar::with_draw_target(length, target);
     // the words of the template are ours; should they not parse, the plain bar does

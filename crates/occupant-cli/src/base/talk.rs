@@ -9,6 +9,8 @@ use placed_text::plain;
 use occupant_jobs::base::text_table::fit_terminal;
 use occupant_jobs::base::{Failure, talk};
 
+use super::progress::{beside_line, end_line};
+
 /// Whether the process began with its standard output closed. The standard library opens `/dev/null` in its place before
 /// `main`, so that what is written is lost and nobody hears of it.
 static CLOSED: AtomicBool = AtomicBool::new(false);
@@ -42,6 +44,7 @@ fn has_colours() -> bool {
 
 /// Writes the bytes of a file, as they are. A reader that has gone away is no failure.
 pub(crate) fn print_file(bytes: &[u8]) -> Result<(), Failure> {
+    end_line();
     written(stdout().write_all(bytes))
 }
 
@@ -58,7 +61,9 @@ pub(crate) fn written(result: io::Result<()>) -> Result<(), Failure> {
 
 /// Writes a message to standard error, its control characters escaped. That it cannot be written is no failure.
 pub(crate) fn say(text: &str) {
-    let _unwritten = writeln!(stderr().lock(), "{}", plain(text));
+    beside_line(|| {
+        let _unwritten = writeln!(stderr().lock(), "{}", plain(text));
+    });
 }
 
 /// Writes what jobs say while they work to standard error.

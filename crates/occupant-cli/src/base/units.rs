@@ -7,13 +7,13 @@ use occupant_scenario::kind::UnitSystem;
 pub(crate) const SYSTEMS: [(&str, &str, UnitSystem); 3] = [
     ("si", "Metre, kilogram, newton", UnitSystem::Si),
     ("in-lbf-s", "Inch, pound, pound-force; speeds in mph", UnitSystem::InchPound),
-    ("inch-pound", "The same", UnitSystem::InchPound),
+    ("inch-pound", "The same as in-lbf-s", UnitSystem::InchPound),
 ];
 
 /// The flag of commands that print numbers.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub(crate) struct UnitsArg {
-    /// Units of what is printed; those of the scenario if absent. JSON is always SI
+    /// Units of printed numbers; those of the scenario if absent. JSON is always SI
     #[arg(long, value_name = "SYSTEM", value_parser = super::one_of(&SYSTEMS))]
     units: Option<UnitSystem>,
 }

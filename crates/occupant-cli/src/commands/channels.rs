@@ -16,15 +16,14 @@ use occupant_jobs::files::scenario::{self, ScenarioArgs};
 
 /// List the channels of a run: name, unit, meaning
 ///
-/// The names are those that --channel of other commands takes, stars for parts of them allowed; {x,y,z} stands
-/// for as many channels.
+/// Other commands take these names in --channel; `*` matches any part of a name. {x,y,z} stands for three channels.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Those alone with this word in their name or meaning, such as head, belt or energy
+    /// List only channels with this word in their name or meaning, such as head, belt or energy
     #[arg(value_name = "WORD")]
     word: Option<String>,
 
-    /// Results, a scenario or a deck to list the channels of; the scenario that `occupant new` writes if absent
+    /// The run, scenario or deck; the scenario of `occupant new` if absent
     #[arg(long, value_name = "RUN.mcap|SCENARIO")]
     of: Option<PathBuf>,
 }
@@ -47,14 +46,14 @@ pub(crate) fn channels(args: &Args) -> Result<(), Failure> {
     if found.is_empty() {
         if let Some(file) = args.word.as_ref().filter(|word| args.of.is_none() && is_file(word)) {
             let help = format!("occupant channels --of {}", quoted(file));
-            return Err(Failure::with_help(format!("{file} is a file, no word in a channel's name or meaning"), &help));
+            return Err(Failure::with_help(
+                format!("{file} is a file, not a word in the name or meaning of a channel"),
+                &help,
+            ));
         }
         if let Some(label) = measure(&word) {
-            let help = "occupant measures RUN.mcap tells the measures of a run";
-            return Err(Failure::with_help(
-                format!("{label} is a measure, one number of a whole run, and no channel"),
-                help,
-            ));
+            let help = "`occupant measures RUN.mcap` prints the measures of a run";
+            return Err(Failure::with_help(format!("{label} is a measure, one number per run, not a channel"), help));
         }
         let words: Vec<&str> = all.iter().flat_map(|channel| channel.name.split(['.', '_'])).collect();
         let help = did_you_mean(&word, &words, '`').unwrap_or_else(|| "`occupant channels` lists them all".to_owned());
@@ -117,6 +116,6 @@ fn model_of(file: &Path) -> Result<Model, Failure> {
 fn starter() -> Result<Model, Failure> {
     let wrong = |problems| Failure::plain(format!("the starter scenario cannot be read: {problems}"));
     let draft = Draft::read_bytes(STARTER.as_bytes(), Some(Format::Toml), "starter").map_err(wrong)?;
-    let loaded = draft.load(&|name| Err(format!("{name}: it names no files"))).map_err(wrong)?;
+    let loaded = draft.load(&|name| Err(format!("{name}: it must not name files"))).map_err(wrong)?;
     Ok(loaded.model().map_err(wrong)?.0)
 }

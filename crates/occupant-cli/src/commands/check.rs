@@ -6,9 +6,9 @@ use super::tables::check::check_text;
 use crate::base::{Done, Failure, UnitsArg, say, talk};
 use occupant_jobs::files::scenario::{self, ScenarioArgs, warn_of};
 
-/// Check a scenario and show what will be simulated, without running it
+/// Check a scenario and show what would be simulated
 ///
-/// Exit code 1 if the step is too long for the fastest time scale of the model.
+/// Exit code 1 if the time step is too long for the fastest part of the model.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -17,11 +17,11 @@ pub(crate) struct Args {
     #[command(flatten)]
     units: UnitsArg,
 
-    /// Print JSON instead of tables; SI units
+    /// Print JSON instead of tables, in SI units
     #[arg(long)]
     json: bool,
 
-    /// Print nothing but warnings and errors
+    /// Print only warnings and errors
     #[arg(short, long)]
     quiet: bool,
 }
@@ -43,7 +43,7 @@ pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
     }
     for behind in &diagnosis.behind {
         say(&format!(
-            "warning: the centre of {} starts {} behind {}: the sphere feels that surface only after it has come out",
+            "warning: the centre of {} starts {} behind {}: no contact until the sphere has come out",
             behind.sphere,
             units.say(behind.behind_m * 1e3, "mm", 1),
             behind.surface
@@ -51,14 +51,14 @@ pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
     }
     for open in &diagnosis.open_ahead {
         say(&format!(
-            "warning: no belt holds the body of {}, and neither panel nor windscreen stands ahead of it, though its vehicle loses {}: nothing will meet the head\n = help: add the panel and the windscreen of the compartment, or a belt",
+            "warning: the body of {} has no belt and nothing ahead of it, but its vehicle loses {}: the head will hit nothing\n = help: add an instrument panel and a windscreen, or a belt",
             open.sphere,
             units.say(open.loss_m_s, "m/s", 1)
         ));
     }
     for lap in &diagnosis.lap_belts {
         say(&format!(
-            "warning: belt {} pulls on {} at {:.0}° against the normal of the iliac wings, friction holds it to {:.0}°: it slides up towards the abdomen (submarining)\n = help: anchors lower and farther ahead, or a pelvis that leans back less; `lap = \"wings\"` of the preset three_point and nodes with `wing` let it slide",
+            "warning: belt {} pulls on {} at {:.0}° to the normal of the iliac wings; friction holds it only up to {:.0}°, so it slides up towards the abdomen (submarining)\n = help: move the anchors down and forward, or lean the pelvis back less; to model the sliding, use `lap = \"wings\"` of the preset three_point, or nodes with `wing`",
             lap.belt,
             lap.part,
             lap.angle_rad.to_degrees(),
@@ -81,7 +81,7 @@ pub(super) fn too_long(diagnosis: &Diagnosis) -> Option<String> {
         return None;
     }
     Some(format!(
-        "the step of {:.4} ms is too long for {} ({}), whose time scale is {:.4} ms\n = expected: a step below {:.4} ms\n = help: set `integrator.step`, use the adaptive integrator, or soften what makes it so fast",
+        "the step of {:.4} ms is too long for {} ({}), whose time scale is {:.4} ms\n = expected: a step below {:.4} ms\n = help: set a smaller `integrator.step`, use the adaptive integrator, or make that part softer",
         step_s * 1e3,
         fastest.of,
         fastest.by,

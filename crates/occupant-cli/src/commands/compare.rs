@@ -7,12 +7,12 @@ use crate::base::{Done, Failure, json, note, print, say};
 use occupant_jobs::compare::{Request, Window, compare as rate};
 use occupant_jobs::files::history::Treatment;
 
-/// Rate how well a run follows a test: ISO/TS 18571, CORA, Sprague–Geers, ANOVA
+/// Rate how well a run matches a test: ISO/TS 18571, CORA, Sprague–Geers, ANOVA
 ///
-/// The test is a text table (CSV), an ISO-MME test (its folder or .mme file) or another run. Signals belong to channels by
-/// --map, by the same name, or by ISO-MME code, whose SAE J211 signs are turned into ours. Both sides are filtered alike,
-/// cut to their common time and set to 10 kHz by straight lines, the rate of ISO/TS 18571; all four ratings use that. Exit
-/// code 1 if a run failed or is out of balance by more than 10 %: then its ratings mean nothing.
+/// The test is a CSV table, an ISO-MME test (its folder or .mme file) or another run. A signal is matched to a channel by
+/// --map, by its name, or by its ISO-MME code; SAE J211 signs are converted. Both sides are filtered alike, cut to their
+/// common time and resampled linearly to 10 kHz, as ISO/TS 18571 requires. Exit code 1 if a run failed or its energy
+/// balance is off by more than 10 %: its ratings then mean nothing.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The results of `occupant run`, or computed histories as CSV or ISO-MME
@@ -23,7 +23,7 @@ pub(crate) struct Args {
     #[arg(value_name = "MEASURED")]
     measured: PathBuf,
 
-    /// Channels by name or pattern; all that the test has if absent, of two runs those of the standard plots
+    /// Channels by name or pattern; if absent, all channels of the test, or those of the standard plots if it is a run
     #[arg(long, alias = "channels", value_name = "NAMES")]
     channel: Vec<String>,
 

@@ -6,7 +6,7 @@ use clap_complete::{Shell, generate};
 use super::Cli;
 use crate::base::{Failure, talk};
 
-/// Print a script that completes the command's words in a shell
+/// Print a script for tab completion in your shell
 ///
 /// For bash: occupant completions bash > ~/.local/share/bash-completion/completions/occupant
 #[derive(Debug, clap::Args)]

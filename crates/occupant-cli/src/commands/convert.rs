@@ -15,11 +15,11 @@ use crate::base::{Failure, ending, file_name, print_file, publish, refuse_input,
 use occupant_jobs::extend::{extend, extend_run};
 use occupant_jobs::files::scenario::{files_beside, format_of};
 
-/// Convert a card deck of 1970 to a scenario, or a scenario to a card deck
+/// Convert a 1970 card deck to a scenario, or a scenario to a card deck
 ///
-/// A file named .toml or .json is a scenario and becomes a deck; .mcap is a run, of which --extend makes the deck that
-/// continues it; any other is a deck and becomes a scenario. Diagnostics and the conversion's report go to standard error,
-/// the result to -o or to standard output.
+/// A .toml or .json file is a scenario and becomes a deck. A .mcap file is a run; --extend makes the deck that continues it.
+/// Any other file is a deck and becomes a scenario. The result goes to -o or to standard output; the conversion report and
+/// all messages go to standard error.
 #[derive(Debug, clap::Args)]
 #[command(group = ArgGroup::new("strictness").args(["strict", "lenient"]))]
 pub(crate) struct Args {
@@ -27,52 +27,52 @@ pub(crate) struct Args {
     #[arg(value_name = "FILE")]
     input: PathBuf,
 
-    /// The file to write; several decks of one file become NAME-1.toml, NAME-2.toml, …
+    /// The file to write. A file with several decks becomes NAME-1.toml, NAME-2.toml, …
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
-    /// Also write the conversion's report into a file
+    /// Also write the conversion report to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
 
-    /// Refuse a deck for anything doubtful in it
+    /// Treat every doubt about a deck as an error
     #[arg(long)]
     strict: bool,
 
-    /// Repair a deck where there is one obvious way, with a warning
+    /// Repair a deck where the repair is obvious, with a warning
     #[arg(long)]
     lenient: bool,
 
-    /// The vehicle's path of a deck with MREAD ≠ 0: CSV whose first line names columns and units, such as t[s],x[in],yaw[deg]
+    /// The vehicle path for a deck with MREAD ≠ 0: a CSV table with names and units in its first line, such as t[s],x[in],yaw[deg]
     #[arg(long, value_name = "FILE")]
     path: Option<PathBuf>,
 
-    /// Names and units of the columns of --path, where its first line does not name them
+    /// Names and units of the columns of --path, if its first line does not give them
     #[arg(long, value_name = "t[s],x[in],…", requires = "path", conflicts_with = "path_cards")]
     path_columns: Option<String>,
 
-    /// --path holds cards of series 12, one a station
+    /// --path contains series 12 cards, one per station
     #[arg(long, requires = "path")]
     path_cards: bool,
 
-    /// Which points bound which surface, instead of compartment.toml beside the deck or the built-in reconstruction
+    /// The points that bound each surface; if absent compartment.toml beside the deck, else the built-in reconstruction
     #[arg(long, value_name = "FILE.toml")]
     compartment: Option<PathBuf>,
 
-    /// How a body that the deck seats (NPOS = 0) begins
+    /// Initial position of a body that the deck seats (NPOS = 0)
     #[arg(long, value_name = "HOW", default_value = "balanced")]
     seating: Seating,
 
-    /// Run the deck to its end, or take the end of a run's .mcap, and write the deck that extends it to this time, s (series 6
-    /// and 14)
+    /// Write the deck that extends a run to this time, in s (series 6 and 14). A deck is run to its end first; a .mcap is used as
+    /// it is
     #[arg(long, value_name = "TIME")]
     extend: Option<f64>,
 
-    /// Replace files that exist
+    /// Replace existing files
     #[arg(short, long)]
     force: bool,
 
-    /// Say nothing but errors
+    /// Print only errors
     #[arg(short, long)]
     quiet: bool,
 }
@@ -80,9 +80,9 @@ pub(crate) struct Args {
 /// How a body that a deck seats begins.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 enum Seating {
-    /// Moved as one piece until all that it touches carries its weight
+    /// The whole body is moved until its contacts carry its weight
     Balanced,
-    /// By the pelvis sphere alone, exactly in the cards' posture; thighs, chest and feet press besides
+    /// Only the pelvis sphere is balanced, in exactly the posture of the cards; other contacts add to it
     Pelvis,
 }
 
@@ -123,8 +123,8 @@ fn decks_to_scenarios(
 ) -> Result<(), Failure> {
     let decks = decks(args, bytes)?;
     if decks.len() > 1 && args.output.is_none() {
-        let found = format!("{} holds {} decks, and standard output takes one", args.input.display(), decks.len());
-        return Err(Failure::with_help(found, "name a file with -o; its name is numbered"));
+        let found = format!("{} contains {} decks; standard output takes one", args.input.display(), decks.len());
+        return Err(Failure::with_help(found, "give a file with -o; its name is numbered"));
     }
     let mut reports = String::new();
     for (at, deck) in decks.iter().enumerate() {
@@ -187,8 +187,8 @@ fn path_source(args: &Args, output: Option<&Path>) -> Result<Option<PathSource>,
     let mut lines = text.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
     let header = lines.next().unwrap_or_default().trim_start_matches('\u{feff}').to_owned();
     if !header.contains('[') {
-        let found = format!("the first line of {} names no columns with units: {header}", file.display());
-        return Err(Failure::with_help(found, "declare them with --path-columns t[s],x[in],…"));
+        let found = format!("the first line of {} does not name columns with units: {header}", file.display());
+        return Err(Failure::with_help(found, "give them with --path-columns t[s],x[in],…"));
     }
     let rows: String = lines.map(|line| format!("{line}\n")).collect();
     Ok(Some(PathSource::Columns { columns: split(&header), text: rows }))
@@ -198,8 +198,8 @@ fn path_source(args: &Args, output: Option<&Path>) -> Result<Option<PathSource>,
 fn run_to_deck(args: &Args, bytes: &[u8], layout: Option<&CompartmentLayout>) -> Result<FromScenario, Failure> {
     let Some(final_s) = args.extend else {
         return Err(Failure::with_help(
-            format!("{} is a run, and a deck of its scenario would not continue it", args.input.display()),
-            "give the time to which the deck extends the run: --extend TIME",
+            format!("{} is a run; it can only become a deck that extends it", args.input.display()),
+            "give the new end time: --extend TIME",
         ));
     };
     extend_run(&args.input, bytes, layout, final_s)
@@ -212,7 +212,7 @@ fn scenario_to_deck(
     layout: Option<&CompartmentLayout>,
 ) -> Result<FromScenario, Failure> {
     if args.extend.is_some() || args.path.is_some() {
-        return Err(Failure::plain("--extend and --path take a deck"));
+        return Err(Failure::plain("--extend and --path need a deck as input"));
     }
     let loaded = load(&args.input, bytes, format)?;
     Deck::from_scenario(&loaded, layout).map_err(|error| Failure::plain(format!("{}: {error}", args.input.display())))

@@ -11,43 +11,43 @@ use occupant_pictures::Format;
 /// Pixels of a user unit of a plan.
 const PIXELS: f64 = 2.0;
 
-/// Drive the vehicles of a scenario alone, without people
+/// Drive the vehicles of a scenario without simulating the people
 ///
-/// Where they come to rest, largest slopes and angles, what happened when, tyre marks, the risk to occupants by OIV, ORA, THIV,
-/// PHD and ASI, and how far each number of a preset can be trusted. `occupant run` drives first, too, and then carries the people.
+/// Prints where each vehicle comes to rest, its largest angles and slopes, events, tyre marks, occupant risk (OIV, ORA, THIV,
+/// PHD, ASI), and how well each preset value is known. `occupant run` drives the vehicles too, then simulates the people.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     scenario: ScenarioArgs,
 
-    /// Write the motion, wheels and accelerations of a vehicle as a table, which `occupant risk` reads: .csv, .parquet, .xlsx or .mat
+    /// Write a vehicle's motion, wheels and accelerations as a table that `occupant risk` reads: .csv, .parquet, .xlsx or .mat
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
-    /// Write places and angles alone, as `path.kind = "table"` reads them
+    /// Write only positions and angles, as `path.kind = "table"` reads them
     #[arg(long, value_name = "FILE.csv", conflicts_with = "output")]
     path: Option<PathBuf>,
 
-    /// Draw road, barriers, tyre marks and vehicles at times from above: .svg or .png
+    /// Draw a plan view of road, barriers, tyre marks and vehicles: .svg or .png
     #[arg(long, value_name = "FILE")]
     plan: Option<PathBuf>,
 
-    /// Replace a file that exists
+    /// Replace existing files
     #[arg(short, long)]
     force: bool,
 
-    /// The vehicle that is written; the first, if absent
+    /// The vehicle to write; the first if absent
     #[arg(long, value_name = "NAME")]
     vehicle: Option<String>,
 
-    /// Time between two lines of the file
+    /// Time between two rows of the table
     #[arg(long, value_name = "TIME", default_value = "1 ms", value_parser = super::flags::history::interval)]
     interval: f64,
 
     #[command(flatten)]
     units: UnitsArg,
 
-    /// Print JSON instead of tables; SI units
+    /// Print JSON instead of tables, in SI units
     #[arg(long)]
     json: bool,
 }
@@ -73,13 +73,13 @@ pub(crate) fn drive(args: &Args) -> Result<Done, Failure> {
     let vehicle = match &args.vehicle {
         Some(name) => named(name).ok_or_else(|| {
             let names: Vec<&str> = drives.vehicles.iter().map(|own| own.name.as_str()).collect();
-            let found = format!("--vehicle {name}: no such vehicle is driven");
+            let found = format!("--vehicle {name}: there is no such vehicle in `drive`");
             Failure::with_help(found, &format!("name {}", placed_text::one_of(&names, '`')))
         })?,
         None => 0,
     };
     if drives.vehicles.len() > 1 && args.vehicle.is_none() {
-        note(&format!("{} is written; --vehicle names another", drives.vehicles[0].name));
+        note(&format!("{} is written; choose another with --vehicle", drives.vehicles[0].name));
     }
     let columns = if args.path.is_some() { path_columns() } else { columns() };
     let written = write(output, Form::of_output(output)?, args.force, &drives, vehicle, &columns, args.interval)?;

@@ -10,19 +10,20 @@ use crate::commands::schema::Document;
 
 /// Explain the keys of a scenario or study: meaning, unit, example
 ///
-/// `occupant explain` lists the sections, `occupant explain path` the keys of one, `occupant explain path.delta_v` tells of one
-/// key. A single word finds every key of that name, else every key that may be that word, such as sensors. NAME stands for a name of your own.
+/// `occupant explain` lists the sections, `occupant explain path` the keys of one section, `occupant explain path.delta_v`
+/// explains one key. A single word finds all keys with that name, else all keys that can have that value, such as sensors.
+/// NAME stands for a name that you choose.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Where the key stands, such as belts.NAME.slack, or its name alone; all sections if absent
+    /// The key, such as belts.NAME.slack, or its last word alone; all sections if absent
     #[arg(value_name = "KEY")]
     key: Option<String>,
 
-    /// Whose keys
+    /// The kind of file
     #[arg(long, value_enum, default_value_t = Document::Scenario)]
     of: Document,
 
-    /// Write all keys as a page in Markdown
+    /// Print all keys as a Markdown page
     #[arg(long, conflicts_with = "key")]
     markdown: bool,
 }
@@ -133,16 +134,21 @@ impl<'a> Key<'a> {
         };
         let is_named = |key: &&Key| wanted.len() == 1 && key.name() == wanted[0];
         let found: Vec<Key> = all.iter().filter(is_at).cloned().collect();
-        let found = if found.is_empty() { all.iter().filter(is_named).cloned().collect() } else { found };
+        // the section before keys elsewhere: `belt` is looked for among belts first
+        let is_section = |key: &&Key| wanted.len() == 1 && key.path.strip_suffix('s') == Some(wanted[0]);
+        let found = if found.is_empty() {
+            all.iter().filter(is_section).chain(all.iter().filter(is_named)).cloned().collect()
+        } else {
+            found
+        };
         let is_word = |key: &&Key| names(key.schema()).contains(&format!("\"{path}\""));
         let found: Vec<Key> = if found.is_empty() { all.iter().filter(is_word).cloned().collect() } else { found };
         if let (true, Some((_, key))) = (found.is_empty(), ALSO.iter().find(|(word, _)| is_called(path, word))) {
             return self.find(key);
         }
         if found.is_empty() && RESULTS.iter().any(|word| is_called(path, word)) {
-            let help = "`occupant run` tells what left the compartment, when and where, and how bodies were thrown, where there is a [ground]: \
-                        `occupant explain ground`";
-            return Err(Failure::with_help(format!("`{path}` is no key but a result"), help));
+            let help = "`occupant run` prints ejections, and throws if the scenario has a [ground]: see `occupant explain ground`";
+            return Err(Failure::with_help(format!("`{path}` is a result, not a key"), help));
         }
         if found.is_empty() {
             let names: Vec<&str> = all.iter().map(Key::name).collect();
@@ -263,7 +269,7 @@ fn plain(schema: &Json, root: &Json) -> String {
                 (least, _) => format!("list of {least} or more: {}", item.kind()),
             }
         }
-        _ if schema["additionalProperties"].is_object() => "tables by names of your own".into(),
+        _ if schema["additionalProperties"].is_object() => "tables with names that you choose".into(),
         _ if schema["oneOf"].is_array() || schema["properties"].is_object() => "table".into(),
         _ => "any value".into(),
     }
@@ -272,7 +278,7 @@ fn plain(schema: &Json, root: &Json) -> String {
 /// All keys as a page.
 fn page(root: &Key, of: Document) -> String {
     let mut text = format!(
-        "# Keys of a {of}\n\nWritten by `occupant explain --of {of} --markdown`. {}\n\nNAME stands for a name of your own, `[]` for any item of a list.\n",
+        "# Keys of a {of}\n\nWritten by `occupant explain --of {of} --markdown`. {}\n\nNAME stands for a name that you choose, `[]` for any item of a list.\n",
         root.meaning(),
         of = of.word(),
     );

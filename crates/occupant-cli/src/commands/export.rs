@@ -17,21 +17,28 @@ use occupant_jobs::sweep::results::refuse_gaps;
 use occupant_jobs::sweep::stored::{MadeBy, Stored, open};
 use occupant_pictures::gltf::glb;
 
-/// Write a run as CSV, Parquet, XLSX, MAT or ISO-MME, or its motion as glTF
+/// Export a run as CSV, Parquet, XLSX, MAT or ISO-MME, or its motion as glTF
 ///
-/// The ending of the output decides. CSV: one table, units in its headings; what the columns are stands beside it in
-/// NAME.csv-metadata.json. Parquet: the same table, its metadata inside. XLSX: the same, with sheets for the measures of the run and
-/// for what the columns are. MAT: a variable for each channel, head_acceleration_x, and the structures measures, columns and about.
-/// ISO-MME: NAME.mme becomes the folder NAME with NAME.mme and its channels, in SI units and SAE J211 axes, of all channels that the
-/// standard's dictionary has a code for.
-/// glTF: NAME.glb is a scene with the motion of body, surfaces and solids, without belts, for Blender and the web.
+/// The file extension sets the format:
+///
+/// .csv: one table with units in its headings; NAME.csv-metadata.json describes the columns.
+///
+/// .parquet: the same table with the descriptions inside.
+///
+/// .xlsx: the same table, with sheets for the measures and for the descriptions.
+///
+/// .mat: one variable per channel, such as head_acceleration_x, and the structures measures, columns and about.
+///
+/// .mme: an ISO-MME folder NAME, in SI units and SAE J211 axes, with all channels that have an ISO-MME code.
+///
+/// .glb: a glTF scene of the moving body, surfaces and solids, without belts, for Blender and the web.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// The results of `occupant run`, or the folder of a sweep, of which the table of samples is written
+    /// The results of `occupant run`, or the folder of a sweep, to export its table of samples
     #[arg(value_name = "RUN.mcap")]
     run: PathBuf,
 
-    /// The file to write: NAME.csv, .parquet, .xlsx, .mat, .mme or .glb; `-` writes CSV to standard output; RUN.csv beside the run if absent
+    /// The file to write; `-` writes CSV to standard output; RUN.csv beside the run if absent
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
@@ -42,27 +49,27 @@ pub(crate) struct Args {
     #[command(flatten)]
     treatment: Treatment,
 
-    /// Interval of the samples, such as '1 ms'; that of the outputs if absent. Values between outputs lie on straight lines
+    /// Sample interval, such as '1 ms', interpolated linearly; that of the outputs if absent
     #[arg(long, value_name = "TIME", value_parser = interval)]
     interval: Option<f64>,
 
-    /// Units of tables; of the measures they are SI
+    /// Units of tables; measures are always in SI
     #[arg(long, value_name = "SYSTEM", default_value = "si")]
     units: UnitChoice,
 
-    /// Axes of tables for what is told along those of a segment
+    /// Axes of quantities that belong to a segment
     #[arg(long, value_enum, default_value_t)]
     axes: AxisChoice,
 
-    /// Position of the occupant in ISO-MME codes: 1 front left, 3 front right, 4 to 9 behind
+    /// Position code of the occupant in ISO-MME channel names: 1 front left, 3 front right, 4 to 9 rear
     #[arg(long, value_name = "CODE", default_value = "1", value_parser = code_letter)]
     seat: char,
 
-    /// Occupant in ISO-MME codes (fine location 3), such as H3; 00 is not defined
+    /// Dummy code in ISO-MME channel names (fine location 3), such as H3; 00 is undefined
     #[arg(long, value_name = "CODE", default_value = "00", value_parser = code_pair)]
     dummy: String,
 
-    /// Replace files that exist
+    /// Replace existing files
     #[arg(short, long)]
     force: bool,
 }
@@ -108,8 +115,8 @@ pub(crate) fn export(args: &Args) -> Result<(), Failure> {
 /// The motion as a scene, of which neither channels nor filters are asked for.
 fn export_scene(args: &Args, output: &Path) -> Result<(), Failure> {
     if !args.channels.is_empty() || args.interval.is_some() {
-        let found = "--channel and --interval are of tables, and a scene has every output";
-        return Err(Failure::with_help(found, "leave them out, or name a .csv"));
+        let found = "--channel and --interval apply to tables; a glTF scene has all outputs";
+        return Err(Failure::with_help(found, "leave them out, or write a table such as NAME.csv"));
     }
     refuse_input(output, &args.run)?;
     let results = Results::open(&args.run)?;
@@ -123,8 +130,8 @@ fn export_sweep(args: &Args, output: &Path, form: Form) -> Result<(), Failure> {
         || args.interval.is_some()
         || (args.treatment.filter, args.units, args.axes) != (Filter::None, UnitChoice::Si, AxisChoice::Segment);
     if is_input(output) || is_of_runs {
-        let found = format!("{} is the folder of a sweep, which has a row for each sample", args.run.display());
-        let help = "give -o FILE, and none of --channel, --interval, --filter, --units and --axes";
+        let found = format!("{} is the folder of a sweep, with one row per sample", args.run.display());
+        let help = "give -o FILE, without --channel, --interval, --filter, --units and --axes";
         return Err(Failure::with_help(found, help));
     }
     let Stored { manifest, journal, .. } = open(std::slice::from_ref(&args.run), MadeBy::AnyProgram)?;
@@ -160,7 +167,7 @@ fn export_mme(args: &Args, output: &Path, results: &Results, histories: &Histori
     if !without.is_empty() {
         let shown: Vec<&str> = without.iter().take(4).map(String::as_str).collect();
         let more = if without.len() > 4 { ", …" } else { "" };
-        say(&format!("left out {} channels that ISO-MME has no code for: {}{more}", without.len(), shown.join(", ")));
+        say(&format!("skipped {} channels without an ISO-MME code: {}{more}", without.len(), shown.join(", ")));
     }
     Ok(())
 }

@@ -19,49 +19,50 @@ use occupant_jobs::fit::report;
 use occupant_jobs::sweep::stored::sha256_of;
 use occupant_jobs::sweep::words::{tell_damaged, warn_unlocked};
 
-/// Find the parameters of a study with which runs follow a test best
+/// Fit the parameters of a study to a test
 ///
-/// Looks for the values of the study's parameters, each between the ends of its range, with which measured channels of one
-/// test or of several are reproduced best; the study's [fit] says what counts. A global search (CMA-ES with growing
-/// populations) is followed by a refinement and by intervals: how far each parameter can go while the others make up for it.
-/// Writes FOLDER/fit.json, fitted.toml (the scenario with the fitted numbers and where they come from; of several scenarios
-/// fitted/TEST.toml), plots/*.svg (measured against computed, before and after) and history.parquet and .csv (every candidate).
-/// The same command resumes a fit that was interrupted or killed, and ends at the same answer.
+/// Searches each parameter's range for the values that best reproduce measured channels of one or more tests. The study's
+/// [fit] section says what counts. A global search (CMA-ES with restarts) is followed by a local refinement and by
+/// profile intervals: how far each parameter can move while the others compensate.
+///
+/// Writes FOLDER/fit.json, fitted.toml (the scenario with the fitted values; fitted/TEST.toml for several tests),
+/// plots/*.svg (measured and computed, before and after) and history.parquet and .csv (all candidates). Run the same
+/// command again to resume an interrupted fit; the result is the same.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The study, TOML or JSON
     #[arg(value_name = "STUDY")]
     study: PathBuf,
 
-    /// A test: a text table (CSV) or an ISO-MME test; may be repeated. Not needed where the study names its tests
+    /// A test: a CSV table or an ISO-MME test. May be repeated. Not needed if the study names its tests
     #[arg(long = "test", alias = "to", value_name = "FILE")]
     to: Vec<PathBuf>,
 
-    /// The folder of the results, made if it is not there; that of the study's name in the present folder if absent
+    /// The folder for the results; named after the study, in the current folder, if absent
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
 
-    /// Which column of the tests is which channel: 'column=channel', 'column[unit]=channel', 'column=-channel' for opposite
-    /// signs; columns named as channels are found without
+    /// Assign a column of the tests to a channel: 'column=channel', 'column[unit]=channel', or 'column=-channel' to reverse
+    /// the sign. Not needed for columns that have a channel's name
     #[arg(long, value_name = "MAP")]
     map: Vec<MapArgument>,
 
-    /// Change a value in all scenarios, such as --set time.end='120 ms'; may be repeated
+    /// Change a value in all scenarios, such as --set time.end='120 ms'. May be repeated
     #[arg(long = "set", value_name = "PATH.TO.KEY=VALUE")]
     overrides: Vec<String>,
 
     #[command(flatten)]
     engine: EngineArgs,
 
-    /// Remove the results that the folder holds and begin anew
+    /// Remove the results in the folder and start again
     #[arg(long)]
     restart: bool,
 
-    /// Print what fit.json holds instead of tables
+    /// Print the content of fit.json instead of tables
     #[arg(long)]
     json: bool,
 
-    /// No progress, no warnings, no tables
+    /// Print no progress, no warnings and no tables
     #[arg(short, long)]
     quiet: bool,
 }
@@ -78,12 +79,12 @@ pub(crate) fn fit(args: &Args) -> Result<(), Failure> {
     let held = folder.claim(&fitting.manifest, &fitting.texts, Shard::WHOLE, args.restart)?;
     warn_unlocked(&held, "fitting into one folder", args.quiet);
     let sums = Checksums::open(&folder.path, |_| true)?;
-    let interrupt = listen("stopping; once more to stop at once");
+    let interrupt = listen("stopping; press Ctrl-C again to stop at once");
     let progress = Progress::new(fitting.fit.budget, progress::show(args.quiet));
     let mut evaluator = Evaluator::new(&fitting, (&folder, &sums), &sha256, &engine, &interrupt, progress)?;
     tell_damaged(&[held.mended, sums.damaged()].concat());
     if evaluator.known() > 0 && !args.quiet {
-        say(&format!("resuming: {} runs are there", evaluator.known()));
+        say(&format!("resuming: {} runs are finished", evaluator.known()));
     }
     let answer = search(&fitting, &mut evaluator)?;
     let records = evaluator.close()?;

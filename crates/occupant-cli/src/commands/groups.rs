@@ -1,15 +1,15 @@
-//! The list of commands in `occupant --help`, by what one comes for.
+//! The list of commands in `occupant --help`, grouped by job.
 
 use std::fmt::Write;
 
-/// What one comes for, and the commands for it.
+/// Jobs, and the commands for each.
 const GROUPS: [(&str, &[&str]); 7] = [
-    ("Write a case", &["new", "check", "explain", "schema"]),
+    ("Set up a case", &["new", "check", "explain", "schema"]),
     ("Simulate", &["run", "drive"]),
     ("Look at a run", &["view", "report", "plot", "print", "channels"]),
-    ("Judge a run", &["measures", "compare", "risk", "sensitivity"]),
+    ("Judge a run or a test", &["measures", "compare", "risk", "sensitivity"]),
     ("Many runs", &["sweep", "study", "fit"]),
-    ("Other programs and tests", &["import", "export", "convert"]),
+    ("Exchange data with other programs and tests", &["import", "export", "convert"]),
     ("This program", &["completions", "man", "help"]),
 ];
 
@@ -20,7 +20,7 @@ pub(super) fn grouped(command: clap::Command) -> clap::Command {
         _ = writeln!(list, "{title}:");
         for name in names {
             let about = command.find_subcommand(name).and_then(clap::Command::get_about).map(ToString::to_string);
-            let about = about.unwrap_or_else(|| "Print this help, or the help of a command".to_owned());
+            let about = about.unwrap_or_else(|| "Show this help, or the help of a command".to_owned());
             _ = writeln!(list, "  {name:<12} {about}");
         }
         list.push('\n');

@@ -10,73 +10,73 @@ use crate::base::{Failure, ending, file_name, file_stem, note, one_of, publish, 
 use occupant_files::measured::{self, AXES, Axes, Imported, Reading};
 use occupant_jobs::import::{Made, PathFilter, PathTable, Request, import as made};
 
-/// Make a scenario and curves of the record of a test
+/// Make a scenario from a crash test, an event data recorder or a simulated path
 ///
-/// SOURCE is a folder or file of NHTSA's databases (vNNNNN.EV5 with its ASCII curves), an ISO-MME test (folder or .mme file), an
-/// OpenSCENARIO file with a trajectory (.xosc), a table of esmini, or a recorder's table. Writes, as far as the record has it,
-/// NAME-path.csv, the motion of the vehicle; NAME.toml, the driver of `occupant new` in a car of ours on that path, to be changed
-/// to the car and the person of the test; and NAME-curves.csv, all other signals in one table that `compare`, `plot` and `fit` read.
+/// SOURCE is an NHTSA test (vNNNNN.EV5 with its ASCII curves), an ISO-MME test (folder or .mme file), an OpenSCENARIO
+/// trajectory (.xosc), or a table of an event data recorder, of esmini, CarSim, PC-Crash and others. Writes NAME-path.csv,
+/// the vehicle's motion; NAME.toml, the driver of `occupant new` on that path, for you to adapt to the car and person; and
+/// NAME-curves.csv, all other signals, which `compare`, `plot` and `fit` read.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The record: a folder or a file
     #[arg(value_name = "SOURCE")]
     source: PathBuf,
 
-    /// The scenario to write; that of the source with .toml, in the folder that one works in, if absent
+    /// The scenario to write; named after the source, in the current folder, if absent
     #[arg(short, long, value_name = "NAME.toml")]
     output: Option<PathBuf>,
 
-    /// The vehicle, where the test or table has several; the first, if absent
+    /// Which vehicle of the test or table; the first if absent
     #[arg(long, value_name = "NUMBER")]
     vehicle: Option<u32>,
 
-    /// The object whose trajectory it is, where the file has several
+    /// Which object, if the file has several trajectories
     #[arg(long, value_name = "NAME")]
     object: Option<String>,
 
-    /// Place of the vehicle's accelerometers that the path is made of, as the test names it; if absent the centre of gravity, or the
-    /// place that rings least of those that agree on the velocity change
+    /// Which accelerometer location of the test to make the path from; if absent the centre of gravity, else the location with
+    /// least ringing among those that agree on delta-v
     #[arg(long, value_name = "PLACE")]
     at: Option<String>,
 
-    /// Speed of the vehicle when the path starts, such as '56 km/h'; that of the test record if absent
+    /// Speed at the start of the path, such as '56 km/h'; that of the test if absent
     #[arg(long, value_name = "SPEED", value_parser = written::<SPEED>)]
     speed: Option<String>,
 
-    /// How far the centre of gravity lies ahead of the point that a trajectory follows, such as '1.3 m'
+    /// Distance of the centre of gravity ahead of the trajectory's reference point, such as '1.3 m'
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = written::<LENGTH>)]
     cg: Option<String>,
 
-    /// Names and units of a table's columns in place of its own headings, `-` for one that is left out and a minus before one whose sign is to be
-    /// turned, such as 't[ms],-,ax[g]' or 't[ms],-dvx[mph]'
+    /// Names and units for the columns, instead of the table's headings: `-` skips a column, a minus before a name reverses
+    /// its sign, such as 't[ms],-,ax[g]' or 't[ms],-dvx[mph]'
     #[arg(long, value_name = "COLUMNS", allow_hyphen_values = true)]
     columns: Option<String>,
 
-    /// Which way the axes of the record point; what the kind of file says, or z_down, if absent
+    /// Axes of the record; if absent as the file format defines them, else z_down
     #[arg(long, value_name = "AXES", value_parser = one_of(&AXES))]
     axes: Option<Axes>,
 
-    /// Bridge holes of the record up to so long by straight lines, such as '5 ms'; refused if absent
+    /// Fill gaps up to this length linearly, such as '5 ms'; gaps are an error if absent
     #[arg(long, value_name = "TIME", value_parser = interval)]
     bridge: Option<f64>,
 
-    /// Length of the rest at the beginning of the record whose mean is taken away, such as '50 ms'
+    /// Length of the quiet part at the start of the record, used to remove zero offsets, such as '50 ms'
     #[arg(long, value_name = "TIME", value_parser = written::<TIME>)]
     baseline: Option<String>,
 
-    /// Length of a rest at its end as well: zero errors that drift are taken away along a straight line
+    /// Length of the quiet part at the end, used to remove linear drift as well
     #[arg(long, value_name = "TIME", requires = "baseline", value_parser = written::<TIME>)]
     baseline_end: Option<String>,
 
-    /// Low-pass of the path: 60, 180, 600 or 1000, the class for accelerations (60 if absent and the record is fast enough); a
-    /// frequency, such as '15 Hz', for places and angles (none if absent); none
+    /// Low-pass filter of the path: a CFC (60, 180, 600, 1000) for accelerations, 60 if absent and the sample rate allows it; a
+    /// frequency, such as '15 Hz', for positions and angles; or none
     #[arg(long, value_name = "CLASS|FREQUENCY", value_parser = filter)]
     filter: Option<PathFilter>,
 
     #[command(flatten)]
     window: WindowArgs,
 
-    /// Replace files that exist
+    /// Replace existing files
     #[arg(short, long)]
     force: bool,
 }
@@ -102,7 +102,10 @@ pub(crate) fn import(args: &Args) -> Result<(), Failure> {
     // curves under the names of channels are of use alone
     let has_channels = imported.recording.signals.iter().any(|signal| signal.name.contains('.'));
     if made.path.is_none() && is_table(&args.source) && !has_channels {
-        return Err(Failure::plain(format!("{} gives no path: nothing was written", args.source.display())));
+        return Err(Failure::plain(format!(
+            "{} contains no vehicle motion: nothing was written",
+            args.source.display()
+        )));
     }
     write(args, &name, &imported, &made)
 }
@@ -158,7 +161,7 @@ fn write(args: &Args, name: &Path, imported: &Imported, made: &Made) -> Result<(
         publish(name, args.force, text.as_bytes())?;
         let [from_s, to_s] = path.run_s.map(placed_text::number);
         say(&format!(
-            "wrote {}: a driver in a car of ours on that path; the run goes from {from_s} s to {to_s} s, all that there is of it (--from and --to take a part)",
+            "wrote {}: a belted driver in a generic car on that path, from {from_s} s to {to_s} s (--from and --to select a part)",
             name.display()
         ));
     }

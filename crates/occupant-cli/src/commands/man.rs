@@ -9,16 +9,16 @@ use clap_mangen::Man;
 use super::Cli;
 use crate::base::{Failure, publish, say};
 
-/// Write the manual pages of all commands
+/// Write manual pages for all commands
 ///
-/// For one user: occupant man ~/.local/share/man/man1, then man occupant-run
+/// Example: occupant man ~/.local/share/man/man1, then man occupant-run
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// The folder, made if it is not there
+    /// The folder; created if missing
     #[arg(value_name = "FOLDER")]
     folder: PathBuf,
 
-    /// Replace files that exist
+    /// Replace existing files
     #[arg(short, long)]
     force: bool,
 }

@@ -15,6 +15,7 @@ use serde::Serialize;
 use super::flags::history::{TestArgs, interval};
 use super::tables::measures::{remarks, risks, side_by_side, table};
 use super::tables::summary::Marks;
+use crate::base::progress::Progress;
 use crate::base::{Done, Failure, Units, UnitsArg, json, note, one_of, print};
 use occupant_files::results::Results;
 use occupant_jobs::files::history::{FAMILIES, family_name};
@@ -22,36 +23,36 @@ use occupant_jobs::files::history::{FAMILIES, family_name};
 /// Readings of filtered channels are taken so often, s: the 10 kHz of SAE J211.
 const FILTERED_S: f64 = 1e-4;
 
-/// Injury measures of runs and tests against limits and risk curves
+/// Print injury measures of runs and tests, with limits and risk curves
 ///
-/// HIC, 3 ms levels, severity indices, BrIC, DAMAGE, neck and femur loads, Nij. A simulated signal has no noise, so nothing
-/// is filtered unless --filter asks for it. Several runs come as one table with a column each. Exit code 1 if a limit is
-/// exceeded and --strict is given.
+/// HIC, 3 ms levels, severity indices, BrIC, DAMAGE, neck and femur loads, Nij and others. Several runs share one table, with
+/// a column each. Simulated signals have no noise and are not filtered unless --filter asks for it. Exit code 1 if --strict
+/// is given and a limit is exceeded.
 ///
-/// A test is a text table (CSV), an ISO-MME test (its folder or .mme file) or a test of NHTSA. Its signals are known by --map,
-/// by the names that `occupant channels` gives them, or by ISO-MME code; a test has noise: ask for --filter j211.
+/// A test is a CSV table, an ISO-MME test (its folder or .mme file) or an NHTSA test. Its signals are identified by --map, by
+/// channel name (see `occupant channels`) or by ISO-MME code. Tests have noise: use --filter j211.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// The results of `occupant run`, or a test: CSV, ISO-MME folder or .mme file
+    /// The results of `occupant run`, or tests: CSV, ISO-MME folder or .mme file
     #[arg(value_name = "RUN.mcap", required = true)]
     runs: Vec<PathBuf>,
 
-    /// Filter each channel by its class (head 1000, neck 1000/600, chest 180, femur 600, head rotation 60)
+    /// Filter each channel by its class (CFC: head 1000, neck 1000/600, chest 180, femur 600, head rotation 60)
     #[arg(long, value_name = "CLASS", default_value = "none", value_parser = one_of(&FILTERS))]
     filter: Asked,
 
-    /// Coefficients of the filter classes
+    /// Standard for the filter coefficients
     #[arg(long, value_name = "STANDARD", default_value = "iso6487", value_parser = one_of(&FAMILIES))]
     coefficients: CfcFamily,
 
-    /// Run the case again and take the readings this often, such as '0.1 ms': a file has them every 0.1 ms, or
-    /// every step of a fixed length above that. With a filter it is 0.1 ms where they are further apart
+    /// Run the case again and sample it at this interval, such as '0.1 ms'. A file has samples every 0.1 ms, or every step if a
+    /// fixed step is longer. A filter needs 0.1 ms and runs the case again if the file is coarser
     #[arg(long, value_name = "TIME", value_parser = interval)]
     interval: Option<f64>,
 
-    /// The dummy whose limits and risk curves hold
-    #[arg(long, value_name = "DUMMY", default_value = "hybrid-iii-50m", value_parser = one_of(&DUMMIES))]
-    dummy: Dummy,
+    /// The dummy whose limits and risk curves apply; the Hybrid III nearest in mass if absent
+    #[arg(long, value_name = "DUMMY", value_parser = one_of(&DUMMIES))]
+    dummy: Option<Dummy>,
 
     /// Exit with code 1 if a limit is exceeded
     #[arg(long)]
@@ -63,17 +64,17 @@ pub(crate) struct Args {
     #[command(flatten)]
     units: UnitsArg,
 
-    /// Print JSON instead of tables, of several runs a list; SI units
+    /// Print JSON instead of tables, in SI units; a list for several runs
     #[arg(long)]
     json: bool,
 }
 
 /// Filters: names on the command line, names in help.
 const FILTERS: [(&str, &str, Asked); 4] = [
-    ("none", "The signals as they are", Asked::None),
-    ("j211", "Each signal by the class that SAE J211 gives it", Asked::Classes(None)),
-    ("sae-j211", "The same with coefficients of SAE J211, a name before", Asked::Classes(Some(CfcFamily::SaeJ211))),
-    ("iso6487", "The same with coefficients of ISO 6487, a name before", Asked::Classes(Some(CfcFamily::Iso6487))),
+    ("none", "No filter", Asked::None),
+    ("j211", "The SAE J211 class of each signal", Asked::Classes(None)),
+    ("sae-j211", "The same with SAE J211 coefficients (older spelling)", Asked::Classes(Some(CfcFamily::SaeJ211))),
+    ("iso6487", "The same with ISO 6487 coefficients (older spelling)", Asked::Classes(Some(CfcFamily::Iso6487))),
 ];
 
 /// The filter asked for, and whose coefficients an old name says.
@@ -98,13 +99,13 @@ const DUMMIES: [(&str, &str, Dummy); 11] = [
     ("hybrid-iii-5f", "Hybrid III, 5th percentile female", Dummy::HybridIii5F),
     ("thor-50m", "THOR, 50th percentile male", Dummy::Thor50M),
     ("hybrid-iii-95m", "Hybrid III, 95th percentile male", Dummy::HybridIii95M),
-    ("eurosid-1", "EuroSID-1, for the side", Dummy::EuroSid1),
-    ("es-2", "ES-2, for the side", Dummy::Es2),
-    ("es-2re", "ES-2re, for the side", Dummy::Es2Re),
-    ("sid-iis", "SID-IIs, 5th percentile female, for the side", Dummy::SidIis),
-    ("worldsid-50m", "WorldSID, 50th percentile male, for the side", Dummy::WorldSid50M),
-    ("worldsid-5f", "WorldSID, 5th percentile female, for the side", Dummy::WorldSid5F),
-    ("biorid-ii", "BioRID-II, for a blow from behind", Dummy::BioRidIi),
+    ("eurosid-1", "EuroSID-1, side impact", Dummy::EuroSid1),
+    ("es-2", "ES-2, side impact", Dummy::Es2),
+    ("es-2re", "ES-2re, side impact", Dummy::Es2Re),
+    ("sid-iis", "SID-IIs, 5th percentile female, side impact", Dummy::SidIis),
+    ("worldsid-50m", "WorldSID, 50th percentile male, side impact", Dummy::WorldSid50M),
+    ("worldsid-5f", "WorldSID, 5th percentile female, side impact", Dummy::WorldSid5F),
+    ("biorid-ii", "BioRID-II, rear impact", Dummy::BioRidIi),
 ];
 
 #[derive(Serialize)]
@@ -147,9 +148,9 @@ impl Judged {
             None => results.summary_judged(options)?,
             Some(interval_s) => {
                 notes.push(format!(
-                    "the case is run again with readings every {interval_ms} ms; the file has them every {own_ms} ms"
+                    "running the case again with samples every {interval_ms} ms; the file has one every {own_ms} ms"
                 ));
-                results.summary_again(options, interval_s)?
+                results.summary_again(options, interval_s, Progress::new(false))?
             }
         };
         Ok(Judged { file: file.display().to_string(), results, summary, interval_ms, notes })
@@ -160,13 +161,13 @@ impl Judged {
         args.units.or(self.results.loaded.scenario.units)
     }
 
-    fn answer(&self, options: &Options) -> Answer<'_> {
+    fn answer(&self) -> Answer<'_> {
         Answer {
             file: &self.file,
             title: &self.results.model.setup().title,
             complete: self.results.is_complete(),
             covers_s: self.results.covers_s(),
-            dummy: options.dummy.name(),
+            dummy: self.summary.dummy,
             occupant: self.summary.occupant,
             measures: &self.summary.measures,
             others: self.summary.others.iter().map(|(name, person)| (*name, &person.measures[..])).collect(),
@@ -178,7 +179,8 @@ impl Judged {
 
 /// Prints the measures of runs.
 pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
-    let options = Options { dummy: args.dummy, filtering: args.filtering() };
+    let filtered = Options { filtering: args.filtering(), ..Options::default() };
+    let options = args.dummy.map_or(filtered, |dummy| filtered.with(dummy));
     if args.runs.iter().any(|file| test::is_test(file)) {
         return test::measures(args, &options);
     }
@@ -186,7 +188,7 @@ pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
     let all = args.runs.iter().map(|file| Judged::of(file, args.interval, options));
     let all = all.collect::<Result<Vec<_>, _>>()?;
     if args.json {
-        let answers: Vec<_> = all.iter().map(|one| one.answer(&options)).collect();
+        let answers: Vec<_> = all.iter().map(Judged::answer).collect();
         print(&if let [one] = &answers[..] { json(one)? } else { json(&answers)? })?;
     } else if let [one] = &all[..] {
         one.notes.iter().for_each(note);
@@ -213,7 +215,9 @@ fn texts(all: &[Judged], options: &Options, units: Units) -> String {
         let lines = marks.explained()?;
         Some(lines.lines().map(|line| format!("{number}  {line}\n")).collect::<String>())
     });
-    let (filter, dummy) = (filter(options), options.dummy.name());
+    let mut dummies: Vec<_> = all.iter().map(|one| one.summary.dummy).collect();
+    dummies.dedup();
+    let (filter, dummy) = (filter(options), dummies.join(", of a "));
     [
         runs.collect::<String>() + &format!("{filter}; limits of a {dummy}\n"),
         side_by_side(&columns, units) + "> beyond a limit\n",
@@ -232,13 +236,15 @@ fn filter(options: &Options) -> String {
 
 /// How far limits and curves are to be trusted.
 const JUDGEMENT: &str =
-    "Limits and curves were read where others quote them, not in the rules: check the rule before a legal statement.\n";
+    "Limits and risk curves come from secondary sources: check the regulation itself before a legal statement.\n";
 
 fn text(results: &Results, interval_ms: f64, options: &Options, summary: &Summary, units: Units) -> String {
     let (people, all) = (summary.people(), Marks::of(&summary.caveats));
     let filter = filter(options);
     let title = shown(&results.model.setup().title);
-    let dummy = options.dummy.name();
+    let mut dummies: Vec<_> = people.iter().map(|(_, person)| person.dummy).collect();
+    dummies.dedup();
+    let dummy = dummies.join(", of a ");
     let mut parts =
         vec![format!("{title}\nreadings every {interval_ms} ms, {filter}; limits and risks of a {dummy}\n")];
     for (prefix, Person { measures, .. }) in &people {

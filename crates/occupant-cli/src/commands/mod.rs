@@ -36,16 +36,18 @@ mod view;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use placed_text::shown;
 
-use crate::base::{Done, Failure, hear_jobs, say, survive_long_files, written};
+use crate::base::{Done, Failure, hear_jobs, progress, say, survive_long_files, written};
 
-/// Simulates the occupant of a car in a crash or a violent manoeuvre.
+/// Simulate the people in a car during a crash or a violent manoeuvre
 #[derive(Debug, Parser)]
 #[command(name = "occupant", version, propagate_version = false, max_term_width = 100)]
-#[command(after_help = "Exit codes: 0 done; 1 ran, and a check failed, the integration failed or it was \
-interrupted; 2 could not run.\n\nStart with: occupant new my-case.toml && occupant run my-case.toml")]
+#[command(
+    after_help = "Start with: occupant new my-case.toml && occupant run my-case.toml\nThen: occupant report my-case.mcap --open\n\n\
+Exit codes: 0 success; 1 a run failed or was interrupted, or a check failed; 2 wrong input, nothing was run."
+)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -103,10 +105,27 @@ pub fn main() -> ExitCode {
 pub fn answer(words: impl IntoIterator<Item = OsString>) -> ExitCode {
     hear_jobs();
     let parsed = groups::grouped(Cli::command()).try_get_matches_from(words);
+    parsed.iter().for_each(watch_work);
     match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
-        Ok(cli) => exit_code(done(cli.command)),
+        Ok(cli) => {
+            let done = done(cli.command);
+            progress::end_line();
+            exit_code(done)
+        }
         Err(wrong) if wrong.use_stderr() => exit_code(Err(Failure::CouldNotRun(in_lines(&wrong.render().to_string())))),
         Err(help) => exit_code(written(help.print()).map(Done::from)),
+    }
+}
+
+/// Shows that a command is at work, unless it is to be quiet.
+fn watch_work(matches: &ArgMatches) {
+    let (mut words, mut own) = (vec!["occupant"], matches);
+    while let Some((name, below)) = own.subcommand() {
+        words.push(name);
+        own = below;
+    }
+    if !matches!(own.try_get_one::<bool>("quiet"), Ok(Some(true))) {
+        progress::watch(words.join(" "));
     }
 }
 

@@ -10,29 +10,29 @@ use template::Template;
 /// The scenario that is written unless another template is asked for.
 pub(super) const STARTER: &str = include_str!("new/driver.toml");
 
-/// Write a commented starter scenario that runs as it is, or a study
+/// Write a commented scenario or study that is ready to run
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// The file to write; .toml is added where there is no extension
+    /// The file to write; .toml is added if it has no extension
     #[arg(value_name = "NAME.toml")]
     file: PathBuf,
 
-    /// What to start from
+    /// The template
     #[arg(short, long, value_enum, default_value_t)]
     template: Template,
 
-    /// Replace the file if it exists
+    /// Replace an existing file
     #[arg(short, long)]
     force: bool,
 
-    /// Say nothing
+    /// Print nothing
     #[arg(short, long)]
     quiet: bool,
 }
 
 /// The driver's scenario with another title and path; all three as TOML.
 pub(super) fn with_path(title: &str, origin: &str, section: &str) -> String {
-    let head = "# A driver of ours, belted, in a car of ours, on the path of a test: change body, posture, belts and solids to those of the test.\n\n";
+    let head = "# A belted driver in a generic car, on the vehicle path of a test: change body, posture, belts and interior to those of the test.\n\n";
     let changed = template::changed(STARTER, &format!("{head}title = {title}\n\n{section}"));
     let line = |line: &str| match line.starts_with("path = ") {
         true => format!("path = {origin}\n"),
@@ -49,10 +49,7 @@ pub(crate) fn new(args: &Args) -> Result<(), Failure> {
     }
     let name = file.display();
     if file.extension().is_some_and(|e| !e.eq_ignore_ascii_case("toml")) {
-        return Err(Failure::with_help(
-            format!("{name} is not named .toml, and what is written is TOML"),
-            "give it a name that ends with .toml",
-        ));
+        return Err(Failure::with_help(format!("{name}: the template is written as TOML"), "use the extension .toml"));
     }
     publish(&file, args.force, args.template.text().as_bytes())?;
     if !args.quiet {

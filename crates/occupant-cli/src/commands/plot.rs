@@ -15,54 +15,54 @@ use occupant_jobs::plot::{Request, plots};
 use occupant_pictures::Format;
 use occupant_pictures::plot::{Figure, LimitArgument, Sheet, sheet};
 
-/// Draw time histories of one or more runs as SVG or PNG
+/// Plot time histories of one or more runs as SVG or PNG
 ///
-/// Without --channel the fourteen plots of the report's option STAN: accelerations of head, chest and pelvis, contact forces,
-/// belt loads, spine angles, energies, vehicle. Accelerations are what an accelerometer in the segment reads, in its axes:
-/// X ahead, Y to the left, Z up when standing upright.
+/// Without --channel, draws fourteen standard plots: accelerations of head, chest and pelvis, contact forces, belt loads,
+/// spine angles, energies, vehicle motion. Accelerations are those of an accelerometer fixed in the segment, in its axes: X
+/// forward, Y left, Z up when the person stands.
 #[derive(Debug, clap::Args)]
 #[command(mut_arg("map", |map| map.requires("test")))]
 pub(crate) struct Args {
-    /// Results of `occupant run`; several are drawn over each other
+    /// The results of `occupant run`; several are overlaid
     #[arg(value_name = "RUN.mcap", required = true)]
     runs: Vec<PathBuf>,
 
-    /// The file to write, all plots on one sheet: NAME.svg or NAME.png; RUN-plot.svg beside the first run if absent
+    /// The file to write, all plots on one sheet: .svg or .png; RUN-plot.svg beside the first run if absent
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
-    /// A folder for a file for each plot
+    /// Write each plot as a file into this folder
     #[arg(long, value_name = "FOLDER", conflicts_with = "output")]
     each: Option<PathBuf>,
 
-    /// Kind of the files in the folder of --each
+    /// File format for --each
     #[arg(long, value_name = "KIND", default_value = "svg", requires = "each")]
     format: Format,
 
-    /// A plot of these channels, by name or pattern with commas between; once for each plot
+    /// Plot these channels, by name or pattern, such as 'head.acceleration.*,chest.acceleration.x'. Repeat for more plots
     #[arg(long, alias = "channels", value_name = "NAMES")]
     channel: Vec<String>,
 
-    /// The channel across instead of the time
+    /// The channel on the horizontal axis, instead of time
     #[arg(long, value_name = "NAME", requires = "channel", conflicts_with = "test")]
     x: Option<String>,
 
-    /// A level to draw, such as 'head.acceleration.resultant=80 g'; without unit in that of the plot
+    /// Draw a limit line, such as 'head.acceleration.resultant=80 g'; in the unit of the plot if it has none
     #[arg(long, value_name = "CHANNEL=LEVEL")]
     limit: Vec<LimitArgument>,
 
-    /// Measured signals to draw in black: CSV, ISO-MME folder or .mme file
+    /// Draw measured signals in black: a CSV table, ISO-MME folder or .mme file
     #[arg(long, value_name = "FILE")]
     test: Vec<PathBuf>,
 
     #[command(flatten)]
     signals: TestArgs,
 
-    /// Units
+    /// Units of the plots
     #[arg(long, value_name = "SYSTEM", default_value = "g")]
     units: UnitChoice,
 
-    /// Axes for what is told along those of a segment
+    /// Axes of quantities that belong to a segment
     #[arg(long, value_enum, default_value_t)]
     axes: AxisChoice,
 
@@ -72,23 +72,23 @@ pub(crate) struct Args {
     #[command(flatten)]
     window: WindowArgs,
 
-    /// Heading; the scenario's title if absent
+    /// Title; that of the scenario if absent
     #[arg(long, value_name = "TEXT")]
     title: Option<String>,
 
-    /// Plots beside each other on a sheet
+    /// Number of plots in a row
     #[arg(long = "across", alias = "columns", value_name = "N", default_value = "3", value_parser = clap::value_parser!(u8).range(1..=10))]
     columns: u8,
 
-    /// Pixels of a PNG for each unit of the drawing (1/96 inch)
+    /// Resolution of a PNG, in pixels per 1/96 inch
     #[arg(long, value_name = "N", default_value = "2", value_parser = pixels)]
     pixels: f64,
 
-    /// Replace files that exist
+    /// Replace existing files
     #[arg(short, long)]
     force: bool,
 
-    /// Open what was written with the program that the system has for it
+    /// Open the file with the system's default program
     #[arg(long)]
     open: bool,
 }
@@ -144,7 +144,7 @@ fn window(window: WindowArgs) -> Result<[f64; 2], Failure> {
     }
     Err(Failure::with_help(
         format!("--from {} s is not before --to {} s", number(from), number(to)),
-        "--from is the earlier time",
+        "give --from an earlier time than --to",
     ))
 }
 
@@ -170,7 +170,7 @@ fn words(args: &Args, runs: &[Results]) -> Sheet {
         "none" => "not filtered".to_owned(),
         words => format!("filter: {words}"),
     };
-    lines.push(format!("{}; {filter}; segment axes: X ahead, Y left, Z up when upright", program()));
+    lines.push(format!("{}; {filter}; segment axes: X forward, Y left, Z up when upright", program()));
     Sheet { title, lines, columns: usize::from(args.columns) }
 }
 

@@ -8,25 +8,25 @@ use super::flags::history::interval;
 use crate::base::{Failure, UnitsArg, deliver, note, print, refuse_input, say};
 use occupant_jobs::print::read;
 
-/// Print a run as paged text, as the report's program did
+/// Print a run as paged text, in the layout of the 1970 program
 ///
-/// First everything that was read and the computed seating, then the results at every print time, last the pairs of
-/// sphere and surface that an extension needs. 132 columns, 60 lines a page, form feeds between pages.
+/// The input and the computed seating come first, then the results at each print time, then the pairs of sphere and
+/// surface that an extension run needs. 132 columns, 60 lines per page, form feeds between pages.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The results of `occupant run`
     #[arg(value_name = "RUN.mcap")]
     run: PathBuf,
 
-    /// The file to write instead of standard output
+    /// The file to write; standard output if absent
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
-    /// Replace a file that exists
+    /// Replace an existing file
     #[arg(short, long, requires = "output")]
     force: bool,
 
-    /// Print interval (DTPRNT), such as "10 ms" or 0.01; every recorded output if absent
+    /// Print interval (DTPRNT), such as '10 ms' or 0.01; every output if absent
     #[arg(long = "interval", alias = "every", value_name = "TIME", allow_hyphen_values = true, value_parser = interval)]
     every: Option<f64>,
 

@@ -7,34 +7,31 @@ use occupant_files::results::Results;
 use occupant_jobs::report::{MOST_RUNS, page, subject};
 use occupant_pictures::html::is_page_of;
 
-/// Make a page of one to four runs: motion in 3-D, histories, measures
+/// Make an HTML page of one to four runs: 3-D motion, histories, measures
 ///
-/// One HTML file, with contacts and where the run comes from.
-///
-/// It opens in any browser and loads nothing from the network. Keys: space plays, arrows step, 1 to 4 choose the view.
+/// The page opens in any browser and needs no network. Keys: space plays, arrows step, 1 to 4 choose the view.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// The results of `occupant run`; of several, such as without belt, with a lap belt, with both, the bodies stand abreast, and
-    /// their curves and numbers beside each other
+    /// The results of `occupant run`. Several runs are shown side by side, with their curves and numbers
     #[arg(value_name = "RUN.mcap", required = true, num_args = 1..=4)]
     runs: Vec<PathBuf>,
 
-    /// The page; RUN.html beside the run if absent, where an earlier report of the same is replaced
+    /// The page; RUN.html beside the run if absent. An earlier report of the same run is replaced
     #[arg(short, long, value_name = "FILE.html")]
     output: Option<PathBuf>,
 
     #[command(flatten)]
     units: UnitsArg,
 
-    /// Replace a file that exists
+    /// Replace existing files
     #[arg(short, long)]
     force: bool,
 
-    /// Open what was written with the program that the system has for it
+    /// Open the page with the system's default program
     #[arg(long)]
     open: bool,
 
-    /// Another run, drawn as a ghost or beside, with its curves and numbers beside those of the first
+    /// Another run to compare with: drawn as a ghost or side by side
     #[arg(long, value_name = "OTHER.mcap")]
     against: Option<PathBuf>,
 }
@@ -75,7 +72,7 @@ fn replaces_earlier(files: &[PathBuf], output: &Path) -> bool {
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let is_earlier = is_page_of(output, &subject(&names));
     if is_earlier {
-        say(&format!("{} is an earlier report of the same and is replaced; -o keeps both", output.display()));
+        say(&format!("note: replacing {}, an earlier report of the same run (use -o to keep it)", output.display()));
     }
     is_earlier
 }

@@ -20,53 +20,53 @@ use occupant_jobs::import::PathFilter;
 use occupant_jobs::risk::{Report, json, page, text};
 use options::{errors, flight, preparation};
 
-/// Measure the risk to occupants from the vehicle's motion alone
+/// Assess occupant risk from the vehicle's motion alone: OIV, ORA, THIV, PHD, ASI
 ///
-/// OIV, ORA, THIV, PHD, ASI, 50 ms averages, angles, velocity changes, OLC, and what rules say of them. FILE is recorded data
-/// (a table with `t` and any of `ax`, `ay`, `az`, `wx`, `wy`, `wz` with their units, such as t[s],ax[g],wz[deg/s], or with a
-/// recorder's headings, such as Time (ms); x forward, y right, z down), or any record that `import` reads, an ISO-MME test, velocity changes or
-/// places too; a scenario, or a run.mcap. Exit code 1 if a rule named by --rule is broken.
+/// Also prints 50 ms averages, angles, delta-v, OLC, and the limits of each rule. FILE is a scenario, a run (.mcap), or any
+/// record that `occupant import` reads: accelerations, velocity changes or positions. A plain table needs `t` and any of
+/// `ax`, `ay`, `az`, `wx`, `wy`, `wz` with units, such as t[s],ax[g],wz[deg/s]; x forward, y right, z down. Exit code 1 if
+/// a rule named by --rule is not met.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Recorded data (.csv, .tdms, a test's folder …), a scenario (.toml, .json) or the results of a run (.mcap)
+    /// A record (.csv, .tdms, a test's folder …), a scenario (.toml, .json) or a run (.mcap)
     #[arg(value_name = "FILE")]
     file: PathBuf,
 
-    /// Write the report as a page as well, with the histories: one HTML file that needs no network
+    /// Also write the report as an HTML page with time histories
     #[arg(short, long, value_name = "REPORT.html")]
     output: Option<PathBuf>,
 
-    /// Replace a file that exists
+    /// Replace an existing file
     #[arg(short, long, requires = "output")]
     force: bool,
 
-    /// Units of what is printed, SI beside those of reports in the US if absent. JSON is always SI
+    /// Units of printed numbers; both SI and US units if absent. JSON is always SI
     #[arg(long, value_name = "SYSTEM", value_parser = one_of(&SYSTEMS))]
     units: Option<UnitSystem>,
 
-    /// The vehicle, where there are several: its name in a scenario or run, its number in a record; the first, if absent
+    /// Which vehicle: its name in a scenario or run, its number in a record; the first if absent
     #[arg(long, value_name = "NAME|NUMBER")]
     vehicle: Option<String>,
 
-    /// Place of the vehicle's accelerometers in a test, as the test names it; if absent the centre of gravity, or the place that rings
-    /// least of those that agree on the velocity change
+    /// Which accelerometer location of the test to use; if absent the centre of gravity, else the location with least ringing
+    /// among those that agree on delta-v
     #[arg(long, value_name = "PLACE")]
     at: Option<String>,
 
-    /// Judge by this rule; may be repeated; all are shown if absent
+    /// Judge by this rule. May be repeated; all rules are shown if absent
     #[arg(long, value_name = "RULE", value_parser = one_of(&RULES))]
     rule: Vec<Rule>,
 
-    /// Filter: CFC60, CFC180 (if absent), CFC600 or CFC1000; a frequency, such as '15 Hz', from which on a table of places is smoothed
-    /// before; or none for data that are filtered already
+    /// Filter: CFC60, CFC180 (the default), CFC600 or CFC1000; none for data that are already filtered; or a frequency, such as
+    /// '15 Hz', to smooth a table of positions first
     #[arg(long, alias = "cfc", value_name = "CLASS|FREQUENCY", value_parser = super::import::filter)]
     filter: Option<PathFilter>,
 
-    /// Filter coefficients
+    /// Standard for the filter coefficients
     #[arg(long, value_name = "STANDARD", default_value = "iso6487", value_parser = one_of(&FAMILIES))]
     coefficients: CfcFamily,
 
-    /// Sample interval: recorded data are resampled by straight lines, paths are sampled (0.1 ms if absent)
+    /// Sample interval: records are resampled linearly; paths are sampled, every 0.1 ms if absent
     #[arg(long, value_name = "TIME")]
     interval: Option<String>,
 
@@ -74,41 +74,41 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     start: Option<String>,
 
-    /// Time up to which the record is looked at; its end if absent
+    /// End of the assessment; the end of the record if absent
     #[arg(long = "to", alias = "end", value_name = "TIME", allow_hyphen_values = true)]
     end: Option<String>,
 
-    /// Names and units of the file's columns in place of its own headings, `-` for one that is left out and a minus before one whose
-    /// sign is to be turned, such as 't[ms],-,ax[g],-ay[g]'
+    /// Names and units for the columns, instead of the file's headings: `-` skips a column, a minus before a name reverses its
+    /// sign, such as 't[ms],-,ax[g],-ay[g]'
     #[arg(long, value_name = "COLUMNS", allow_hyphen_values = true)]
     columns: Option<String>,
 
-    /// Where the sensors stand, from the centre of gravity: forward, right, down, such as "-0.3 m,0,10 cm"
+    /// Position of the sensors from the centre of gravity: forward, right, down, such as "-0.3 m,0,10 cm"
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     offset: Option<String>,
 
-    /// Bridge holes of the record up to so long by straight lines, such as '5 ms'; refused if absent
+    /// Fill gaps up to this length linearly, such as '5 ms'; gaps are an error if absent
     #[arg(long, value_name = "TIME", value_parser = interval)]
     bridge: Option<f64>,
 
-    /// Length of the rest at the beginning of the record; what each channel reads there beyond what it should is taken away
+    /// Length of the quiet part at the start of the record, used to remove zero offsets
     #[arg(long, value_name = "TIME")]
     baseline: Option<String>,
 
-    /// Length of a rest at its end as well: zero errors that drift are taken away along a straight line
+    /// Length of the quiet part at the end, used to remove linear drift as well
     #[arg(long, value_name = "TIME", requires = "baseline")]
     baseline_end: Option<String>,
 
-    /// Bound of an error of the sensors, to both sides: gain='1 %', offset='0.05 g', rate='0.2 deg/s', angle='1 deg' or
-    /// place='20 mm'; each measure then has the interval of 95 % of 400 records with such errors. May be repeated
+    /// Bound of a sensor error (±): gain='1 %', offset='0.05 g', rate='0.2 deg/s', angle='1 deg' or place='20 mm'. Each measure
+    /// then gets the 95 % interval of 400 records with random errors within these bounds. May be repeated
     #[arg(long, value_name = "WHAT=BOUND")]
     sensor_error: Vec<String>,
 
-    /// Gravity is in az: a level vehicle at rest reads −1 g
+    /// The record includes gravity: az reads −1 g when the vehicle is level and at rest
     #[arg(long)]
     gravity_included: bool,
 
-    /// Which way the recorded axes point; what the kind of file says, or z_down, if absent
+    /// Axes of the record; if absent as the file format defines them, else z_down
     #[arg(long, value_name = "AXES", value_parser = one_of(&AXES))]
     axes: Option<Axes>,
 
@@ -116,23 +116,23 @@ pub(crate) struct Args {
     #[arg(long, hide = true, conflicts_with = "axes")]
     z_up: bool,
 
-    /// Head of THIV ahead of the centre of gravity (X0); 0 if absent
+    /// Distance of the THIV head ahead of the centre of gravity (X0); 0 if absent
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     head_start: Option<String>,
 
-    /// Free distance forward and back; 0.6 m if absent
+    /// Flail distance forward and back; 0.6 m if absent
     #[arg(long, value_name = "LENGTH")]
     flail_x: Option<String>,
 
-    /// Free distance to either side; 0.3 m if absent
+    /// Flail distance to each side; 0.3 m if absent
     #[arg(long, value_name = "LENGTH")]
     flail_y: Option<String>,
 
-    /// Change a value of the scenario, such as --set path.speed='30 mph'; may be repeated
+    /// Change a value of the scenario, such as --set path.speed='30 mph'. May be repeated
     #[arg(long = "set", value_name = "PATH.TO.KEY=VALUE")]
     overrides: Vec<String>,
 
-    /// Print the report as JSON, in SI
+    /// Print JSON, in SI units
     #[arg(long)]
     json: bool,
 }
@@ -155,7 +155,7 @@ const RULES: [(&str, &str, Rule); 10] = [
 const FAMILIES: [(&str, &str, CfcFamily); 3] = [
     ("iso6487", "ISO 6487", CfcFamily::Iso6487),
     ("sae-j211", "SAE J211", CfcFamily::SaeJ211),
-    ("j211", "SAE J211, its name before", CfcFamily::SaeJ211),
+    ("j211", "The same as sae-j211", CfcFamily::SaeJ211),
 ];
 
 /// Measures and judges.
@@ -209,7 +209,7 @@ fn warn_of_coarse_samples(signals: &VehicleSignals, preparation: &Preparation) {
         && signals.dt_s * class.hertz() > 0.1 * (1.0 + 1e-6)
     {
         say(&format!(
-            "warning: {:.0} samples a second are less than ten times the class, CFC {:.0}: peaks may be missed",
+            "warning: {:.0} samples per second are less than ten times the class, CFC {:.0}: peaks may be missed",
             1.0 / signals.dt_s,
             class.hertz()
         ));

@@ -30,55 +30,52 @@ use occupant_jobs::run::recording::{Recording, Written};
 use occupant_jobs::run::resume::{Resumed, Resumption};
 use occupant_jobs::run::{Simulated, run as simulate};
 
-/// Simulate the occupant and write what happened
+/// Simulate a scenario
 ///
-/// Writes an MCAP file (by default SCENARIO.mcap in the present folder) and ends with a short table. Until the run is
-/// complete the file is called SCENARIO.partial.mcap. Without -o, a complete earlier run of the same scenario file (beside
-/// it, with the same title and --set) is replaced, and a line says so; any other file only with --force. With --resume the run starts where another one ended, with the same
-/// states as one run to the new end, and writes SCENARIO.resumed.mcap. With --ensemble it is run many times with small
-/// changes, and the table says which of its results are stable.
+/// Prints a summary and writes SCENARIO.mcap into the current folder. An earlier run of the same scenario is replaced;
+/// any other file only with --force. While it runs, the file is named SCENARIO.partial.mcap.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     scenario: ScenarioArgs,
 
-    /// More scenarios: each is run in its turn, and their measures are printed side by side
+    /// More scenarios: they run in turn, and their measures are printed side by side
     #[arg(value_name = "MORE", conflicts_with_all = ["resume", "json"])]
     more: Vec<PathBuf>,
 
-    /// The file to write; of several scenarios the page, FILE.html, that shows up to four of them abreast
+    /// The file to write. With several scenarios: FILE.html, a page that compares up to four of them
     #[arg(short, long, value_name = "FILE.mcap")]
     output: Option<PathBuf>,
 
-    /// End at this time instead of the scenario's time.end, such as 0.4 or '400 ms'
+    /// End the run at this time instead of time.end, such as 0.4 or '400 ms'
     #[arg(long, value_name = "TIME")]
     until: Option<String>,
 
-    /// Resume the last checkpoint of this file, of a run of the same scenario that ended, was interrupted or killed; a
-    /// killed run leaves whole groups of 50 outputs, and nothing to resume before the first 50
+    /// Continue a run of the same scenario from its last checkpoint, with the same states as one uninterrupted run. Writes
+    /// SCENARIO.resumed.mcap. A killed run has a checkpoint every 50 outputs
     #[arg(long, value_name = "FILE.mcap")]
     resume: Option<PathBuf>,
 
-    /// Write no file, only the summary
+    /// Print the summary and write no file
     #[arg(long, conflicts_with = "output")]
     no_mcap: bool,
 
-    /// Run once more, with a quarter of the step or a tenth of the tolerances, and say how far the results are from that
+    /// Estimate the integration error: run again with a quarter of the step or a tenth of the tolerances, and compare
     #[arg(long, conflicts_with = "resume")]
     estimate_error: bool,
 
-    /// Replace files that exist
+    /// Replace existing files
     #[arg(short, long)]
     force: bool,
 
     #[command(flatten)]
     units: UnitsArg,
 
-    /// Print the summary as JSON instead of a table; SI units
+    /// Print the summary as JSON, in SI units
     #[arg(long)]
     json: bool,
 
-    /// No table, no warnings, no progress bar; errors and --json remain
+    /// Print no table, no warnings and no progress; errors and --json remain
     #[arg(short, long)]
     quiet: bool,
 
@@ -156,8 +153,8 @@ fn refuse_before(args: &Args, all: &[ScenarioArgs]) -> Result<(), Failure> {
     if let Some(page) = &args.output {
         if !is_page(page) {
             return Err(Failure::with_help(
-                format!("{} of {} scenarios", page.display(), all.len()),
-                "-o FILE.html writes the page that shows them abreast; each writes its own .mcap in any case",
+                format!("{} for {} scenarios", page.display(), all.len()),
+                "with several scenarios, -o takes FILE.html, a page that compares them; each run still writes its own .mcap",
             ));
         }
         if all.len() > MOST_RUNS {
@@ -170,7 +167,7 @@ fn refuse_before(args: &Args, all: &[ScenarioArgs]) -> Result<(), Failure> {
         let twin = all[..i].iter().find(|other| other.scenario.file_stem() == name).filter(|_| !args.no_mcap);
         if let Some(twin) = twin {
             let found = format!("{} and {} would write the same file", twin.scenario.display(), own.scenario.display());
-            return Err(Failure::with_help(found, "run them one by one with -o, or with --no-mcap"));
+            return Err(Failure::with_help(found, "run them one by one with -o, or use --no-mcap"));
         }
         if !is_input(&own.scenario) {
             scenario::source(own)?;
@@ -211,7 +208,7 @@ fn one(args: &Args) -> Result<(Done, Summary, Units), Failure> {
     let recording = recording.transpose()?.unwrap_or(Recording::none());
     from.iter().filter(|_| !args.quiet).for_each(Resumption::announce);
     let channels = ensemble.as_ref().map(|e| e.channels.clone()).unwrap_or_default();
-    let interrupt = listen("stopping at the next output; once more to stop at once");
+    let interrupt = listen("stopping at the next output; press Ctrl-C again to stop at once");
     let diagnosis = matches!(opened.model.setup().integrator, Integrator::Rk4 { .. }).then(|| diagnose(&opened.model));
     if let Some(message) = diagnosis.as_ref().and_then(too_long).filter(|_| !args.quiet) {
         say(&format!("warning: {message}"));
@@ -228,7 +225,7 @@ fn one(args: &Args) -> Result<(Done, Summary, Units), Failure> {
     let ensemble =
         ensemble.map(|wanted| wanted.run(&opened, &run.summary, histories, &interrupt, progress::show(args.quiet)));
     let estimate = (args.estimate_error && run.completed && !interrupt.is_asked())
-        .then(|| estimate(&opened, &run.summary, &run.head, &interrupt));
+        .then(|| estimate(&opened, &run.summary, &run.head, &interrupt, progress::show(args.quiet)));
     if let Some(estimate) = estimate.as_ref().and_then(told) {
         // what may be chance is now known
         run.summary.caveats.retain(|caveat| caveat.name != Caveat::CHANCE);
@@ -266,7 +263,7 @@ fn draw(args: &Args, opened: &Opened, run: &Simulated) -> Result<(), Failure> {
 
 /// Whether a file is a sheet of plots that this program drew.
 fn is_page_of_plots(path: &Path) -> bool {
-    std::fs::read_to_string(path).is_ok_and(|text| text.contains("<svg") && text.contains("segment axes: X ahead"))
+    std::fs::read_to_string(path).is_ok_and(|text| text.contains("<svg") && text.contains("segment axes: X"))
 }
 
 /// What came of something, if anything did.
@@ -280,17 +277,14 @@ fn existing_at(args: &Args, name: &Path, chosen: &ScenarioArgs, opened: &Opened)
     let unasked = args.output.is_none() && args.resume.is_none() && !args.force;
     let is_earlier = unasked && is_earlier(name, chosen, opened);
     if is_earlier {
-        say(&format!(
-            "{} is an earlier run of this scenario, to be replaced by this one; -o keeps both",
-            name.display()
-        ));
+        say(&format!("note: replacing {}, an earlier run of this scenario (use -o to keep it)", name.display()));
     }
     Existing::by(args.force || is_earlier)
 }
 
 fn say_balance(balance: Balance, summary: &Summary) {
     let word = if balance == Balance::Lost { "error" } else { "warning" };
-    let help = "a smaller step or tolerance; `occupant check` shows the fastest time scale";
+    let help = "use a smaller step or tolerance; `occupant check` shows the fastest time scale";
     for caveat in summary.caveats.iter().filter(|caveat| caveat.name.starts_with("energy_balance")) {
         say(&format!("{word}: {}\n = help: {help}", caveat.text));
     }
@@ -313,7 +307,7 @@ fn output_name(args: &Args) -> Result<Option<PathBuf>, Failure> {
         let is_ours = ending(name) == "mcap";
         return is_ours.then(|| Some(name.clone())).ok_or_else(|| Failure::ending(name, ".mcap"));
     }
-    let nameless = || Failure::with_help("the scenario's name gives no name to its results", "use -o FILE.mcap");
+    let nameless = || Failure::with_help("the results cannot be named after the scenario", "use -o FILE.mcap");
     let own = args.scenario.scenario.file_stem().filter(|_| !is_input(&args.scenario.scenario));
     let mut name = own.ok_or_else(nameless)?.to_owned();
     name.push(if args.resume.is_some() { ".resumed.mcap" } else { ".mcap" });
@@ -371,8 +365,8 @@ fn broke_off(run: &Simulated) -> String {
     let reason = summary.reason.as_deref().unwrap_or("it did not complete");
     let [reached_ms, end_ms] = [summary.reached_s, summary.end_s].map(|t| (t - summary.start_s) * 1e3);
     let file = match &run.written {
-        Written::Partial(path) => format!("; these are in {}, which says that it is partial", path.display()),
+        Written::Partial(path) => format!("; they are in {}, marked as partial", path.display()),
         _ => String::new(),
     };
-    format!("error: the run was not completed: {reason}\n = done: {reached_ms:.1} ms of {end_ms:.1} ms{file}")
+    format!("error: the run did not complete: {reason}\n = done: {reached_ms:.1} ms of {end_ms:.1} ms{file}")
 }

@@ -6,13 +6,13 @@ use serde_json::Value as Json;
 
 use crate::base::{Failure, talk};
 
-/// Print the JSON Schema of a scenario, a study or an answer with --json
+/// Print the JSON Schema of scenarios, studies or --json output
 ///
-/// An editor completes and checks scenarios by it.
-/// Save it as occupant.schema.json beside the scenarios and put `#:schema ./occupant.schema.json` into their first line.
+/// Your editor can complete and check scenarios with it. Save it as occupant.schema.json beside a scenario and make
+/// `#:schema ./occupant.schema.json` the first line of the scenario.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Of which kind of file, or of which command's answer
+    /// The kind of file, or the command whose --json output is described
     #[arg(long, value_enum, default_value_t = Of::Scenario)]
     of: Of,
 }
@@ -26,12 +26,17 @@ enum Of {
     Study,
     /// What `fit` reads: a study with a section `fit`
     Fit,
-    /// What `run --json` prints; likewise those that follow
+    /// What `run --json` prints
     Run,
+    /// What `check --json` prints
     Check,
+    /// What `measures --json` prints
     Measures,
+    /// What `compare --json` prints
     Compare,
+    /// What `risk --json` prints
     Risk,
+    /// What `sensitivity --json` prints
     Sensitivity,
 }
 

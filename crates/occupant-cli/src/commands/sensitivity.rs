@@ -9,12 +9,11 @@ use occupant_jobs::files::history::UnitChoice;
 use occupant_jobs::files::scenario::{ScenarioArgs, files_beside, inputs, open_source, source, warn_of};
 use occupant_jobs::sensitivity::{Words, about, analyse, answer, ask, histories, text};
 
-/// How measures and channels change with numbers of the scenario
+/// Compute how measures and channels change with numbers of the scenario
 ///
-/// The derivative of the run is computed exactly, in dual numbers, not by differences of runs; it is then compared
-/// with runs in which the number is changed by up to 1 %, and what limits it (contacts that begin, friction that reverses,
-/// belts that go slack) is listed. All numbers are SI, angles in radians. A path to several numbers, such as
-/// joints.*.damping, is a factor on all of them.
+/// Derivatives are exact (dual numbers), not differences of runs. Each is then checked against runs in which the number is
+/// changed by up to 1 %, and events that limit it are listed: contacts that begin, friction that reverses, belts that go
+/// slack. All values are SI, angles in radians. A path to several numbers, such as joints.*.damping, scales all of them.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Example: occupant sensitivity cart.toml --to hic15,belts.lap.peak --of joints.neck.damping,materials.seat.k1"
@@ -23,30 +22,30 @@ pub(crate) struct Args {
     #[command(flatten)]
     scenario: ScenarioArgs,
 
-    /// Measures of the run, such as hic15,belts.lap.peak; `*` stands for anything
+    /// Measures to differentiate, such as hic15,belts.lap.peak; `*` matches anything
     #[arg(long, value_name = "MEASURES", required_unless_present = "channels")]
     to: Vec<String>,
 
-    /// Numbers of the scenario, by path, such as joints.neck.damping,materials.seat.k1
+    /// Numbers of the scenario to vary, such as joints.neck.damping,materials.seat.k1
     #[arg(long, value_name = "PATHS", required = true)]
     of: Vec<String>,
 
-    /// Channels whose derivatives over time are written to -o, such as 'head.acceleration.*'
+    /// Also differentiate these channels over time and write them to -o, such as 'head.acceleration.*'
     #[arg(long = "channel", alias = "channels", value_name = "NAMES", requires = "output")]
     channels: Vec<String>,
 
-    /// The table of channels and their derivatives: NAME.csv or NAME.parquet
+    /// The table of channels and their derivatives: .csv or .parquet
     #[arg(short, long, value_name = "FILE", requires = "channels")]
     output: Option<PathBuf>,
 
     #[command(flatten)]
     units: UnitsArg,
 
-    /// Print all results as JSON; SI units
+    /// Print JSON, in SI units
     #[arg(long)]
     json: bool,
 
-    /// Replace files that exist
+    /// Replace existing files
     #[arg(short, long)]
     force: bool,
 }

@@ -7,7 +7,7 @@ use clap::Subcommand;
 
 use crate::base::Failure;
 
-/// Work on the results of a study
+/// Report on a finished or running study
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     #[command(subcommand)]

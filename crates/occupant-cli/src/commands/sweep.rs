@@ -14,12 +14,11 @@ use occupant_jobs::files::study_folder::texts::Texts;
 use occupant_jobs::sweep::job::Sweep;
 use occupant_jobs::sweep::plan::Plan;
 
-/// Run every sample of a study and write one table
+/// Run every sample of a study and write one table of results
 ///
-/// Writes FOLDER/results.parquet: a row for each sample with its inputs, all measures of the run and how it ended. A sample
-/// that fails is a row with its reason. The same command resumes a sweep that was interrupted or killed: every
-/// finished sample is kept. On several machines, each computes a part of the study into the same folder (--shard, or a Slurm job
-/// array), and `occupant sweep merge FOLDER` makes the table.
+/// Writes FOLDER/results.parquet: one row per sample with its inputs, all measures and how it ended. A failed sample has a
+/// row with the reason. Run the same command again to resume an interrupted sweep; finished samples are kept. To share a
+/// sweep between machines, give each a part (--shard, or a Slurm job array) and run `occupant sweep merge FOLDER` at the end.
 #[derive(Debug, clap::Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub(crate) struct Args {
@@ -30,43 +29,42 @@ pub(crate) struct Args {
     #[arg(value_name = "STUDY", required = true)]
     study: Option<PathBuf>,
 
-    /// The folder of the results, made if it is not there; that of the study's name in the present folder if absent
+    /// The folder for the results; named after the study, in the current folder, if absent
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
 
-    /// Change a value in all samples, such as --set time.end='250 ms'; may be repeated
+    /// Change a value in all samples, such as --set time.end='250 ms'. May be repeated
     #[arg(long = "set", value_name = "PATH.TO.KEY=VALUE")]
     overrides: Vec<String>,
 
     #[command(flatten)]
     engine: flags::EngineArgs,
 
-    /// Compute one part of the study only, such as 3/8; else OCCUPANT_SHARD says which, else the Slurm job array that this
-    /// is a task of
+    /// Compute only this part of the study, such as 3/8. If absent, OCCUPANT_SHARD or the Slurm job array decides
     #[arg(long, value_name = "I/N")]
     shard: Option<String>,
 
-    /// Write whole runs as runs/NUMBER.mcap instead of those that the study says: all, none, '3, 17' or
-    /// 'worst 5 by head.peak'
+    /// Which whole runs to write as runs/NUMBER.mcap: all, none, '3, 17' or 'worst 5 by head.peak'; those of the study if
+    /// absent
     #[arg(long, value_name = "WHICH")]
     keep: Option<String>,
 
-    /// Write nothing: say how many samples there are, show the first, and estimate time and size by running one
+    /// Only show the number of samples and the first few, and estimate time and size by running one
     #[arg(long)]
     dry_run: bool,
 
-    /// Write the table as results.csv too, with the units in columns.csv
+    /// Also write the table as results.csv, with the units in columns.csv
     #[arg(long)]
     csv: bool,
 
-    /// Remove the results that the folder holds and begin anew
+    /// Remove the results in the folder and start again
     #[arg(long)]
     restart: bool,
 
     #[command(flatten)]
     units: UnitsArg,
 
-    /// No progress, no warnings, no table of what it came to
+    /// Print no progress, no warnings and no summary
     #[arg(short, long)]
     quiet: bool,
 }
@@ -91,7 +89,7 @@ pub(crate) fn sweep(args: &Args) -> Result<Done, Failure> {
             print(&words)?;
             Ok(done)
         }
-        (None, None) => Err(Failure::plain("a sweep needs a study")),
+        (None, None) => Err(Failure::plain("give a study to sweep")),
     }
 }
 
@@ -102,24 +100,24 @@ fn open(args: &Args, study: &Path, output: &Path) -> Result<Sweep, Failure> {
     let keep = flags::keep(args.keep.as_deref(), &plan)?;
     if args.restart && !shard.is_whole() {
         return Err(Failure::with_help(
-            "--restart of one shard would remove the results of the others",
-            "remove the folder before the first shard begins",
+            "--restart with a shard would remove the results of the others",
+            "remove the folder before you start the first shard",
         ));
     }
     if args.csv && !shard.is_whole() {
-        return Err(Failure::with_help("a shard writes no table", "give --csv to `occupant sweep merge`"));
+        return Err(Failure::with_help("a shard does not write a table", "give --csv to `occupant sweep merge`"));
     }
     if !args.quiet {
         warn(&plan.warnings);
         if let Some(variable) = told_by {
-            say(&format!("shard {shard}, as {variable} says"));
+            say(&format!("shard {shard}, from {variable}"));
         }
     }
     Ok(Sweep {
         csv: args.csv || (plan.study.csv && shard.is_whole()),
         folder: Folder::at(output),
         engine: args.engine.engine()?,
-        interrupt: listen("stopping; once more to stop at once"),
+        interrupt: listen("stopping; press Ctrl-C again to stop at once"),
         restart: args.restart,
         show: progress::show(args.quiet),
         units: args.units.or(Some(plan.study.base.units())),

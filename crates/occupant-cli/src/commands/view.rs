@@ -30,50 +30,47 @@ const MOST: usize = 120;
 /// Most frames of a film.
 const MOST_FRAMES: usize = 3000;
 
-/// Draw the body in its compartment at chosen times, or as a film
+/// Draw a run at chosen times, or as a film; draw how a scenario starts
 ///
-/// From the side, from above and from ahead.
-///
-/// Of results, a strip as in the report's Figs 21 to 38: one column a time, one row a view, all to one scale, with belts, and
-/// with contacts as arrows of the force on the body. Of a scenario, how the body sits at its start, before any run. Vehicle
-/// axes.
+/// A run becomes a strip: one column per time, one row per view (side, top, front), all to one scale. Arrows are contact
+/// forces on the body. A scenario that has not been run is drawn as it starts. Positions are in vehicle axes.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The results of `occupant run`, or a scenario
     #[arg(value_name = "RUN.mcap|SCENARIO")]
     input: PathBuf,
 
-    /// The picture: NAME.svg or NAME.png; NAME-view.svg beside the input if absent. NAME.gif is a film, as is NAME.mp4 where
-    /// the program ffmpeg is
+    /// The picture, NAME.svg or NAME.png, or the film, NAME.gif or NAME.mp4 (needs ffmpeg); NAME-view.svg beside the input
+    /// if absent
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
-    /// A PNG file for each frame of the film into this folder, which is made if it is not there
+    /// Write each frame of the film as a PNG file into this folder
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["output", "open"])]
     each: Option<PathBuf>,
 
-    /// Replace a file that exists
+    /// Replace existing files
     #[arg(short, long)]
     force: bool,
 
-    /// Open what was written with the program that the system has for it
+    /// Open the file with the system's default program
     #[arg(long)]
     open: bool,
 
-    /// Times, such as "0,40,80 ms" or "0.5 s"; a time without a unit takes that of the next one, else it is in seconds.
-    /// The nearest output is drawn, and its time written above. Every 40 ms if absent, less often in a long run
+    /// Times to draw, such as "0,40,80 ms" or "0.5 s"; seconds if no unit follows. The output nearest to each time is
+    /// drawn. Every 40 ms if absent, less often in a long run
     #[arg(long, value_name = "TIMES", allow_hyphen_values = true, value_parser = times)]
     times: Option<Times>,
 
-    /// Views, in order, of side, top and front; all of them if absent, of a film the side view
+    /// Views to draw, in this order; all if absent. A film shows the side view if absent
     #[arg(long, value_name = "VIEWS", value_enum, value_delimiter = ',')]
     views: Vec<View>,
 
-    /// How many times slower than life a film plays
+    /// How many times slower than real time a film plays
     #[arg(long, value_name = "TIMES", default_value = "20", value_parser = slow_motion)]
     slow_motion: f64,
 
-    /// Change a value of the scenario, such as --set body.preset=female05; may be repeated
+    /// Change a value of the scenario, such as --set body.preset=female05. May be repeated
     #[arg(long = "set", value_name = "PATH.TO.KEY=VALUE")]
     overrides: Vec<String>,
 }
@@ -86,7 +83,7 @@ pub(crate) fn view(args: &Args) -> Result<(), Failure> {
         return seated(args, &output, kind);
     }
     if !args.overrides.is_empty() {
-        return Err(Failure::with_help("--set changes a scenario, and these are results", "run the scenario with it"));
+        return Err(Failure::with_help("--set changes a scenario, but this is a run", "run the scenario with --set"));
     }
     let results = Results::open(&args.input)?;
     results.notes().iter().chain(&results.doubt()).for_each(note);
@@ -107,7 +104,7 @@ pub(crate) fn view(args: &Args) -> Result<(), Failure> {
     let bytes = match kind {
         Kind::Picture(format) => picture(&strip, format)?,
         Kind::Film(film) => {
-            let help = "write a .gif; --times and --slow-motion make it shorter";
+            let help = "write a .gif; for a shorter film use --times or a smaller --slow-motion";
             let film = film.encode(strip.moments.len(), &one).map_err(|e| Failure::with_help(e, help))?;
             bar.finish_and_clear();
             film
@@ -120,7 +117,7 @@ pub(crate) fn view(args: &Args) -> Result<(), Failure> {
 /// How fast a film plays, in words.
 fn pace(args: &Args, kind: Kind) -> String {
     match (&args.times, kind) {
-        (None, Kind::Film(_) | Kind::Frames) => format!(", {} times slower than life", args.slow_motion),
+        (None, Kind::Film(_) | Kind::Frames) => format!(", {} times slower than real time", args.slow_motion),
         _ => String::new(),
     }
 }
@@ -175,12 +172,12 @@ fn views(args: &Args, kind: Kind) -> Vec<View> {
 /// Draws how the body of a scenario sits at its start.
 fn seated(args: &Args, output: &Path, kind: Kind) -> Result<(), Failure> {
     let Kind::Picture(format) = kind else {
-        let help = "run it, and make the film of its results";
-        return Err(Failure::with_help("a scenario does not move before it is run", help));
+        let help = "run it first, and make the film from its .mcap";
+        return Err(Failure::with_help("a film needs a run, and this is a scenario", help));
     };
     if args.times.is_some() {
         return Err(Failure::with_help(
-            "a scenario has no times before it is run",
+            "--times needs a run, and this is a scenario",
             "leave --times out, or run it first",
         ));
     }
@@ -226,7 +223,7 @@ fn frames_s([first_s, last_s]: [f64; 2], slow_motion: f64) -> Result<Vec<f64>, F
     let count = ((last_s - first_s) / every_s + 1e-6).floor() as usize + 1;
     if count > MOST_FRAMES {
         return Err(Failure::with_help(
-            format!("the film would have {count} frames; at most {MOST_FRAMES} are made"),
+            format!("the film would have {count} frames; at most {MOST_FRAMES} are possible"),
             "give a smaller --slow-motion",
         ));
     }
@@ -265,8 +262,8 @@ fn outputs(results: &Results, wanted: &[f64]) -> Result<Vec<usize>, Failure> {
     let nearest = |&time: &f64| {
         if time < first - half_interval || time > last + half_interval {
             return Err(Failure::with_help(
-                format!("no output near {time} s: the outputs go from {first} s to {last} s"),
-                "give --times within the run",
+                format!("no output near {time} s: outputs cover {first} s to {last} s"),
+                "choose --times within the run",
             ));
         }
         let after = at.partition_point(|t| *t < time).min(at.len() - 1);

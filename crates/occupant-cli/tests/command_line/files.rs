@@ -177,7 +177,7 @@ fn links_keep_pointing_where_they_point_and_devices_are_refused() {
 fn a_run_is_written_only_under_a_name_and_with_a_scenario_that_can_be_read_again() {
     let folder = folder_with_case();
     let output = answer(folder.path(), &["run", "case.toml", "-o", "x.txt"]);
-    assert!(code(&output) == 2 && err(&output).contains("use a name that ends with .mcap"), "{}", err(&output));
+    assert!(code(&output) == 2 && err(&output).contains("use the extension .mcap"), "{}", err(&output));
     assert!(!folder.path().join("x.txt").exists());
 
     // what it leaves out would make it too long

@@ -61,7 +61,7 @@ fn an_interrupted_ensemble_leaves_the_run_itself_and_its_table() {
     let [table, said] =
         interrupted(folder.path(), &[&args[..], &set].concat(), || folder.path().join("case.mcap").exists());
     assert!(table.contains("HIC15") && table.contains("written          case.mcap"), "{table}");
-    assert!(said.contains("the ensemble was interrupted after ") && said.contains(" of 99999 members"), "{said}");
+    assert!(said.contains("the ensemble was interrupted after ") && said.contains(" of 99999 runs"), "{said}");
     assert!(said.contains("= done: the run itself is in case.mcap"), "{said}");
 }
 

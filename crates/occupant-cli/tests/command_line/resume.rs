@@ -134,7 +134,7 @@ fn what_cannot_be_resumed_is_refused_in_words() {
     let cases: [(&[&str], &str); 8] = [
         (&["--resume", "none.mcap"], "cannot be read"),
         (&["--resume", "text.mcap"], "not an MCAP file"),
-        (&["--resume", "short.mcap"], "holds no checkpoint"),
+        (&["--resume", "short.mcap"], "has no checkpoint"),
         (&["--resume", "first.mcap", "--until", "0.05"], "reaches t = 0.06 s"),
         (&["--resume", "first.mcap", "--until", "0.06"], "--until"),
         (&["--resume", "first.mcap", "--until", "soon"], "soon"),

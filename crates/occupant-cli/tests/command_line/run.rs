@@ -78,7 +78,7 @@ fn figures_that_cannot_be_trusted_say_so_wherever_they_stand() {
         assert_eq!(code(&output), 0, "{}", err(&output));
         output
     };
-    let neck = "neck beyond its stop: 119° at 131.7 ms, the stop ends at 60°; neck figures are not to be quoted";
+    let neck = "neck beyond its stop: 119° at 131.7 ms, the stop ends at 60°; do not quote neck results";
     let table = out(&said(&["run", scenario, "-o", "a.mcap"]));
     assert!(table.contains(&format!("! {neck}\n")), "{table}");
     assert!(row(&table, "Nij")[1].ends_with('!') && !row(&table, "HIC15")[1].ends_with('!'), "{table}");
@@ -113,7 +113,7 @@ fn figures_that_cannot_be_trusted_say_so_wherever_they_stand() {
     // the file has these readings; with fewer, the figure is another one, and the answer says what they are worth
     assert_eq!(value(&again), value(&measured));
     let fewer = said(&["measures", "a.mcap", "--interval", "1 ms"]);
-    assert!(err(&fewer).contains("with readings every 1 ms; the file has them every 0.1 ms"), "{}", err(&fewer));
+    assert!(err(&fewer).contains("with samples every 1 ms; the file has one every 0.1 ms"), "{}", err(&fewer));
     let fewer = out(&fewer);
     assert!(fewer.contains("! readings every 1 ms are too coarse for "), "{fewer}");
     // measured: 146.7 of 146.8
@@ -127,7 +127,7 @@ fn figures_that_cannot_be_trusted_say_so_wherever_they_stand() {
     assert!(both.contains("\n2  a.mcap: "), "{both}");
     let list = json(&said(&["measures", "a.mcap", "a.mcap", "--json"]));
     assert_eq!((list.as_array().map(Vec::len), &list[1]), (Some(2), &measures));
-    assert!(other.contains("! limits and risks are those of a Hybrid III 5F of 49 kg"), "{other}");
+    assert!(other.contains("! limits and risks are for a Hybrid III 5F of 49 kg"), "{other}");
     let check = out(&said(&["check", scenario]));
     assert!(check.contains("posture.settle = true mends it"), "{check}");
 }
@@ -150,7 +150,7 @@ fn a_run_that_fails_marks_every_figure_and_judges_its_energy_as_far_as_it_came()
     let caveat = &ran["caveats"][0];
     assert_eq!((&caveat["name"], &caveat["figures"]), (&"run_failed".into(), &serde_json::json!(["*"])));
     let why = caveat["text"].as_str().unwrap();
-    assert!(why.starts_with("the run failed: all figures are those up to "), "{why}");
+    assert!(why.starts_with("the run failed: all results are up to "), "{why}");
     assert!(ran["energy"]["balance_error"].as_f64().is_some_and(|error| error > 0.0), "{}", ran["energy"]);
     // the same of the file that it left
     let measured = json(&said(&["measures", "a.partial.mcap", "--json"], 0));
@@ -308,15 +308,18 @@ fn friction_is_too_stiff_where_the_energy_balance_says_so() {
         let greatest = ran["unstable_friction"].as_array().unwrap().iter().map(|f| f["number"].as_f64().unwrap());
         (greatest.fold(0.0, f64::max), ran["energy"]["balance_error"].as_f64().unwrap())
     };
-    for (name, below, beyond) in
-        [("../tests/data/carts/cart-unbelted", "0.125 ms", "0.16 ms"), ("rear-seat", "0.075 ms", "0.1 ms")]
-    {
+    for (name, below, beyond) in [
+        ("../tests/data/carts/cart-unbelted", "0.125 ms", "0.16 ms"),
+        ("../tests/data/hand/rear-seat", "0.075 ms", "0.1 ms"),
+    ] {
         let ((none, kept), (number, off)) = (ran(name, below), ran(name, beyond));
         // measured: 2.4e-6 and 3.3e-4, 1.2e-6 and 2.6e-4
         assert!(none == 0.0 && (2.785..4.0).contains(&number), "{name}: {none}, {number}");
         assert!(off > 30.0 * kept, "{name}: {kept}, {off}");
     }
-    for name in ["../tests/data/carts/cart-unbelted", "rear-seat", "rear-seat-solids"] {
+    for name in
+        ["../tests/data/carts/cart-unbelted", "../tests/data/hand/rear-seat", "../tests/data/hand/rear-seat-solids"]
+    {
         let scenario = format!("{}/../../scenarios/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let said = err(&answer(folder.path(), &["run", &scenario, "--no-mcap"]));
         assert!(!said.contains("too stiff"), "{said}");

@@ -58,12 +58,12 @@ fn a_parameter_without_ends_and_a_missing_test_are_told() {
     let study = STUDY.replace("range = { from = \"35 kN/m\", to = \"140 kN/m\", scale = \"log\" }", list);
     let folder = folder_with(&study);
     let said = refusal(folder.path(), &FIT);
-    assert!(said.contains("`lap` has no ends between which to look"), "{said}");
+    assert!(said.contains("`lap` has no range to search"), "{said}");
     assert!(said.contains("a `range`, a `grid`, or a distribution"), "{said}");
     assert!(said.contains("test.csv cannot be read"), "{said}");
     let folder = folder_with(STUDY);
     let said = refusal(folder.path(), &["fit", "study.toml", "-o", "out"]);
-    assert!(said.contains("no test to fit to") && said.contains("--test test.csv"), "{said}");
+    assert!(said.contains("there is no test to fit to") && said.contains("--test test.csv"), "{said}");
     let study = STUDY.replace("case.toml", "none.toml") + "[[fit.tests]]\nfile = \"gone.csv\"\n";
     let said = refusal(folder_with(&study).path(), &["fit", "study.toml", "-o", "out"]);
     let base = study.lines().position(|line| line.starts_with("base")).expect("it has one") + 1;
@@ -131,7 +131,7 @@ fn runs_that_are_out_of_balance_count_as_worst_and_the_fit_says_so() {
     assert!(number(&evaluations["failed"]) >= 1.0, "{said}");
     let reason = evaluations["reason"].as_str().unwrap_or_default();
     assert!(reason.starts_with("its energy balance is off by"), "{reason}");
-    assert!(said.contains(&format!("candidates could not be run and count as worst; the first: {reason}")), "{said}");
+    assert!(said.contains(&format!("candidates could not be run and rank worst; the first one: {reason}")), "{said}");
     // steps of 5 ms: measured 46 to 67 % whatever the belt
     let belt = "path = \"belts.lap.k1\"\nrange = { from = \"70 kN/m\", to = \"140 kN/m\" }";
     fs::write(at.join("study.toml"), study("\"output.interval\" = \"5 ms\", \"integrator.step\" = \"5 ms\"", belt))
@@ -139,7 +139,7 @@ fn runs_that_are_out_of_balance_count_as_worst_and_the_fit_says_so() {
     let output = answer(at, &[&FIT[..], &["--restart"]].concat());
     let said = err(&output);
     assert_eq!(output.status.code(), Some(1), "{said}");
-    assert!(said.contains("none of 17 candidates could be run; the last: its energy balance is off by"), "{said}");
+    assert!(said.contains("none of 17 candidates could be run; the last one: its energy balance is off by"), "{said}");
     assert!(!at.join("out/fit.json").exists());
 }
 

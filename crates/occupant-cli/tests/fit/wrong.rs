@@ -46,7 +46,7 @@ fn a_turned_sign_a_wrong_unit_and_a_late_clock_are_told() {
     assert_eq!(right, Vec::<String>::new());
     // columns: time, lap belt, torso belt, pelvis, in the order of the catalogue
     let turned = told(&|i, x| if i == 1 { -x } else { x });
-    assert_eq!(of(&turned, "a turned sign? map = [\"column=-"), 1, "{turned:?}");
+    assert_eq!(of(&turned, "If the sign is wrong: map = [\"column=-"), 1, "{turned:?}");
     let kilo = told(&|i, x| if i == 2 { x / 1e3 } else { x });
     assert_eq!(of(&kilo, "a wrong unit, or `gain`?"), 1, "{kilo:?}");
     for late in [2e-3, -2e-3, 0.5e-3] {

@@ -207,6 +207,6 @@ fn ratings_of_a_run_without_results_mean_nothing() {
     assert_eq!(ran.status.code(), Some(1), "{}", err(&ran));
     let file = "early.partial.mcap";
     let said = refused(here, &["compare", file, file, "--channel", "vehicle.acceleration.x"]);
-    assert!(said.contains("nothing can be rated: all that was asked for is zero throughout in early"), "{said}");
+    assert!(said.contains("nothing can be rated: all selected channels are zero throughout in early"), "{said}");
     assert!(said.contains("no longer a finite number"), "{said}");
 }

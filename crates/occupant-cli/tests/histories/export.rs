@@ -162,7 +162,7 @@ fn what_cannot_be_exported_is_said() {
     for (words, expected) in [
         (vec!["export", run, "-o", "a.xls"], ".csv, .parquet, .xlsx, .mat, .mme or .glb"),
         (vec!["export", run, "-o", "a.csv", "--channels", "head.aceleration.x"], "did you mean `head.acceleration.x`"),
-        (vec!["export", run, "-o", "a.csv", "--channels", "nose.*"], "no channel is called `nose.*`"),
+        (vec!["export", run, "-o", "a.csv", "--channels", "nose.*"], "there is no channel `nose.*`"),
         (vec!["export", run, "-o", "a.csv", "--interval", "0"], "above zero"),
         (vec!["export", run, "-o", "a.csv", "--interval", "1 kg"], "--interval"),
         (vec!["export", run, "-o", "a.csv", "--filter", "CFC90"], "CFC60"),

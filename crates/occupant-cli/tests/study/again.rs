@@ -103,7 +103,7 @@ fn members_of_an_ensemble_come_again_to_the_bit() {
     let folder = swept(study);
     assert!(all_give_their_rows(folder.path()) >= 2);
     let text = page(folder.path());
-    assert!(text.contains("3 members for each sample"));
+    assert!(text.contains("3 runs per sample"));
 }
 
 #[test]

@@ -95,7 +95,7 @@ fn figures_with_caveats_are_marked_where_they_stand() {
     let folder = swept(&study);
     let shown = page(folder.path());
     sane(&shown);
-    assert!(shown.contains(" of 6 runs have caveats on this figure: "), "{shown}");
+    assert!(shown.contains(" of 6 runs have caveats on this result: "), "{shown}");
     let mut ends = shown.lines().filter(|line| line.contains(", greatest: "));
     assert!(ends.any(|line| line.contains(" †: ") && line.contains("readings_too_coarse")), "{shown}");
     let rows = rows(&folder.path().join("out/report.parquet"));
@@ -222,7 +222,7 @@ fn failed_and_refused_runs_are_counted_with_their_reasons() {
     // half of the runs are missing: what is said of the rest is marked
     let (median, marked) = counted(folder.path(), "median");
     assert!(median > 0 && marked == median);
-    assert!(text.contains("samples have no such figure: what is said holds for the others only\">"));
+    assert!(text.contains("samples lack this result: the statements apply only to the others\">"));
 }
 
 #[test]
@@ -254,7 +254,7 @@ fn one_parameter_thirty_parameters_and_words_give_a_page() {
     done(at, &words);
     let text = fs::read_to_string(at.join("out/report.html")).unwrap();
     sane(&text);
-    assert!(text.contains("The 9 that matter most of 30"));
+    assert!(text.contains("The 9 most important of 30"));
     let (coefficients, marked) = counted(at, "regression_coefficient");
     // 80 rows of 30 parameters are fewer than ten each
     assert!(coefficients >= 30 && marked == coefficients, "{coefficients} {marked}");

@@ -75,7 +75,7 @@ fn a_figure_that_is_none_is_told_with_the_nearest() {
     assert_eq!(output.status.code(), Some(2));
     assert!(err(&output).contains("did you mean `hic15`"), "{}", err(&output));
     let output = answer(at, &["study", "report", "out", "--to", "zzzzzzzzzz"]);
-    assert!(err(&output).contains("the figures are"), "{}", err(&output));
+    assert!(err(&output).contains("the results are"), "{}", err(&output));
     assert!(!at.join("out/report.html").exists() && !at.join("out/report.parquet").exists());
     let output = answer(at, &["study"]);
     assert_eq!(output.status.code(), Some(2));

@@ -60,7 +60,7 @@ fn a_changed_number_in_the_journal_is_not_believed() {
     // who only reads refuses it, and says what mends it
     let report = answer(at, &["study", "report", "out"]);
     assert_eq!(report.status.code(), Some(2));
-    assert!(err(&report).contains(".rows is not what was written"), "{}", err(&report));
+    assert!(err(&report).contains(".rows was changed after it was written"), "{}", err(&report));
     assert!(err(&report).contains("the same command of `occupant sweep`"), "{}", err(&report));
     assert!(spoken(at, &words).contains(".rows was not what had been written"));
     assert_eq!(super::rows(at, "out"), whole);

@@ -41,7 +41,7 @@ fn a_folder_with_other_files_is_left_alone() {
         let words = [&["sweep", "study.toml", "-o", "out"][..], more].concat();
         let output = answer(at, &words);
         assert_eq!(output.status.code(), Some(2));
-        assert!(err(&output).contains("holds files that are no sweep's"), "{}", err(&output));
+        assert!(err(&output).contains("contains files that do not belong to a sweep"), "{}", err(&output));
     }
     assert_eq!(fs::read_to_string(at.join("out/thesis.tex")).unwrap(), "years of work");
 }
@@ -56,7 +56,7 @@ fn flags_that_make_no_sense_are_refused_in_words() {
         (&["--keep", "some"], "does not say which runs to write"),
         (&["--keep", "24"], "there is no sample 24"),
         (&["--keep", "worst 2 by hick"], "no measure is named `hick`"),
-        (&["--shard", "1/2", "--csv"], "a shard writes no table"),
+        (&["--shard", "1/2", "--csv"], "a shard does not write a table"),
         (&["--shard", "1/2", "--restart"], "would remove the results of the others"),
         (&["--threads", "0"], "invalid value '0'"),
         (&["--set", "path.sped=3"], "sped"),
@@ -103,7 +103,7 @@ fn a_study_of_which_every_sample_is_refused_has_failed_and_says_why() {
     let output = answer(folder.path(), &["sweep", "study.toml", "-o", "dry", "--dry-run"]);
     let said = err(&output);
     assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(said.contains("of 2 corners of the study 2 are refused"), "{said}");
+    assert!(said.contains("of 2 corners of the study, 2 are invalid"), "{said}");
 }
 
 #[test]
@@ -117,7 +117,7 @@ fn a_dry_run_tries_the_corners_of_the_study_and_tells_all_that_are_refused() {
     // without fault, all stand: each of two parameters alone, and both together
     let folder = folder_with(STUDY);
     let said = done(folder.path(), &["sweep", "study.toml", "-o", "dry", "--dry-run"]);
-    assert!(said.contains("8 of the study's least and greatest values tried, none is refused"), "{said}");
+    assert!(said.contains("8 combinations of smallest and largest values tried, all valid"), "{said}");
 }
 
 #[test]

@@ -20,7 +20,7 @@ fn shards_merged_are_the_sweep_and_what_is_missing_is_named() {
         .output()
         .unwrap();
     assert_eq!(slurm.status.code(), Some(0), "{}", err(&slurm));
-    assert!(err(&slurm).contains("shard 1/3, as SLURM_ARRAY_TASK_ID says"), "{}", err(&slurm));
+    assert!(err(&slurm).contains("shard 1/3, from SLURM_ARRAY_TASK_ID"), "{}", err(&slurm));
     let early = answer(at, &["sweep", "merge", "out"]);
     assert_eq!(early.status.code(), Some(1));
     let said = err(&early);
@@ -48,7 +48,7 @@ fn shards_in_folders_of_their_own_are_merged_too() {
     let again = answer(at, &["sweep", "merge", "a", "b", "-o", "table"]);
     assert_eq!(again.status.code(), Some(2));
     let said = err(&again);
-    assert!(said.contains("results.parquet exists and is not of this sweep"), "{said}");
+    assert!(said.contains("results.parquet exists and does not belong to this sweep"), "{said}");
     let other = ["sweep", "study.toml", "-o", "c", "--shard", "2/2", "--set", "path.duration=70 ms"];
     done(at, &other);
     let mixed = answer(at, &["sweep", "merge", "a", "c"]);
@@ -72,7 +72,7 @@ fn two_processes_do_not_compute_the_same_shard_at_once() {
         let second = answer(at, &[&words[..], more].concat());
         assert_eq!(second.status.code(), Some(2), "{more:?}");
         let said = err(&second);
-        assert!(said.contains("another process is at work in out: it computes shard 1/1"), "{said}");
+        assert!(said.contains("another process is working in out: it computes shard 1/1"), "{said}");
     }
     first.kill().unwrap();
     first.wait().unwrap();

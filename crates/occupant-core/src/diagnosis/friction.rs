@@ -116,7 +116,7 @@ fn warn(problems: &mut Problems, worst: &UnstableFriction, others: &[&str]) {
     problems.warning(
         format!("materials.{}.friction", worst.material),
         format!(
-            "friction is too stiff for the step of {step_ms:.4} ms: {:.0} N of {} on {} at t = {:.1} ms make a stability number of {:.1}, and the sphere may chatter{also}",
+            "friction is too stiff for the step of {step_ms:.4} ms: {:.0} N of {} on {} at t = {:.1} ms give a stability number of {:.1}, so the sphere may chatter{also}",
             worst.normal_force_n,
             worst.sphere,
             worst.surface,

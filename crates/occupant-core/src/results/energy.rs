@@ -172,7 +172,7 @@ impl Extremes {
         let balance_error = self.imbalance_j / reference_j;
         EnergyCheck {
             balance_error,
-            reference: "greatest energy of one of the bodies",
+            reference: "largest energy of one of the bodies",
             reference_j,
             greatest_kinetic_j: self.kinetic_j,
             balance: Balance::of(balance_error),
@@ -184,12 +184,12 @@ impl Extremes {
         let [rest_j, fastest_j] = [REST_M_S, FASTEST_M_S].map(|speed_m_s| 0.5 * mass_kg * speed_m_s * speed_m_s);
         let is_of_vehicle = self.kinetic_j > fastest_j;
         let (reference, reference_j) = if is_of_vehicle {
-            ("greatest work of gravity and force elements", self.work_j)
+            ("largest work of gravity and force elements", self.work_j)
         } else if self.kinetic_j > 0.0 && self.kinetic_j < rest_j {
             // of a body that sits still there is nothing but rounding to be compared
             ("kinetic energy at 1 cm/s", rest_j)
         } else {
-            ("greatest kinetic energy in the vehicle", self.kinetic_j)
+            ("largest kinetic energy relative to the vehicle", self.kinetic_j)
         };
         let balance_error = self.imbalance_j / reference_j;
         let balance = match balance_error {
@@ -248,7 +248,7 @@ pub struct EnergyCheck {
     /// moved or pulled.
     pub balance_error: f64,
     /// The greatest kinetic energy relative to the vehicle; where that takes speeds above 100 m/s, which are the vehicle's, the
-    /// greatest work of gravity and force elements; of a body slower than 1 cm/s that of 1 cm/s.
+    /// largest work of gravity and force elements; of a body slower than 1 cm/s that of 1 cm/s.
     pub reference: &'static str,
     /// Its size, J.
     pub reference_j: f64,
@@ -266,7 +266,9 @@ impl EnergyCheck {
             _ if !balance_error.is_finite() => "not known".to_owned(),
             Balance::Lost => format!("off by {:.0} % of the {reference}", 100.0 * balance_error),
             _ if self.balance == Balance::Lost => {
-                format!("no measure: a kinetic energy of {kinetic_j:.1e} J in the vehicle is none of an occupant")
+                format!(
+                    "meaningless: a kinetic energy of {kinetic_j:.1e} J relative to the vehicle is impossible for an occupant"
+                )
             }
             _ => format!("off by {:.1} % of the {reference}", 100.0 * balance_error),
         }
@@ -373,7 +375,7 @@ mod tests {
         let mut greatest = Greatest { all, ..Greatest::default() };
         (greatest.each[0], greatest.each[1]) = (light, heavy);
         let found = greatest.check(&[79.0, 2e4]);
-        assert_eq!((found.balance, found.reference), (Balance::Lost, "greatest energy of one of the bodies"));
+        assert_eq!((found.balance, found.reference), (Balance::Lost, "largest energy of one of the bodies"));
         assert!((found.balance_error - 1.0 / 3.0).abs() < 1e-12);
         let mut read = Greatest { all, ..Greatest::default() };
         read.read(&greatest.numbers());

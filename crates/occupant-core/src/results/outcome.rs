@@ -52,8 +52,7 @@ pub struct FirstTouch {
 pub enum StepError {
     /// The vehicle's motion is told on the way, and nobody has told it so far.
     #[error(
-        "the motion of the vehicle is known up to t = {known_s:.6} s, the run was to go on to {target_s:.6} s; push a frame first, in a \
-         run that you step yourself"
+        "the vehicle motion is known only up to t = {known_s:.6} s, but the run goes to {target_s:.6} s; if you step the run yourself, push a frame first"
     )]
     NotTold {
         /// Up to when it is known, s.
@@ -63,8 +62,7 @@ pub enum StepError {
     },
     /// A component of the state is no longer a number.
     #[error(
-        "at t = {time_s:.6} s, in a step of {step_s:.3e} s, the {component} is no longer a finite number; a smaller step or softer \
-         springs and dampers may help"
+        "at t = {time_s:.6} s, in a step of {step_s:.3e} s, the {component} is no longer finite; try a smaller step, or softer springs and dampers"
     )]
     NotFinite {
         /// Start of the step, s.
@@ -76,7 +74,7 @@ pub enum StepError {
     },
     /// Forces could not be worked out.
     #[error(
-        "at t = {time_s:.6} s, in a step of {step_s:.3e} s, {why}; a smaller step, or smoother curves of the element may help"
+        "at t = {time_s:.6} s, in a step of {step_s:.3e} s, {why}; try a smaller step, or smoother curves of the element"
     )]
     Unsolved {
         /// Start of the step, s.
@@ -88,8 +86,7 @@ pub enum StepError {
     },
     /// The error control asks for a step below the smallest allowed.
     #[error(
-        "at t = {time_s:.6} s the error control asks for a step of {step_s:.3e} s, below the smallest allowed, {min_step_s:.3e} s \
-         (error {error:.2} times the tolerance); a looser tolerance or a smaller `min_step` may help"
+        "at t = {time_s:.6} s the error control needs a step of {step_s:.3e} s, below the minimum of {min_step_s:.3e} s (error {error:.2} times the tolerance); try a looser tolerance or a smaller `min_step`"
     )]
     StepTooSmall {
         /// Time, s.

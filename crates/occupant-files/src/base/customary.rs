@@ -34,7 +34,7 @@ pub const VEHICLE: &Curves =
     &[("vehicle.acceleration.x", "x"), ("vehicle.acceleration.y", "y"), ("vehicle.acceleration.z", "z")];
 /// Where the energy is, or went: first what matters most.
 pub const ENERGIES: &Curves = &[
-    ("energy.kinetic_relative", "kinetic, in the vehicle"),
+    ("energy.kinetic_relative", "kinetic, relative to the vehicle"),
     ("energy.contacts", "stored in contacts"),
     ("energy.belts", "stored in belts"),
     ("energy.lost_contacts", "lost in contacts"),

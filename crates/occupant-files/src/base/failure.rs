@@ -39,10 +39,7 @@ impl Failure {
     /// Could not run: the ending of an output names no kind of file that it can be.
     pub fn ending(output: &Path, endings: &str) -> Self {
         let name = output.display();
-        Failure::with_help(
-            format!("-o {name}: the ending names no format"),
-            &format!("use a name that ends with {endings}"),
-        )
+        Failure::with_help(format!("-o {name}: unknown file format"), &format!("use the extension {endings}"))
     }
 
     /// The same, and what was done before.

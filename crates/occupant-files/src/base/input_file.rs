@@ -35,7 +35,7 @@ pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
     let is_pipe = is_open_pipe(path, &found);
     if !found.is_file() && !found.is_dir() && !is_pipe {
         return Err(io::Error::other(
-            "it is a pipe or a device, not an ordinary file; save what it gives in one first",
+            "it is a pipe or a device, not an ordinary file; save its content to a file first",
         ));
     }
     let most = match ending(path).as_str() {
@@ -68,7 +68,7 @@ pub fn deck(path: &Path) -> Result<Vec<u8>, Failure> {
     let bytes = read(path)?;
     let is_deck = !matches!(ending(path).as_str(), "mcap" | "toml" | "json");
     let fits = if is_deck { within(bytes.len() as u64, MOST_OF_DECK) } else { Ok(()) };
-    fits.map(|()| bytes).map_err(|error| Failure::plain(format!("{} is no deck: {error}", path.display())))
+    fits.map(|()| bytes).map_err(|error| Failure::plain(format!("{} is not a deck: {error}", path.display())))
 }
 
 /// Refuses the text of a scenario that is too long.
@@ -84,10 +84,7 @@ fn within(size: u64, most: u64) -> io::Result<()> {
         return Ok(());
     }
     let size = size as f64 / 1e6;
-    Err(io::Error::new(
-        ErrorKind::InvalidData,
-        format!("it has {size:.1} MB, and such a text may have at most {most} MB"),
-    ))
+    Err(io::Error::new(ErrorKind::InvalidData, format!("it has {size:.1} MB; the limit for such a file is {most} MB")))
 }
 
 /// What comes out of a pipe, until all who write it have closed it; `most` in MB.
@@ -104,7 +101,7 @@ fn read_all(from: impl Read, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     from.take(most * 1_000_000 + 1).read_to_end(&mut bytes)?;
     if within(bytes.len() as u64, most).is_err() {
-        let found = format!("it gives more than {most} MB, the most that such a text may have");
+        let found = format!("it is longer than {most} MB, the limit for such a file");
         return Err(io::Error::new(ErrorKind::InvalidData, found));
     }
     Ok(bytes)

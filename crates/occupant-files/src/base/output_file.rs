@@ -45,31 +45,31 @@ pub struct PartialFile {
 #[derive(Debug, thiserror::Error)]
 pub enum FileProblem {
     /// It is there, and is not to be replaced.
-    #[error("{} exists; --force replaces it, -o gives another name", .path.display())]
+    #[error("{} exists; replace it with --force, or choose another name with -o", .path.display())]
     Exists {
         /// The file.
         path: PathBuf,
     },
     /// A provisional file is there.
-    #[error("{} exists: a run that was interrupted or is still running; --force replaces it, -o gives another name", .path.display())]
+    #[error("{} exists: a run that was interrupted or is still running; replace it with --force, or choose another name with -o", .path.display())]
     PartialExists {
         /// The provisional file.
         path: PathBuf,
     },
     /// Something that is no ordinary file has that name: a folder, a device.
-    #[error("{} is not an ordinary file; -o gives another name", .path.display())]
+    #[error("{} is not an ordinary file; choose another name with -o", .path.display())]
     NotAFile {
         /// What has that name.
         path: PathBuf,
     },
     /// The run reads it.
-    #[error("{} is what the run reads and is not replaced; -o gives another name", .path.display())]
+    #[error("{} is an input of the command and is not replaced; choose another name with -o", .path.display())]
     IsInput {
         /// The file.
         path: PathBuf,
     },
     /// Somebody has removed it, or put another in its place.
-    #[error("{} was removed or replaced while it was written", .path.display())]
+    #[error("{} was removed or replaced while it was being written", .path.display())]
     Gone {
         /// The file.
         path: PathBuf,

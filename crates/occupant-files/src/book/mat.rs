@@ -40,7 +40,10 @@ pub(super) fn bytes(sheets: &[Sheet]) -> io::Result<Vec<u8>> {
             _ => vec![structure(sheet, &names)],
         };
         if let Some(large) = variables.iter().find(|variable| variable.len() >= MOST_BYTES) {
-            return Err(io::Error::other(format!("a variable of {} bytes: a MAT file holds up to 2 GiB", large.len())));
+            return Err(io::Error::other(format!(
+                "a variable of {} bytes; the limit of a MAT file is 2 GiB",
+                large.len()
+            )));
         }
         variables.into_iter().for_each(|variable| out.extend(variable));
     }

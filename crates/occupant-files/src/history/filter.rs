@@ -55,7 +55,7 @@ impl Filter {
         match self {
             Filter::None => "none".to_owned(),
             Filter::Class(class) => format!("CFC {}", class.hertz()),
-            Filter::J211 => "the class that SAE J211 gives each channel".to_owned(),
+            Filter::J211 => "the SAE J211 class of each channel".to_owned(),
         }
     }
 }
@@ -85,7 +85,7 @@ fn j211_class(channel: &str) -> Option<ChannelClass> {
 pub fn filtered(values: &[f64], dt_s: f64, class: ChannelClass, family: CfcFamily) -> Result<Vec<f64>, String> {
     filter_cfc(values, dt_s, class, family).map_err(|error| match error {
         SignalError::CornerAboveNyquist { corner_hz, .. } => format!(
-            "CFC {} needs more than {:.0} samples a second (and SAE J211 asks for {:.0}), but samples are {:.0} a second",
+            "CFC {} needs more than {:.0} samples per second (SAE J211 asks for {:.0}); there are {:.0} per second",
             class.hertz(),
             2.0 * corner_hz,
             10.0 * class.hertz(),

@@ -14,11 +14,11 @@ use crate::results::Results;
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct Treatment {
-    /// Filter: CFC60, CFC180, CFC600, CFC1000, j211 (each channel the class of its quantity) or none
+    /// Filter: CFC60, CFC180, CFC600, CFC1000, j211 (the SAE J211 class of each channel) or none
     #[cfg_attr(feature = "clap", arg(long, value_name = "CLASS", default_value = "none"))]
     pub filter: Filter,
 
-    /// Coefficients of the filter classes
+    /// Standard for the filter coefficients
     #[cfg_attr(feature = "clap", arg(long = "coefficients", value_name = "STANDARD", default_value = "iso6487", value_parser = crate::base::one_of(&super::FAMILIES)))]
     pub family: CfcFamily,
 
@@ -150,7 +150,7 @@ fn even(series: &mut Series, notes: &mut Vec<String>) -> Result<f64, String> {
         let last = series.time_s.len().saturating_sub(1);
         let dt_s = uniform_interval(&series.time_s[..last]).map_err(|_| format!("it cannot be filtered: {error}"))?;
         notes.push(format!(
-            "the last output, at {} s, is no whole interval after the one before and is left out",
+            "the last output, at {} s, is not a whole interval after the one before and is skipped",
             series.time_s[last]
         ));
         series.time_s.truncate(last);
@@ -176,8 +176,7 @@ fn resample(histories: &mut Histories, interval_s: f64) -> Result<(), String> {
     if samples * histories.columns.len() as f64 > MOST_VALUES {
         let of = histories.columns.len();
         return Err(format!(
-            "samples {} s apart are {samples:.1e} of {of} channels each; give an interval that makes at most \
-             {MOST_VALUES:.0e} values",
+            "samples every {} s make {samples:.1e} for each of {of} channels; choose an interval with at most {MOST_VALUES:.0e} values in all",
             number(interval_s)
         ));
     }
@@ -191,7 +190,7 @@ fn resample(histories: &mut Histories, interval_s: f64) -> Result<(), String> {
     histories.time_s = (0..count).map(|i| start_s + i as f64 * interval_s).collect();
     if recorded_s.is_some_and(|r| interval_s > 1.5 * r) && histories.columns.iter().any(|c| c.class.is_none()) {
         histories.notes.push(format!(
-            "samples {interval_s} s apart are taken from unfiltered outputs that stand closer: peaks between them are lost"
+            "unfiltered outputs are sampled every {interval_s} s, which is coarser than the outputs: peaks between samples are lost"
         ));
     }
     Ok(())
@@ -236,12 +235,15 @@ fn unknown(model: &Model, name: &str, others: &[&str]) -> Failure {
     let inside = matching(model, &format!("*{name}*"));
     let help = match (nearest, inside.first()) {
         (Some(nearest), _) => format!("did you mean `{nearest}`?"),
-        (None, Some(one)) => format!("a name is complete, such as `{}`; `*` stands for anything, and `occupant channels` lists them", one.name),
+        (None, Some(one)) => format!(
+            "give a complete name, such as `{}`, or use `*` for any part; `occupant channels` lists them",
+            one.name
+        ),
         (None, None) => {
-            "names are such as head.acceleration.x, belt.lap.force, energy.balance; `occupant export -o all.csv` lists all"
+            "names look like head.acceleration.x, belt.lap.force, energy.balance; `occupant channels` lists them"
                 .to_owned()
         }
     };
     let all: Vec<String> = std::iter::once(&name).chain(others).map(|name| format!("`{name}`")).collect();
-    Failure::with_help(format!("no channel is called {}", all.join(", ")), &help)
+    Failure::with_help(format!("there is no channel {}", all.join(", ")), &help)
 }

@@ -80,7 +80,7 @@ pub fn run(about: &About, tables: &[Document], model: &Model) -> Metadata {
 }
 
 const FRAMES: &str = "space: X forward, Y left, Z up; vehicle: X forward, Y right, Z down, origin at its centre of \
-gravity; occupant/<segment>: X ahead, Y left, Z up when standing, origin at the segment's centre of gravity; \
+gravity; occupant/<segment>: X forward, Y left, Z up when standing, origin at the segment's centre of gravity; \
 path: X forward, Y right, Z down, origin of space. SI units, angles in rad.";
 
 /// The last metadata record, after `outputs` outputs.

@@ -209,7 +209,7 @@ impl Tracks {
 impl<W: Write + Seek + Send + 'static> Recorder for McapRecorder<W> {
     fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
         if self.tracks.is_some() {
-            return Err("a second run into the file of a first; expected a recorder for each run".into());
+            return Err("a second run into the same file; expected one recorder per run".into());
         }
         let messages = messages(model);
         self.write_documents(model, &messages)?;

@@ -75,9 +75,9 @@ impl<'a> Frame<'a> {
     pub fn record(self, room: &mut u64) -> Result<Record<'a>, &'static str> {
         let fields = Fields(self.body);
         match self.opcode {
-            op::CHANNEL => fields.channel().ok_or("a channel whose lengths do not fit"),
+            op::CHANNEL => fields.channel().ok_or("a channel with inconsistent lengths"),
             op::MESSAGE => fields.message().ok_or("a message that is too short"),
-            op::METADATA => fields.metadata().ok_or("a metadata record whose lengths do not fit"),
+            op::METADATA => fields.metadata().ok_or("a metadata record with inconsistent lengths"),
             op::ATTACHMENT => fields.attachment(self.body),
             op::CHUNK => fields.chunk(room),
             _ => Ok(Record::Other),
@@ -190,9 +190,9 @@ impl<'a> Fields<'a> {
             let length = self.number()?;
             Some((name, self.bytes(length)?, self.array().map(u32::from_le_bytes)?))
         };
-        let (name, data, checksum) = lengths().ok_or("an attachment whose lengths do not fit")?;
+        let (name, data, checksum) = lengths().ok_or("an attachment with inconsistent lengths")?;
         if checksum != 0 && body.len().checked_sub(4).map(|end| crc32fast::hash(&body[..end])) != Some(checksum) {
-            return Err("an attachment whose checksum does not fit");
+            return Err("an attachment whose checksum does not match");
         }
         Ok(Record::Attachment { name, data })
     }
@@ -205,17 +205,17 @@ impl<'a> Fields<'a> {
             let packed = self.number()?;
             Some((size, checksum, compression, self.bytes(packed)?))
         };
-        let (size, checksum, compression, packed) = lengths().ok_or("a chunk whose lengths do not fit")?;
+        let (size, checksum, compression, packed) = lengths().ok_or("a chunk with inconsistent lengths")?;
         let content = match compression {
             b"" => Cow::Borrowed(packed),
             b"lz4" => Cow::Owned(unpacked(packed, size, room)?),
-            _ => return Err("a chunk that is compressed in a way that this program does not read"),
+            _ => return Err("a chunk with an unsupported compression"),
         };
         if content.len() as u64 != size {
-            return Err("a chunk that holds other than the bytes that it announces");
+            return Err("a chunk whose size differs from the announced one");
         }
         if checksum != 0 && crc32fast::hash(&content) != checksum {
-            return Err("a chunk whose checksum does not fit");
+            return Err("a chunk whose checksum does not match");
         }
         Ok(Record::Chunk(content))
     }
@@ -226,9 +226,9 @@ fn unpacked(packed: &[u8], size: u64, room: &mut u64) -> Result<Vec<u8>, &'stati
         return Err("a chunk of more than 256 MiB");
     }
     if size > LARGEST_RATIO.saturating_mul(packed.len() as u64) {
-        return Err("a chunk that announces more bytes than it can hold");
+        return Err("a chunk that announces more bytes than it can contain");
     }
-    *room = room.checked_sub(size).ok_or("a chunk that makes more bytes than a file of its size holds")?;
+    *room = room.checked_sub(size).ok_or("a chunk that unpacks to more bytes than possible")?;
     let mut content = Vec::with_capacity(size as usize);
     let read = lz4::Decoder::new(packed).and_then(|decoder| decoder.take(size + 1).read_to_end(&mut content));
     read.map(|_| content).map_err(|_| "a chunk that cannot be unpacked")

@@ -78,7 +78,7 @@ impl StoredRun {
                     stored.end = Some(at);
                     return Ok(stored);
                 };
-                stored.damaged(at, "a record whose length does not fit");
+                stored.damaged(at, "a record with an inconsistent length");
                 at = landmark;
                 continue;
             };
@@ -90,7 +90,7 @@ impl StoredRun {
             if frame.opcode == op::DATA_END {
                 let fits = [0, crc32fast::hash(&bytes[..at])].contains(&frame.checksum());
                 if !fits {
-                    stored.damaged(at, "a checksum of all that stands before, which does not fit");
+                    stored.damaged(at, "a checksum of the preceding data that does not match");
                 }
                 return Ok(stored);
             }
@@ -116,7 +116,7 @@ impl StoredRun {
             Record::Channel { id, topic } if topic == TOPIC => *wanted = Some(id),
             Record::Message { channel, data } if *wanted == Some(channel) => {
                 let takes = size_of::<Checkpoint>() + data.len();
-                self.room = self.room.checked_sub(takes).ok_or("more outputs than a file of its size holds")?;
+                self.room = self.room.checked_sub(takes).ok_or("more outputs than possible in a file of this size")?;
                 let found = checkpoint::read(data).map_err(Refused::Unknown)?;
                 if self.checkpoints.last().is_some_and(|last| last.index >= found.index) {
                     return Err("an output that is out of order".into());
@@ -135,9 +135,9 @@ impl StoredRun {
     fn take_all(&mut self, content: &[u8], wanted: &mut Option<u16>) -> Result<(), Refused> {
         let mut at = 0;
         while at < content.len() {
-            let frame = Frame::at(content, at).ok_or("a chunk with a record that is not whole")?;
+            let frame = Frame::at(content, at).ok_or("a chunk with an incomplete record")?;
             if matches!(frame.opcode, op::CHUNK | op::ATTACHMENT | op::METADATA) {
-                return Err("a chunk with a record that stands in no chunk".into());
+                return Err("a chunk with a record that belongs outside chunks".into());
             }
             self.take(frame, wanted)?;
             at = frame.next;
@@ -197,7 +197,7 @@ impl StoredRun {
     pub fn because(&self) -> String {
         match (self.damage, self.end) {
             (Some(damage), _) => format!("; it is {}", damaged_at(damage)),
-            (None, Some(end)) => format!("; it breaks off at byte {end}"),
+            (None, Some(end)) => format!("; it ends early, at byte {end}"),
             (None, None) => String::new(),
         }
     }

@@ -18,7 +18,7 @@ use placed_text::decoded;
 use super::mme;
 use super::signals::Recording;
 use super::trouble::Trouble;
-use crate::base::{Failure, ending, input_file, sha256};
+use crate::base::{Failure, ending, input_file, quoted, sha256};
 
 pub use axes::{AXES, Axes};
 pub use doubts::{Known, doubts, rounded_table};
@@ -97,11 +97,30 @@ pub fn read(path: &Path) -> Result<Recording, Failure> {
     table_of(path, None)
 }
 
+/// Refuses files of this program's own that are no records.
+fn refuse_own(path: &Path) -> Result<(), Failure> {
+    let name = quoted(path.display());
+    match ending(path).as_str() {
+        "mcap" => Err(Failure::with_help(
+            format!("{} holds the results of a run, not a record", path.display()),
+            &format!(
+                "look at it with `occupant report {name}`; write it as a table with `occupant export {name} -o NAME.csv`"
+            ),
+        )),
+        "toml" | "json" => Err(Failure::with_help(
+            format!("{} is a scenario or a study, not a record", path.display()),
+            &format!("run it with `occupant run {name}`"),
+        )),
+        _ => Ok(()),
+    }
+}
+
 fn table_of(path: &Path, columns: Option<&str>) -> Result<Recording, Failure> {
     let bytes = input_file::read(path)?;
+    refuse_own(path)?;
     let (text, encoding) = decoded(&bytes).map_err(|found| {
         Trouble::of(path, found, "a text table")
-            .hint("a run of this program has the ending .mcap, an ISO-MME test .mme")
+            .hint("give a CSV table, an ISO-MME test (.mme) or an NHTSA test (.EV5)")
     })?;
     let mut recording = table::read(path, &text, columns, sha256(&bytes))?;
     recording.notes.extend(encoding.map(|name| format!("{} was read as {name}", path.display())));

@@ -98,8 +98,8 @@ impl Motion {
             let (scale, unit) = signal.scale.zip(signal.unit.clone()).ok_or_else(|| without_unit(signal))?;
             if column_in(name, scale.dimension) != Some(*name) {
                 return Err(Failure::with_help(
-                    format!("{}: `{unit}` as the unit of {}, which is to be {name}", signal.place, signal.name),
-                    "write the unit that it has, such as ax[g], wz[deg/s] or x[m]",
+                    format!("{}: `{unit}` is not a unit for {}, which should be {name}", signal.place, signal.name),
+                    "give its real unit, such as ax[g], wz[deg/s] or x[m]",
                 ));
             }
             Ok(Column { name, unit, factor: scale.factor, values: at_times(signal, &first.time_s) })
@@ -114,7 +114,7 @@ impl Motion {
         motion.trim(notes);
         if motion.time_s.len() < 2 {
             return Err(Failure::plain(format!(
-                "{}: no two times at which all of {} are told",
+                "{}: no two times have values of all of {}",
                 recording.path.display(),
                 motion.names().join(", ")
             )));
@@ -148,7 +148,7 @@ impl Motion {
         let to = (from..count).rev().find(|&i| is_whole(i)).map_or(from, |i| i + 1);
         if to - from < count && to > from {
             notes.push(format!(
-                "{} are told together from {} s to {} s, {} of {count} times; the rest was left out",
+                "{} have common values from {} s to {} s, at {} of {count} times; the rest is skipped",
                 self.names().join(", "),
                 self.time_s[from],
                 self.time_s[to - 1],
@@ -181,14 +181,14 @@ impl Motion {
         let length = placed_text::number((longest.length_s() * 1e6 - 1e-3).ceil() / 1e3);
         if !is_short && most_s.is_none_or(|most_s| longest.length_s() > most_s * (1.0 + 1e-9)) {
             let help = format!(
-                "--bridge '{length} ms' bridges holes up to that long by straight lines: what happened in them is not known"
+                "--bridge '{length} ms' fills gaps up to that length linearly; what happened in them stays unknown"
             );
             return Err(Failure::with_help(
-                format!("samples are missing: {all}; the longest hole has {length} ms"),
+                format!("samples are missing: {all}; the longest gap is {length} ms"),
                 &help,
             ));
         }
-        notes.push(format!("holes were bridged by straight lines: {all}; the longest has {length} ms"));
+        notes.push(format!("gaps were filled linearly: {all}; the longest is {length} ms"));
         let values: Vec<Vec<f64>> = self.columns.iter().map(|column| column.values.clone()).collect();
         let (time_s, values) = bridged(&self.time_s, &values);
         self.time_s = time_s;
@@ -237,7 +237,7 @@ impl Motion {
             }
         }
         if !names.is_empty() {
-            notes.push(format!("{} jumped by more than half a turn: turns were added", names.join(", ")));
+            notes.push(format!("{} jumped by more than half a turn: full turns were added", names.join(", ")));
         }
     }
 }
@@ -251,7 +251,7 @@ fn beyond(found: &Found<'_>, first: &Signal) -> Option<String> {
     let names: Vec<&str> = found.iter().filter(|(_, signal)| goes_on(signal)).map(|(name, _)| *name).collect();
     (!names.is_empty()).then(|| {
         format!(
-            "{} {} told before or after {}, which goes from {} s to {} s: left out there",
+            "{} {} given before or after {}, which covers {} s to {} s: skipped there",
             names.join(", "),
             if names.len() == 1 { "is" } else { "are" },
             first.name,
@@ -263,8 +263,8 @@ fn beyond(found: &Found<'_>, first: &Signal) -> Option<String> {
 
 fn without_unit(signal: &Signal) -> Failure {
     Failure::with_help(
-        format!("{}: {} has no unit that is known, and is to be the motion of the vehicle", signal.place, signal.name),
-        "write its unit into its heading, such as ax[g], or name all columns by --columns, such as 't[s],ax[g],-'",
+        format!("{}: {} has no known unit, but is vehicle motion", signal.place, signal.name),
+        "write its unit into its heading, such as ax[g], or name all columns with --columns, such as 't[s],ax[g],-'",
     )
 }
 
@@ -311,7 +311,7 @@ fn doubled(recording: &Recording, name: &str, taken: &Signal) -> Option<String> 
     let others: Vec<&Signal> = recording.signals.iter().filter(is_other).collect();
     let first = others.first().filter(|_| is_named(taken, name))?;
     Some(format!(
-        "{} columns are {name} and differ: `{}` was taken, not `{}`; --columns says which is which",
+        "{} different columns are {name}: `{}` is used, not `{}`; choose with --columns",
         others.len() + 1,
         taken.name,
         first.name
@@ -364,7 +364,7 @@ fn typical(recording: &Recording) -> Option<(String, String)> {
     };
     let best = agree.iter().min_by(|a, b| ringing(a).total_cmp(&ringing(b)))?;
     let words = format!(
-        ", which rings least of the {} of {} places whose velocity change ahead is {} km/h within a tenth",
+        ", which has the least ringing of the {} of {} locations with a forward delta-v of {} km/h ± 10 %",
         agree.len(),
         changes.len(),
         placed_text::number((middle * 3.6).round())
@@ -398,14 +398,14 @@ fn accelerometers<'a>(
         return match place {
             None => Ok((MotionKind::Accelerations, Vec::new(), String::new())),
             Some(word) => Err(Failure::with_help(
-                format!("--at {word}: no such place of the vehicle has an accelerometer that looks ahead"),
+                format!("--at {word}: this location has no forward accelerometer"),
                 &format!("places are {}", if places.is_empty() { "none".to_owned() } else { places.join(", ") }),
             )),
         };
     };
     if place.is_none() && places.len() > 1 {
         let why = typical.map(|(_, why)| why).unwrap_or_default();
-        notes.push(format!("the path is that of {own}{why}; --at takes another: {}", places.join(", ")));
+        notes.push(format!("the path is that of {own}{why}; choose another with --at: {}", places.join(", ")));
     }
     let axis = |axis: usize| all.iter().find(|(of, along, _)| of == own && *along == axis).map(|(.., signal)| *signal);
     let columns = [0, 1, 2].iter().filter_map(|&i| Some((OF_RUNS[i].0, axis(i)?))).collect();
@@ -433,7 +433,7 @@ fn say_if_places_differ(recording: &Recording, notes: &mut Vec<String>) {
         let told = changes.iter().map(|(place, v)| format!("{place} {:.1}", v * 3.6));
         let told = told.collect::<Vec<_>>().join(", ");
         notes.push(format!(
-            "places of the vehicle do not agree on its velocity change ahead, km/h: {told}; --at takes another than the path's"
+            "locations on the vehicle disagree on its forward delta-v, km/h: {told}; choose another with --at"
         ));
     }
 }

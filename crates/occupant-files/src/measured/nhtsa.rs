@@ -91,7 +91,7 @@ pub(super) fn read(header: &Path, vehicle: u32) -> Result<(TestRecord, Recording
         let Some(file) =
             [number.clone(), format!("{number}.tsv")].iter().map(|e| header.with_extension(e)).find(|f| f.is_file())
         else {
-            notes.push(format!("curve {number}, {}, has no file: left out", curve.words()));
+            notes.push(format!("curve {number}, {}, has no file: skipped", curve.words()));
             continue;
         };
         let bytes = input_file::read(&file)?;
@@ -109,7 +109,7 @@ pub(super) fn read(header: &Path, vehicle: u32) -> Result<(TestRecord, Recording
     }
     if signals.is_empty() {
         let found = format!("no curve of vehicle {vehicle} beside the test record");
-        let expected = format!("files {}, .002 and on", header.with_extension("001").display());
+        let expected = format!("files {}, .002 and so on", header.with_extension("001").display());
         return Err(Trouble::of(header, found, expected).into());
     }
     Ok((record, Recording { path: header.to_owned(), sha256: sha256(&all_bytes), signals, notes }))

@@ -103,7 +103,7 @@ impl Pair {
         let refused = |reason: String| {
             Failure::with_help(
                 format!("the measured signal {} cannot be filtered: {reason}", self.signal),
-                "--filter none leaves signals as they are",
+                "use --filter none to leave signals as they are",
             )
         };
         let dt_s = uniform_interval(&self.time_s).map_err(|e| refused(e.to_string()))?;
@@ -128,8 +128,8 @@ pub fn pairs(
     for map in maps {
         if wanted.iter().all(|w| w.name != map.channel) {
             return Err(Failure::with_help(
-                format!("--map: the channel `{}` is not among those asked for", map.channel),
-                "name it with --channel, or mend the name",
+                format!("--map: the channel `{}` is not selected", map.channel),
+                "select it with --channel, or correct the name",
             ));
         }
     }
@@ -182,7 +182,7 @@ fn signal_for<'a>(
             let codes: Vec<&str> = fitting.iter().map(|(s, ..)| s.name.as_str()).collect();
             Err(Failure::with_help(
                 format!("{file} has more than one signal for {}: {}", wanted.name, codes.join(", ")),
-                &format!("choose with --map {}={}", first.name, wanted.name),
+                &format!("choose one with --map {}={}", first.name, wanted.name),
             ))
         }
     }
@@ -204,23 +204,23 @@ fn factor(
         let file = recording.path.display();
         notes.push(match &wanted.unit {
             Some((_, symbol)) => format!(
-                "{file} gives no unit for `{}`: taken as the SI unit of {}; --map '{}[unit]={}' says otherwise",
+                "{file} gives no unit for `{}`: the SI unit of {} is assumed; otherwise give it with --map '{}[unit]={}'",
                 signal.name, symbol, signal.name, wanted.name
             ),
-            None => format!("{file} gives no unit for `{}`: taken as it is", signal.name),
+            None => format!("{file} gives no unit for `{}`: used as it is", signal.name),
         });
         return Ok(1.0);
     };
     let Some(scale) = scale else {
         return Err(Failure::with_help(
-            format!("{}: `{written}`, the unit of {}, is not known", signal.place, signal.name),
-            &format!("say it as --map '{}[unit]={}'", signal.name, wanted.name),
+            format!("{}: unknown unit `{written}` of {}", signal.place, signal.name),
+            &format!("give it with --map '{}[unit]={}'", signal.name, wanted.name),
         ));
     };
     match &wanted.unit {
         Some((dimension, symbol)) if scale.dimension != *dimension => Err(Failure::with_help(
             format!("{}: {} is in {written}, but {} in {symbol}", signal.place, signal.name, wanted.name),
-            "map a column of the same kind of quantity",
+            "map a column with the same quantity",
         )),
         _ => Ok(scale.factor),
     }

@@ -140,14 +140,14 @@ impl Reader<'_> {
         };
         let Some(unit) = &heading.unit else {
             if !(has_headings && heading.name.ends_with("_s")) {
-                notes.push(format!("{} gives no unit for the time: taken as seconds", path.display()));
+                notes.push(format!("{} gives no unit for the time: seconds are assumed", path.display()));
             }
             return 1.0;
         };
         seconds_in(unit).unwrap_or_else(|| {
             let found = format!("`{unit}` as the unit of the time column `{}`", heading.name);
             let problem = Problem::error("", found, "a unit of time, such as s or ms");
-            let hint = "the time is the column called `t` or `time`, or the first";
+            let hint = "the time column is named `t` or `time`, or is the first";
             self.report(heading.span, problem.with_hint(Some(hint)));
             1.0
         })
@@ -158,10 +158,10 @@ impl Reader<'_> {
         let mut notes = Vec::new();
         let line = |span: Span| self.sources.position(span).line;
         if table.before > 0 {
-            notes.push(format!("the table begins in line {}; what stands before it was not read", line(table.first)));
+            notes.push(format!("the table begins in line {}; earlier lines are ignored", line(table.first)));
         }
         notes.extend(
-            table.behind.map(|span| format!("the table ends before line {}; what follows was not read", line(span))),
+            table.behind.map(|span| format!("the table ends before line {}; later lines are ignored", line(span))),
         );
         notes
     }
@@ -176,9 +176,9 @@ impl Reader<'_> {
             return;
         }
         let found = format!("times from {} to {} without a unit", time_s[0], time_s[time_s.len() - 1]);
-        let problem = Problem::error("", found, "their unit in the heading, such as `t[ms]`");
+        let problem = Problem::error("", found, "a unit in the heading, such as `t[ms]`");
         let names: Vec<String> = (1..self.headings.len()).map(|_| "-".to_owned()).collect();
-        let hint = format!("--columns names all columns with their units, such as 't[ms],{}'", names.join(","));
+        let hint = format!("name all columns and units with --columns, such as 't[ms],{}'", names.join(","));
         self.report(first, problem.with_hint(Some(&hint)));
     }
 
@@ -200,7 +200,7 @@ impl Reader<'_> {
         for (heading, _) in
             self.headings.iter().zip(&words).filter(|(heading, words)| **words && !heading.is_left_out())
         {
-            notes.push(format!("the column `{}` holds words: left out", shortened(&heading.name, CELL)));
+            notes.push(format!("the column `{}` contains text: skipped", shortened(&heading.name, CELL)));
         }
         let mut columns = vec![Vec::with_capacity(lines.len()); self.headings.len()];
         if columns.len() > MOST_CELLS {
@@ -261,13 +261,12 @@ impl Reader<'_> {
         let late = |i: usize| i > 0 && time_s[i] <= time_s[i - 1];
         let timeless = (0..time_s.len()).find(|&i| time_s[i].is_nan());
         if let Some(i) = timeless {
-            self.wrong(table.lines[i], "a line without its time", "times that increase");
+            self.wrong(table.lines[i], "a line without a time", "times that increase");
         }
         let all: Vec<usize> = (0..time_s.len()).filter(|&i| late(i)).collect();
-        let goes_back =
-            (all.len() + 1 == time_s.len()).then_some("the table runs from its end to its beginning: turn it round");
+        let goes_back = (all.len() + 1 == time_s.len()).then_some("times decrease: reverse the order of the rows");
         // many are one mistake
-        let more = if all.len() > EACH { format!(" (and so in {} more)", all.len() - 1) } else { String::new() };
+        let more = if all.len() > EACH { format!(" (and {} more like it)", all.len() - 1) } else { String::new() };
         for &i in all.iter().take(if all.len() > EACH { 1 } else { EACH }) {
             let found = format!("time {} s after {} s{more}", time_s[i], time_s[i - 1]);
             let problem = Problem::error("", found, "times that increase").with_hint(goes_back);

@@ -49,12 +49,12 @@ pub(super) fn read(path: &Path) -> Result<Recording, Failure> {
         match object.signal(&objects, path) {
             Ok(Some(signal)) => signals.push(signal),
             Ok(None) => {}
-            Err(why) => notes.push(format!("{}: {why}: left out", object.path)),
+            Err(why) => notes.push(format!("{}: {why}: skipped", object.path)),
         }
     }
     if signals.is_empty() {
-        let found = notes.first().cloned().unwrap_or_else(|| "no channel of numbers".to_owned());
-        return Err(Trouble::of(path, found, "channels of numbers with their times").into());
+        let found = notes.first().cloned().unwrap_or_else(|| "no numeric channel".to_owned());
+        return Err(Trouble::of(path, found, "numeric channels with times").into());
     }
     Ok(Recording { path: path.to_owned(), sha256: sha256(&bytes), signals, notes })
 }
@@ -96,7 +96,7 @@ impl Object {
         let mut names = self.names();
         let name = names.pop().unwrap_or_default();
         if self.number("NI_Number_Of_Scales").is_some_and(|count| count > 0.0) {
-            return Err("its values are scaled on reading; export them from DIAdem or LabVIEW as they are".to_owned());
+            return Err("its values are scaled on reading; export the scaled values from DIAdem or LabVIEW".to_owned());
         }
         let step = self.number("wf_increment").filter(|step| *step > 0.0);
         let time_s: Vec<f64> = match step {

@@ -39,7 +39,9 @@ const OPEN: Layout = Layout {
     object: Some("name"),
     units: ["m", "rad"],
     axes: Axes::ZUp,
-    note: Some("a trajectory follows the middle of the rear axle; --cg says how far ahead the centre of gravity is"),
+    note: Some(
+        "a trajectory follows the middle of the rear axle; give the distance of the centre of gravity ahead of it with --cg",
+    ),
     without_units: None,
 };
 
@@ -49,7 +51,7 @@ const LAYOUTS: [Layout; 3] = [
         heads: ["time", "car.tx", "car.ty", "car.tz", "car.yaw", "car.pitch", "car.roll"],
         object: None,
         note: Some(
-            "CarMaker tells where the origin of the car's own axes is; --cg says how far ahead of it the centre of gravity is",
+            "CarMaker gives the position of the car's own origin; give the distance of the centre of gravity ahead of it with --cg",
         ),
         ..OPEN
     },
@@ -59,11 +61,10 @@ const LAYOUTS: [Layout; 3] = [
         units: ["ft", "deg"],
         axes: Axes::ZDown,
         note: Some(
-            "Rec-Tec's table does not tell its axes: taken as y to the right and z down; where a turn to the right has y or yaw \
-             below 0, --axes z_up says so",
+            "Rec-Tec's table does not give its axes: y right and z down are assumed. If y or yaw is negative in a right turn, use --axes z_up",
         ),
         without_units: Some(
-            "without units: taken as feet and degrees; in a metric project [ft] in the headings of the path is to be [m]",
+            "no units: feet and degrees are assumed. In a metric project, change [ft] to [m] in the headings of the path",
         ),
     },
 ];
@@ -106,7 +107,9 @@ pub(super) fn read(
         return Err(Trouble::of(path, found, "times that increase").into());
     }
     if rows.len() < 2 {
-        return Err(Trouble::of(path, format!("{} places", rows.len()), "a trajectory of two places or more").into());
+        return Err(
+            Trouble::of(path, format!("{} places", rows.len()), "a trajectory with at least two positions").into()
+        );
     }
     let time_s: Vec<f64> = rows.iter().map(|row| row[0]).collect();
     let signal = |(i, name): (usize, &&str)| Signal {
@@ -127,8 +130,10 @@ pub(super) fn read(
 pub(super) fn one_vehicle(path: &Path, vehicle: Option<u32>) -> Result<(), Trouble> {
     match vehicle {
         None | Some(1) => Ok(()),
-        Some(number) => Err(Trouble::of(path, format!("no vehicle {number}"), "1, where a file numbers no vehicles")
-            .hint("--object names one of several objects")),
+        Some(number) => {
+            Err(Trouble::of(path, format!("no vehicle {number}"), "1, because the file has no vehicle numbers")
+                .hint("choose one of several objects with --object"))
+        }
     }
 }
 
@@ -185,7 +190,7 @@ fn chosen(path: &Path, names: &[String], object: Option<&str>) -> Result<usize, 
             Some(i) => return Ok(i),
             None => (format!("no object `{name}`"), "--object names one"),
         },
-        (None, []) => ("no trajectory".to_owned(), "a FollowTrajectoryAction with a Polyline is read"),
+        (None, []) => ("no trajectory".to_owned(), "only a FollowTrajectoryAction with a Polyline can be read"),
         (None, _) => (format!("{} objects", names.len()), "--object names one"),
     };
     Err(Trouble::of(path, found, if known.is_empty() { "one".to_owned() } else { one_of(&known, '`') }).hint(hint))
@@ -216,7 +221,7 @@ fn layout_of(headings: &[Cell]) -> Option<(&'static Layout, Vehicles)> {
 fn own_columns(path: &Path, vehicles: Vehicles, asked: Option<u32>) -> Result<(Vec<usize>, Option<String>), Trouble> {
     let numbers: Vec<String> = vehicles.iter().map(|(number, _)| number.to_string()).collect();
     let note = (asked.is_none() && numbers.len() > 1).then(|| {
-        format!("the path is that of vehicle {}; --vehicle takes another: {}", numbers[0], numbers.join(", "))
+        format!("the path is that of vehicle {}; choose another with --vehicle: {}", numbers[0], numbers.join(", "))
     });
     let own = vehicles.into_iter().find(|(number, _)| asked.is_none_or(|asked| asked == *number));
     let own = own.ok_or_else(|| {
@@ -258,7 +263,12 @@ fn rows(
         let row: Option<Vec<f64>> = columns[..7].iter().map(number).collect();
         let Some(row) = row.and_then(|row| Row::try_from(row).ok()) else {
             let expected = format!("numbers for {}", layout.heads.join(", "));
-            return Err(Trouble::at(path, sources.position(*line).line, "a line that is not of this table", expected));
+            return Err(Trouble::at(
+                path,
+                sources.position(*line).line,
+                "a line that does not belong to this table",
+                expected,
+            ));
         };
         let own = columns.get(7).and_then(|&i| cells.get(i)).map_or("", |cell| cell.text);
         let name = names.iter().position(|name| name == own).unwrap_or_else(|| {
@@ -323,7 +333,8 @@ fn of_scenario(path: &Path, text: &str, object: Option<&str>) -> Result<Vec<Row>
     }
     let row = |vertex: &Node| {
         let place = vertex.descendants().find(|n| n.has_tag_name("WorldPosition"));
-        let place = place.ok_or_else(|| Trouble::at(path, line(*vertex), "no WorldPosition", "places in the world"))?;
+        let place =
+            place.ok_or_else(|| Trouble::at(path, line(*vertex), "no WorldPosition", "positions in the world"))?;
         let number = |node: Node, name: &str, needed: bool| match node.attribute(name) {
             None if !needed => Ok(0.0),
             None => Err(Trouble::at(path, line(node), format!("no `{name}`"), "a time, x and y of each vertex")),

@@ -44,7 +44,7 @@ fn the_mme_in(folder: &Path) -> Result<PathBuf, Failure> {
         (1, Some(one)) => Ok(one),
         (0, _) => Err(Trouble::of(folder, "a folder without a .mme file", "an ISO-MME test").into()),
         (n, _) => {
-            Err(Trouble::of(folder, format!("{n} .mme files"), "one test").hint("name the .mme file itself").into())
+            Err(Trouble::of(folder, format!("{n} .mme files"), "one test").hint("give the .mme file itself").into())
         }
     }
 }
@@ -55,7 +55,7 @@ fn channel_files(mme: &Path) -> Result<Vec<PathBuf>, Failure> {
     let folder = folder.unwrap_or(Path::new("."));
     let is_channel = |p: &PathBuf| p.is_dir() && p.file_name().is_some_and(|n| n.eq_ignore_ascii_case("channel"));
     let Some(inside) = entries(folder)?.into_iter().find(is_channel) else {
-        let found = "no folder Channel beside the .mme file";
+        let found = "there is no folder Channel beside the .mme file";
         return Err(Trouble::of(mme, found, "the test's channels in Channel/").into());
     };
     let stem = mme.file_stem().unwrap_or_default();
@@ -109,14 +109,14 @@ impl RawChannel {
     fn check_count(&self) -> Result<(), Trouble> {
         let found = self.values.len();
         if found == 0 {
-            return Err(Trouble::of(&self.path, "a channel without values", "one value a line"));
+            return Err(Trouble::of(&self.path, "a channel without values", "one value per line"));
         }
         let Some((count, line)) = self.header.get("Number of samples") else {
             return Ok(());
         };
         let (wrong, expected) = match count.parse::<usize>() {
             Ok(n) if n == found => return Ok(()),
-            Ok(n) => (format!("{found} values after a header that says {n}"), "as many values as the header says"),
+            Ok(n) => (format!("{found} values after a header that says {n}"), "the number of values in the header"),
             Err(_) => (format!("`{count}`"), "a number of samples"),
         };
         Err(Trouble::at(&self.path, line, wrong, expected))
@@ -146,16 +146,16 @@ impl RawChannel {
             return Err(Trouble::of(&self.path, found, "`Reference channel name`"));
         };
         let Some(times) = all.iter().find(|c| c.name() == name) else {
-            let found = format!("the reference channel `{name}`, which the test does not hold");
+            let found = format!("the reference channel `{name}`, which is not in the test");
             return Err(Trouble::at(&self.path, line, found, "the code of a channel of times"));
         };
         let factor = times.header.get("Unit").and_then(|(unit, _)| seconds_in(unit)).ok_or_else(|| {
-            let found = format!("`{name}` as times of this channel, but not in a unit of time");
+            let found = format!("`{name}` as time channel, but not in a unit of time");
             Trouble::at(&self.path, line, found, "a channel in s or ms")
         })?;
         if times.values.len() != self.values.len() {
             let found = format!("{} values at {} times", self.values.len(), times.values.len());
-            return Err(Trouble::at(&self.path, line, found, "as many times as values"));
+            return Err(Trouble::at(&self.path, line, found, "the same number of times and values"));
         }
         let time_s: Vec<f64> = times.values.iter().map(|t| t * factor).collect();
         // a missing time is no greater than another
@@ -187,7 +187,7 @@ impl RawChannel {
         let (unit, line) = self.header.get("Unit").map_or((None, 1), |(unit, line)| (Some(unit), line));
         let explicit = self.header.get("Reference channel").is_some();
         if !explicit && self.header.get("Time of first sample").is_none() {
-            notes.push(format!("{name}: no time of the first sample is given: taken as 0 s"));
+            notes.push(format!("{name}: the time of the first sample is missing: 0 s is assumed"));
         }
         Signal {
             code: name.parse::<Code>().ok(),

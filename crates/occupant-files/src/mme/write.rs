@@ -37,7 +37,7 @@ type NamedText = (PathBuf, String);
 /// Times that are not equally spaced, channels without a value for each, or no channel with a code.
 pub fn files(model: &Model, histories: &Histories, labels: &Labels) -> Result<(Vec<NamedText>, Vec<String>), String> {
     let interval_s = uniform_interval(&histories.time_s)
-        .map_err(|e| format!("ISO-MME channels need equally spaced samples ({e}); --interval makes them so"))?;
+        .map_err(|e| format!("ISO-MME channels need equally spaced samples ({e}); resample them with --interval"))?;
     histories.check()?;
     let mut files = Vec::new();
     let mut without = Vec::new();
@@ -56,7 +56,7 @@ pub fn files(model: &Model, histories: &Histories, labels: &Labels) -> Result<(V
         files.push((PathBuf::from(format!("Channel/{}.{number:03}", labels.name)), text));
     }
     if files.is_empty() {
-        return Err("none of these channels has a code in ISO-MME's dictionary".to_owned());
+        return Err("none of these channels has an ISO-MME code".to_owned());
     }
     let count = files.len().to_string();
     let mut chn = String::new();

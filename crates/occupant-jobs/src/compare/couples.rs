@@ -35,7 +35,7 @@ pub(super) fn couples(request: &Request<'_>, remarks: &mut Remarks) -> Result<Co
     let (computed, measured) = (request.computed, request.measured);
     if is_recording(computed) && !is_recording(measured) {
         return Err(Failure::with_help(
-            format!("{} is a run: the measured side comes last", measured.display()),
+            format!("{} is a run: give the run first and the test last", measured.display()),
             "occupant compare RUN.mcap TEST.csv",
         ));
     }
@@ -66,7 +66,7 @@ fn run_and_test(request: &Request<'_>, run: &Results, remarks: &mut Remarks) -> 
         match filtered.transpose() {
             // only who asks for one class wants it of every channel
             Err(failure) if request.treatment.filter == Filter::J211 => {
-                remarks.notes.push(format!("{} is left out: {}", column.channel.name, failure.words()));
+                remarks.notes.push(format!("{} is skipped: {}", column.channel.name, failure.words()));
                 continue;
             }
             filtered => filtered?,
@@ -115,7 +115,9 @@ fn two_runs(request: &Request<'_>, run: &Results, remarks: &mut Remarks) -> Resu
         let signal = other.channel.name;
         // what never happens in the other run (no contact, no belt) cannot be rated
         if other.values.iter().all(|v| v.abs() < ZERO) {
-            remarks.notes.push(format!("{signal}: zero throughout in {}, not rated", request.measured.display()));
+            remarks
+                .notes
+                .push(format!("{signal}: zero throughout in {}, so it is not rated", request.measured.display()));
             continue;
         }
         couples.push(Couple {
@@ -127,7 +129,7 @@ fn two_runs(request: &Request<'_>, run: &Results, remarks: &mut Remarks) -> Resu
         });
     }
     if couples.is_empty() && in_common > 0 {
-        let mut reasons = vec![format!("all that was asked for is zero throughout in {}", request.measured.display())];
+        let mut reasons = vec![format!("all selected channels are zero throughout in {}", request.measured.display())];
         reasons.extend(remarks.worthless.iter().cloned());
         reasons.dedup();
         return Err(Failure::with_help(
@@ -158,7 +160,7 @@ fn filterable(
     if !left.is_empty() {
         let names: Vec<&str> = left.iter().map(|channel| channel.name.as_str()).collect();
         notes.push(format!(
-            "left out, as outputs every {} ms are too far apart for their classes of SAE J211: {}; a run with output.interval = \"0.1 ms\" has them",
+            "skipped, because outputs every {} ms are too coarse for their SAE J211 classes: {}; run again with output.interval = \"0.1 ms\"",
             (1e9 * longest_s).round() / 1e6,
             names.join(", ")
         ));
@@ -171,8 +173,8 @@ fn two_tables(request: &Request<'_>, remarks: &mut Remarks) -> Result<Coupled, F
     let class = match request.treatment.filter {
         Filter::J211 => {
             return Err(Failure::with_help(
-                "--filter j211: columns do not say which channels they are",
-                "give a class, such as --filter CFC180",
+                "--filter j211: the columns have no channel names",
+                "give one class for all, such as --filter CFC180",
             ));
         }
         filter => filter.class_of(""),

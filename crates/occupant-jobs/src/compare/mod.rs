@@ -132,8 +132,8 @@ pub fn compare(request: &Request<'_>) -> Result<Comparison, Failure> {
 fn nothing_common(request: &Request<'_>) -> Failure {
     let (computed, measured) = (request.computed.display(), request.measured.display());
     Failure::with_help(
-        format!("no signal of {measured} belongs to a channel of {computed}"),
-        "say which column is which channel: --map 'column[unit]=head.acceleration.x'; for another seat of an ISO-MME test --seat",
+        format!("no signal of {measured} matches a channel of {computed}"),
+        "assign columns to channels: --map 'column[unit]=head.acceleration.x'; for another seat of an ISO-MME test use --seat",
     )
 }
 
@@ -165,7 +165,7 @@ impl Comparison {
     /// The ratings in words.
     pub fn text(&self) -> String {
         let mut text = format!(
-            "{} against {}; shift {} ms; all ratings at {} kHz\n",
+            "{} compared with {}; shift {} ms; all ratings at {} kHz\n",
             self.computed.file,
             self.measured.file,
             self.shift_s * 1e3,

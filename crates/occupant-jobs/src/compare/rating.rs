@@ -105,7 +105,7 @@ pub fn rate(computed: Track<'_>, measured: Track<'_>, window: Window) -> Result<
     let [from_s, to_s] = overlap(computed, measured, window)?;
     if to_s - from_s > LONGEST_S {
         return Err(format!(
-            "{} s in common: at most {LONGEST_S} s are compared; --from and --to choose a part",
+            "{} s in common: at most {LONGEST_S} s can be compared; select a part with --from and --to",
             to_s - from_s
         ));
     }
@@ -251,7 +251,10 @@ pub fn sampled(track: Track<'_>, from_s: f64, to_s: f64, samples: usize, what: &
     let last = track.time_s.partition_point(|t| *t < to_s).min(track.time_s.len() - 1);
     let (time_s, values) = (&track.time_s[first..=last], &track.values[first..=last]);
     if let Some(gap) = values.iter().position(|v| !v.is_finite()) {
-        return Err(format!("{what} has no value at {} s; --from and --to choose a part without gaps", time_s[gap]));
+        return Err(format!(
+            "{what} has no value at {} s; select a part without gaps with --from and --to",
+            time_s[gap]
+        ));
     }
     let line = Interpolant::new(time_s, values, Interpolation::Linear);
     let line = line.map_err(|e| format!("{what}: {e}"))?;

@@ -133,7 +133,7 @@ pub(super) fn evidence(all: &[Met]) -> Vec<(&'static str, Evidence, &'static str
             (
                 "rail",
                 Evidence::Guess,
-                "section of the profile; anchors, posts and their release meet one deflection known from memory. Cars leave it steeper than in tests: no verdict on an exit box",
+                "section from the profile; anchors, posts and their release are tuned to one remembered deflection. Exit angles are larger than in tests: no verdict on an exit box",
             ),
         ),
         (
@@ -141,10 +141,10 @@ pub(super) fn evidence(all: &[Met]) -> Vec<(&'static str, Evidence, &'static str
             (
                 "friction along a wall",
                 Evidence::Guess,
-                "0.55 of a car's end, 0.2 along smooth concrete; no wheel climbs",
+                "0.55 at a car's corner, 0.2 along smooth concrete; wheels do not climb",
             ),
         ),
-        ("pole", ("pole", Evidence::Guess, "the front's stiffness over its breadth: no engine, no wheel behind it")),
+        ("pole", ("pole", Evidence::Guess, "front stiffness, uniform over the width: no engine, no wheel behind it")),
     ];
     rows.into_iter().filter(|(kind, _)| all.iter().any(|own| own.kind == *kind)).map(|(_, row)| row).collect()
 }

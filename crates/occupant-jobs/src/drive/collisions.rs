@@ -135,7 +135,7 @@ pub(super) fn crush_words(damage: &Damage, units: Units) -> String {
     let m = |value: f64| units.say(value, "m", 3);
     let roof = if damage.roof_m > 0.0 { format!(", the roof by {}", m(damage.roof_m)) } else { String::new() };
     let [most, stays, ees] = [m(damage.dynamic_m), m(damage.residual_m), units.say(damage.ees_m_s, "m/s", 2)];
-    format!("{most} while it lasts, {stays} stays{roof}; EES {ees}")
+    format!("{most} dynamic, {stays} residual{roof}; EES {ees}")
 }
 
 pub(super) fn side_name(side: Side) -> &'static str {

@@ -47,7 +47,7 @@ fn one(drives: &Drives, driven: &Driven, units: Units) -> String {
         ("largest slip angle", angle(motion.slip)),
         ("steepest ground", format!("{:.0} % at {:.2} s", 100.0 * motion.slope.0, motion.slope.1)),
         ("crush", collisions::crush_words(damage, units)),
-        ("energy balance", format!("off by {:.1e} of the greatest kinetic energy", ride.balance().abs())),
+        ("energy balance", format!("off by {:.1e} of the largest kinetic energy", ride.balance().abs())),
         ("steps", format!("{} of {} evaluations", ride.stations().len() - 1, ride.evaluations)),
     ];
     let is_hit = !driven.collisions.is_empty() || damage.roof_m > 0.0;
@@ -76,7 +76,7 @@ fn events(driven: &Driven) -> String {
     for event in &driven.events {
         table.row([format!("{:.3}", event.time_s), event.what.clone()]);
     }
-    if driven.events.is_empty() { "no event: all wheels stay on one ground\n".to_owned() } else { table.text() }
+    if driven.events.is_empty() { "no event: all wheels stay on the same ground\n".to_owned() } else { table.text() }
 }
 
 fn marks(driven: &Driven, units: Units) -> String {
@@ -126,7 +126,7 @@ fn risk(driven: &Driven, units: Units) -> String {
 /// How far the numbers can be trusted.
 fn evidence(drives: &Drives, driven: &Driven) -> String {
     let own = &drives.vehicles[driven.number];
-    let mut table = Table::new(&[(Align::Left, &["number", "trust", "where it is from"])]);
+    let mut table = Table::new(&[(Align::Left, &["number", "trust", "source"])]);
     for (number, trust, source) in evidence_of(own, driven) {
         table.row([number.to_owned(), trust.words().to_owned(), source.to_owned()]);
     }
@@ -159,13 +159,13 @@ fn profile(own: &vehicle_motion::world::Profile) -> Value {
     })
 }
 
-const RISK_OF_COLLISION: &str = "risk by the vehicle's motion, from its first collision on";
+const RISK_OF_COLLISION: &str = "occupant risk from the vehicle's motion, from its first collision on";
 
 /// What all presets share.
 const COMMON: [(&str, Evidence, &str); 3] = [
-    ("tyres", Evidence::Typical, "between published tyres; relaxation and camber of the right size, not measured"),
+    ("tyres", Evidence::Typical, "between published tyres; relaxation and camber are plausible, not measured"),
     ("friction of the ground", Evidence::Typical, "0.76 on dry asphalt (0.64 to 0.88 in 95 % of tests) unless given"),
-    ("soil", Evidence::Guess, "a friction factor: no wheel sinks in, nothing furrows but by `lateral`"),
+    ("soil", Evidence::Guess, "a friction factor: wheels do not sink in; only `lateral` models furrowing"),
 ];
 
 /// The report as JSON, SI, angles in radians.

@@ -75,10 +75,10 @@ pub fn refuse_too_much(members: u64, channels: usize, outputs: usize) -> Result<
     }
     Err(Failure::with_help(
         format!(
-            "bands of {channels} channels over {outputs} outputs of {members} members need {:.1} GiB, more than the half GiB allowed",
+            "bands of {channels} channels, {outputs} outputs and {members} runs need {:.1} GiB; the limit is 0.5 GiB",
             bytes as f64 / f64::from(1 << 30)
         ),
-        "ask for fewer --channel or members, or set a longer output.interval",
+        "select fewer channels with --channel, run fewer members, or set a longer output.interval",
     ))
 }
 

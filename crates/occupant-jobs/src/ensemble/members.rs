@@ -80,7 +80,7 @@ impl Members<'_> {
         if self.interrupt.is_asked() {
             let (done, all) = (members.len(), self.runs.end - self.runs.start);
             return Err(Failure::broke_off(format!(
-                "the ensemble was interrupted after {done} of {all} members, which say nothing alone"
+                "the ensemble was interrupted after {done} of {all} runs: too few for a verdict"
             )));
         }
         members.sort_unstable_by_key(|(number, _)| *number);
@@ -105,7 +105,7 @@ impl Source for Members<'_> {
         });
         let member = match (run.ending.reason(), left) {
             (Some(reason), _) => Err(reason),
-            (None, left) => left.ok_or_else(|| "it left no summary".to_owned()),
+            (None, left) => left.ok_or_else(|| "it has no summary".to_owned()),
         };
         Ok((run.index, member))
     }

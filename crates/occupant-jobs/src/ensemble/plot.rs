@@ -27,7 +27,7 @@ fn figure(channel: &ChannelBand, time_s: &[f64], units: Units) -> Figure {
     let around = |low: &[f64], high: &[f64]| [points(low), points(high).into_iter().rev().collect()].concat();
     let band = &channel.band;
     let mut curves = vec![
-        Curve::new("90 % of the members", Style::area(AREAS[0]), around(&band.q05, &band.q95)),
+        Curve::new("90 % of the runs", Style::area(AREAS[0]), around(&band.q05, &band.q95)),
         Curve::new("half of them", Style::area(AREAS[1]), around(&band.q25, &band.q75)),
         Curve::new("median", Style::line(BLUE, 1.6), points(&band.median)),
         Curve::new("unchanged run", Style { dash: "4 2.5", ..Style::line("#222222", 1.0) }, points(&channel.nominal)),
@@ -36,7 +36,7 @@ fn figure(channel: &ChannelBand, time_s: &[f64], units: Units) -> Figure {
         let values = || curves.iter().flat_map(|curve| &curve.points).map(|[_, value]| *value);
         let ends = [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)];
         let at_ms = lost_s * 1e3;
-        let label = format!("members part at {at_ms:.1} ms");
+        let label = format!("runs diverge at {at_ms:.1} ms");
         curves.push(Curve::new(label, Style::line(RED, 1.0), ends.map(|value| [at_ms, value]).to_vec()));
     }
     Figure::new(&channel.name, [Axis::of("time", "ms"), Axis::of("", unit)], curves)

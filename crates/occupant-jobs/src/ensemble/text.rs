@@ -49,7 +49,7 @@ fn what(report: &Report, units: Units) -> String {
     let failed = report.failed.len();
     let mut ended = format!("{} runs, the unchanged one included", report.members);
     if failed > 0 {
-        ended += &format!("; {failed} FAILED: no figure of this ensemble counts as stable");
+        ended += &format!("; {failed} FAILED, so no result of this ensemble counts as stable");
     }
     let mut lines = vec![("ensemble", ended)];
     for Failed { member, reason } in report.failed.iter().take(NAMED) {
@@ -59,7 +59,7 @@ fn what(report: &Report, units: Units) -> String {
     lines.push((
         "stable",
         format!(
-            "90 % of the members within {} % of the median, or closer than anybody would act on",
+            "90 % of the runs within {} % of the median, or closer than matters in practice",
             percent(report.within)
         ),
     ));
@@ -71,7 +71,7 @@ fn changes(most: &Tolerances, seed: u64, units: Units) -> String {
     let (per, unit) = units.told("m").shown;
     let place = format!("{} {unit}", trimmed(most.place_m / per, 3));
     format!(
-        "{}° of each angle, {} of place, {} % of the pulse, {} % of each stiffness{} (seed {seed})",
+        "{}° in each angle, {} in position, {} % of the pulse, {} % of each stiffness{} (seed {seed})",
         trimmed(most.posture_rad.to_degrees(), 3),
         place,
         percent(most.path),
@@ -122,7 +122,7 @@ fn decimals(size: f64) -> usize {
 fn channels(report: &Report, units: Units) -> String {
     let mut table = Table::new(&[
         (Left, &["channel"]),
-        (Right, &["members part at, ms", "by more than", "widest", "at, ms"]),
+        (Right, &["runs diverge at, ms", "by more than", "widest", "at, ms"]),
         (Left, &[""]),
     ]);
     let ms = |t: f64| format!("{:.1}", t * 1e3);
@@ -144,18 +144,18 @@ fn channels(report: &Report, units: Units) -> String {
 fn conclusion(report: &Report) -> String {
     let (unstable, all) = (report.unstable(), report.figures.len());
     if report.members < ENOUGH {
-        return format!("{} members are too few for a verdict: {ENOUGH} or more\n", report.members);
+        return format!("{} runs are too few for a verdict: use {ENOUGH} or more\n", report.members);
     }
     if unstable.is_empty() {
-        return format!("all {all} figures are stable\n");
+        return format!("all {all} results are stable\n");
     }
     let mut more: Vec<&str> = unstable.iter().copied().filter(|name| !is_shown(name)).collect();
     if more.len() > LISTED {
         more.truncate(LISTED);
         more.push("… (--json has all)");
     }
-    let besides = if more.is_empty() { String::new() } else { format!("; besides those above: {}", more.join(", ")) };
-    format!("NOT STABLE: {} of {all} figures{besides}\n", unstable.len())
+    let besides = if more.is_empty() { String::new() } else { format!("; others: {}", more.join(", ")) };
+    format!("NOT STABLE: {} of {all} results{besides}\n", unstable.len())
 }
 
 /// Whether the tables show a figure, of the only occupant or of one of several.

@@ -53,14 +53,14 @@ pub(super) fn histories(model: &Model, from: Option<&Checkpoint>) -> Result<Seri
 
 /// How far an extension is from the run that goes on, in words.
 pub(super) fn words(goes_on: Result<Series, String>, extension: Result<Series, String>) -> String {
-    const WHY: &str = "cards carry no greatest deformations, so the extension is approximate";
+    const WHY: &str = "cards do not carry the largest deformations, so the extension is approximate";
     let (goes_on, extension) = match (goes_on, extension) {
         (Ok(goes_on), Ok(extension)) => (goes_on, extension),
-        (Err(error), _) | (_, Err(error)) => return format!("{WHY}; by how much cannot be told: {error}"),
+        (Err(error), _) | (_, Err(error)) => return format!("{WHY}; the error is unknown: {error}"),
     };
     let common: Vec<[usize; 2]> = common(&goes_on.time_s, &extension.time_s);
     let (Some(first), Some(last)) = (common.first(), common.last()) else {
-        return format!("{WHY}; by how much cannot be told: no output of the two is at one time");
+        return format!("{WHY}; the error is unknown: the two have no common output time");
     };
     let [from_s, to_s] = [first, last].map(|at| goes_on.time_s[at[0]]);
     let mut parts = vec![format!("the head is up to {:.1} mm off", 1e3 * apart_m(&goes_on, &extension, &common))];
@@ -73,11 +73,11 @@ pub(super) fn words(goes_on: Result<Series, String>, extension: Result<Series, S
             let values = series.of(name).unwrap_or_default();
             common.iter().filter_map(|at| values.get(at[side])).fold(0.0, |most: f64, x| most.max(*x)) / si
         });
-        Some(format!("{what} {other:.0} {unit} for {own:.0} {unit}"))
+        Some(format!("{what} {other:.0} {unit} instead of {own:.0} {unit}"))
     });
     parts.extend(peaks);
     format!(
-        "{WHY}. From {from_s:.3} s to {to_s:.3} s, against the run that goes on: {}; greatest values, extension for run: {}",
+        "{WHY}. From {from_s:.3} s to {to_s:.3} s, compared with the continued run: {}; peaks, extension and run: {}",
         parts[0],
         parts[1..].join(", ")
     )

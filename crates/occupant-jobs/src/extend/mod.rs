@@ -113,11 +113,11 @@ fn refuse_time(final_s: f64, end_s: f64, model: &Model) -> Result<(), Failure> {
         && final_s > path.span_s().1
     {
         let last_s = path.span_s().1;
-        let found = format!("--extend {final_s} s lies beyond the last station of the vehicle's path, {last_s} s");
+        let found = format!("--extend {final_s} s is after the last station of the vehicle's path, {last_s} s");
         return Err(Failure::with_help(found, "add stations to the path, or give an earlier time"));
     }
     if final_s.is_nan() || final_s <= end_s {
-        let found = format!("--extend {final_s} s lies not after the end of the run, {end_s} s");
+        let found = format!("--extend {final_s} s is not after the end of the run, {end_s} s");
         return Err(Failure::with_help(found, "give a later time"));
     }
     Ok(())

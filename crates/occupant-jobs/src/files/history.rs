@@ -13,6 +13,6 @@ use crate::base::{Failure, note};
 /// A name or pattern that fits no channel.
 pub fn choose(model: &Model, names: &[String]) -> Result<Vec<Channel>, Failure> {
     let (channels, missing) = occupant_files::history::choose(model, names)?;
-    missing.iter().for_each(|name| note(&format!("no channel fits `{name}`")));
+    missing.iter().for_each(|name| note(&format!("no channel matches `{name}`")));
     Ok(channels)
 }

@@ -31,8 +31,8 @@ pub fn drives(args: &ScenarioArgs) -> Result<(Loaded, Drives), Failure> {
     let (drives, warnings) = loaded.drives().map_err(refuse)?;
     warn(&warnings);
     let drives = drives.ok_or_else(|| {
-        let help = "add [drive] with a vehicle, or write a scenario that has it with `occupant new NAME.toml --template drive`";
-        Failure::with_help(format!("{name} drives no vehicle"), help)
+        let help = "add [drive] with a vehicle, or start from `occupant new NAME.toml --template drive`";
+        Failure::with_help(format!("{name} has no vehicle that drives"), help)
     })?;
     Ok((loaded, drives))
 }

@@ -62,18 +62,19 @@ impl Accord {
         if self.correlation < 0.0 {
             let r = self.correlation;
             return Some(format!(
-                "{of} runs against what is computed (correlation {r:.2}): a turned sign? map = [\"column=-{channel}\"]"
+                "{of} has the opposite sign to the computed channel (correlation {r:.2}). If the sign is wrong: map = [\"column=-{channel}\"]"
             ));
         }
         if !(1.0 / PEAKS..=PEAKS).contains(&ratio) {
-            return Some(format!("{of} has a peak of {ratio:.3} times the computed one: a wrong unit, or `gain`?"));
+            return Some(format!(
+                "the peak of {of} is {ratio:.3} times the computed one: check its unit, or set `gain`"
+            ));
         }
         let (ms, falls) = (1e3 * self.lag_s, 100.0 * (1.0 - self.falls_to));
         (self.lag_s.abs() >= LAG_S && self.falls_to < FALLS_TO).then(|| {
             let word = if ms > 0.0 { "late" } else { "early" };
             format!(
-                "{of} is {:.2} ms {word}: shifted by that it would be nearer to what is computed ({falls:.0} % of the mean square \
-                 difference): a wrong clock? `shift` sets it, `offset` of the test lets the fit find it",
+                "{of} is {:.2} ms {word}: shifting it would reduce the mean square difference by {falls:.0} %. Set `shift`, or let the fit find it with `offset` of the test",
                 ms.abs()
             )
         })

@@ -124,7 +124,7 @@ impl<'a> Evaluator<'a> {
             let rows: Option<Vec<&Row>> =
                 (0..experiments).map(|e| self.known.get(&(first + i as u64 * experiments + e))).collect();
             let done = self.records.len();
-            let kept = || format!("{done} evaluations are kept; the same command resumes the fit");
+            let kept = || format!("{done} evaluations are kept; run the same command again to resume the fit");
             let rows = rows.ok_or_else(|| Interrupt::failure(&kept()))?;
             self.records.push(record(self.fitting, stage, candidate, &rows)?);
         }
@@ -186,8 +186,8 @@ fn refuse_other(index: u64, found: &[Cell], asked: &[f64]) -> Result<(), Failure
         return Ok(());
     }
     Err(Failure::with_help(
-        format!("row {index} of the journal is of another candidate"),
-        "the journal was written by another program or on a machine that computes differently: begin anew with --restart",
+        format!("row {index} of the journal belongs to another candidate"),
+        "another program version or machine wrote the journal: start again with --restart",
     ))
 }
 

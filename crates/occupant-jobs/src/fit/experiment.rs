@@ -118,8 +118,7 @@ impl Experiment {
         }
         self.dense_s = Some(dense_s);
         Some(format!(
-            "note: the runs of this fit write outputs every {} ms, as the tests were sampled, not every {} ms as {} says: each takes \
-             longer",
+            "note: this fit writes outputs every {} ms, the sample interval of the tests, not every {} ms as in {}; runs take longer",
             short(1e3 * dense_s),
             short(1e3 * own_s),
             self.scenario.display()
@@ -257,5 +256,5 @@ impl Experiment {
 /// A filter that none has.
 pub fn in_group(groups: &[(Filter, Histories)], filter: Filter) -> Result<&Histories, String> {
     let found = groups.iter().find(|(f, _)| *f == filter);
-    found.map(|(_, histories)| histories).ok_or_else(|| "a channel without a history".to_owned())
+    found.map(|(_, histories)| histories).ok_or_else(|| "a channel without a time history".to_owned())
 }

@@ -79,7 +79,7 @@ impl Fitting {
         parameters.extend(tests.iter().flat_map(nuisances));
         let bounds: Option<Vec<Bounds>> = parameters.iter().map(|p| p.law.bounds()).collect();
         // bind_fit has refused parameters without ends
-        let bounds = bounds.ok_or_else(|| Failure::plain("a parameter without ends"))?;
+        let bounds = bounds.ok_or_else(|| Failure::plain("a parameter without a range"))?;
         let tests = name_fitted(&mut experiments, tests);
         let samples = experiments.len() as u64 * fit.budget.saturating_add(ON_TOP);
         let (manifest, texts) = manifest(&text, &texts, given, samples, program);

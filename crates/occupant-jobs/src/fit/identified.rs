@@ -96,7 +96,7 @@ fn descents(fitting: &Fitting, evaluator: &mut Evaluator<'_>) -> Result<Global, 
     }
     let reason = evaluator.records.iter().rev().find_map(|r| r.reason.clone()).unwrap_or_default();
     Err(Failure::broke_off(format!(
-        "none of {} candidates could be run; the last: {reason}\n = help: narrow the ranges of the parameters, or try the base scenario with `occupant run`",
+        "none of {} candidates could be run; the last one: {reason}\n = help: narrow the parameter ranges, and try the base scenario with `occupant run`",
         evaluator.records.len()
     )))
 }
@@ -128,5 +128,5 @@ fn rise(fitting: &Fitting, best: &Point) -> Result<(f64, Near), Failure> {
     if likely > least {
         return near(likely, "95 % likelihood of the residuals", Some(unrelated));
     }
-    near(least, "0.05 % of the measured peaks: the residuals are smaller", None)
+    near(least, "0.05 % of the measured peaks, because the residuals are smaller", None)
 }

@@ -67,15 +67,15 @@ impl<'a> Opening<'a> {
         let tests = if of_study { fit.tests.clone() } else { vec![FitTest::default(); files.len()] };
         if tests.is_empty() {
             let hint = "--test test.csv, or [[fit.tests]] with `file`";
-            self.complain("", "no test to fit to".to_owned(), "a test", Some(hint));
+            self.complain("", "there is no test to fit to".to_owned(), "a test", Some(hint));
         }
         let open = tests.iter().filter(|t| t.file.is_none()).count();
         if open != files.len() {
             let found = match files.len() {
                 0 => format!("{open} of the study's tests have no file"),
-                n => format!("--test gives {n} of the {open} files that the study leaves to it"),
+                n => format!("--test gives {n} files, but {open} tests of the study need one"),
             };
-            let hint = "--test gives the files of the tests without `file`, in their order";
+            let hint = "give one --test for each test without `file`, in their order";
             self.complain("fit.tests", found, "a file for each test", Some(hint));
             return Vec::new();
         }
@@ -109,8 +109,8 @@ impl<'a> Opening<'a> {
             let stem = named.file.file_stem().unwrap_or_default().to_string_lossy();
             let name = named.test.name.clone().unwrap_or_else(|| stem.into_owned());
             if tests.iter().any(|t| t.name == name) {
-                let found = format!("a second test named \"{name}\"");
-                self.complain(&named.at, found, "a `name` of its own", None);
+                let found = format!("two tests named \"{name}\"");
+                self.complain(&named.at, found, "a unique `name`", None);
             }
             tests.push(Test {
                 name,
@@ -135,9 +135,9 @@ impl<'a> Opening<'a> {
     fn refuse_unmet(&mut self, fit: &Fit, met: &BTreeSet<String>) {
         for (i, channel) in fit.channels.iter().enumerate().filter(|(_, c)| !met.contains(&c.name)) {
             let found = format!("no test has a signal for `{}`", channel.name);
-            let hint = "say which column it is: map = [\"column[unit]=channel\"] of the test, or --map";
+            let hint = "assign a column: map = [\"column[unit]=channel\"] in the test, or --map";
             let at = format!("fit.channels[{i}].channel");
-            self.complain(&at, found, "a column of that name", Some(hint));
+            self.complain(&at, found, "a column with that name", Some(hint));
         }
     }
 
@@ -238,7 +238,7 @@ impl<'a> Opening<'a> {
                 Ok(target) => targets.push(target),
                 Err(reason) => {
                     let found = format!("{} of {} cannot be fitted to: {reason}", channel.name, named.file.display());
-                    let expected = "a signal with values all through the window";
+                    let expected = "a signal with values in the whole window";
                     let hint = "choose channels, `from`, `to` and `filter` that the test allows";
                     self.complain(&named.at, found, expected, Some(hint));
                 }
@@ -260,8 +260,8 @@ impl<'a> Opening<'a> {
             return Vec::new();
         };
         if pairs.is_empty() {
-            let found = format!("no signal of {} belongs to a channel that counts", named.file.display());
-            let hint = "columns are named as channels are, or map = [\"column[unit]=channel\"]";
+            let found = format!("no signal of {} matches a channel of the fit", named.file.display());
+            let hint = "name columns like channels, or map = [\"column[unit]=channel\"]";
             self.complain(&named.at, found, "a signal to fit to", Some(hint));
         }
         pairs
@@ -300,7 +300,7 @@ impl<'a> Opening<'a> {
                     let expected: String = expected;
                     let expected = expected.trim_start_matches("expected ");
                     let at = format!("{}.map[{i}]", named.at);
-                    self.complain(&at, format!("`{text}` is no map"), expected, None);
+                    self.complain(&at, format!("`{text}` is not a map"), expected, None);
                     whole = false;
                 }
             }

@@ -91,7 +91,7 @@ impl Output<'_> {
             format!("# {} with the numbers of the fit {study}: see [provenance].\n", file_name(&experiment.scenario));
         let (text, kept) = fitted(experiment, &numbers, &provenance, &head).map_err(Failure::broke_off)?;
         if !kept {
-            say(&format!("note: {name} is written anew: its comments and order could not be kept"));
+            say(&format!("note: {name} is rewritten; its comments and order are lost"));
         }
         self.put(Path::new(name), text.as_bytes())?;
         let folder = Path::new(name).parent().unwrap_or(Path::new(""));

@@ -66,7 +66,7 @@ impl Progress {
 
 /// A score in words.
 fn score(score: f64) -> String {
-    if score < WORST { format!("score {score:.5}") } else { "no run has completed".to_owned() }
+    if score < WORST { format!("score {score:.5}") } else { "no completed run yet".to_owned() }
 }
 
 /// A stage's name, and in words.

@@ -23,14 +23,11 @@ fn overview(result: &FitResult) -> String {
     let tests: Vec<&str> = result.tests.iter().map(|t| t.file.as_str()).collect();
     let mut lines = vec![
         ("fit", format!("{} to {}", result.study.file, tests.join(", "))),
-        (
-            "score",
-            format!("{:.5} ({}), before {before}; 0 is a run that is the test", result.score.after, result.objective),
-        ),
+        ("score", format!("{:.5} ({}), before {before}; 0 is a perfect match", result.score.after, result.objective)),
         (
             "evaluations",
             format!(
-                "{} of the search in {} descents, {} of the refinement, {} for the intervals",
+                "{} in the search ({} descents), {} in the refinement, {} for the intervals",
                 e.search,
                 result.descents.len(),
                 e.refinement,
@@ -139,14 +136,14 @@ fn channels(result: &FitResult) -> String {
 pub fn provenance(result: &FitResult, p: &ParameterEstimate) -> String {
     let factor = match p.apply {
         ApplyChoice::Value => String::new(),
-        ApplyChoice::Factor => format!(" (times {} what the base scenario says)", short(p.value)),
+        ApplyChoice::Factor => format!(" (times {} the base scenario)", short(p.value)),
         ApplyChoice::Offset => {
-            format!(" ({} added to what the base scenario says)", p.with_unit(&p.number(p.value)))
+            format!(" ({} added to the base scenario)", p.with_unit(&p.number(p.value)))
         }
     };
     let range = p.with_unit(&p.range(p.interval));
     let interval = match p.verdict {
-        Verdict::NotIdentified => format!("{}; any value of {range} is as good", p.words),
+        Verdict::NotIdentified => format!("{}; any value in {range} is as good", p.words),
         _ => format!("{}, interval {range}", p.words),
     };
     let tests = result.tests.iter();

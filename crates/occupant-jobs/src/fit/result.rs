@@ -289,7 +289,7 @@ fn remarks(
     }
     if evaluations.failed > 0 {
         all.push(format!(
-            "{} of {} candidates could not be run and count as worst; the first: {}",
+            "{} of {} candidates could not be run and rank worst; the first one: {}",
             evaluations.failed,
             evaluations.all,
             evaluations.reason.as_deref().unwrap_or("no reason")
@@ -304,7 +304,7 @@ fn remarks(
     let descents = &answer.global.descents;
     let same = descents.iter().filter(|d| d.best.value <= limit.max(best + fitting.fit.tolerance));
     if descents.len() > 1 && same.count() < 2 {
-        all.push("only one descent has found this score: a greater budget may find a better one".to_owned());
+        all.push("only one descent found this score: a larger budget may find a better one".to_owned());
     }
     all
 }

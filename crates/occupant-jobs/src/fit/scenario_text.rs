@@ -42,7 +42,7 @@ pub fn numbers(experiment: &Experiment, values: &[f64]) -> Result<Vec<Fitted>, S
     };
     let number = |Assignment { path, value, .. }: Assignment| {
         let occupant_study::Value::Number(si) = value else {
-            return Err(format!("`{path}` is no number"));
+            return Err(format!("`{path}` is not a number"));
         };
         let text = study.base.written(&path, si, DIGITS);
         let text = text.ok_or_else(|| format!("no number can stand at `{path}`"))?;

@@ -91,7 +91,7 @@ impl Target {
     /// Histories without this channel, or with values missing in the window.
     pub fn computed(&self, histories: &Histories, test: Correction) -> Result<Vec<f64>, String> {
         let found = histories.columns.iter().find(|c| c.channel.name == self.channel.name);
-        let column = found.ok_or_else(|| format!("no history of {}", self.channel.name))?;
+        let column = found.ok_or_else(|| format!("no time history of {}", self.channel.name))?;
         let [from_s, to_s] = self.window_s.map(|t| t + test.offset_s);
         let track = Track { time_s: &histories.time_s, values: &column.values };
         let mut values = sampled(track, from_s, to_s, self.reference.len(), "the computed history")?;

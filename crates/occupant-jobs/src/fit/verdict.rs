@@ -125,11 +125,11 @@ fn partners(fitting: &Fitting, answer: &Answer, i: usize) -> Vec<String> {
 fn words(verdict: Verdict, partners: &[String]) -> String {
     let with = match partners {
         [] => String::new(),
-        names => format!(": {} makes up for it", names.join(" or ")),
+        names => format!(": {} compensates it", names.join(" or ")),
     };
     match verdict {
         Verdict::Identified if partners.is_empty() => "identified".to_owned(),
-        Verdict::Identified => format!("identified, but not alone{with}"),
+        Verdict::Identified => format!("identified only together with others{with}"),
         Verdict::Weak => format!("weakly identified{with}"),
         Verdict::OneSided => format!("bounded on one side only{with}"),
         Verdict::AtLowerBound => "at its lower bound".to_owned(),

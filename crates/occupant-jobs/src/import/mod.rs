@@ -50,7 +50,7 @@ pub struct Made {
 pub fn import(imported: &Imported, request: &Request) -> Result<Made, Failure> {
     let recording = within(&imported.recording, request.window_s);
     if recording.signals.is_empty() {
-        return Err(Failure::plain("no sample lies between --from and --to"));
+        return Err(Failure::plain("there is no sample between --from and --to"));
     }
     let is_done = |note: &str| request.cg.is_some() && note.contains("--cg");
     let mut notes: Vec<String> = recording.notes.iter().filter(|note| !is_done(note)).cloned().collect();
@@ -61,8 +61,7 @@ pub fn import(imported: &Imported, request: &Request) -> Result<Made, Failure> {
     if path.is_none() && request.place.is_none() {
         let names: Vec<String> = recording.signals.iter().take(12).map(|s| format!("`{}`", s.name)).collect();
         notes.push(format!(
-            "no signal is the motion of the vehicle: no path and no scenario is written; the record has {}; --columns names them, such as \
-             't[ms],dvx[km/h]' or 't[s],ax[g],-,wz[deg/s]'",
+            "no signal is known as vehicle motion, so no path and no scenario are written. The record has {}. Name the columns with --columns, such as 't[ms],dvx[km/h]' or 't[s],ax[g],-,wz[deg/s]'",
             names.join(", ")
         ));
     }

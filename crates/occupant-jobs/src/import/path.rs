@@ -81,7 +81,7 @@ fn begin_at_zero(motion: &mut Motion, notes: &mut Vec<String>) {
     if motion.kind != MotionKind::Changes || first_s <= 0.0 || first_s > BEGINS_S {
         return;
     }
-    notes.push(format!("the velocity changes begin at {first_s} s: 0 was put at 0 s"));
+    notes.push(format!("the velocity changes start at {first_s} s; a value of 0 is added at 0 s"));
     motion.time_s.insert(0, 0.0);
     for column in &mut motion.columns {
         let value = if column.name == "wz" { column.values[0] } else { 0.0 };
@@ -135,13 +135,15 @@ fn keys_of_sensors(
     let recorded = || {
         let (name, t_s, speed_m_s) = recorded_speed(&imported.recording)?;
         let speed = format!("{} km/h", placed_text::number((speed_m_s * 3.6e3).round() / 1e3));
-        notes.push(format!("`speed` is {name} at {} s, {speed}; --speed says otherwise", placed_text::number(t_s)));
+        notes.push(format!("`speed` is {name} at {} s, {speed}; change it with --speed", placed_text::number(t_s)));
         Some(speed)
     };
     let told = request.speed.map(str::to_owned).or(known).or_else(recorded);
     let speed_m_s = told.as_deref().and_then(|speed| super::speed(speed).ok());
     let speed = told.unwrap_or_else(|| {
-        notes.push("how fast the vehicle went is not told: `speed` is a guess of 50 km/h; --speed says it".to_owned());
+        notes.push(
+            "the record has no vehicle speed: `speed` is set to 50 km/h; give the real one with --speed".to_owned(),
+        );
         "50 km/h".to_owned()
     });
     let mut keys = vec!["kind = \"sensors\"".to_owned(), format!("speed = {}", text(&speed))];
@@ -184,7 +186,7 @@ fn recorded_speed(recording: &Recording) -> Option<(&str, f64, f64)> {
 }
 
 fn other_filter(expected: &str) -> Failure {
-    Failure::with_help("--filter does not go with this record", &format!("give {expected}"))
+    Failure::with_help("--filter does not apply to this record", &format!("give {expected}"))
 }
 
 /// The keys of a path of places and angles, the first its kind.
@@ -196,7 +198,9 @@ fn keys_of_places(request: &Request) -> Result<Vec<String>, Failure> {
         Some(PathFilter::Frequency(hertz)) => {
             Some(format!("filter = \"{hertz} Hz\"             # smooths the table from here on"))
         }
-        Some(PathFilter::Class(_)) => return Err(other_filter("a frequency for places and angles, such as '15 Hz'")),
+        Some(PathFilter::Class(_)) => {
+            return Err(other_filter("a frequency for positions and angles, such as '15 Hz'"));
+        }
     };
     let after = "after = \"coast\"             # beyond the last row".to_owned();
     Ok(["kind = \"table\"".to_owned()].into_iter().chain(offset).chain(filter).chain([after]).collect())

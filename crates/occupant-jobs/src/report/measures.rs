@@ -70,9 +70,9 @@ pub fn measures(summary: &Summary, ride: &RideDown, units: Units) -> Vec<Measure
         rows.push(Measure { value: Some(value), ..Measure::new(group, name, figure, unit) });
     };
     let percent = Unit::One.shown_in("%");
-    let imbalance = format!("Greatest imbalance, of the {}", energy.reference);
+    let imbalance = format!("Largest energy imbalance, of the {}", energy.reference);
     add(&imbalance, "energy.balance_error", 100.0 * energy.balance_error, percent);
-    let kinetic = "Greatest kinetic energy, in the vehicle";
+    let kinetic = "Largest kinetic energy, relative to the vehicle";
     let joule = engineering(Unit::Joule, units);
     add(kinetic, "energy.greatest_kinetic", energy.greatest_kinetic_j * joule.per_si(), joule);
     rows.into_iter().map(|row| row.judged(&summary.caveats)).collect()
@@ -160,12 +160,12 @@ fn add_ride_down(rows: &mut Vec<Measure>, ride: &RideDown, units: Units) {
     };
     for stopped in ride.stopped() {
         let (part, figure) = (&stopped.part, |what: &str| format!("ride_down.{}.{what}", word(&stopped.part)));
-        let remark = "way of the vehicle while it is slowed: from the loss of 2 % of its speed to its greatest excursion ahead; with the way ahead in the vehicle it is its stopping distance";
+        let remark = "travel of the vehicle while the part decelerates: from a loss of 2 % of its speed to its largest forward excursion. Added to the excursion in the vehicle, it is the stopping distance";
         add(format!("{part}, ride-down distance"), figure("distance"), stopped.ride_down_m, length, Some(remark));
         add(format!("{part}, way ahead in the vehicle"), figure("in_vehicle"), stopped.in_vehicle_m, length, None);
     }
     if let Some(share) = ride.share() {
-        let remark = "work of the body on the moving vehicle, of its kinetic energy at the start";
+        let remark = "work of the body on the moving vehicle, as a fraction of its initial kinetic energy";
         add(
             "Kinetic energy ridden down".to_owned(),
             "ride_down.share".to_owned(),
@@ -175,7 +175,7 @@ fn add_ride_down(rows: &mut Vec<Measure>, ride: &RideDown, units: Units) {
         );
     }
     for (name, work_j) in ride.works_j() {
-        add(format!("Work taken up by {name}"), format!("work.{}", word(&name)), work_j, joule, None);
+        add(format!("Energy absorbed by {name}"), format!("work.{}", word(&name)), work_j, joule, None);
     }
 }
 
@@ -185,7 +185,7 @@ fn add_ejections(rows: &mut Vec<Measure>, summary: &Summary) {
     for (name, ejection) in &summary.ejections {
         let prefix = if name.is_empty() { String::new() } else { format!("{name}.") };
         let (verdict, at_s) = match ejection.complete_s {
-            Some(complete_s) => ("complete: all outside at one time", Some(complete_s)),
+            Some(complete_s) => ("complete: the whole body outside at one time", Some(complete_s)),
             None => ("partial", ejection.parts.first().map(|exit| exit.time_s)),
         };
         let (figure, unit) = (format!("{prefix}ejection.parts"), Unit::One.shown());

@@ -155,8 +155,8 @@ impl Figures {
     /// An average after the impact of the occupant.
     fn ridedown(&mut self, name: &str, key: &str, average: Option<WindowExtreme>, impact_s: Option<f64>) {
         let average = average.ok_or(match impact_s {
-            Some(_) => "the record ends less than 10 ms after the impact of the occupant",
-            None => "the occupant never meets the interior within the record",
+            Some(_) => "the record ends less than 10 ms after the occupant impact",
+            None => "the occupant does not reach the interior within the record",
         });
         if let Some(average) = self.measured(name, &average) {
             self.window(name, key, average);

@@ -51,14 +51,14 @@ impl Intervals {
         let SensorErrors { gain, offset_m_s2, rate_rad_s, angle_rad, place_m } = self.errors;
         let bounds = [
             (gain, format!("gain {} %", 100.0 * gain)),
-            (offset_m_s2, format!("zero of accelerations {:.4} g", offset_m_s2 / STANDARD_GRAVITY_MPS2)),
-            (rate_rad_s, format!("zero of rates {:.3} deg/s", rate_rad_s.to_degrees())),
+            (offset_m_s2, format!("acceleration offset {:.4} g", offset_m_s2 / STANDARD_GRAVITY_MPS2)),
+            (rate_rad_s, format!("rate offset {:.3} deg/s", rate_rad_s.to_degrees())),
             (angle_rad, format!("mounting {:.3} deg", angle_rad.to_degrees())),
             (place_m, format!("place {} mm", 1e3 * place_m)),
         ];
         let told: Vec<String> = bounds.into_iter().filter(|(bound, _)| *bound > 0.0).map(|(_, words)| words).collect();
         format!(
-            "95 % of {MEMBERS} records (Monte Carlo) whose sensors have errors drawn evenly within plus and minus: {}",
+            "95 % interval of {MEMBERS} records (Monte Carlo), with sensor errors drawn uniformly within ±: {}",
             told.join(", ")
         )
     }

@@ -64,8 +64,7 @@ impl Report {
         let judgements = judge(&risk, if rules.is_empty() { &ROADSIDE_RULES } else { rules });
         let left = risk.asi_left_at_end.filter(|left| *left > LEFT_AT_END).map(|left| {
             format!(
-                "the record ends at {} s while the vehicle is still accelerated: ASI (2010) has {:.0} % of its maximum there, beyond its end the mean of the last \
-                 50 ms was taken to go on, and what a longer record would give is not known",
+                "the record ends at {} s while the vehicle still accelerates: ASI (2010) is there {:.0} % of its maximum. The mean of the last 50 ms is assumed to continue; a longer record may give other values",
                 placed_text::number(signals.end_s()),
                 100.0 * left
             )
@@ -116,7 +115,7 @@ impl Report {
                     (rule.name(), Some(grade.name()), bounds(&|j| [grade, Grade::Maximum].contains(&j.limit.grade)))
                 }
                 Attained::Beyond(limit) => (rule.name(), None, format!("beyond {}", bounds(&|j| j.limit == limit))),
-                Attained::NotMeasured(measure) => (rule.name(), None, format!("not known: {measure} was not measured")),
+                Attained::NotMeasured(measure) => (rule.name(), None, format!("unknown: {measure} was not measured")),
             })
         };
         rules.into_iter().filter_map(of).collect()

@@ -31,10 +31,10 @@ pub fn page(report: &Report, units: Option<UnitSystem>, origin: &[(&str, String)
     html.raw(&format!("<style>\n{}\n{OWN_STYLE}\n{PRINT}</style>\n", STYLE.trim_end()));
     html.raw("</head>\n<body>\n<div id=\"report\" class=\"study\">\n<header>\n");
     html.text("h1", &title);
-    html.text("p", "What the vehicle’s motion alone says of the risk to its occupants");
+    html.text("p", "Occupant risk from the vehicle’s motion alone");
     html.raw("</header>\n");
     html.raw(&sections(report, units));
-    html.text("h2", "Where it comes from");
+    html.text("h2", "Source");
     let made = [("report made by", program())];
     html.facts(&[origin, &made].concat());
     html.raw("</div>\n</body>\n</html>\n");
@@ -124,9 +124,9 @@ fn limits(html: &mut Html, report: &Report, units: Option<UnitSystem>) {
     html.table(&heads, &report.judgements.iter().map(row).collect::<Vec<_>>());
     let sources: Vec<String> =
         documents(&report.judgements).into_iter().map(|(rules, document)| format!("{rules}: {document}.")).collect();
-    html.text("p class=\"remark\"", &format!("Where the limits stand. {}", sources.join(" ")));
+    html.text("p class=\"remark\"", &format!("Sources of the limits. {}", sources.join(" ")));
     html.text(
         "p class=\"remark\"",
-        "The rules themselves were not at hand: for a legal statement, check the rule. An intermediate class or level that is exceeded breaks no rule.",
+        "Limits come from secondary sources: check the rule itself before a legal statement. Exceeding an intermediate class or level does not break a rule.",
     );
 }

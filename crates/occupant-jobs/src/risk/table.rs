@@ -33,20 +33,20 @@ pub(super) fn head(report: &Report) -> Vec<(&'static str, String)> {
     let [x, y, z] = preparation.offset_m;
     let place = match preparation.offset_m {
         [0.0, 0.0, 0.0] => "at the centre of gravity".to_owned(),
-        _ => format!("({x}, {y}, {z}) m from the centre of gravity; moved to it"),
+        _ => format!("({x}, {y}, {z}) m from the centre of gravity; transferred to it"),
     };
     let gravity = match (report.subject.source, preparation.gravity) {
-        (Source::Recorded, VerticalGravity::Included) => "in az: 1 g was added to it",
-        (Source::Recorded, VerticalGravity::Removed) => "taken as not in the accelerations",
+        (Source::Recorded, VerticalGravity::Included) => "in az: 1 g is added",
+        (Source::Recorded, VerticalGravity::Removed) => "assumed not in the accelerations",
         _ => "not in the accelerations",
     };
     let flight = &report.flight;
     let zero = match preparation.baseline_s {
-        [None, _] => "taken as it is".to_owned(),
-        [Some(start_s), None] => format!("the mean of the first {} ms taken away", 1e3 * start_s),
+        [None, _] => "unchanged".to_owned(),
+        [Some(start_s), None] => format!("minus the mean of the first {} ms", 1e3 * start_s),
         [Some(start_s), Some(end_s)] => {
             format!(
-                "a straight line from the mean of the first {} ms to that of the last {} ms taken away",
+                "minus a straight line from the mean of the first {} ms to that of the last {} ms",
                 1e3 * start_s,
                 1e3 * end_s
             )
@@ -65,14 +65,14 @@ pub(super) fn head(report: &Report) -> Vec<(&'static str, String)> {
                 signals.start_s
             ),
         ),
-        ("filter", filter_name(preparation).unwrap_or_else(|| "none: taken as filtered already".to_owned())),
+        ("filter", filter_name(preparation).unwrap_or_else(|| "none: assumed to be filtered already".to_owned())),
         ("sensors", place),
         ("zero", zero),
         ("gravity", gravity.to_owned()),
         (
             "occupant",
             format!(
-                "free over {} m forward and back, {} m to either side; head of THIV {} m ahead of the centre of gravity",
+                "flail distance {} m forward and back, {} m to each side; THIV head {} m ahead of the centre of gravity",
                 flight.distances.longitudinal_m, flight.distances.lateral_m, flight.head.start_x_m
             ),
         ),
@@ -101,8 +101,7 @@ pub fn source_name(report: &Report) -> &'static str {
         Source::Recorded => "recorded",
         Source::Path => "path of a scenario, sampled",
         Source::PathOfStraightLines => {
-            "path of a scenario with straight lines between stations: its velocity jumps at them, and what is \
-             measured depends on the filter"
+            "path of a scenario with straight lines between stations: the velocity jumps at each, so the results depend on the filter"
         }
     }
 }

@@ -11,7 +11,7 @@ use occupant_core::run::simulate::attempt;
 use serde::Serialize;
 
 use crate::base::text_table::{facts, number};
-use crate::base::{Failure, Interrupt, Units};
+use crate::base::{Failure, Interrupt, Show, Units};
 use crate::files::scenario::Opened;
 
 /// A figure that differs by more than this part of itself is named in the table.
@@ -77,6 +77,7 @@ pub fn estimate(
     summary: &Summary,
     path: &[Point3<f64>],
     interrupt: &Interrupt,
+    show: Show,
 ) -> Result<ErrorEstimate, Failure> {
     let unfinished = |reason: String| Failure::broke_off(format!("the error cannot be estimated: {reason}"));
     let setup = opened.model.setup();
@@ -84,8 +85,13 @@ pub fn estimate(
     let model = Model::new(Setup { integrator, ..setup.clone() })
         .map_err(|problems| unfinished(opened.loaded.diagnose(&problems).to_string()))?;
     let (mut summarizer, mut finer_path) = (Summarizer::new(), Vec::new());
-    let head = Watch(|sample: &Sample<'_>| finer_path.push(head_m(sample)));
+    let bar = show.bar(model.output_count() as u64, "outputs of the finer run");
+    let head = Watch(|sample: &Sample<'_>| {
+        finer_path.push(head_m(sample));
+        bar.iter().for_each(|bar| bar.set_position(sample.index as u64 + 1));
+    });
     let outcome = attempt(&model, (interrupt.clone(), (&mut summarizer, head)));
+    bar.iter().for_each(|bar| bar.clear());
     let outcome = outcome.map_err(|error| unfinished(error.to_string()))?;
     match (outcome.status, summarizer.summary(None)) {
         (Status::Completed, Some(finer)) => Ok(ErrorEstimate {
@@ -147,18 +153,18 @@ impl ErrorEstimate {
         off.sort_by(|a, b| b.relative().total_cmp(&a.relative()));
         let named = off.iter().take(MOST_NAMED).map(|f| format!("{} {} %", f.name, number(100.0 * f.relative(), 1)));
         let figures = match (named.collect::<Vec<_>>().join(", "), off.len().saturating_sub(MOST_NAMED)) {
-            (none, _) if none.is_empty() => "no figure by more than 0.1 %".to_owned(),
+            (none, _) if none.is_empty() => "no result by more than 0.1 %".to_owned(),
             (some, 0) => some,
             (some, more) => format!("{some} and {more} more above 0.1 %"),
         };
         let mut lines = vec![
             ("integration error", format!("head path {}; {figures}", units.say(self.head_path_m * 1e3, "mm", 3))),
-            ("", format!("estimated against {}, {} evaluations", self.against, self.evaluations)),
+            ("", format!("estimated from {}, {} evaluations", self.against, self.evaluations)),
         ];
         if self.head_path_m > CHAOTIC_M {
             lines.push((
                 "",
-                "the motion makes much of little: quote what is stable in an ensemble (--ensemble)".to_owned(),
+                "the motion amplifies small differences: quote only results that are stable in an ensemble (--ensemble)".to_owned(),
             ));
         }
         facts(&lines)

@@ -79,6 +79,6 @@ pub fn run(
     let wall_time_s = began.elapsed().as_secs_f64();
     let completed = outcome.status == Status::Completed;
     let written = recording.close(completed)?;
-    let summary = summarizer.summary(Some(wall_time_s)).ok_or_else(|| Failure::plain("the run left no summary"))?;
+    let summary = summarizer.summary(Some(wall_time_s)).ok_or_else(|| Failure::plain("the run has no summary"))?;
     Ok(Simulated { completed, summary, friction, histories, head, written })
 }

@@ -47,7 +47,7 @@ impl Written {
     pub fn left(&self) -> String {
         match self.name() {
             Some(name) => format!("the run itself is in {name}"),
-            None => "the run itself was completed; no file was asked for".to_owned(),
+            None => "the run itself was completed, without a file".to_owned(),
         }
     }
 }
@@ -155,10 +155,10 @@ fn unwritten(partial: &Path, error: &(dyn Error + 'static)) -> Failure {
 /// What the file says of where it comes from. Nothing in it depends on the day or the machine.
 fn about(args: &ScenarioArgs, opened: &Opened) -> Result<About, Failure> {
     let resolved = opened.loaded.explicit().to_toml();
-    let resolved = resolved.map_err(|e| Failure::plain(format!("the scenario cannot be written down: {e}")))?;
+    let resolved = resolved.map_err(|e| Failure::plain(format!("the scenario cannot be written: {e}")))?;
     // nothing is written that is refused when it is read
     input_file::scenario_fits(resolved.as_bytes()).map_err(|error| {
-        let found = format!("the scenario with all that it leaves out is too long for a result file: {error}");
+        let found = format!("the scenario, with all defaults written out, is too long for a result file: {error}");
         Failure::with_help(found, "shorten its lists and notes, or use --no-mcap")
     })?;
     let media_type = match args.scenario.extension() {

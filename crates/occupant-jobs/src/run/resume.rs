@@ -48,19 +48,19 @@ impl Resumption {
     pub fn find(file: &Path, opened: &Opened) -> Result<Self, Failure> {
         let name = file.display();
         let bytes =
-            input_file::bytes(file).map_err(|e| Failure::plain(format!("{name}, to resume, cannot be read: {e}")))?;
+            input_file::bytes(file).map_err(|e| Failure::plain(format!("{name} cannot be read to resume it: {e}")))?;
         let stored = StoredRun::read(&bytes).map_err(|e| Failure::plain(format!("{name} cannot be resumed: {e}")))?;
         let Some(last) = stored.checkpoints.last() else {
             return Err(Failure::with_help(
-                format!("{name} holds no checkpoint{}", stored.because()),
-                "only a results file of `occupant run` does, from its first complete chunk on; run the scenario from its start",
+                format!("{name} has no checkpoint{}", stored.because()),
+                "checkpoints are in results of `occupant run`, from the first complete chunk on; run the scenario from its start",
             ));
         };
         same_scenario(file, &stored, opened)?;
         let end_s = opened.model.setup().time.end_s;
         if end_s <= last.time_s {
             return Err(Failure::with_help(
-                format!("{name} reaches t = {} s, and the run is to end at {} s", number(last.time_s), number(end_s)),
+                format!("{name} reaches t = {} s; the run ends at {} s", number(last.time_s), number(end_s)),
                 "give a later end with --until TIME",
             ));
         }
@@ -89,7 +89,7 @@ impl Resumption {
         let first = self.earlier.first().unwrap_or(&self.checkpoint);
         if first.index > 0 {
             say(&format!(
-                "note: {file} was itself resumed and begins at t = {} s; peaks and 3 ms levels of the summary count from there",
+                "note: {file} was itself resumed and starts at t = {} s; peaks and 3 ms levels of the summary count from there",
                 first.time_s
             ));
         }
@@ -112,7 +112,7 @@ impl Resumption {
         if !same(target) && !same(partial) {
             return Ok(());
         }
-        let found = format!("{} would write over {}, which it resumes", target.display(), self.file.display());
+        let found = format!("{} would overwrite {}, which it resumes", target.display(), self.file.display());
         Err(Failure::with_help(found, "choose another name with -o FILE.mcap"))
     }
 }
@@ -135,7 +135,7 @@ fn last_fitting(
     }
     Err(match reason {
         Some(error) => refused(error),
-        None => Failure::plain(format!("{} holds no checkpoint", file.display())),
+        None => Failure::plain(format!("{} has no checkpoint", file.display())),
     })
 }
 
@@ -150,7 +150,7 @@ fn same_scenario(file: &Path, stored: &StoredRun, opened: &Opened) -> Result<(),
         found.push("the content of a path's table".to_owned());
     }
     if found.is_empty() && model.setup().integrator != opened.model.setup().integrator {
-        found.push("the tolerances, which go by the length of the run where none is written".to_owned());
+        found.push("the tolerances, which depend on the length of the run unless given".to_owned());
     }
     if !found.is_empty() {
         let more = found.len().saturating_sub(SHOWN);
@@ -163,7 +163,7 @@ fn same_scenario(file: &Path, stored: &StoredRun, opened: &Opened) -> Result<(),
             n => format!("{n} differences"),
         };
         return Err(Failure::with_help(
-            format!("{name} is of another scenario: {count} (there → here){lines}"),
+            format!("{name} is a run of another scenario: {count} (there → here){lines}"),
             "resume with the same scenario and the same --set, or run from the start",
         ));
     }
@@ -173,7 +173,7 @@ fn same_scenario(file: &Path, stored: &StoredRun, opened: &Opened) -> Result<(),
     let theirs = stored.run.get("program").map_or("?", String::as_str);
     if theirs != program() {
         say(&format!(
-            "warning: {name} was written by {theirs}, this is {}: the states before and after may not be of one run to the last bit",
+            "warning: {name} was written by {theirs}, this is {}: the states before and after may differ in the last bits",
             program()
         ));
     }

@@ -129,10 +129,10 @@ fn described(flag: &str, problem: &Problem) -> String {
 /// The figures of the plain run.
 fn figures(model: &Model) -> Result<Vec<Figure>, Failure> {
     let mut summarizer = Summarizer::new();
-    let broken = |e| Failure::broke_off(format!("the run broke off: {e}"));
+    let broken = |e| Failure::broke_off(format!("the run stopped: {e}"));
     let outcome = attempt(model, &mut summarizer).map_err(broken)?;
     if let Status::Failed(reason) = outcome.status {
-        return Err(Failure::broke_off(format!("the run was not completed, so it has no derivative: {reason}")));
+        return Err(Failure::broke_off(format!("the run did not complete, so it has no derivative: {reason}")));
     }
     let summary = summarizer.summary(None);
     Ok(summary.map_or_else(Vec::new, |s| s.figures(model)))
@@ -175,7 +175,7 @@ pub fn analyse(model: &Model, asked: &Asked<'_>) -> Result<Analysis, Failure> {
         all.iter_mut().zip(of).for_each(|(all, of)| all.channels = of.channels);
         trajectory = Some(found);
     }
-    let Some(trajectory) = trajectory else { return Err(Failure::CouldNotRun("nothing is asked for".to_owned())) };
+    let Some(trajectory) = trajectory else { return Err(Failure::CouldNotRun("nothing was asked for".to_owned())) };
     let checked: &[Parameter<'_>] = if names.is_empty() { &[] } else { &asked.parameters };
     let neighbours = neighbours(model, checked, mean_step_s(model, &trajectory), names);
     let compare = |(k, parameter): (usize, &Parameter<'_>)| {

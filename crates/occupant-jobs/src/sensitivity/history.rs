@@ -42,8 +42,7 @@ pub fn about(model: &Model, asked: &Asked<'_>, analysis: &Analysis, [source, sha
     }
     let events = analysis.trajectory.events.len();
     let mut notes: Vec<String> = analysis.built.iter().flat_map(|b| b.notes.clone()).collect();
-    notes
-        .push(format!("derivatives at fixed times, in SI units; {events} places of the run where they are not smooth"));
+    notes.push(format!("derivatives at fixed times, in SI units; {events} times at which they are not smooth"));
     About {
         program: program(),
         title: model.setup().title.clone(),

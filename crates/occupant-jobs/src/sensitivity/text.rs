@@ -21,9 +21,9 @@ pub fn text(model: &Model, asked: &Asked<'_>, analysis: &Analysis, units: Units)
         text.push('\n');
         text.push_str(&table(asked, analysis, units));
         text.push_str(&format!(
-            "\nrelative: % of the measure per % of the parameter. holds: of finite changes to both sides, run in full at a\n\
-             hundredth of the tolerances, the slopes differ from the derivative by no more than this part of it; more than {} %\n\
-             does not hold. Straight: so far a straight line holds as well.\n",
+            "\nrelative: % of the measure per % of the parameter. holds: the largest difference between the derivative and the\n\
+             slopes of full runs with changes to both sides, at a hundredth of the tolerances; above {} % the derivative does\n\
+             not hold. straight: the range over which a straight line holds as well.\n",
             100.0 * HOLDS
         ));
         text.push_str(&reasons(analysis));
@@ -39,7 +39,7 @@ pub fn text(model: &Model, asked: &Asked<'_>, analysis: &Analysis, units: Units)
     for (parameter, built) in asked.parameters.iter().zip(&analysis.built) {
         if let Some((doubt, time_s)) = built.path_doubt().filter(|(doubt, _)| *doubt > KINK) {
             text.push_str(&format!(
-                "note: {}: the vehicle's motion has a kink at this value (at {:.1} ms, by {:.0} %): the two sides differ\n",
+                "note: {}: the vehicle's motion has a kink at this value (at {:.1} ms, by {:.0} %), so the two sides differ\n",
                 parameter.name,
                 time_s * 1e3,
                 doubt * 100.0
@@ -55,7 +55,7 @@ fn heading(model: &Model, asked: &Asked<'_>, analysis: &Analysis) -> String {
     let constants = worst(&mut analysis.built.iter().map(|b| b.doubt));
     let figures = analysis.derivatives.iter().flat_map(|d| &d.figures);
     let figures = worst(&mut figures.filter(|s| s.value != 0.0).map(|s| s.doubt / s.value.abs()));
-    let mut accuracy = format!("the start and all constants to {constants:.0e}");
+    let mut accuracy = format!("initial state and constants to {constants:.0e}");
     if let Some((doubt, time_s)) =
         analysis.built.iter().filter_map(|b| b.path_doubt()).max_by(|a, b| a.0.total_cmp(&b.0))
     {
@@ -75,13 +75,13 @@ fn heading(model: &Model, asked: &Asked<'_>, analysis: &Analysis) -> String {
         (
             "run",
             format!(
-                "{} steps to {:.1} ms{tightly}; every value of the run in dual numbers is that of the plain run to the bit",
+                "{} steps to {:.1} ms{tightly}; the run in dual numbers equals the plain run to the last bit",
                 outcome.effort.steps,
                 outcome.time_s * 1e3
             ),
         ),
         ("extrapolated", accuracy),
-        ("cost", format!("{:.1} times the plain run for {count}", dual / plain)),
+        ("cost", format!("{:.1} times the plain run, for {count}", dual / plain)),
     ])
 }
 
@@ -162,7 +162,7 @@ fn words(verdict: &Verdict, of_zero: bool) -> String {
         Verdict::DoesNotHold { off, at, why } => {
             format!("does not hold ({}): {} off at ±{}", why.name(), percent(off), part(at))
         }
-        Verdict::Unchecked => "not checked: no run beside it".to_owned(),
+        Verdict::Unchecked => "not checked: no comparison run".to_owned(),
     }
 }
 
@@ -193,7 +193,7 @@ fn events(model: &Model, events: &[Event], units: Units) -> String {
     let is_listed = |e: &&Event| e.change == Change::Jump || MINOR.iter().all(|(minor, _)| !is(e, *minor));
     let jumps = events.iter().filter(|e| e.change == Change::Jump).count();
     let mut text = format!(
-        "{} places where the motion is not smooth: {jumps} where a force jumps, {} where it bends\n",
+        "the motion is not smooth at {} times: a force jumps at {jumps}, a slope changes at {}\n",
         events.len(),
         events.len() - jumps
     );
@@ -210,10 +210,10 @@ fn events(model: &Model, events: &[Event], units: Units) -> String {
     }
     let [unload, reload, stiffen, reverse] =
         MINOR.map(|(minor, words)| format!("{words} {} times", events.iter().filter(|e| is(e, minor)).count()));
-    text.push_str(&format!("besides: {unload}, {reload}, {stiffen}; {reverse}\n"));
+    text.push_str(&format!("also: {unload}, {reload}, {stiffen}; {reverse}\n"));
     if jumps > 0 {
         text.push_str(
-            "Where a force of a contact jumps the derivative lacks the jump times the shift of its instant; the finite changes have it.\n",
+            "Where a contact force jumps, the derivative lacks the jump times the shift of its time; the finite changes include it.\n",
         );
     }
     text

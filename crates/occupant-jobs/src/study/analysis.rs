@@ -139,11 +139,9 @@ impl Linear {
     fn of(samples: &Samples, values: &[f64], study: &Study) -> Linear {
         let without = match &study.design {
             Design::Morris { .. } => {
-                "the runs of Morris’s trajectories depend on one another: rank correlation and regression would claim too much"
+                "the runs of Morris trajectories depend on one another, so rank correlation and regression would not be valid"
             }
-            Design::OneAtATime { .. } => {
-                "one parameter at a time says nothing of them together: the tornado is all there is"
-            }
+            Design::OneAtATime { .. } => "a one-at-a-time design shows no interactions: only the tornado is available",
             _ => "",
         };
         if !without.is_empty() {
@@ -173,7 +171,7 @@ fn fit(inputs: &[Input], rows: &[usize], values: &[f64], seed: u64) -> Result<(V
     let among = |i: &usize| inputs[*i].is_number() && inputs[*i].varies();
     let which: Vec<usize> = (0..inputs.len()).filter(among).collect();
     if which.is_empty() {
-        return Err("no parameter is a number that varies".to_owned());
+        return Err("no parameter is a varying number".to_owned());
     }
     let most = (REGRESSION_WORK / (which.len() + 1).pow(2)).clamp(200, REGRESSION_ROWS);
     let every = rows.len().div_ceil(most).max(1);
@@ -242,7 +240,7 @@ fn morris(samples: &Samples, values: &[f64], seed: u64) -> Result<Vec<Effect>, S
 fn reaches(samples: &Samples, values: &[f64]) -> Result<Vec<Reach>, String> {
     let base = samples.roles.iter().position(|r| *r == Role::Nominal);
     let nominal = base.map(|row| values[row]).filter(|x| x.is_finite());
-    let nominal = nominal.ok_or("the run of the base has no such figure")?;
+    let nominal = nominal.ok_or("the base run has no such result")?;
     let none = |input: &Input| Reach { nominal, levels: Vec::new(), missing: 0, ordered: input.is_number() };
     let mut reaches: Vec<Reach> = samples.inputs.iter().map(none).collect();
     for (row, role) in samples.roles.iter().enumerate() {
@@ -262,7 +260,7 @@ fn reaches(samples: &Samples, values: &[f64]) -> Result<Vec<Reach>, String> {
 fn said(error: &AnalysisError) -> String {
     match error {
         AnalysisError::Constant { parameter: Some(_) } => "a parameter is the same in all rows".to_owned(),
-        AnalysisError::Constant { parameter: None } => "the figure is the same in all rows".to_owned(),
+        AnalysisError::Constant { parameter: None } => "the result is the same in all rows".to_owned(),
         e => e.to_string(),
     }
 }

@@ -12,7 +12,7 @@ use occupant_study::engine::Engine;
 use occupant_study::spread::Rule;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 
-use crate::base::{Existing, Failure, Interrupt, say};
+use crate::base::{Existing, Failure, Interrupt, Show, say};
 use crate::ensemble::bands::{choose, refuse_too_much};
 use crate::ensemble::{Bands, Left, Member, Members};
 use crate::files::study_folder::Checksums;
@@ -39,6 +39,8 @@ pub struct StudyBands<'a> {
     pub interrupt: &'a Interrupt,
     /// Which of the files are as they were written.
     pub sums: Checksums,
+    /// What it shows of its way.
+    pub show: Show,
 }
 
 /// What is there of a sample.
@@ -55,24 +57,26 @@ impl StudyBands<'_> {
     ///
     /// # Errors
     /// Files of something else that may not be replaced; interrupted; the operating system refuses.
-    pub fn write_all(&self, existing: Existing, quiet: bool) -> Result<(), Failure> {
+    pub fn write_all(&self, existing: Existing) -> Result<(), Failure> {
         let samples = self.plan.study.samples();
         let mut all = 0..samples;
         if existing == Existing::Keep
             && let Some(sample) = all.find(|s| self.there(*s) == There::Other)
         {
             return Err(Failure::with_help(
-                format!("{} holds other bands", self.file(sample).display()),
-                "--force replaces them; the same --channel resume",
+                format!("{} contains other bands", self.file(sample).display()),
+                "--force replaces them; the same --channel resumes",
             ));
         }
         fs::create_dir_all(&self.folder)
             .map_err(|e| Failure::plain(format!("{} cannot be made: {e}", self.folder.display())))?;
         tell_damaged(&self.sums.damaged());
         for sample in (0..samples).filter(|s| self.there(*s) != There::Bands) {
-            let done = format!("the bands of {sample} of {samples} samples are there; the same command resumes");
+            let done = format!(
+                "the bands of {sample} of {samples} samples are complete; run the same command again to resume"
+            );
             self.write(sample).map_err(|failure| failure.with_done(&done))?;
-            if !quiet {
+            if !self.show.quiet {
                 say(&format!("sample {sample}: {}", self.file(sample).display()));
             }
         }
@@ -115,13 +119,14 @@ impl StudyBands<'_> {
         let study = &self.plan.study;
         let runs = sample * study.members()..(sample + 1) * study.members();
         let channels = self.channels_of(runs.start)?;
+        let bar = self.show.bar(study.members(), &format!("runs of sample {sample} of {}", study.samples()));
         let members = Members {
             study,
             runs,
             resolver: &|name: &str| self.plan.tables.get(name),
             channels: &channels,
             interrupt: self.interrupt,
-            bar: None,
+            bar: bar.as_deref(),
         };
         let members = members.run(self.engine)?;
         self.publish(sample, &channels, &members)

@@ -36,26 +36,24 @@ const NAMED: usize = 3;
 /// The rules, for the page and the documentation.
 pub fn rules() -> [String; 8] {
     [
-        format!("a Sobol index whose 95 % interval is wider than {INDEX_WIDTH}: its first digit is not known"),
-        format!(
-            "a Sobol index that fewer than {CARRYING} points carry: its interval does not know what they have missed"
-        ),
+        format!("a Sobol index whose 95 % interval is wider than {INDEX_WIDTH}: its first digit is unknown"),
+        format!("a Sobol index that depends on fewer than {CARRYING} points: its interval is too narrow"),
         format!(
             "a Morris effect with fewer than {TRAJECTORIES} trajectories, or whose interval is wider than the effect"
         ),
-        format!("a rank correlation of fewer than {RANKED_ROWS} rows"),
+        format!("a rank correlation with fewer than {RANKED_ROWS} rows"),
         format!(
-            "a regression of fewer than {ROWS_PER_PARAMETER} rows for each parameter, or one that explains less than {EXPLAINED} of the variance"
+            "a regression with fewer than {ROWS_PER_PARAMETER} rows per parameter, or one that explains less than {EXPLAINED} of the variance"
         ),
         format!(
-            "every number of a response that more than {:.0} % of the runs lack: runs seldom fail by chance",
+            "every number of a response that is missing in more than {:.0} % of the runs, because runs seldom fail by chance",
             100.0 * MISSING
         ),
         format!(
-            "every number of a response that caveats spoil in more than {:.0} % of the runs, and a worst or best run with a caveat on it",
+            "every number of a response with caveats in more than {:.0} % of the runs, and a worst or best run with a caveat",
             100.0 * MISSING
         ),
-        "the unfinished part of a study is not there: its design holds for the whole only".to_owned(),
+        "an unfinished study: its design is valid only as a whole".to_owned(),
     ]
 }
 
@@ -77,7 +75,7 @@ pub fn regression(found: &Regression) -> Option<String> {
 pub fn index(index: &Estimate, parameter: usize, found: &SobolIndices) -> Option<String> {
     if part(found.dropped, found.points + found.dropped) > MISSING {
         let all = found.points + found.dropped;
-        return Some(format!("{} of {all} points have runs without a figure", found.dropped));
+        return Some(format!("{} of {all} points have runs without a result", found.dropped));
     }
     let unknown = !index.width().is_finite() || index.width() > INDEX_WIDTH;
     if unknown {
@@ -85,7 +83,7 @@ pub fn index(index: &Estimate, parameter: usize, found: &SobolIndices) -> Option
     }
     match found.carrying.get(parameter) {
         Some(0.0) if found.points < UNSEEN => Some(format!("none of {} points shows an effect", found.points)),
-        Some(few) if (0.5..CARRYING).contains(few) => Some(format!("carried by {few:.0} of {} points", found.points)),
+        Some(few) if (0.5..CARRYING).contains(few) => Some(format!("depends on {few:.0} of {} points", found.points)),
         _ => None,
     }
 }
@@ -108,12 +106,12 @@ pub fn lacking(spread: Option<&Spread>) -> Option<String> {
 pub fn spoiled(found: &Spoiled) -> Option<String> {
     let Spoiled { runs, of, names } = found;
     let names = || names.iter().map(String::as_str).collect::<Vec<_>>().join(", ");
-    (part(*runs, *of) > MISSING).then(|| format!("{runs} of {of} runs have caveats on this figure: {}", names()))
+    (part(*runs, *of) > MISSING).then(|| format!("{runs} of {of} runs have caveats on this result: {}", names()))
 }
 
 fn missing(missing: usize, rows: usize) -> Option<String> {
     let most = part(missing, rows) > MISSING;
-    most.then(|| format!("{missing} of {rows} samples have no such figure: what is said holds for the others only"))
+    most.then(|| format!("{missing} of {rows} samples lack this result: the statements apply only to the others"))
 }
 
 fn part(some: usize, all: usize) -> f64 {
@@ -126,7 +124,7 @@ pub fn of_the_study(opened: &Stored, gathered: &Gathered) -> Vec<String> {
     let mut notes = opened.notes.clone();
     if ends.finished() < ends.planned {
         notes.push(format!(
-            "The study is not finished: {} of {} runs. Numbers are those of the runs that are there.",
+            "The study is not finished: {} of {} runs. Numbers are those of the finished runs.",
             ends.finished(),
             ends.planned
         ));
@@ -134,13 +132,13 @@ pub fn of_the_study(opened: &Stored, gathered: &Gathered) -> Vec<String> {
     let lost = ends.without_figures();
     if lost as f64 > MISSING * ends.finished() as f64 {
         notes.push(format!(
-            "{lost} of {} runs have no figures that count. Runs seldom fail by chance: what is said of the others need not hold for all.",
+            "{lost} of {} runs have no valid results. Runs seldom fail by chance, so statements about the others may not apply to all.",
             ends.finished()
         ));
     }
     let caveats: Vec<String> = ends.caveats().collect();
     if !caveats.is_empty() {
-        let help = "`occupant run` of such a run says what was seen and which figures it spoils.";
+        let help = "`occupant run` of such a sample explains the caveats and the results they affect.";
         notes.push(format!("Caveats. {}. {help}", caveats.join("; ")));
     }
     let study = &opened.plan.study;
@@ -149,8 +147,7 @@ pub fn of_the_study(opened: &Stored, gathered: &Gathered) -> Vec<String> {
     }
     if study.parameters.is_empty() && study.design == Design::Single {
         notes.push(
-            "The study varies nothing but the small changes of its ensemble: there is no parameter to analyse."
-                .to_owned(),
+            "The study varies only the small changes of its ensemble: there is no parameter to analyse.".to_owned(),
         );
     }
     notes
@@ -173,7 +170,7 @@ fn together(samples: &Samples) -> Vec<String> {
     pairs.sort_by(|a, b| b.0.abs().total_cmp(&a.0.abs()));
     let words = |(rho, a, b): &(f64, &String, &String)| {
         format!(
-            "The samples vary {a} and {b} together (rank correlation {}): what one does is partly counted for the other.",
+            "The samples vary {a} and {b} together (rank correlation {}): the effect of one is partly attributed to the other.",
             shown_part(*rho)
         )
     };
@@ -200,7 +197,7 @@ mod tests {
         assert!(index(&estimate(0.25, 0.36), 0, &found(100, 0)).is_some());
         assert!(index(&estimate(0.25, f64::NAN), 0, &found(100, 0)).is_some());
         assert!(index(&estimate(0.3, 0.3), 0, &found(94, 6)).is_some());
-        assert_eq!(index(&estimate(0.0, 0.01), 1, &found(300, 0)).as_deref(), Some("carried by 4 of 300 points"));
+        assert_eq!(index(&estimate(0.0, 0.01), 1, &found(300, 0)).as_deref(), Some("depends on 4 of 300 points"));
         assert!(index(&estimate(0.0, 0.0), 2, &found(299, 0)).is_some());
         assert_eq!(index(&estimate(0.0, 0.0), 2, &found(300, 0)), None);
         let effect_of = |effects, high| Effect {

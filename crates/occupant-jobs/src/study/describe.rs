@@ -12,7 +12,7 @@ const NAMED: usize = 6;
 pub fn design(study: &Study) -> String {
     match &study.design {
         Design::Single => "the scenario itself".to_owned(),
-        Design::FullFactorial => "full factorial: every value with every other".to_owned(),
+        Design::FullFactorial => "full factorial: all combinations of values".to_owned(),
         Design::LatinHypercube { samples } => format!("Latin hypercube of {samples} samples"),
         Design::Sobol { samples, scramble } => {
             format!("Sobol’s sequence, {samples} points, {}", if *scramble { "scrambled" } else { "plain" })
@@ -21,7 +21,7 @@ pub fn design(study: &Study) -> String {
         Design::OneAtATime { .. } => "one parameter at a time, all others as in the base".to_owned(),
         Design::Table { rows, .. } => format!("a table of {} samples", rows.len()),
         Design::Saltelli { samples, second_order } => format!(
-            "Saltelli’s blocks for Sobol indices, {samples} points{}",
+            "Saltelli’s design for Sobol indices, {samples} points{}",
             if *second_order { ", second order included" } else { "" }
         ),
         Design::Morris { trajectories, levels, .. } => {
@@ -54,7 +54,7 @@ pub fn law(parameter: &Parameter, unit: &Told) -> String {
         Law::Distribution(Distribution::Triangular { from, mode, to }) => {
             format!("triangular: {}, likeliest {}", range(*from, *to), given_with_unit(*mode, unit))
         }
-        Law::Table => "as the table says".to_owned(),
+        Law::Table => "from the table".to_owned(),
     };
     match parameter.apply {
         ApplyChoice::Value => text,

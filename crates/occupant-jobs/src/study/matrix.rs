@@ -13,10 +13,10 @@ const MOST: usize = 12;
 /// What a design tells of a parameter: quantity, and words for it.
 fn telling(of: &Finding<'_>) -> (&'static str, &'static str) {
     match of.analysis.by_design {
-        ByDesign::Sobol(_) => ("sobol_total", "total Sobol indices: parts of the variance, without unit"),
+        ByDesign::Sobol(_) => ("sobol_total", "total Sobol indices: fractions of the variance, dimensionless"),
         ByDesign::Morris(_) => ("morris_mu_star", "μ*: mean change over a parameter’s whole range"),
-        ByDesign::OneAtATime(_) => ("alone_greatest", "reach: greatest less least with this parameter alone"),
-        ByDesign::Plain => ("rank_correlation", "rank correlations, without unit"),
+        ByDesign::OneAtATime(_) => ("alone_greatest", "reach: largest minus smallest value with this parameter alone"),
+        ByDesign::Plain => ("rank_correlation", "rank correlations, dimensionless"),
     }
 }
 
@@ -50,8 +50,8 @@ pub(super) fn section(html: &mut Html, report: &Report) {
     if inputs.is_empty() {
         return;
     }
-    html.text("h2", "What matters for what");
-    let words = "A measure leads to what stands of it below. † is not to be relied on, its tip says why.";
+    html.text("h2", "What matters for which result");
+    let words = "Click a measure for its details. † marks unreliable numbers; hover over one for the reason.";
     html.text("p class=\"remark\"", &format!("In each cell of a parameter {}. {words}", telling(first).1));
     let link = |(of, _): &(Finding<'_>, String)| {
         // the rows of the spread have the unit, whatever those of the parameters are
@@ -97,5 +97,5 @@ pub fn text(report: &Report) -> String {
         });
         table.row(std::iter::once(input.name.clone()).chain(cells));
     }
-    format!("{}; † not to be relied on, the page says why\n\n{}", telling(first).1, table.text())
+    format!("{}; † unreliable, see the page for the reason\n\n{}", telling(first).1, table.text())
 }

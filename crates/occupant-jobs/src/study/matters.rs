@@ -94,7 +94,7 @@ pub fn by_design(html: &mut Html, of: &Finding<'_>) {
     };
     match heading {
         Err(why) => {
-            let words = format!("{what}: none, because there are too few numbers to say anything ({why}).");
+            let words = format!("{what}: none, because there are too few values ({why}).");
             html.text("p class=\"note\"", &words);
         }
         Ok(heading) => {
@@ -109,9 +109,9 @@ pub fn by_design(html: &mut Html, of: &Finding<'_>) {
 fn sobol_title(found: &SobolIndices) -> String {
     let dropped = match found.dropped {
         0 => String::new(),
-        n => format!("; {n} more have runs without a figure"),
+        n => format!("; {n} more have runs without a result"),
     };
-    format!("Sobol indices: parts of the variance, of {} points{dropped}", found.points)
+    format!("Sobol indices: fractions of the variance, from {} points{dropped}", found.points)
 }
 
 /// Rank correlation and regression.
@@ -150,7 +150,7 @@ fn reading(linear: &Linear, parameter: usize) -> String {
     let mut signs = clear.map(|e| e.value > 0.0);
     match (signs.next(), signs.next()) {
         (None, _) => "sign not known",
-        (Some(one), Some(other)) if one != other => "sign not known: the two contradict each other",
+        (Some(one), Some(other)) if one != other => "sign unknown: the two contradict each other",
         (Some(true), _) => "rises with it",
         (Some(false), _) => "falls",
     }

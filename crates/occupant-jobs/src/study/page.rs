@@ -47,7 +47,7 @@ pub fn page(report: &Report) -> String {
     }
     sections::varied(&mut html, report);
     if ends.finished() == 0 {
-        html.text("p class=\"note\"", "No run has finished yet: there is nothing to say.");
+        html.text("p class=\"note\"", "No run has finished yet.");
     } else {
         html.text("h2", "Measure by measure");
         report.findings().for_each(|finding| sections::response(&mut html, &finding));
@@ -63,7 +63,7 @@ fn about(html: &mut Html, report: &Report) {
     html.fold("How to read it");
     html.text(
         "p",
-        "A number with † should not be relied on; the reason stands in its tip and in the table beside the page (.parquet). Marked are:",
+        "A number with † is unreliable. Hover over it for the reason, or see the table beside the page (.parquet). Marked are:",
     );
     html.raw("<ul>\n");
     for rule in caution::rules() {
@@ -73,12 +73,10 @@ fn about(html: &mut Html, report: &Report) {
     html.text("p", matters::SIGN_RULE);
     html.text(
         "p",
-        "Commands are for a POSIX shell in the folder of the study, the one with sweep.json. They give the figures of the row to the last bit. \
-         Intervals hold 95 %: by bootstrap, those of rank correlations by Fisher’s z. The runs of Saltelli’s blocks A and B \
-         count in correlation and regression; with an ensemble a sample counts once, with the median of its members.",
+        "Run the commands in a POSIX shell in the folder of the study, the one with sweep.json. They reproduce the results of the row to the last bit. Intervals are 95 %, by bootstrap; those of rank correlations by Fisher’s z. Correlation and regression use the runs of Saltelli’s blocks A and B. With an ensemble, a sample counts once, with the median of its runs.",
     );
     html.unfold();
-    html.fold("Where it comes from");
+    html.fold("Source");
     let mut facts = vec![
         ("runs made by", opened.manifest.program.clone()),
         ("report made by", program()),

@@ -47,7 +47,7 @@ pub fn section(html: &mut Html, report: &Report) {
     let Some(grid) = Grid::of(samples).filter(|_| is_whole) else { return };
     html.text("h2", "Maps");
     let words = format!(
-        "{} to the right, {} upwards; a panel for each combination of the rest. Panels of a row share their colours.",
+        "{} to the right, {} upwards; one panel for each combination of the other parameters. Panels of a row share a colour scale.",
         grid.across.0.name, grid.up.0.name
     );
     html.text("p class=\"remark\"", &words);
@@ -67,8 +67,7 @@ pub fn section(html: &mut Html, report: &Report) {
     }
 }
 
-const RISKS: &str = "Risks are those of curves made for dummies' readings: head from HIC15, neck from Nij, chest from its 3 ms level, femur \
-                     from its force. Those of neck and chest do not vanish without any load (3.8 and 4.1 %).";
+const RISKS: &str = "Risk curves apply to dummy readings: head from HIC15, neck from Nij, chest from its 3 ms level, femur from its force. Those of neck and chest are not zero without load (3.8 and 4.1 %).";
 
 /// A response, and the risk of injury by it where there is a curve.
 fn quantities(response: &Response) -> Vec<Quantity> {

@@ -22,12 +22,12 @@ pub fn pictures(html: &mut Html, of: &Finding<'_>) {
     }
     html.text("h3", "Over each parameter");
     if drawn.len() > SCATTERS {
-        let words = format!("The {SCATTERS} that matter most of {}.", drawn.len());
+        let words = format!("The {SCATTERS} most important of {}.", drawn.len());
         html.text("p class=\"remark\"", &words);
     }
     if samples.len() > plots::MOST_DOTS {
         let every = samples.len().div_ceil(plots::MOST_DOTS);
-        let words = format!("One of {every} samples is drawn; all of them count in the numbers.");
+        let words = format!("One in {every} samples is drawn; the numbers use all of them.");
         html.text("p class=\"remark\"", &words);
     }
     html.raw("<div class=\"grid\">\n");
@@ -52,7 +52,7 @@ fn maps(html: &mut Html, drawn: &[&Input], response: &Response) {
     }
     html.text("h3", "Over two parameters");
     if drawn.len() > MAPPED {
-        let words = format!("Pairs of the {MAPPED} that matter most.");
+        let words = format!("Pairs of the {MAPPED} most important.");
         html.text("p class=\"remark\"", &words);
     }
     html.raw("<div class=\"grid\">\n");

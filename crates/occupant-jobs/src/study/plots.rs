@@ -36,7 +36,7 @@ pub fn linear(of: &Finding<'_>) -> String {
 /// First-order and total indices with their intervals.
 pub fn sobol(of: &Finding<'_>) -> String {
     let curves = intervals(of, of.order(), &[("sobol_first", "first order"), ("sobol_total", "total")]);
-    let x = Axis { includes: Some([0.0, 1.0]), ..Axis::of("part of the variance, 95 % intervals", "") };
+    let x = Axis { includes: Some([0.0, 1.0]), ..Axis::of("fraction of the variance, 95 % intervals", "") };
     words_figure("Sobol indices", of, x, curves)
 }
 

@@ -45,10 +45,10 @@ fn unknown(manifest: &Manifest, name: &str) -> Failure {
         Some(near) => format!("did you mean `{near}`?"),
         None => {
             let results = names.iter().copied().filter(|n| is_result(n));
-            format!("the figures are {}", results.collect::<Vec<_>>().join(", "))
+            format!("the results are {}", results.collect::<Vec<_>>().join(", "))
         }
     };
-    Failure::with_help(format!("--to: no figure is named `{name}`"), &help)
+    Failure::with_help(format!("--to: there is no result `{name}`"), &help)
 }
 
 /// Of the customary figures leaves the first that vary, or the first of all where none does.

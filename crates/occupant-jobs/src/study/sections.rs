@@ -17,14 +17,14 @@ pub fn study(html: &mut Html, report: &Report) {
     ];
     if let Some(ensemble) = &study.ensemble {
         let each = format!(
-            "{} members for each sample, {} small changes; the response of a sample is the median of its members",
+            "{} runs per sample with {} small changes; the response of a sample is the median of its runs",
             ensemble.members,
             ensemble.perturbations.len()
         );
         facts.push(("ensemble", each));
     }
     if !manifest.overrides.is_empty() {
-        facts.push(("changes of the command line", manifest.overrides.join(", ")));
+        facts.push(("changes on the command line", manifest.overrides.join(", ")));
     }
     html.text("h2", "The study");
     html.facts(&facts);
@@ -57,10 +57,10 @@ pub fn ends(html: &mut Html, report: &Report) {
     html.text("h2", "How the runs ended");
     let mut facts = vec![("completed", ends.completed.to_string())];
     for (name, count) in [
-        ("completed, energy balance off by more than 10 %: left out", ends.doubtful),
+        ("completed, but energy balance off by more than 10 %: excluded", ends.doubtful),
         ("failed", ends.failed),
         ("refused", ends.refused),
-        ("the program broke off", ends.broken),
+        ("the program stopped", ends.broken),
         ("not finished yet", ends.planned - ends.finished()),
     ] {
         if count > 0 {
@@ -113,7 +113,7 @@ pub fn response(html: &mut Html, of: &Finding<'_>) {
 
 fn spread(html: &mut Html, of: &Finding<'_>) {
     let Some(s) = of.analysis.spread else {
-        html.text("p class=\"note\"", "No sample that is there has this figure.");
+        html.text("p class=\"note\"", "No finished sample has this result.");
         return;
     };
     // that of all numbers of the response, its count of samples among them
@@ -125,10 +125,7 @@ fn spread(html: &mut Html, of: &Finding<'_>) {
     if unstable > 0 {
         html.text(
             "p class=\"note\"",
-            &format!(
-                "In {unstable} of {} samples the members of the ensemble do not agree on this figure.",
-                stable + unstable
-            ),
+            &format!("In {unstable} of {} samples this result is not stable in the ensemble.", stable + unstable),
         );
     }
     if of.analysis.constant {
@@ -155,7 +152,7 @@ fn extremes(html: &mut Html, of: &Finding<'_>) {
         html.fold(&format!("Run {}, {word}: {value}{mark}", run.number));
         match &run.command {
             Some(command) => html.text("pre class=\"command\"", command),
-            None => html.text("p class=\"remark\"", "No shell command can say its values."),
+            None => html.text("p class=\"remark\"", "Its values cannot be written as a shell command."),
         }
         html.unfold();
     }

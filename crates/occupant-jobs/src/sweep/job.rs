@@ -64,7 +64,7 @@ impl Sweep {
         }
         if !self.show.quiet {
             say(&format!(
-                "shard {}: all {} samples are there, {} of them computed now; `occupant sweep merge {}` makes the table when all shards are",
+                "shard {}: all {} samples are finished, {} of them now; when all shards are, make the table with `occupant sweep merge {}`",
                 self.shard,
                 samples.end - samples.start,
                 progress.computed,
@@ -95,7 +95,7 @@ impl Sweep {
         let before = finished.count(samples.clone());
         let count = samples.end - samples.start;
         if before > 0 && before < count && !self.show.quiet {
-            say(&format!("resuming: {before} of {count} samples are there"));
+            say(&format!("resuming: {before} of {count} samples are finished"));
         }
         let mut progress = Progress::new(count, before, self.show);
         let mut journal = JournalWriter::new(&self.folder, sha256, self.shard)?;
@@ -109,7 +109,7 @@ impl Sweep {
         progress.end();
         let ended = ended.and_then(|()| Ok(journal.close()?));
         let done = before + progress.computed;
-        let kept = format!("{done} of {count} samples are finished and kept; the same command resumes the sweep");
+        let kept = format!("{done} of {count} samples are finished and kept; run the same command again to resume");
         let kept = self.folder.still(kept);
         ended.map_err(|failure| failure.with_done(&kept))?;
         self.interrupt.refuse(&kept)?;
@@ -125,7 +125,7 @@ impl Sweep {
     ) -> Result<(), Failure> {
         let (place, stop) = ((&self.folder, sums), &self.interrupt.asked);
         kept::write_missing(&self.plan, place, journal, samples, &self.engine, stop)?;
-        self.interrupt.refuse("all samples are finished; the same command resumes the sweep")
+        self.interrupt.refuse("all samples are finished; run the same command again to write the table")
     }
 
     /// The tables, and the worst.

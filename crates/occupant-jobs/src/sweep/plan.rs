@@ -127,8 +127,8 @@ impl Plan {
             }
         }
         first.map_or(Ok(()), |(index, problems)| {
-            let found = format!("every sample that was looked at is refused, sample {index} for this:\n{problems}");
-            Err(Failure::with_help(found, "nothing was run; vary what the base scenario has a use for"))
+            let found = format!("every sample tried is invalid; sample {index}:\n{problems}");
+            Err(Failure::with_help(found, "nothing was run; vary keys that the base scenario uses"))
         })
     }
 
@@ -244,7 +244,7 @@ pub fn study_text(name: &Path, texts: &Texts) -> Result<StudyText, Failure> {
         // a key of scenarios that no study has
         let draft = Draft::read_bytes(&bytes, format_of(name), &shown);
         if draft.is_ok_and(|mut draft| draft.get("time").is_ok() && draft.get("base").is_err()) {
-            let help = format!("occupant run {shown} runs it; a study names it as its `base`");
+            let help = format!("run it with `occupant run {shown}`, or name it as the `base` of a study");
             return Failure::with_help(format!("{shown} is a scenario, not a study"), &help);
         }
         refused(&shown, &problems)
@@ -253,7 +253,7 @@ pub fn study_text(name: &Path, texts: &Texts) -> Result<StudyText, Failure> {
 
 /// What is wrong with a study that names, at this place, a file that cannot be read.
 pub fn unread(text: &StudyText, at: &str, file: &str, error: &dyn Display) -> Diagnostics {
-    text.complaint(at, format!("{file} cannot be read: {error}"), "a file, by its path from that of the study", None)
+    text.complaint(at, format!("{file} cannot be read: {error}"), "a file, with its path relative to the study", None)
 }
 
 /// What the study puts into its scenario in all samples, as `--set` writes it.

@@ -31,7 +31,7 @@ impl Sweep {
         let seconds = self.of_one(samples.start).map_err(|failure| match &refused[..] {
             [] => failure,
             some => failure.with_done(&format!(
-                "of {corners} corners of the study {} are refused:\n{}",
+                "of {corners} corners of the study, {} are invalid:\n{}",
                 some.len(),
                 some.concat()
             )),
@@ -45,11 +45,11 @@ impl Sweep {
             (
                 "corners",
                 match refused.len() {
-                    0 => format!("{corners} of the study's least and greatest values tried, none is refused"),
-                    n => format!("{n} of {corners} are REFUSED, see below"),
+                    0 => format!("{corners} combinations of smallest and largest values tried, all valid"),
+                    n => format!("{n} of {corners} are INVALID, see below"),
                 },
             ),
-            ("table", format!("about {megabytes:.1} MB; whole runs that are kept come on top")),
+            ("table", format!("about {megabytes:.1} MB, plus the whole runs that are kept")),
             ("folder", format!("{}; nothing was written", self.folder.path.display())),
         ];
         let first = self.first(samples.start..samples.end.min(samples.start + SHOWN));
@@ -84,7 +84,7 @@ impl Sweep {
     fn of_one(&self, index: u64) -> Result<f64, Failure> {
         let began = Instant::now();
         let opened = self.plan.open_sample(index);
-        let opened = opened.map_err(|problems| Failure::plain(format!("sample {index} is refused:\n{problems}")))?;
+        let opened = opened.map_err(|problems| Failure::plain(format!("sample {index} is invalid:\n{problems}")))?;
         let ended = attempt(&opened.model, Summarizer::new());
         ended.map_err(|error| Failure::broke_off(format!("sample {index} does not run: {error}")))?;
         Ok(began.elapsed().as_secs_f64())

@@ -37,7 +37,7 @@ pub fn open(folders: &[PathBuf], by: MadeBy) -> Result<Stored, Failure> {
     let folders: Vec<Folder> = folders.iter().map(|f| Folder::at(f)).collect();
     let manifest = common_manifest(&folders)?;
     let (Some(first), Some(study)) = (folders.first(), manifest.texts.first()) else {
-        return Err(Failure::plain("the folder holds no study"));
+        return Err(Failure::plain("the folder has no study"));
     };
     let texts = Texts::of_copies(first, &manifest);
     let (made_by, same): (String, fn(&Manifest, &Manifest) -> bool) = match by {
@@ -57,7 +57,7 @@ pub fn open(folders: &[PathBuf], by: MadeBy) -> Result<Stored, Failure> {
     for folder in &folders {
         let sums = Checksums::open(&folder.path, |name| name.starts_with("journal/"))?;
         if let Some(path) = sums.damaged().into_iter().next() {
-            let found = "is not what was written".to_owned();
+            let found = "was changed after it was written".to_owned();
             return Err(Problem::Damaged { path, found }.into());
         }
     }
@@ -65,7 +65,7 @@ pub fn open(folders: &[PathBuf], by: MadeBy) -> Result<Stored, Failure> {
     let mut notes = Vec::new();
     if manifest.program != program() {
         notes.push(format!(
-            "The runs were made by {}, this is {}: the commands below give the same numbers with that program only.",
+            "The runs were made by {}, this is {}: only that program reproduces the numbers with the commands below.",
             manifest.program,
             program()
         ));
@@ -81,8 +81,8 @@ fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
     let manifest_of = |folder: &Folder| {
         folder.manifest()?.ok_or_else(|| {
             Failure::with_help(
-                format!("{} holds no sweep", folder.path.display()),
-                "give the folder that `occupant sweep STUDY -o FOLDER` has written",
+                format!("{} does not contain a sweep", folder.path.display()),
+                "give a folder written by `occupant sweep STUDY -o FOLDER`",
             )
         })
     };
@@ -94,7 +94,7 @@ fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
             let text = |f: &Folder, t: &Text| f.copy_of(t).ok();
             let lines = common.differences(&other, |t| text(first, t), |t| text(folder, t));
             return Err(Failure::plain(format!(
-                "{} and {} hold parts of different sweeps:\n   {}",
+                "{} and {} contain parts of different sweeps:\n   {}",
                 first.path.display(),
                 folder.path.display(),
                 lines.join("\n   ")

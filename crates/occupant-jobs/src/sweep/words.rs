@@ -12,16 +12,14 @@ use crate::files::study_folder::Held;
 /// Warns where a file system has no locks; `doing` is what two processes could be at in one folder.
 pub fn warn_unlocked(held: &Held, doing: &str, quiet: bool) {
     if let (Some(reason), false) = (&held.unlocked, quiet) {
-        say(&format!(
-            "warning: this file system has no locks ({reason}): nothing but you keeps two processes from {doing}"
-        ));
+        say(&format!("warning: this file system has no locks ({reason}): make sure that no two processes are {doing}"));
     }
 }
 
 /// Says which files of a folder were damaged. Nobody should overlook that, however quiet a command is to be.
 pub fn tell_damaged(files: &[PathBuf]) {
     for file in files {
-        say(&format!("damaged: {} was not what had been written; it is made again", file.display()));
+        say(&format!("damaged: {} was changed after it was written; it is made again", file.display()));
     }
 }
 
@@ -30,7 +28,7 @@ pub fn tell(results: &Results, work: Option<String>, next: &str, units: Units) -
     let census = &results.census;
     let mut ended = vec![format!("{} completed", census.completed)];
     for (count, word) in
-        [(census.failed, "failed"), (census.refused, "refused"), (census.broken, "on which the program broke off")]
+        [(census.failed, "failed"), (census.refused, "refused"), (census.broken, "on which the program stopped")]
     {
         if count > 0 {
             ended.push(format!("{count} {word}"));
@@ -39,7 +37,7 @@ pub fn tell(results: &Results, work: Option<String>, next: &str, units: Units) -
     let mut lines = vec![("samples", ended.join(", "))];
     lines.extend(census.first.iter().map(|(index, reason)| ("", format!("{index}: {reason}"))));
     if census.doubtful > 0 {
-        let found = "samples whose energy balance is off by more than 10 %: their figures mean nothing";
+        let found = "samples with an energy balance off by more than 10 %: their results mean nothing";
         lines.push(("doubtful", format!("{} {found}", census.doubtful)));
     }
     lines.extend(census.caveats().map(|caveat| ("caveat", caveat)));
@@ -58,11 +56,8 @@ pub fn judged(census: &Census) -> Done {
         return Done::Well;
     }
     let why = census.first.first().map_or(String::new(), |(index, reason)| format!("; sample {index}: {reason}"));
-    let all = if census.refused == census.finished() {
-        "every sample is refused"
-    } else {
-        "no sample has figures that count"
-    };
+    let all =
+        if census.refused == census.finished() { "every sample is invalid" } else { "no sample has valid results" };
     say(&format!("error: {all}{why}\n = help: `occupant sweep STUDY --dry-run` tries the corners of the study"));
     Done::Unwell
 }
@@ -84,7 +79,7 @@ fn ranges(results: &Results, units: Units) -> String {
 fn stable(ensembles: &Ensembles, units: Units) -> String {
     let failed = match ensembles.failed {
         0 => String::new(),
-        n => format!("; {n} members did not complete, and no figure of their samples counts as stable"),
+        n => format!("; {n} runs did not complete, and no result of their samples counts as stable"),
     };
     let samples = match ensembles.samples {
         1 => "1 sample".to_owned(),
@@ -100,7 +95,7 @@ fn stable(ensembles: &Ensembles, units: Units) -> String {
 
 fn all_samples(ensembles: &Ensembles) -> String {
     let mut table =
-        Table::new(&[(Left, &["figure"]), (Right, &["stable in", "NOT STABLE in", "too few members in", "absent in"])]);
+        Table::new(&[(Left, &["figure"]), (Right, &["stable in", "NOT STABLE in", "too few runs in", "absent in"])]);
     for figure in ensembles.figures.iter().filter(|f| is_shown(&f.name)) {
         let counts = [figure.stable, figure.unstable, figure.too_few, figure.absent];
         table.row(std::iter::once(figure.name.clone()).chain(counts.map(|n| n.to_string())));

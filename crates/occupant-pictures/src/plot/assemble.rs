@@ -58,7 +58,7 @@ impl FromStr for LimitArgument {
         let (value, unit) = split.ok_or(expected)?;
         let unit = (!unit.is_empty()).then(|| unit.to_owned());
         if let Some(wrong) = unit.as_ref().filter(|unit| scale_of(unit).is_none()) {
-            return Err(format!("`{wrong}` is no unit; {expected}"));
+            return Err(format!("`{wrong}` is not a unit; {expected}"));
         }
         Ok(LimitArgument { channel: channel.trim().to_owned(), text: level.to_owned(), value, unit })
     }

@@ -188,7 +188,7 @@ def main() -> None:
     args = parser.parse_args()
     output = args.output or args.run.with_suffix(".rrd")
     if output.exists() and not args.force:
-        sys.exit(f"error: {output} exists; --force replaces it, -o gives another name")
+        sys.exit(f"error: {output} exists; replace it with --force, or choose another name with -o")
     try:
         count = convert(args.run, output)
     except (OSError, ValueError, McapError) as error:

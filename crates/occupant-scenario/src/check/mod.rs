@@ -14,7 +14,7 @@ pub(super) use view::View;
 
 use super::kind::{Kind, UnitSystem};
 use placed_text::{
-    Diagnostic, Diagnostics, Document, Node, Problem, Sources, Span, Value, did_you_mean, one_of, with_key,
+    Diagnostic, Diagnostics, Document, Node, Problem, Sources, Span, Value, did_you_mean, nearest, one_of, with_key,
 };
 
 /// All that is wrong with the words of a text; `what` is what messages call it.
@@ -117,7 +117,7 @@ impl Checker<'_> {
         };
         let found = match &node.value {
             Value::Float(x) if !x.is_finite() => format!("`{x}`"),
-            value => format!("{} where {} should stand", value.kind(), view.noun()),
+            value => format!("{} instead of {}", value.kind(), view.noun()),
         };
         self.report(node.span, Problem::error(path, found, view.wanted()).with_hint(hint));
     }
@@ -176,7 +176,7 @@ impl Checker<'_> {
                 self.report(node.span, Problem::error(path, found, expected).with_hint(did_you_mean(text, names, '"')));
             }
             value => {
-                let found = format!("{} where a name in quotes should stand", value.kind());
+                let found = format!("{} instead of a name in quotes", value.kind());
                 self.report(node.span, Problem::error(path, found, expected));
             }
         }
@@ -187,7 +187,7 @@ impl Checker<'_> {
         let names: Vec<&str> = cases.iter().map(|(name, _)| *name).collect();
         let Some(table) = node.as_table() else {
             let expected = format!("a table with a key `kind`, {}", one_of(&names, '"'));
-            let found = format!("{} where a table should stand", node.value.kind());
+            let found = format!("{} instead of a table", node.value.kind());
             return self.report(node.span, Problem::error(path, found, expected));
         };
         let Some(tag) = table.get("kind") else {
@@ -207,15 +207,24 @@ impl Checker<'_> {
                 None => self.unknown_key(view, key, entry.key_span, path),
             }
         }
+        let meant = self.meant(view, node);
         for key in view.required() {
-            if node.get(key).is_none() && key != "kind" {
+            if node.get(key).is_none() && key != "kind" && !meant.contains(&key) {
                 let wanted = view.property(self.root, key).map(|p| p.wanted()).unwrap_or_default();
                 let owner = if path.is_empty() { self.what.to_owned() } else { format!("`{path}`") };
                 let found = format!("{owner} has no key `{key}`");
                 self.report_table(node, Problem::error(path, found, format!("{key} = {wanted}")));
             }
         }
-        self.groups(view, node, path);
+        self.groups(view, node, path, &meant);
+    }
+
+    /// Keys that misspelt ones of a table mean: that these are absent follows from the slip.
+    fn meant(&self, view: &View, node: &Node) -> Vec<&'static str> {
+        let keys = view.keys();
+        let all = node.as_table().into_iter().flatten().map(|(key, _)| key.as_str());
+        let unknown = all.filter(|key| view.property(self.root, key).is_none());
+        unknown.filter_map(|key| nearest(key, keys.iter().copied())).collect()
     }
 
     fn unknown_key(&mut self, view: &View, key: &str, span: Span, path: &str) {

@@ -25,9 +25,9 @@ use placed_text::with_key;
 pub(crate) struct GasSection {
     /// Molar mass.
     pub(crate) molar_mass: MolarMass<POSITIVE>,
-    /// Specific heat at constant pressure, extrapolated to 0 K where it rises with the temperature.
+    /// Specific heat at constant pressure. If it rises with temperature, its value extrapolated to 0 K.
     pub(crate) cp: SpecificHeat<POSITIVE>,
-    /// What it rises by per kelvin; 0 if absent.
+    /// Rise of the specific heat per kelvin; 0 if absent.
     pub(crate) cp_slope: Option<SpecificHeatSlope<NOT_NEGATIVE>>,
 }
 
@@ -38,46 +38,46 @@ pub(crate) struct GasSection {
     "x-at-most-one" = [["dome", "sphere", "capsule"], ["leakage", "permeability"]],
 ))]
 pub(crate) struct BagSection {
-    /// Name of a bag of the library, made up, which gives all that is not said beside it but trigger, mount and, of a curtain or
-    /// side bag, `capsule`.
+    /// Name of a bag of the library. It gives every key that is not said beside it except `trigger`, `mount` and, of a curtain or
+    /// side bag, `capsule`. Its numbers are made up.
     #[schemars(extend("enum" = ["driver", "passenger", "curtain", "side"]))]
     pub(crate) library: Option<String>,
-    /// Name of the trigger that fires it, one by time or by the vehicle's motion.
+    /// Name of the trigger that fires it, by time or by the vehicle's motion.
     pub(crate) trigger: String,
     /// Time from the trigger until it fires; 0 if absent.
     pub(crate) delay: Option<Time<NOT_NEGATIVE>>,
-    /// Time from then until its envelope is unfolded; its volume grows evenly from 2 %.
+    /// Time from firing until it is unfolded; its volume grows linearly from 2 %.
     pub(crate) deploy: Option<Time<POSITIVE>>,
     /// What it is fixed to: "vehicle", or the name of a frame of the first vehicle, such as a column; "vehicle" if absent.
     pub(crate) frame: Option<String>,
-    /// Where it is fixed and unfolds from, axes of its frame.
+    /// Mounting point, from which it unfolds, axes of its frame.
     pub(crate) mount: [Length; 3],
-    /// A driver's bag: from a plane through its mount to a face of a ball.
+    /// A driver bag: a cylinder from its mount with a spherical face.
     pub(crate) dome: Option<DomeSection>,
-    /// A ball.
+    /// A sphere.
     pub(crate) sphere: Option<BallSection>,
-    /// A passenger's, side or curtain bag: all that is near a straight line.
+    /// A passenger, side or curtain bag: everything within a radius of a straight line.
     pub(crate) capsule: Option<BagCapsuleSection>,
-    /// Volume when it is full; that of the shape if absent, from which it must not differ by more than 30 %.
+    /// Full volume; that of the shape if absent. It must be within 30 % of the volume of the shape.
     pub(crate) volume: Option<Volume<POSITIVE>>,
-    /// What blows gas into it: one, or two stages.
+    /// Inflators: one, or two stages.
     pub(crate) inflators: Option<Vec<InflatorSection>>,
-    /// Holes, four at most.
+    /// Vents, at most four.
     pub(crate) vents: Option<Vec<VentSection>>,
-    /// Part of the fabric that is open, like a hole; 0 if absent.
+    /// Fraction of the fabric that leaks like an opening; 0 if absent.
     pub(crate) leakage: Option<Ratio<FRACTION>>,
-    /// Speed of gas through the fabric over gauge pressure.
+    /// Fabric permeability: gas speed over gauge pressure.
     pub(crate) permeability: Option<PermeabilitySection>,
-    /// Heat that passes through the fabric; 0 if absent.
+    /// Heat transfer through the fabric; 0 if absent.
     pub(crate) heat_transfer: Option<HeatTransfer<NOT_NEGATIVE>>,
     /// Friction of the body on the fabric; 0 if absent.
     pub(crate) friction: Option<Ratio<NOT_NEGATIVE>>,
-    /// Speed of slip at which friction is 71 % of its full size, as of a material.
+    /// Sliding speed at which friction reaches 71 % of its full value, as for a material.
     pub(crate) friction_speed: Option<Speed<POSITIVE>>,
-    /// Names of the parts or spheres of the body that it touches, 20 spheres at most. Where they overlap they count once.
+    /// Names of the body parts or spheres that it touches, at most 20 spheres. Where they overlap they count once.
     pub(crate) spheres: Option<Vec<String>>,
-    /// By how much the area of a part or sphere is multiplied, where it stands for more than itself: of a part that of its
-    /// first sphere, to which its others add. 1 if absent.
+    /// Factor on the contact area of a part or sphere that represents more than itself; of a part, on that of its first sphere, to
+    /// which its others add. 1 if absent.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) reach: IndexMap<String, Ratio<POSITIVE>>,
     /// Mass of cover and fabric that it throws ahead of it as it unfolds: the blow to a body in its way. 0 if absent.
@@ -92,21 +92,21 @@ pub(crate) struct BagSection {
 pub(crate) struct DomeSection {
     /// Direction towards the occupant, axes of its frame; any length.
     pub(crate) axis: [Ratio; 3],
-    /// From the mount to the middle of the face.
+    /// Distance from the mount to the centre of the face.
     pub(crate) depth: Length<POSITIVE>,
     /// Radius of the cylinder.
     pub(crate) radius: Length<POSITIVE>,
-    /// Radius of the ball that the face is a part of; more than the depth.
+    /// Radius of the sphere that the face is part of; more than the depth.
     pub(crate) face_radius: Length<POSITIVE>,
     /// Radius of the edge of the face; 0 if absent.
     pub(crate) edge: Option<Length<NOT_NEGATIVE>>,
 }
 
-/// A ball.
+/// A sphere.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BallSection {
-    /// Its middle, axes of its frame.
+    /// Its centre, axes of its frame.
     pub(crate) centre: [Length; 3],
     /// Its radius.
     pub(crate) radius: Length<POSITIVE>,
@@ -118,7 +118,7 @@ pub(crate) struct BallSection {
 pub(crate) struct BagCapsuleSection {
     /// Ends of the line, axes of its frame.
     pub(crate) ends: [[Length; 3]; 2],
-    /// How near.
+    /// Radius about that line.
     pub(crate) radius: Length<POSITIVE>,
 }
 
@@ -128,17 +128,17 @@ pub(crate) struct BagCapsuleSection {
 pub(crate) struct InflatorSection {
     /// Mass fractions by the names of gases; their sum is 1.
     pub(crate) gas: IndexMap<String, Ratio<FRACTION>>,
-    /// Name of its own trigger, as of a second stage; that of the bag if absent.
+    /// Name of its own trigger, such as that of a second stage; that of the bag if absent.
     pub(crate) trigger: Option<String>,
-    /// Time from its trigger until it ignites; if absent, that of the bag with its trigger, 0 with one of its own.
+    /// Time from trigger to ignition. If absent, that of the bag, or 0 with its own trigger.
     pub(crate) delay: Option<Time<NOT_NEGATIVE>>,
-    /// Times since then.
+    /// Times since ignition.
     pub(crate) times: Vec<Time<NOT_NEGATIVE>>,
-    /// Flow at each; none before the first and behind the last.
+    /// Mass flow at each time; none before the first and after the last.
     pub(crate) flow: Vec<MassFlow<NOT_NEGATIVE>>,
-    /// Temperature of the gas at each.
+    /// Temperature of the gas at each time.
     pub(crate) temperature: Vec<Temperature<POSITIVE>>,
-    /// What it does in a closed tank: a check of the table.
+    /// Closed-tank test, to check the table.
     pub(crate) tank: Option<TankSection>,
 }
 
@@ -148,7 +148,7 @@ pub(crate) struct InflatorSection {
 pub(crate) struct TankSection {
     /// Its volume.
     pub(crate) volume: Volume<POSITIVE>,
-    /// Greatest gauge pressure in it.
+    /// Peak gauge pressure in it.
     pub(crate) pressure: Pressure<POSITIVE>,
 }
 
@@ -172,9 +172,9 @@ pub(crate) struct VentSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PermeabilitySection {
-    /// Gauge pressures, from 0 on.
+    /// Gauge pressures, from 0.
     pub(crate) pressure: Vec<Pressure<NOT_NEGATIVE>>,
-    /// Speed at each, from 0 on; must not fall.
+    /// Gas speed at each pressure, from 0; must not fall.
     pub(crate) speed: Vec<Speed<NOT_NEGATIVE>>,
 }
 
@@ -242,8 +242,9 @@ impl Parts<'_> {
         let at = with_key(path, "frame");
         let frame = b.frame(self.scenario, &at, s.frame.as_deref());
         if self.scenario.vehicle_of(frame) != Some(Frame::Vehicle) {
-            let found = format!("`{}`, which is no part of the first vehicle", s.frame.as_deref().unwrap_or_default());
-            b.error(&at, found, "\"vehicle\", or a frame that moves with it: other bags there are not");
+            let found =
+                format!("`{}`, which does not move with the first vehicle", s.frame.as_deref().unwrap_or_default());
+            b.error(&at, found, "\"vehicle\", or a frame that moves with it; air bags elsewhere are not supported");
         }
         frame
     }
@@ -262,7 +263,7 @@ impl Parts<'_> {
         let counts = [s.times.len(), s.flow.len(), s.temperature.len()];
         if counts.iter().any(|count| *count != counts[0]) {
             let found = format!("{} times, {} flows and {} temperatures", counts[0], counts[1], counts[2]);
-            b.error(path, found, "as many of each");
+            b.error(path, found, "the same number of each");
         }
         let rows = s.times.iter().zip(&s.flow).zip(&s.temperature);
         Inflator {
@@ -337,7 +338,7 @@ fn leakage(b: &mut Builder, path: &str, s: &BagSection) -> Leakage {
     let Some(table) = &s.permeability else { return Leakage::Fraction(si_or(&s.leakage, 0.0)) };
     if table.pressure.len() != table.speed.len() {
         let found = format!("{} pressures and {} speeds", table.pressure.len(), table.speed.len());
-        b.error(&format!("{path}.permeability"), found, "as many of each");
+        b.error(&format!("{path}.permeability"), found, "the same number of each");
     }
     Leakage::Speed(table.pressure.iter().zip(&table.speed).map(|(p, v)| [p.si(), v.si()]).collect())
 }
@@ -347,7 +348,7 @@ fn spheres(b: &mut Builder, path: &str, (s, names): (&BagSection, &[String]), bo
     let list = b.spheres(&format!("{path}.spheres"), names, body);
     let reach = format!("{path}.reach");
     for name in s.reach.keys().filter(|name| !body.spheres_called(name).iter().any(|sphere| list.contains(sphere))) {
-        b.error(&with_key(&reach, name), format!("\"{name}\", which is none of its spheres"), "a name of `spheres`");
+        b.error(&with_key(&reach, name), format!("\"{name}\", which is not one of its spheres"), "a name of `spheres`");
     }
     let reach_of = |sphere: usize| {
         let mut called = s.reach.iter().map(|(name, reach)| (body.spheres_called(name), reach.si()));

@@ -14,7 +14,7 @@ use occupant_core::body::Body;
 use occupant_core::forces::belt::{Belt, RestLength};
 use placed_text::with_key;
 
-/// A belt: a loop round one sphere of the body between two anchors, or webbing that runs over nodes, or a preset of such.
+/// A belt: a loop round one sphere between two anchors, webbing over nodes, or a preset.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend(
@@ -27,50 +27,51 @@ pub(crate) struct BeltSection {
     pub(crate) sphere: Option<String>,
     /// The two anchor points [x, y, z] of a loop, vehicle axes.
     pub(crate) anchors: Option<[[Length; 3]; 2]>,
-    /// K₁, loop force per elongation of the belt up to `delta_b`; 0: a gap before it pulls.
+    /// K₁, loop force per elongation up to `delta_b`; 0 is a gap before it pulls.
     pub(crate) k1: Option<Stiffness<NOT_NEGATIVE>>,
-    /// Elongation at which the stiffness changes. Without it the loop is linear.
+    /// Δ_b, elongation at which the stiffness changes. Without it the loop is linear.
     pub(crate) delta_b: Option<Length<NOT_NEGATIVE>>,
     /// K₂, stiffness beyond `delta_b`.
     pub(crate) k2: Option<Stiffness<NOT_NEGATIVE>>,
-    /// Added to the length at the start; negative is preload; 0 if absent. Give this or `length`.
+    /// Slack, added to the initial length; negative is preload; 0 if absent. Give this or `length`.
     pub(crate) slack: Option<Length>,
-    /// Unstretched length of the belt, that on a spool apart.
+    /// Unstretched length of the belt, without the webbing on a spool.
     pub(crate) length: Option<Length<POSITIVE>>,
     /// μ₁, fraction of the energy stored up to `delta_b` that unloading returns; 1 if absent, as in the report.
     pub(crate) mu1: Option<Ratio<FRACTION>>,
     /// μ₂, the same beyond `delta_b`; equal to `mu1` if absent.
     pub(crate) mu2: Option<Ratio<FRACTION>>,
-    /// What the webbing passes, in order, from a retractor or an anchor to an anchor.
+    /// Points that the webbing passes, in order, from a retractor or an anchor to an anchor.
     pub(crate) nodes: Option<Vec<NodeSection>>,
-    /// Name of the webbing of a belt with nodes; of a preset, polyester that stretches by 8 % at 11 kN if absent.
+    /// Name of the webbing of a belt with nodes or of a preset. If absent in a preset, polyester that stretches by 8 %
+    /// at 11 kN.
     pub(crate) webbing: Option<String>,
-    /// Tension at the start, instead of `slack` or `length`; with an open retractor none of them is given.
+    /// Initial tension, instead of `slack` or `length`. With an open retractor give none of them.
     pub(crate) pretension: Option<Force<NOT_NEGATIVE>>,
-    /// Name of a limiter that the belt carries at its first node.
+    /// Name of a load limiter at the first node.
     pub(crate) limiter: Option<String>,
-    /// Name of the trigger that frees the belt for good.
+    /// Name of the trigger that releases the belt for good.
     pub(crate) release: Option<String>,
     /// Tension at which the webbing tears; never if absent.
     pub(crate) strength: Option<Force<POSITIVE>>,
-    /// A belt placed by the seat and the body.
+    /// A belt whose anchors follow from the seat and the body.
     pub(crate) preset: Option<Preset>,
-    /// The side of the vehicle on which a preset's upper anchor stands: "left" for a driver on the left.
+    /// Vehicle side of a preset's upper anchor: "left" for a driver on the left.
     pub(crate) side: Option<Side>,
-    /// Upper anchor or ring of a preset, vehicle axes; if absent by the seat, as are the next two.
+    /// Upper anchor or D-ring of a preset, vehicle axes. It and the next two follow from the seat if absent.
     pub(crate) d_ring: Option<[Length; 3]>,
     /// Buckle of a preset, vehicle axes.
     pub(crate) buckle: Option<[Length; 3]>,
     /// Outer lap anchor of a preset, vehicle axes.
     pub(crate) anchor: Option<[Length; 3]>,
-    /// What the lap part of a preset bears on: "pelvis", its sphere, from which it cannot slide, or "wings", the iliac wings, from which it
-    /// slides up to the abdomen. "pelvis" if absent.
+    /// What the lap belt of a preset bears on: "pelvis", the sphere, off which it cannot slide, or "wings", the iliac
+    /// wings, off which it can slide up to the abdomen (submarining). "pelvis" if absent.
     pub(crate) lap: Option<Lap>,
     /// Name of the retractor of a preset.
     pub(crate) retractor: Option<String>,
-    /// Pretensioner of a preset's buckle; pulls it towards its anchor.
+    /// Buckle pretensioner of a preset; pulls the buckle towards its anchor.
     pub(crate) pretensioner: Option<StrokeSection>,
-    /// Whether it is worn: false leaves it out. True if absent.
+    /// False: the belt is not worn. True if absent.
     pub(crate) worn: Option<bool>,
 }
 
@@ -100,13 +101,13 @@ fn belt(b: &mut Builder, body: &Body, name: &str, s: &BeltSection) -> Option<Bel
         b.refuse_keys(
             &path,
             &keys,
-            |key| format!("`{key}` of a belt that is no loop"),
-            "`webbing`, or `anchors` for a loop",
+            |key| format!("`{key}` in a belt that is not a loop"),
+            "`webbing`, or `sphere` and `anchors` for a loop",
         );
         return None;
     };
     let keys = ["webbing", "pretension", "limiter", "release", "strength", "side", "lap", "retractor", "pretensioner"];
-    b.refuse_keys(&path, &keys, |key| format!("`{key}` of a loop round one sphere"), "`nodes` instead of `anchors`");
+    b.refuse_keys(&path, &keys, |key| format!("`{key}` in a loop round one sphere"), "`nodes` instead of `anchors`");
     let sphere = b.sphere(&format!("{path}.sphere"), sphere, body);
     let webbing = spring(k1, &s.k2, &s.delta_b, si_or(&s.mu1, 1.0), &s.mu2);
     let plain = Belt::new(name, sphere, anchors.each_ref().map(point), webbing);

@@ -24,66 +24,88 @@ const MOST_SPHERES: usize = 500;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BodySection {
-    /// Body to start from. Keys given here replace its values. Without a preset or a person everything must be given.
+    /// Body to start from; other keys override its values. Without a preset or a person (`sex`, `stature`, `mass`)
+    /// everything must be given.
     #[schemars(extend("enum" = [
         "male50", "male50-1970", "female05", "female50", "male95", "child06", "child10",
     ]))]
     pub(crate) preset: Option<String>,
-    /// Of a grown-up who is made by sex, stature and mass.
+    /// A dummy in one word: size, chest, neck and joints; keys given here and under `joints` replace them.
+    pub(crate) dummy: Option<DummyChoice>,
+    /// Sex of an adult defined by sex, stature and mass.
     #[schemars(extend("enum" = ["female", "male"]))]
     pub(crate) sex: Option<String>,
     /// Standing height of that person.
     pub(crate) stature: Option<Length<POSITIVE>>,
     /// Mass of that person.
     pub(crate) mass: Option<Mass<POSITIVE>>,
-    /// L_s, distance of a shoulder joint from the middle plane.
+    /// L_s, distance of a shoulder joint from the midsagittal plane.
     pub(crate) shoulder_half_width: Option<Length<NOT_NEGATIVE>>,
-    /// L_H, distance of a hip joint from the middle plane.
+    /// L_H, distance of a hip joint from the midsagittal plane.
     pub(crate) hip_half_width: Option<Length<NOT_NEGATIVE>>,
-    /// Height of the neck's joint above the line of the shoulders; 0 if absent, as in the report.
+    /// Height of the neck joint above the line of the shoulders; 0 if absent, as in the 1970 report.
     pub(crate) neck_height: Option<Length<NOT_NEGATIVE>>,
-    /// The occipital condyles, [ahead of, above] the neck's joint in the head: loads of the upper neck are given there, at the
-    /// joint if absent.
+    /// Position of the occipital condyles, [ahead of, above] the joint between neck and head. Upper neck loads are
+    /// given there, or at the joint if absent.
     pub(crate) condyles: Option<[Length; 2]>,
-    /// Gravity by which a `weight` is divided to give a mass; standard gravity if absent.
+    /// Gravity used to convert a `weight` to a mass; standard gravity if absent.
     pub(crate) weighed_at: Option<Acceleration<POSITIVE>>,
-    /// Into how many segments a preset or a person is divided: 12, the report's; 15, with a neck on two joints and feet;
-    /// 17, with hands too; 19, with clavicles too, which carry the arms. If absent 19 with `joints.preset` = "person" or "volunteer"
-    /// unless `segments` or `joints` say more, else 12.
+    /// Number of segments of a preset or a person: 12, as in the 1970 report; 15, with feet and a neck on two joints;
+    /// 17, with hands too; 19, with clavicles that carry the arms. If absent, 19 with `joints.preset` = "person" or
+    /// "volunteer" and no other keys in `segments` or `joints`, else 12.
     pub(crate) segment_count: Option<i64>,
-    /// Segments that carry instruments, of a body whose segments have other names.
+    /// The instrumented segments, for a body whose segments have other names.
     pub(crate) landmarks: Option<LandmarksSection>,
-    /// Segments by name; of twelve `middle_torso`, `upper_torso`, `head`, `lower_torso`, `left_upper_arm`, `left_forearm`,
-    /// `left_thigh`, `left_lower_leg` and those of the right. `upper_arms`, `forearms`, `hands`, `thighs`, `lower_legs`,
-    /// `feet` stand for left and right.
+    /// Segments by name. The twelve are `middle_torso`, `upper_torso`, `head`, `lower_torso`, `left_upper_arm`,
+    /// `left_forearm`, `left_thigh`, `left_lower_leg` and the same on the right. `upper_arms`, `forearms`, `hands`,
+    /// `thighs`, `lower_legs`, `feet` stand for both sides.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) segments: IndexMap<String, SegmentSection>,
-    /// How the segments of a body of one's own hang on each other, by the names of their joints, or changes of a preset.
-    /// One segment is carried by no joint: its upper end is the reference point T1.
+    /// Joints of your own body by name, or changes to those of a preset. Exactly one segment, the root, has no parent
+    /// joint; its upper end is the reference point T1.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) joints: IndexMap<String, BodyJointSection>,
-    /// Which spheres there are besides those of `spheres` that you name yourself; "report" if absent. Each sphere has a force of
-    /// its own: a limb that lies flat is as many times stiffer as it has spheres there, whatever the area.
+    /// Set of contact spheres, to which `spheres` adds your own; "report" if absent. Each sphere has its own force: a
+    /// limb that lies flat on four spheres is four times as stiff, whatever the area.
     pub(crate) sphere_set: Option<SphereSet>,
-    /// Whose chest it is, which gives way: "person", fitted to hub tests of dead people and scaled by size; "dummy50", "dummy05f",
-    /// those of Hybrid III dummies; "rigid", none. "rigid" if absent. A seat's back bears on the spine: there
-    /// the chest is rigid.
+    /// Compliance of the chest: "person", fitted to hub tests of cadavers and scaled by size; "dummy50", "dummy05f",
+    /// those of the Hybrid III dummies; or "rigid". "rigid" if absent. A seat back bears on the spine, where the chest
+    /// is always rigid.
     pub(crate) chest: Option<ChestChoice>,
-    /// "flesh": what a lap belt presses gives way, by guessed numbers; "rigid" if absent.
+    /// "flesh": tissue under a lap belt gives way, with estimated values. "rigid" if absent.
     pub(crate) pelvis: Option<PelvisChoice>,
-    /// "person": a sphere and a plate of the trunk's part above the pelvis, which belts, rims and doors meet; fitted to two figures of belt
-    /// pretensioners. "rigid", no such part, if absent.
+    /// "person": an abdomen, as a sphere and a plate above the pelvis, which belts, rims and doors can load; fitted to
+    /// two values of belt pretensioner tests. "rigid", no abdomen, if absent.
     pub(crate) abdomen: Option<AbdomenChoice>,
-    /// Parts that give way by name, or changes of those of `chest`: `sternum`, `left_ribs`, `right_ribs`.
+    /// Deformable parts by name, or changes to those of `chest`: `sternum`, `left_ribs`, `right_ribs`.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) plates: IndexMap<String, BodyPlateSection>,
     /// Springs and dampers between plates by name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) plate_links: IndexMap<String, LinkSection>,
-    /// Contact spheres by name. The report's 17 (`head`, `chest`, `pelvis`, `left_shoulder`, …) know their place and need
-    /// only a radius; `shoulders`, `elbows`, `hands`, `thighs`, `knees`, `shins`, `feet` stand for left and right.
+    /// Contact spheres by name. The 17 of the 1970 report (`head`, `chest`, `pelvis`, `left_shoulder`, …) have a
+    /// default centre and need only a radius; `shoulders`, `elbows`, `hands`, `thighs`, `knees`, `shins`, `feet` stand
+    /// for both sides.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) spheres: IndexMap<String, SphereSection>,
+}
+
+/// A body that behaves as a dummy in the tests that are named. Its masses, lengths and outside are those of a person of that size.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub(crate) enum DummyChoice {
+    /// Hybrid III, 50th-percentile male: neck fitted to 49 CFR 572.33 (11 of 12 figures within the corridors), chest to 572.34, hips to
+    /// 572.35; the back is that of 572.9; knees and limbs were compared with nothing.
+    #[serde(rename = "hybrid3_50m-like")]
+    HybridIii50M,
+    /// Hybrid III, 5th-percentile female: neck fitted to 572.133, chest to 572.134, trunk to 572.135; nothing else was compared.
+    #[serde(rename = "hybrid3_5f-like")]
+    HybridIii5F,
+    /// Hybrid III, child of six years: neck fitted to 572.123, trunk to 572.125; its chest is rigid; nothing else was compared.
+    #[serde(rename = "hybrid3_6c-like")]
+    HybridIii6C,
+    /// Hybrid II: neck fitted to the pendulum of 572.7 of 1973; its chest is rigid; nothing else was compared.
+    #[serde(rename = "hybrid2-like")]
+    HybridIi,
 }
 
 /// A set of contact spheres.
@@ -101,35 +123,36 @@ pub(crate) enum SphereSet {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LandmarksSection {
-    /// Carries the head's accelerometer; its joint is the upper neck's load cell. "head" if absent.
+    /// Segment with the head accelerometer; its joint is the upper neck load cell. "head" if absent.
     pub(crate) head: Option<String>,
-    /// Carries the chest's accelerometer. "upper_torso" or "chest" if absent.
+    /// Segment with the chest accelerometer; "upper_torso" or "chest" if absent.
     pub(crate) chest: Option<String>,
-    /// Carries the pelvis' accelerometer and sits on the cushion. "lower_torso" or "pelvis" if absent.
+    /// Segment with the pelvis accelerometer, which sits on the cushion; "lower_torso" or "pelvis" if absent.
     pub(crate) pelvis: Option<String>,
 }
 
-/// A joint of the body and its place on both segments.
+/// A joint of the body and its position on both segments.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-at-most-one" = [["axis", "axes_on_proximal"], ["axis", "axes_on_distal"]]))]
 pub(crate) struct BodyJointSection {
-    /// The segment nearer to the one that no joint carries.
+    /// The parent segment, nearer to the root.
     pub(crate) proximal: Option<String>,
-    /// The segment that it carries.
+    /// The child segment.
     pub(crate) distal: Option<String>,
-    /// How it turns: "ball", any way; "pin", about one axis; "universal", about Y, then X of the joint's axes; "fixed", not
-    /// at all. "ball" if absent.
+    /// Joint type: "ball"; "pin", one axis; "universal", about Y, then X of the joint's axes; "fixed". "ball" if
+    /// absent.
     #[schemars(extend("enum" = ["ball", "pin", "universal", "fixed"]))]
     pub(crate) kind: Option<String>,
-    /// Its place on the proximal segment, from that one's lower end, in its axes (X ahead, Y left, Z up when standing).
+    /// Its position on the proximal segment, from that segment's lower end, in its axes (X forward, Y left, Z up when
+    /// standing).
     pub(crate) on_proximal: Option<[Length; 3]>,
-    /// Its place on the distal segment, from that one's lower end, in its axes.
+    /// Its position on the distal segment, from that segment's lower end, in its axes.
     pub(crate) on_distal: Option<[Length; 3]>,
-    /// Axis of a pin in the axes of both segments as they stand at the angle 0; Y if absent.
+    /// Axis of a pin, in the axes of both segments at angle 0; Y if absent.
     pub(crate) axis: Option<[Ratio; 3]>,
-    /// Yaw, pitch and roll that turn the joint's axes into the proximal segment's; none if absent. A pin turns about the
-    /// joint's Y; bend and twist are those of its Z axes.
+    /// Yaw, pitch and roll from the joint's axes to those of the proximal segment; none if absent. A pin turns about
+    /// the joint's Y axis; bend and twist are measured from its Z axis.
     pub(crate) axes_on_proximal: Option<[Angle; 3]>,
     /// The same for the distal segment.
     pub(crate) axes_on_distal: Option<[Angle; 3]>,
@@ -142,19 +165,19 @@ pub(crate) struct BodyJointSection {
 pub(crate) struct SegmentSection {
     /// L, distance between the segment's ends.
     pub(crate) length: Option<Length<POSITIVE>>,
-    /// ρ, distance of the centre of gravity from the lower end, standing posture (the distal end of a limb).
+    /// ρ, distance of the centre of gravity from the lower end in standing posture (the distal end of a limb).
     pub(crate) cg_from_lower_end: Option<Length>,
-    /// X and Y of the centre of gravity, if it is not on the line between the ends.
+    /// [X, Y] of the centre of gravity, if it is off the line between the ends.
     pub(crate) cg_beside: Option<[Length; 2]>,
     /// Mass. Give this or `weight`.
     pub(crate) mass: Option<Mass<POSITIVE>>,
-    /// Weight, a force; divided by `body.weighed_at` to give the mass.
+    /// Weight, as a force; divided by `body.weighed_at` to give the mass.
     pub(crate) weight: Option<Force<POSITIVE>>,
-    /// I_x, I_y, I_z about the centre of gravity; X ahead, Y left, Z up when standing.
+    /// I_x, I_y, I_z about the centre of gravity; X forward, Y left, Z up when standing.
     pub(crate) inertia: Option<[Inertia; 3]>,
-    /// Yaw, pitch and roll that turn the principal axes into the segment's, if `inertia` is about other axes than these. They are
-    /// about the segment's own axes, X ahead, Y left, Z up: yaw is to the left, pitch leans the top ahead. Of `mount`, loose bodies
-    /// and paths, whose axes are a vehicle's with Z down, yaw is to the right and pitch leans the top back.
+    /// Yaw, pitch and roll from the principal axes of `inertia` to the segment's axes, if they differ. Segment axes are
+    /// X forward, Y left, Z up: positive yaw is to the left, positive pitch leans the top forward. (In `mount`, loose
+    /// bodies and paths, Z is down: positive yaw is to the right, positive pitch leans the top back.)
     pub(crate) principal_axes: Option<[Angle; 3]>,
 }
 
@@ -164,18 +187,18 @@ pub(crate) struct SegmentSection {
 pub(crate) struct SphereSection {
     /// Radius.
     pub(crate) radius: Option<Length<POSITIVE>>,
-    /// Part of the body that it belongs to, such as "head"; results speak of the forces on all its spheres as one. Absent: the
-    /// part where the sphere set has it, else a part by its own name.
+    /// Body part that it belongs to, such as "head". Results combine the forces on all spheres of a part. If absent,
+    /// the part in the sphere set, else a part with its own name.
     pub(crate) part: Option<String>,
-    /// What its contact forces are multiplied by, for a material that was measured on the whole part; 1 if absent.
+    /// Factor on its contact forces, for a material that was measured on the whole part; 1 if absent.
     pub(crate) share: Option<Ratio<POSITIVE>>,
-    /// Segment that carries it; those of the sphere set know theirs.
+    /// Segment that it is fixed to; that of the sphere set if absent.
     pub(crate) segment: Option<String>,
-    /// Centre from the segment's lower end, in segment axes (X ahead, Y left, Z up when standing).
+    /// Centre from the segment's lower end, in segment axes (X forward, Y left, Z up when standing).
     pub(crate) centre: Option<[Length; 3]>,
-    /// How it goes along with plates of its segment that give way, by what touches it; not at all if absent.
+    /// How far it follows the plates of its segment, by what touches it; not at all if absent.
     pub(crate) ride: Option<RideSection>,
-    /// True takes the sphere away.
+    /// True removes the sphere.
     pub(crate) remove: Option<bool>,
 }
 
@@ -225,11 +248,11 @@ fn check_person(b: &mut Builder, preset: Option<&str>, section: &BodySection) {
     if !person.is_within_reach() {
         b.error("body", size, REACH);
     } else if let factor @ (..0.9 | 1.1..) = person.body(Division::default()).1 {
-        let found = format!("{size}, whose segments by volume must weigh {factor:.2} times as much to reach that mass");
+        let found = format!("{size}: segment masses by volume must be scaled by {factor:.2} to reach that mass");
         b.report(Problem::warning(
             "body",
             found,
-            "a factor of 0.9 to 1.1: this person is unlike those who were measured",
+            "a factor of 0.9 to 1.1: beyond it, a person is unlike those who were measured",
         ));
     }
 }
@@ -284,8 +307,8 @@ fn check_division(b: &mut Builder, preset: Option<&str>, section: &BodySection) 
     if section.division().is_none() {
         b.error("body.segment_count", format!("{count} segments"), "12, 15, 17 or 19");
     } else if count != 12 && preset.is_none() && !section.describes_a_person() && section.joints.is_empty() {
-        let expected = "a preset or a person to divide, or `[body.joints]` of one's own";
-        b.error("body.segment_count", "`segment_count` of a body of one's own", expected);
+        let expected = "a preset or a person, or your own `[body.joints]`";
+        b.error("body.segment_count", "`segment_count` in a body with its own joints", expected);
     } else if preset == Some("male50-1970") && count != 12 {
         b.error("body.segment_count", format!("male50-1970 in {count} segments"), "12, or preset = \"male50\"");
     }
@@ -295,7 +318,7 @@ fn segment(b: &mut Builder, name: &str, weighed_at_m_s2: f64) -> SegmentProperti
     let path = with_key("body.segments", name);
     let Some(section) = b.section::<SegmentSection>(&path) else {
         let found = format!("the body has no segment `{name}`");
-        let hint = "body.preset = \"male50\" gives a whole body to change";
+        let hint = "body.preset = \"male50\" gives a complete body to change";
         b.report(Problem::error(path, found, "all twelve segments").with_hint(Some(hint)));
         return SegmentProperties::new(f64::NAN, f64::NAN, f64::NAN, Vector3::zeros());
     };
@@ -368,7 +391,7 @@ fn changed(b: &mut Builder, body: &Body, mut sphere: ContactSphere, section: &Sp
     } else if segment.is_some_and(|s| s != sphere.segment) {
         b.error(
             &with_key(&path, "segment"),
-            format!("`{}` moved to another segment without a place there", sphere.name),
+            format!("sphere `{}` is moved to another segment without a `centre`", sphere.name),
             "centre = [x, y, z] from the lower end of that segment",
         );
     }
@@ -399,7 +422,7 @@ fn own_sphere(b: &mut Builder, body: &Body, name: &str, section: &SphereSection)
     let segment = carrier(b, tree, &path, section);
     if section.segment.is_none() {
         let found = format!("sphere `{name}` without a segment");
-        let hint = format!("only the report's 17 spheres know theirs: {}", tree.sphere_names().join(", "));
+        let hint = format!("only the 17 standard spheres have a default segment: {}", tree.sphere_names().join(", "));
         b.report(Problem::error(&path, found, "segment = the segment that carries it").with_hint(Some(hint)));
     }
     if section.centre.is_none() {

@@ -49,7 +49,7 @@ pub(super) fn own_tree(b: &mut Builder, body: &BodySection, is_part: bool) -> Op
         Err(problem) => {
             let expected = match problem {
                 TreeProblem::MissingLandmark(key) => {
-                    format!("landmarks = {{ {key} = \"a segment that a joint carries\" }}")
+                    format!("landmarks = {{ {key} = \"a segment with a parent joint\" }}")
                 }
                 _ => "joints that hang each segment on one before it".to_owned(),
             };
@@ -100,18 +100,18 @@ fn ordered<'a>(b: &mut Builder, body: &'a BodySection, mut rest: Vec<Hung<'a>>) 
     }
     let twice = rest.iter().enumerate().find_map(|(i, joint)| {
         let first = rest[..i].iter().find(|first| first.distal == joint.distal)?;
-        Some((joint.name, format!("`{}` is carried by joint `{}` already", joint.distal, first.name)))
+        Some((joint.name, format!("segment `{}` already has a parent joint, `{}`", joint.distal, first.name)))
     });
     if let Some((name, found)) = twice {
         let path = with_key(&with_key("body.joints", name), "distal");
-        b.error(&path, found, "one joint that carries each segment");
+        b.error(&path, found, "one parent joint per segment");
         return None;
     }
     let mut roots = body.segments.keys().filter(|name| rest.iter().all(|joint| joint.distal != name.as_str()));
     let root = roots.next();
     if let (Some(root), Some(other)) = (root, roots.next()) {
-        let found = format!("`{other}` is carried by no joint, nor is `{root}`");
-        b.error(&with_key("body.segments", other), found, "one segment alone that no joint carries");
+        let found = format!("neither `{root}` nor `{other}` has a parent joint");
+        b.error(&with_key("body.segments", other), found, "exactly one segment, the root, without a parent joint");
         return None;
     }
     let mut held: Vec<&str> = root.into_iter().map(String::as_str).collect();
@@ -123,8 +123,8 @@ fn ordered<'a>(b: &mut Builder, body: &'a BodySection, mut rest: Vec<Hung<'a>>) 
     }
     if let Some(first) = rest.first() {
         let names: Vec<String> = rest.iter().map(|joint| format!("`{}`", joint.name)).collect();
-        let found = format!("joints that go round in a circle: {}", names.join(", "));
-        let expected = "joints by which every segment hangs, in the end, on the one that no joint carries";
+        let found = format!("joints that form a loop, or hang on one: {}", names.join(", "));
+        let expected = "a tree of joints from the root to every segment";
         b.error(&with_key("body.joints", first.name), found, expected);
         return None;
     }

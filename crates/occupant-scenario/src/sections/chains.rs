@@ -32,8 +32,8 @@ pub(super) fn chains(b: &mut Builder, scenario: &Scenario, body: &Body, triggers
                 b.refuse_keys(
                     &path,
                     &keys,
-                    |key| format!("`{key}` of a belt with nodes"),
-                    "`retractor` and `pretensioner` of a node",
+                    |key| format!("`{key}` in a belt with nodes"),
+                    "`retractor` and `pretensioner` in one of its nodes",
                 );
                 nodes.clone()
             }
@@ -52,7 +52,7 @@ impl Parts<'_> {
         let mut device = self.device(b, &path, s, sections);
         let rest = rest(s);
         if device.reel.is_some() {
-            let expected = "none of them: the spool's tension is the belt's";
+            let expected = "none of them: the spool sets the belt's tension";
             b.refuse_keys(
                 &path,
                 &["slack", "pretension", "length"],

@@ -70,19 +70,19 @@ impl FrameSection {
             _ => return self.check_panel(b, path),
         };
         let kind = if self.kind == Some(FrameKind::Hinge) { "hinge" } else { "column" };
-        let found = format!("a path of a {kind}, which goes where it is pushed");
+        let found = format!("a path in a {kind}, which moves where it is pushed");
         b.refuse_keys(path, &["path"], |_| found.clone(), "`kind = \"panel\"`, or no path");
         let other = if kind == "hinge" { "column" } else { "hinge" };
-        b.refuse_keys(path, others, |key| format!("`{key}` of a {kind}"), &format!("`kind = \"{other}\"` beside it"));
+        b.refuse_keys(path, others, |key| format!("`{key}` in a {kind}"), &format!("`kind = \"{other}\"`"));
         for (key, _) in keys.iter().filter(|(_, is_there)| !is_there) {
             b.error(path, format!("`{path}` has no key `{key}`"), expected);
         }
     }
 
     fn check_panel(&self, b: &mut Builder, path: &str) {
-        b.refuse_keys(path, &OWN, |key| format!("`{key}` of a panel"), "`kind = \"column\"` or \"hinge\" beside it");
+        b.refuse_keys(path, &OWN, |key| format!("`{key}` in a panel"), "`kind = \"column\"` or \"hinge\"");
         for (keys, kind) in [(&SLIDES[..], "column"), (&TURNS[..], "hinge")] {
-            b.refuse_keys(path, keys, |key| format!("`{key}` of a panel"), &format!("`kind = \"{kind}\"` beside it"));
+            b.refuse_keys(path, keys, |key| format!("`{key}` in a panel"), &format!("`kind = \"{kind}\"`"));
         }
         if self.path.is_none() {
             let expected = "path = { kind = … }, or `kind = \"column\"` or \"hinge\"";

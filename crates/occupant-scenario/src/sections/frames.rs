@@ -21,8 +21,10 @@ use placed_text::{Diagnostics, Document, Entry, Node, with_key};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct VehicleSection {
-    /// Its motion; all vehicles share one vehicle-space and one clock.
+    /// Its motion. All vehicles share one vehicle-space and one clock.
     pub(crate) path: PathSection,
+    /// Its inside in words; names of what is written out begin with the vehicle's, as in `NAME_wheel_rim`.
+    pub(crate) car: Option<super::CarSection>,
 }
 
 /// The ground: a level plane in vehicle-space that every body can touch.
@@ -31,53 +33,54 @@ pub(crate) struct VehicleSection {
 pub(crate) struct GroundSection {
     /// Name of its material in `materials`.
     pub(crate) material: String,
-    /// How far it lies below the origin of vehicle-space, which is at the height of a vehicle's centre of gravity where its
-    /// path says z = 0; 0 if absent.
+    /// Depth below the origin of vehicle-space, which is the height of a vehicle's centre of gravity where its path has
+    /// z = 0; 0 if absent.
     pub(crate) below: Option<Length>,
 }
 
-/// A frame that moves within another: an intruding panel, a steering column that gives way, or a hinge, such as the recliner of the back
-/// of a seat. Geometry on it is given in the axes of its parent, where it is before it moves.
+/// A frame that moves within another: an intruding panel, a collapsing steering column, or a hinge, such as a seat
+/// recliner. Geometry on it is given in its parent's axes, at its initial position.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-together" = [["stroke", "force"], ["angle", "moment"]]))]
 pub(crate) struct FrameSection {
-    /// A panel, which moves as `path` says, a column, which goes along `axis` where bodies and bags push it, or a hinge, which turns about
-    /// `axis`; "panel" if absent.
+    /// "panel" moves as `path` says; "column" strokes along `axis` when bodies or bags push it; "hinge" turns about
+    /// `axis`. "panel" if absent.
     pub(crate) kind: Option<FrameKind>,
     /// What it moves against: a vehicle, or a panel above it; "vehicle" if absent.
     pub(crate) parent: Option<String>,
-    /// The point of the parent about which a panel or a hinge turns, or the middle of the mass that strokes; [0, 0, 0] if absent.
+    /// Centre of rotation of a panel or hinge, or centre of the stroking mass, in the parent's axes; [0, 0, 0] if
+    /// absent.
     pub(crate) origin: Option<[Length; 3]>,
-    /// How a panel is moved from where its geometry is given, along the parent's axes.
+    /// Motion of a panel from its initial position, along the parent's axes.
     pub(crate) path: Option<PathSection>,
-    /// The way that a column gives, or the axis about which a hinge turns by the right hand, along the parent's axes; any length. The back of
-    /// a seat that faces forward leans back about [0, 1, 0].
+    /// Stroke direction of a column, or rotation axis of a hinge (right-hand rule), in the parent's axes; any length. A
+    /// forward-facing seat back leans back about [0, 1, 0].
     pub(crate) axis: Option<[Ratio; 3]>,
-    /// Mass of all that strokes with a column or turns with a hinge.
+    /// Mass that strokes with a column or turns with a hinge.
     pub(crate) mass: Option<Mass<POSITIVE>>,
-    /// Strokes of a column, from 0 on.
+    /// Strokes of a column, from 0.
     pub(crate) stroke: Option<Vec<Length<NOT_NEGATIVE>>>,
-    /// Force at each that makes it give; may fall. A last interval in which it rises is the end of the stroke.
+    /// Force at each stroke; may fall. A rise in the last interval is the end stop.
     pub(crate) force: Option<Vec<Force<NOT_NEGATIVE>>>,
-    /// The middle of the mass that turns with a hinge, along the parent's axes, before it turns.
+    /// Centre of the mass that turns with a hinge, in the parent's axes, before it turns.
     pub(crate) centre: Option<[Length; 3]>,
-    /// Its moment of inertia about a parallel of `axis` through `centre`.
+    /// Moment of inertia of that mass about an axis through `centre`, parallel to `axis`.
     pub(crate) inertia: Option<Inertia<POSITIVE>>,
-    /// Angles of a hinge, from 0 on.
+    /// Angles of a hinge, from 0.
     pub(crate) angle: Option<Vec<Angle<NOT_NEGATIVE>>>,
-    /// Moment at each that makes it turn; may fall. It yields the way of `axis` alone; the other way it is a spring. A last interval in which
-    /// it rises is the end of its way.
+    /// Moment at each angle; may fall. The hinge yields only in the positive sense of `axis`; in the other sense it is
+    /// a spring. A rise in the last interval is the end stop.
     pub(crate) moment: Option<Vec<Moment<NOT_NEGATIVE>>>,
-    /// What the force or moment is between points; "lines" if absent.
+    /// Interpolation of the force or moment between points; "lines" if absent.
     pub(crate) shape: Option<Shape>,
-    /// What it is beyond the last; "extends" if absent.
+    /// Force or moment beyond the last point; "extends" if absent.
     pub(crate) beyond: Option<Beyond>,
-    /// A column unloads and loads again with this slope, no less than the greatest of the force, which it is if absent.
+    /// Unloading and reloading slope of a column, no less than the steepest slope of the force; that slope if absent.
     pub(crate) unload_slope: Option<Stiffness<POSITIVE>>,
-    /// The same of a hinge.
+    /// The same for a hinge.
     pub(crate) unload_stiffness: Option<RotationalStiffness<POSITIVE>>,
-    /// Name of a column of the library, which gives all that is not said beside it.
+    /// Name of a column of the library. Other keys override its values.
     #[schemars(extend("enum" = ["column_1969"]))]
     pub(crate) library: Option<String>,
 }
@@ -217,8 +220,8 @@ pub(super) fn frames(b: &mut Builder, s: &Scenario, gravity_m_s2: f64) -> Vec<Ot
         let parent = b.frame(s, &with_key(&at, "parent"), section.parent.as_deref());
         let own = list.len();
         if matches!(parent, Frame::Other(i) if i >= own) || matches!(parent, Frame::Segment(_)) {
-            let expected = "a vehicle, or a frame that stands above it: no frame moves against itself";
-            b.error(&with_key(&at, "parent"), format!("`{name}` hangs on one that does not stand before it"), expected);
+            let expected = "a vehicle, or a frame defined above it";
+            b.error(&with_key(&at, "parent"), format!("the parent of `{name}` is not defined before it"), expected);
         }
         let origin_m = section.origin.as_ref().map_or_else(Point3::origin, point);
         let own = section.path.as_ref().filter(|_| !section.gives());
@@ -230,8 +233,8 @@ pub(super) fn frames(b: &mut Builder, s: &Scenario, gravity_m_s2: f64) -> Vec<Ot
     if list.len() > most {
         b.error(
             "frames",
-            format!("{} frames beside space and the first vehicle", list.len()),
-            format!("at most {most}, the ground among them"),
+            format!("{} frames besides space and the first vehicle", list.len()),
+            format!("at most {most}, including the ground"),
         );
     }
     list

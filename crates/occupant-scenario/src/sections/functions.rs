@@ -11,25 +11,25 @@ use occupant_core::forces::function::{Beyond, Function};
 /// μ of a limiter: a torsion bar does not wind back.
 const LIMITER_RETURNS: f64 = 0.01;
 
-/// Webbing: its tension over its strain, straight between points.
+/// Webbing: tension over strain, linear between points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-at-most-one" = [["returned", "returned_each"]]))]
 pub(crate) struct WebbingSection {
-    /// Strains, from 0 on.
+    /// Strains, from 0.
     pub(crate) strain: Option<Vec<Ratio<NOT_NEGATIVE>>>,
     /// Tension at each.
     pub(crate) force: Option<Vec<Force<NOT_NEGATIVE>>>,
-    /// What it is beyond the last; "extends" if absent.
+    /// Force or moment beyond the last point; "extends" if absent.
     pub(crate) beyond: Option<Beyond>,
-    /// Name of a webbing of the library, which gives all that is not said beside it.
+    /// Name of a webbing of the library. Other keys override its values.
     #[schemars(extend("enum" = ["webbing_atb", "webbing_ng"]))]
     pub(crate) library: Option<String>,
     /// Fraction of its work that unloading returns; 1 if absent.
     pub(crate) returned: Option<Ratio<FRACTION>>,
     /// The same for each interval.
     pub(crate) returned_each: Option<Vec<Ratio<FRACTION>>>,
-    /// Damping: a spring that gives way with a time constant, beside the webbing.
+    /// Damping: a relaxing spring (Maxwell element) in parallel.
     pub(crate) viscous: Option<ViscousSection>,
 }
 
@@ -43,18 +43,18 @@ pub(crate) struct ViscousSection {
     pub(crate) time: Time<POSITIVE>,
 }
 
-/// A limiter: belt force over the webbing that it has given; a first rise is webbing that tightens on the spool.
+/// A load limiter: belt force over webbing paid out. The initial rise is webbing that tightens on the spool.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-at-most-one" = [["returned", "returned_each"]]))]
 pub(crate) struct LimiterSection {
-    /// Webbing given, from 0 on.
+    /// Webbing paid out, from 0.
     pub(crate) payout: Option<Vec<Length<NOT_NEGATIVE>>>,
     /// Force at each; must not fall.
     pub(crate) force: Option<Vec<Force<NOT_NEGATIVE>>>,
-    /// What it is beyond the last; "extends" if absent.
+    /// Force or moment beyond the last point; "extends" if absent.
     pub(crate) beyond: Option<Beyond>,
-    /// Name of a limiter of the library, which gives all that is not said beside it.
+    /// Name of a limiter of the library. Other keys override its values.
     #[schemars(extend("enum" = ["torsion_bar"]))]
     pub(crate) library: Option<String>,
     /// Fraction of its work that unloading returns; 0.01 if absent, as of a torsion bar.
@@ -112,7 +112,7 @@ pub(super) fn points<const A: usize, const B: usize, const C: usize, const D: us
 ) -> Vec<[f64; 2]> {
     if xs.len() != ys.len() {
         let found = format!("{} numbers in `{x}`, {} in `{y}`", xs.len(), ys.len());
-        b.error(path, found, "as many in one as in the other");
+        b.error(path, found, "the same number in both");
     }
     xs.iter().zip(ys).map(|(x, y)| [x.si(), y.si()]).collect()
 }

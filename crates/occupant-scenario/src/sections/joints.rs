@@ -17,14 +17,15 @@ use placed_text::{Problem, with_key};
 /// and that replaces the preset. Every joint needs a damping from somewhere.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub(crate) struct JointsSection {
-    /// Joints to start from: "male50", the viscous stops of the report; "gebod", elastic limits of the GEBOD generator;
-    /// "person", with the spine and the clavicles of one whose muscles do nothing; "volunteer", the same with the muscles of a living
-    /// neck (`muscles.readiness`); "dummy50-like", "dummy50-1973-like", "dummy05f-like", "dummy06c-like", what the calibration of dummies asks of neck, trunk and hips.
+    /// Joint set to start from: "male50", the viscous stops of the 1970 report; "gebod", the elastic limits of the
+    /// GEBOD generator; "person", with a passive spine, neck and clavicles; "volunteer", the same with active neck
+    /// muscles (`muscles.readiness`); "dummy50-like", "dummy50-1973-like", "dummy05f-like", "dummy06c-like", which meet
+    /// the calibration corridors of dummies for neck, trunk and hips.
     #[schemars(extend("enum" = ["male50", "gebod", "person", "volunteer", "dummy50-like", "dummy50-1973-like", "dummy05f-like", "dummy06c-like"]))]
     pub(crate) preset: Option<String>,
-    /// ε that keeps joint angles smooth where two segments are in line; 0.001 if absent, 0 is the report's formula.
+    /// ε, smooths joint angles where two segments are in line; 0.001 if absent, 0 is the formula of the 1970 report.
     pub(crate) epsilon: Option<Ratio<NOT_NEGATIVE>>,
-    /// All joints.
+    /// Values for all joints.
     pub(crate) all: Option<JointSection>,
     /// Joints by name: `neck`, `upper_back`, `lower_back`, `left_shoulder`, `left_elbow`, `left_hip`, `left_knee` and those
     /// of the right; bodies with more segments have others. `sternoclaviculars`, `shoulders`, `elbows`, `wrists`, `hips`, `knees`,
@@ -37,33 +38,33 @@ pub(crate) struct JointsSection {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct JointSection {
-    /// Name of a joint set in `joint_sets`; keys given here replace its values.
+    /// Name of a joint set in `joint_sets`; other keys override its values.
     pub(crate) set: Option<String>,
     /// J_N, viscous damping; a bare number is per radian.
     pub(crate) damping: Option<RotationalDamping<NOT_NEGATIVE>>,
-    /// J_t, damping of turning about the outer segment's long axis; ball joints only, 0 if absent as in the report.
+    /// J_t, damping of twist about the outer segment's long axis; ball joints only; 0 if absent, as in the 1970 report.
     pub(crate) twist_damping: Option<RotationalDamping<NOT_NEGATIVE>>,
     /// Limit of the angle between the two segments; ball joints only.
     pub(crate) stop: Option<StopSection>,
-    /// Limit towards smaller angles; elbows and knees only.
+    /// Lower angle limit; elbows and knees only.
     pub(crate) lower_stop: Option<StopSection>,
-    /// Limit towards larger angles; elbows and knees only.
+    /// Upper angle limit; elbows and knees only.
     pub(crate) upper_stop: Option<StopSection>,
-    /// K, rotational stiffness; ball joints only (the report has it in the two back joints).
+    /// K, rotational stiffness; ball joints only (the 1970 report uses it in the two back joints).
     pub(crate) stiffness: Option<RotationalStiffness<NOT_NEGATIVE>>,
-    /// β₀, angle at which the stiffness gives no torque; the angle at the start if absent.
+    /// β₀, angle at which the stiffness gives no torque; the initial angle if absent.
     pub(crate) rest_angle: Option<Angle<NOT_NEGATIVE>>,
-    /// Where the limits of a ball joint count from: along the outer segment, straight, if absent.
+    /// Axis from which the limits of a ball joint are measured; along the straight outer segment if absent.
     pub(crate) centre: Option<Box<CentreSection>>,
-    /// Elastic limit of the bend away from the centre axis; ball joints only.
+    /// Elastic limit of bending away from the centre axis; ball joints only.
     pub(crate) limit: Option<Box<BendLimitSection>>,
-    /// Elastic limit of the twist; ball joints only.
+    /// Elastic limit of twist; ball joints only.
     pub(crate) twist_limit: Option<Box<RangeLimitSection>>,
     /// Elastic limit of the angle; elbows and knees only.
     pub(crate) angle_limit: Option<Box<RangeLimitSection>>,
     /// Dry friction.
     pub(crate) friction: Option<Box<FrictionSection>>,
-    /// Held until a moment is reached.
+    /// A lock that holds up to a moment.
     pub(crate) lock: Option<Box<LockSection>>,
 }
 
@@ -73,7 +74,7 @@ pub(crate) struct JointSection {
 pub(crate) struct StopSection {
     /// Angle at which the damping starts to grow.
     pub(crate) begin: Angle,
-    /// Angle at which it is full, and beyond which it stays so.
+    /// Angle from which on it is full.
     pub(crate) full: Angle,
     /// J_S, the full damping.
     pub(crate) damping: RotationalDamping<NOT_NEGATIVE>,
@@ -102,10 +103,10 @@ pub(super) fn check_neck(b: &mut Builder, preset: &str, tree: &Tree) {
     if !OF_PEOPLE.contains(&preset) || tree.joint_named("neck").is_none() || tree.joint_named("neck_base").is_some() {
         return;
     }
-    let found = format!("the neck of \"{preset}\" in a body whose neck is one joint");
-    let expected = "body.segment_count = 15, 17 or 19, whose necks have two";
+    let found = format!("the neck of \"{preset}\" in a body with a one-joint neck");
+    let expected = "body.segment_count = 15, 17 or 19, with a two-joint neck";
     let problem = if preset == "person" { Problem::warning } else { Problem::error };
-    let why = "one joint cannot be that neck: the head would not lag behind it, and its limit is that of one of two";
+    let why = "with one joint the head would not lag behind, and the limits would be those of one joint of two";
     b.report(problem("joints.preset".to_owned(), found, expected.to_owned()).with_hint(Some(why)));
 }
 
@@ -128,7 +129,7 @@ fn report_undamped(b: &mut Builder, tree: &Tree) {
         0 => format!("joint `{first}` has no damping"),
         n => format!("joint `{first}` and {n} more have no damping"),
     };
-    let hint = "joints.all.damping is that of every joint, joints.preset = \"male50\" gives a starting set";
+    let hint = "set joints.all.damping for all joints, or start from joints.preset = \"male50\"";
     let expected = "a damping for each joint";
     b.report(Problem::error(format!("joints.{first}"), found, expected).with_hint(Some(hint)));
 }

@@ -25,12 +25,12 @@ const LOCK_RAD: f64 = 2.0 * std::f64::consts::PI / 180.0;
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-at-most-one" = [["pitch", "axis"]], "x-together" = [["axis", "forward"]]))]
 pub(crate) struct CentreSection {
-    /// Turn of the axis about Y of the inner segment: positive brings a head forward and a hanging limb back.
+    /// Rotation of the axis about Y of the inner segment: positive moves a head forward and a hanging limb back.
     pub(crate) pitch: Option<Angle>,
-    /// The axis in the inner segment (X ahead, Y left, Z up when standing), away from the joint; of a left joint that of the
-    /// right one.
+    /// The axis in the inner segment (X forward, Y left, Z up when standing), pointing away from the joint. For a left
+    /// joint give that of the right one; it is mirrored.
     pub(crate) axis: Option<[Ratio; 3]>,
-    /// A direction in the inner segment across the axis: a bend that way has the azimuth 0.
+    /// A direction across the axis, in the inner segment: bending that way has azimuth 0.
     pub(crate) forward: Option<[Ratio; 3]>,
 }
 
@@ -39,13 +39,15 @@ pub(crate) struct CentreSection {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-at-most-one" = [["angle", "angles"], ["angle", "azimuths"]]))]
 pub(crate) struct BendLimitSection {
-    /// The same limit in all directions, 0.5° to 170°.
+    /// One limit for all directions, 0.5° to 170°.
     pub(crate) angle: Option<Angle<POSITIVE>>,
-    /// Directions, rising within 360°: 0° is forward, 90° the outside of a limb and the left of a neck; at least four.
+    /// Directions, at least four, increasing within 360°: 0° is forward, 90° the outside of a limb or the left of a
+    /// neck.
     pub(crate) azimuths: Option<Vec<Angle>>,
-    /// The limit in each direction, 5° to 170°; between them a periodic cubic spline. A preset's azimuths stay.
+    /// The limit in each direction, 5° to 170°, with a periodic cubic spline between. If `azimuths` is absent, those of
+    /// the preset apply.
     pub(crate) angles: Option<Vec<Angle<POSITIVE>>>,
-    /// Torque beyond it.
+    /// Torque beyond the limit.
     pub(crate) torque: Option<StopTorqueSection>,
 }
 
@@ -55,7 +57,7 @@ pub(crate) struct BendLimitSection {
 pub(crate) struct RangeLimitSection {
     /// Lower and upper limit.
     pub(crate) range: Option<[Angle; 2]>,
-    /// Torque beyond them.
+    /// Torque beyond the limits.
     pub(crate) torque: Option<StopTorqueSection>,
 }
 
@@ -70,11 +72,11 @@ pub(crate) struct StopTorqueSection {
     pub(crate) c2: Option<MomentPerAngle2<NOT_NEGATIVE>>,
     /// c3.
     pub(crate) c3: Option<MomentPerAngle3<NOT_NEGATIVE>>,
-    /// Angles beyond the limit, rising from 0.
+    /// Angles beyond the limit, increasing from 0.
     pub(crate) angles: Option<Vec<Angle<NOT_NEGATIVE>>>,
     /// The torque at each, from 0.
     pub(crate) moments: Option<Vec<Moment<NOT_NEGATIVE>>>,
-    /// What it is beyond the last of `moments`; "extends" if absent.
+    /// Torque beyond the last of `moments`; "extends" if absent.
     pub(crate) beyond: Option<Beyond>,
     /// μ, fraction of its work that unloading returns; 1 if absent.
     pub(crate) returned: Option<Ratio<FRACTION>>,
@@ -84,9 +86,9 @@ pub(crate) struct StopTorqueSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FrictionSection {
-    /// Its full moment.
+    /// Its moment at full sliding.
     pub(crate) torque: Moment<NOT_NEGATIVE>,
-    /// Speed at which it has 71 % of it; 12 deg/s if absent.
+    /// Speed at which it reaches 71 % of that moment; 12 deg/s if absent.
     pub(crate) speed: Option<AngularVelocity<POSITIVE>>,
 }
 
@@ -96,13 +98,13 @@ pub(crate) struct FrictionSection {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-at-most-one" = [["slips", "relock_below"]]))]
 pub(crate) struct LockSection {
-    /// Moment at which it opens; never if absent.
+    /// Moment at which the lock opens; never if absent.
     pub(crate) until: Option<Moment<POSITIVE>>,
-    /// Moment per angle while it is closed; that which reaches `until` at 2° if absent.
+    /// Stiffness while locked; if absent, such that `until` is reached at 2°.
     pub(crate) stiffness: Option<RotationalStiffness<POSITIVE>>,
-    /// True: instead of opening, the joint slips and the lock keeps that moment.
+    /// True: instead of opening, the lock slips and keeps that moment.
     pub(crate) slips: Option<bool>,
-    /// Once open it closes again where the joint has been slower than this for 5 ms; never if absent.
+    /// An open lock closes again once the joint has been slower than this for 5 ms; never if absent.
     pub(crate) relock_below: Option<AngularVelocity<POSITIVE>>,
 }
 
@@ -150,7 +152,7 @@ fn centre(section: &CentreSection) -> Centre {
 
 fn turn_limit(b: &mut Builder, path: &str, section: &RangeLimitSection) -> Turn<f64> {
     if section.range.is_none() {
-        b.error(path, format!("`{path}` has no key `range`"), "range = two angles that rise");
+        b.error(path, format!("`{path}` has no key `range`"), "range = two increasing angles");
     }
     let range = section.range.as_ref().map_or([f64::NAN; 2], all_si);
     Turn::new(range, stop(b, path, &section.torque))
@@ -176,7 +178,8 @@ fn bend_limit(b: &mut Builder, path: &str, section: &BendLimitSection) -> Bend<f
     let within = points.first().zip(points.last()).is_some_and(|(first, last)| last[0] - first[0] < turn - 1e-9);
     if points.len() < 4 || azimuths.len() != angles.len() || !(rise && starts && within) {
         let found = format!("{} azimuths and {} angles", azimuths.len(), angles.len());
-        let expected = "four or more azimuths that rise within 360° from one of −180° to 180°, and an angle for each";
+        let expected =
+            "four or more increasing azimuths within 360°, the first from −180° to 180°, and an angle for each";
         b.error(&with_key(path, "azimuths"), found, expected);
         return Bend::new(Curve::constant(f64::NAN), torque);
     }
@@ -199,7 +202,7 @@ fn stop(b: &mut Builder, path: &str, section: &Option<StopTorqueSection>) -> Sto
     let coefficients = [si_or(&section.c1, 0.0), si_or(&section.c2, 0.0), si_or(&section.c3, 0.0)];
     let returned = si_or(&section.returned, 1.0);
     if returned < LEAST_FRACTION {
-        let found = format!("{returned}, which counts as {LEAST_FRACTION}");
+        let found = format!("{returned}, taken as {LEAST_FRACTION}");
         let expected = "at least 0.01: unloading needs some slope";
         b.report(Problem::warning(with_key(path, "returned"), found, expected));
     }
@@ -213,7 +216,7 @@ fn stop(b: &mut Builder, path: &str, section: &Option<StopTorqueSection>) -> Sto
         b.error(
             &with_key(path, "angles"),
             found,
-            "two or more angles that rise from 0, a moment for each, the first 0",
+            "two or more angles that increase from 0, a moment for each, the first 0",
         );
     }
     if coefficients != [0.0; 3] {

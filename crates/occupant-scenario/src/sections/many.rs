@@ -35,8 +35,8 @@ use placed_text::{Diagnostics, Document, Node, Problem, with_key};
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-exactly-one" = [["posture", "stance", "mount"]]))]
 pub(crate) struct OccupantSection {
-    /// Name of the vehicle whose axes its geometry is given in and that it begins to move with: "vehicle" or one of `vehicles`.
-    /// Absent: none, it is on the ground.
+    /// Name of the vehicle that it starts in, and whose axes its geometry uses: "vehicle" or one of `vehicles`. If
+    /// absent, it is on the ground.
     pub(crate) vehicle: Option<String>,
     /// Its body.
     pub(crate) body: BodySection,
@@ -50,21 +50,21 @@ pub(crate) struct OccupantSection {
     pub(crate) mount: Option<MountSection>,
     /// Its muscles.
     pub(crate) muscles: Option<MusclesSection>,
-    /// Points of segments whose motion is recorded, by name.
+    /// Markers by name: points of segments whose motion is recorded.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) markers: IndexMap<String, MarkerSection>,
     /// Belts by name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) belts: IndexMap<String, BeltSection>,
-    /// Retractors by name, each of one belt.
+    /// Retractors by name; each serves one belt.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) retractors: IndexMap<String, RetractorSection>,
-    /// What parts of its body do to each other.
+    /// Contact between parts of its body.
     pub(crate) self_contact: Option<SelfContactSection>,
 }
 
-/// A rigid body that moves freely: an impactor, cargo, a child seat. Its geometry is given from its origin in its own axes, X
-/// ahead, Y left, Z up.
+/// A loose rigid body: an impactor, cargo, a child seat. Its geometry is given from its origin in its own axes, X
+/// forward, Y left, Z up.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LooseSection {
@@ -72,24 +72,24 @@ pub(crate) struct LooseSection {
     pub(crate) mass: Mass<POSITIVE>,
     /// I_x, I_y, I_z about the centre of gravity.
     pub(crate) inertia: [Inertia; 3],
-    /// Centre of gravity, not below the origin; [0, 0, 0] if absent.
+    /// Centre of gravity, at or above the origin; [0, 0, 0] if absent.
     pub(crate) cg: Option<[Length; 3]>,
-    /// Name of the vehicle whose axes `at` is given in and that it begins to move with. Absent: none, in vehicle-space.
+    /// Name of the vehicle that it starts with, and whose axes `at` uses. If absent, none: `at` is in vehicle-space.
     pub(crate) vehicle: Option<String>,
-    /// Where its origin is.
+    /// Position of its origin.
     pub(crate) at: [Length; 3],
-    /// Roll, right side down; 0 if absent.
+    /// Roll, positive with the right side down; 0 if absent.
     pub(crate) roll: Option<Angle>,
-    /// Pitch, its top leant back; 0 if absent.
+    /// Pitch, positive with the top leant back; 0 if absent.
     pub(crate) pitch: Option<Angle>,
-    /// Yaw, to the right; 0 if absent.
+    /// Yaw, positive to the right; 0 if absent.
     pub(crate) yaw: Option<Angle>,
-    /// Velocity beside that of its vehicle, along the axes that `at` is given in; [0, 0, 0] if absent.
+    /// Velocity relative to its vehicle, in the axes of `at`; [0, 0, 0] if absent.
     pub(crate) velocity: Option<[Speed; 3]>,
-    /// Angular velocity about its origin along those axes, beside that of its vehicle; [0, 0, 0] if absent.
+    /// Angular velocity relative to its vehicle, in the same axes; [0, 0, 0] if absent.
     pub(crate) spin: Option<[AngularVelocity; 3]>,
-    /// Spheres by name, by which it touches surfaces, solids and the spheres of others. Others touch its solids and surfaces:
-    /// those whose `frame` is its name.
+    /// Its spheres by name, which touch surfaces, solids and the spheres of others. Surfaces and solids with `frame` =
+    /// its name are also part of it, and others touch those.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) spheres: IndexMap<String, LooseSphereSection>,
     /// Name of the material of its spheres; `contact.skin` if absent.
@@ -273,10 +273,12 @@ fn warn_of_unmet(b: &mut Builder, s: &Scenario, world: &Setup, members: &[(Strin
         let Some((first, others)) = unmet.split_first() else { continue };
         let more = if others.is_empty() { String::new() } else { format!(" and {} more", others.len()) };
         let name = if name.is_empty() { "the occupant" } else { name };
-        let found = format!("{name} passes through {first}{more}: a surface is met by those who begin in its vehicle");
-        let expected = "meets = \"all\" where others can come in front of it, \"own\" where not";
+        let found = format!(
+            "{name} passes through {first}{more}: by default, only those who start in its vehicle touch a surface"
+        );
+        let expected = "meets = \"all\" if others can come in front of it, else \"own\"";
         let problem = Problem::warning(with_key("surfaces", first), found, expected);
-        b.report(problem.with_hint(Some("a solid holds off whoever comes, from all sides")));
+        b.report(problem.with_hint(Some("a solid can be touched by all, from all sides")));
     }
 }
 
@@ -311,8 +313,8 @@ fn pairs(b: &mut Builder, s: &Scenario, members: &[Member]) -> (Vec<[(usize, usi
             let touching = !one.alone.body.spheres.is_empty() && !other.alone.body.spheres.is_empty();
             match lacks.filter(|_| touching) {
                 Some((k, _)) => {
-                    let found = format!("`{}` has no skin to touch others with", titles[k]);
-                    let expected = "contact.skin = the name of a material, a `self_contact.skin`, or contact.bodies = []: none touch";
+                    let found = format!("contact between bodies needs a skin material, and `{}` has none", titles[k]);
+                    let expected = "contact.skin = the name of a material, a `self_contact.skin`, or contact.bodies = [] for no contact";
                     b.error("contact", found, expected);
                     return (Vec::new(), vec![0; members.len()]);
                 }

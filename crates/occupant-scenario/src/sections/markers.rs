@@ -15,12 +15,12 @@ use placed_text::{Problem, did_you_mean, one_of, with_key};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MarkerSection {
-    /// The segment that carries it.
+    /// The segment that it is fixed to.
     pub(crate) segment: String,
-    /// Where, from the segment's lower end in segment axes (X ahead, Y left, Z up when standing).
+    /// Its position from the segment's lower end, in segment axes (X forward, Y left, Z up when standing).
     pub(crate) place: [Length; 3],
-    /// "vehicle" if absent: place, velocity and acceleration as the vehicle sees them; "space": as a bystander does;
-    /// "segment": an accelerometer, along the segment's SAE J211 axes.
+    /// Frame of the results. "vehicle": position, velocity and acceleration relative to the vehicle. "space": as seen
+    /// by a bystander. "segment": an accelerometer along the segment's SAE J211 axes. "vehicle" if absent.
     pub(crate) frame: Option<MarkerFrame>,
 }
 

@@ -12,7 +12,7 @@ use occupant_core::forces::function::{Beyond, ForceDeflection, Function, Shape, 
 use occupant_core::forces::spring::BilinearSpring;
 use placed_text::with_key;
 
-/// A contact material: a bilinear spring that gives back part of its energy, or a force over depth, and friction.
+/// A contact material: a bilinear spring with hysteresis, or a force over depth, and friction.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend(
@@ -20,14 +20,14 @@ use placed_text::with_key;
     "x-together" = [["k2", "delta_b"], ["unload_depth", "unload_force"]],
 ))]
 pub(crate) struct MaterialSection {
-    /// Name of a material of the library, which gives all that is not said beside it.
+    /// Name of a material of the library. Other keys override its values.
     #[schemars(extend("enum" = [
         "seat_cushion_s10", "dash_s10", "padding_s10", "hard_s10", "glass_s10", "glass_laminated", "glass_tempered", "body_s10", "stiff_atb", "segment_atb", "column_1969",
         "head_dummy", "head_dummy_1973"
     ]))]
     pub(crate) library: Option<String>,
-    /// K₁, stiffness up to `delta_b`, against one sphere: several spheres of a part that touch are so many times stiffer (`share` of
-    /// a sphere multiplies its force). 0: a gap before the spring bears.
+    /// K₁, stiffness up to `delta_b` against one sphere. Three spheres of a part that touch are three times as stiff (a
+    /// sphere's `share` scales its force). 0 is a gap before the spring bears.
     pub(crate) k1: Option<Stiffness<NOT_NEGATIVE>>,
     /// Δ_b, deformation at which the stiffness changes. Without it the spring is linear.
     pub(crate) delta_b: Option<Length<NOT_NEGATIVE>>,
@@ -37,43 +37,43 @@ pub(crate) struct MaterialSection {
     pub(crate) mu1: Option<Ratio<FRACTION>>,
     /// μ₂, the same beyond `delta_b`; equal to `mu1` if absent.
     pub(crate) mu2: Option<Ratio<FRACTION>>,
-    /// Depths, from 0 on, of a force function.
+    /// Depths of a force function, from 0.
     pub(crate) depth: Option<Vec<Length<NOT_NEGATIVE>>>,
     /// Force at each.
     pub(crate) force: Option<Vec<Force<NOT_NEGATIVE>>>,
     /// A polynomial instead of points.
     pub(crate) polynomial: Option<PolynomialSection>,
-    /// What the force is between points; "lines" if absent.
+    /// Interpolation of the force between points; "lines" if absent.
     pub(crate) shape: Option<Shape>,
-    /// What it is beyond the last; "extends" if absent.
+    /// Force or moment beyond the last point; "extends" if absent.
     pub(crate) beyond: Option<Beyond>,
-    /// Fraction of the work that unloading returns; 1 if nothing is said of unloading.
+    /// Fraction of the work that unloading returns; 1 if no unloading is given.
     pub(crate) returned: Option<Ratio<FRACTION>>,
     /// The same for each interval.
     pub(crate) returned_each: Option<Vec<Ratio<FRACTION>>>,
-    /// Unloads with this slope instead, no less than the greatest of loading; the force may then fall.
+    /// Unloading slope instead, no less than the steepest slope of loading; the force may then fall.
     pub(crate) unload_slope: Option<Stiffness<POSITIVE>>,
-    /// Depths, from 0 on, of a least force down to which it unloads so; 0 if absent.
+    /// Depths, from 0, of a lower force curve at which unloading along that slope ends; 0 if absent.
     pub(crate) unload_depth: Option<Vec<Length<NOT_NEGATIVE>>>,
-    /// The least force at each.
+    /// The lower force at each depth.
     pub(crate) unload_force: Option<Vec<Force<NOT_NEGATIVE>>>,
-    /// Unloads by the quadratic of the ATB program instead.
+    /// Unloading by the quadratic of the ATB program instead.
     pub(crate) atb: Option<AtbSection>,
-    /// A force of the first loading that breaks down where the depth turns.
+    /// Extra force during first loading, which collapses when the depth stops growing.
     pub(crate) spike: Option<SpikeSection>,
-    /// A factor of the force over the speed of deformation.
+    /// Rate factor: factor on the force over deformation speed.
     pub(crate) rate: Option<RateSection>,
-    /// A damper beside the force.
+    /// A parallel damper.
     pub(crate) viscous: Option<DamperSection>,
     /// Coefficient of friction.
     pub(crate) friction: Option<Ratio<NOT_NEGATIVE>>,
-    /// v_s, sliding speed at which friction reaches 71 % of its full value; 5 in/s if absent. Friction grows with slip and never
-    /// sticks: on a slope θ a body creeps at v_s tan θ/√(f² − tan² θ). A smaller speed comes nearer to sticking and takes
-    /// shorter steps in proportion: `check` and `run` say what a fixed step bears.
+    /// v_s, sliding speed at which friction reaches 71 % of its full value; 5 in/s if absent. Friction grows with slip
+    /// and never sticks: on a slope θ a body creeps at v_s tan θ/√(f² − tan² θ). A smaller speed is closer to sticking
+    /// but needs proportionally smaller steps; `check` and `run` warn if a fixed step is too long.
     pub(crate) friction_speed: Option<Speed<POSITIVE>>,
-    /// A factor of friction over the sliding speed.
+    /// Factor on friction over sliding speed.
     pub(crate) friction_over_slip: Option<SlipSection>,
-    /// A factor of friction over the normal force.
+    /// Factor on friction over normal force.
     pub(crate) friction_over_force: Option<LoadSection>,
     /// Whether crush is remembered after contact has ended; "reset" if absent.
     pub(crate) memory: Option<Memory>,
@@ -84,15 +84,15 @@ pub(crate) struct MaterialSection {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-exactly-one" = [["r", "r_each"], ["g", "g_each"]]))]
 pub(crate) struct AtbSection {
-    /// R, share of the work that is to come back.
+    /// R, fraction of the work that unloading returns.
     pub(crate) r: Option<Ratio<FRACTION>>,
-    /// G, share of the greatest depth that stays; less than 1.
+    /// G, permanent depth as a fraction of the largest depth; less than 1.
     pub(crate) g: Option<Ratio<FRACTION>>,
-    /// Greatest depths, rising, for `r_each` and `g_each`: straight between them, constant beyond.
+    /// Largest depths, increasing, for `r_each` and `g_each`: linear between, constant beyond.
     pub(crate) depth: Option<Vec<Length<NOT_NEGATIVE>>>,
-    /// R at each.
+    /// R at each depth.
     pub(crate) r_each: Option<Vec<Ratio<FRACTION>>>,
-    /// G at each.
+    /// G at each depth.
     pub(crate) g_each: Option<Vec<Ratio<FRACTION>>>,
 }
 
@@ -100,9 +100,9 @@ pub(crate) struct AtbSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PolynomialSection {
-    /// The last depth for which it holds.
+    /// Largest depth for which it holds.
     pub(crate) depth: Length<POSITIVE>,
-    /// F₁, F₂ and F₃: what each term comes to there.
+    /// F₁, F₂ and F₃: value of each term at that depth.
     pub(crate) force: [Force; 3],
 }
 
@@ -110,7 +110,7 @@ pub(crate) struct PolynomialSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SpikeSection {
-    /// Depths, from 0 on.
+    /// Depths, from 0.
     pub(crate) depth: Vec<Length<NOT_NEGATIVE>>,
     /// Force at each, 0 at the first and the last.
     pub(crate) force: Vec<Force<NOT_NEGATIVE>>,
@@ -120,9 +120,9 @@ pub(crate) struct SpikeSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RateSection {
-    /// Speeds, negative where the depth shrinks; 0 is one of them.
+    /// Speeds, negative where the depth shrinks; one of them is 0.
     pub(crate) speed: Vec<Speed>,
-    /// Factor at each; must not fall, 1 at speed 0.
+    /// Factor at each speed; must not fall; 1 at speed 0.
     pub(crate) factor: Vec<Ratio<NOT_NEGATIVE>>,
 }
 
@@ -134,7 +134,7 @@ pub(crate) struct DamperSection {
     pub(crate) force: Force<NOT_NEGATIVE>,
     /// A speed of deformation.
     pub(crate) speed: Speed<POSITIVE>,
-    /// Depth at which it is fully there; 25 mm if absent.
+    /// Depth from which on it acts fully; 25 mm if absent.
     pub(crate) depth: Option<Length<POSITIVE>>,
 }
 

@@ -60,8 +60,8 @@ pub(super) use setup::{occupant, setup};
 
 use self::bags::{BagSection, GasSection};
 use self::belts::BeltSection;
-pub(super) use self::body::BodySection;
-pub(super) use self::car::{AnchorSection, CarBelt, CarClass, CarSeatSection, CarSection};
+pub(super) use self::body::{BodySection, DummyChoice};
+pub(super) use self::car::{AnchorSection, CarBelt, CarClass, CarSeatSection, CarSection, IntrusionSection};
 use self::drive::DriveSection;
 use self::frames::{FrameSection, GroundSection, VehicleSection};
 use self::functions::{LimiterSection, WebbingSection};
@@ -137,17 +137,18 @@ type HeatTransfer<const RANGE: usize = ANY> = Quantity<{ kind::HEAT_TRANSFER }, 
     "x-together" = [["body", "joints"]],
 ))]
 pub struct Scenario {
-    /// One line that names the case.
+    /// Title of the case, in one line.
     pub title: String,
-    /// What the case is about, for readers.
+    /// Description of the case.
     pub notes: Option<String>,
     /// Units of bare numbers; "si" if absent.
     pub units: Option<UnitSystem>,
-    /// Acceleration of gravity, downwards in space; standard gravity, 9.80665 m/s², if absent; 0 switches it off.
+    /// Gravity, downwards; standard gravity, 9.80665 m/s², if absent; 0 switches it off.
     pub(crate) gravity: Option<Acceleration<NOT_NEGATIVE>>,
-    /// A point inside the compartment, vehicle axes: the open side of every vehicle surface that does not say otherwise.
+    /// A point inside the compartment, vehicle axes. It marks the open side of every vehicle surface that does not give
+    /// its own.
     pub(crate) inside: Option<[Length; 3]>,
-    /// Where numbers come from: a path such as `materials.seat`, and its source.
+    /// Sources of the numbers: a path, such as `materials.seat`, and its source.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub provenance: IndexMap<String, String>,
     /// When the run starts and ends.
@@ -156,24 +157,27 @@ pub struct Scenario {
     pub(crate) output: Option<OutputSection>,
     /// How the equations of motion are integrated; "adaptive" with the accuracy "engineering" if absent.
     pub(crate) integrator: Option<IntegratorSection>,
-    /// The inside of the first vehicle in words.
+    /// The interior of the first vehicle, by class and measured dimensions.
     pub(crate) car: Option<CarSection>,
-    /// Vehicles that drive by themselves before people are looked at.
+    /// Vehicles that drive, with tyres and a driver. They are simulated before the people.
     pub(crate) drive: Option<DriveSection>,
-    /// Motion of the vehicle; of several, of that which is called "vehicle". Absent, the first of `vehicles` is called so too.
+    /// Motion of the vehicle. With several vehicles, that of the one named "vehicle". If absent, the first of
+    /// `vehicles` also takes that name.
     pub(crate) path: Option<PathSection>,
     /// Other vehicles by name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) vehicles: IndexMap<String, VehicleSection>,
     /// The ground.
     pub(crate) ground: Option<GroundSection>,
-    /// Frames that move within a vehicle by name: intruding panels, steering columns that give way. A surface or solid says `frame` = that name.
+    /// Frames that move within a vehicle, by name: intruding panels, collapsing steering columns, hinges. Attach a
+    /// surface or solid with `frame` = that name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) frames: IndexMap<String, FrameSection>,
-    /// Several occupants by name (small letters, digits, `_`), instead of `body`, `joints` and what else is one occupant's own.
+    /// Several occupants by name (lower-case letters, digits, `_`), instead of `body`, `joints` and the other sections
+    /// of one occupant.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) occupants: IndexMap<String, OccupantSection>,
-    /// Rigid bodies that move freely, by name, which no occupant has.
+    /// Loose rigid bodies by name, such as cargo or an impactor.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) loose: IndexMap<String, LooseSection>,
     /// The occupant.
@@ -182,7 +186,7 @@ pub struct Scenario {
     pub(crate) posture: Option<PostureSection>,
     /// Exact position and velocity at the start, instead of a posture.
     pub(crate) initial_state: Option<InitialStateSection>,
-    /// A rig that holds a segment of the occupant, or of a part of one.
+    /// A rig that holds a segment of the occupant, or of a part such as head and neck.
     pub(crate) mount: Option<MountSection>,
     /// How the occupant stands, instead of a posture.
     pub(crate) stance: Option<StanceSection>,
@@ -191,15 +195,15 @@ pub struct Scenario {
     pub(crate) seats: IndexMap<String, SeatSection>,
     /// The occupant's joints.
     pub(crate) joints: Option<JointsSection>,
-    /// Joint properties named once, for joints to refer to.
+    /// Named sets of joint properties that joints can refer to.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) joint_sets: IndexMap<String, JointSection>,
     /// The occupant's muscles.
     pub(crate) muscles: Option<MusclesSection>,
-    /// What sets something off, by name.
+    /// Triggers by name: what fires a device.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) triggers: IndexMap<String, TriggerSection>,
-    /// Points of segments whose motion is recorded, by name.
+    /// Markers by name: points of segments whose motion is recorded.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) markers: IndexMap<String, MarkerSection>,
     /// Belts by name.
@@ -211,7 +215,7 @@ pub struct Scenario {
     /// Limiters of belt force by name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) limiters: IndexMap<String, LimiterSection>,
-    /// Retractors by name, each of one belt.
+    /// Retractors by name; each serves one belt.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) retractors: IndexMap<String, RetractorSection>,
     /// Air bags by name.
@@ -223,14 +227,14 @@ pub struct Scenario {
     /// Contact materials by name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) materials: IndexMap<String, MaterialSection>,
-    /// How contact forces act.
+    /// Options for contact forces.
     pub(crate) contact: Option<ContactSection>,
-    /// What parts of the body do to each other.
+    /// Contact between parts of the body.
     pub(crate) self_contact: Option<SelfContactSection>,
     /// Surfaces by name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) surfaces: IndexMap<String, SurfaceSection>,
-    /// Solids by name: bodies with thickness, which hold spheres off from all sides.
+    /// Solids by name: bodies with thickness that spheres can touch from all sides.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) solids: IndexMap<String, SolidSection>,
 }

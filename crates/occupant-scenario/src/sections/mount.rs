@@ -22,29 +22,29 @@ use placed_text::{Problem, with_key};
 pub(crate) struct MountSection {
     /// Name of the segment that is held.
     pub(crate) segment: String,
-    /// Segments that are left out, with all that hangs on them as seen from the mount: ["middle_torso", "upper_arms"] leaves
-    /// head and neck on an upper torso. Words such as `upper_arms` stand for left and right. None if absent.
+    /// Segments to leave out, with everything beyond them as seen from the mount: ["middle_torso", "upper_arms"] keeps
+    /// head and neck on an upper torso. Words such as `upper_arms` stand for both sides. None if absent.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) without: Vec<String>,
-    /// What it is fixed to; "vehicle", whose path `path` is, if absent. In "space" z is up and y left in `place` and `let_go`;
-    /// in all other frames z is down and y right. Roll, pitch and yaw mean the same in both.
+    /// Frame that it is fixed to; "vehicle", which moves by `path`, if absent. In "space", z is up and y left in
+    /// `place` and `let_go`; in all other frames z is down and y right. Roll, pitch and yaw mean the same in both.
     pub(crate) frame: Option<MountFrame>,
-    /// The point of the segment that it is held by and for which its load is given, from the segment's lower end in segment axes
-    /// (X ahead, Y left, Z up when standing); [0, 0, 0] if absent.
+    /// Mounting point, for which the load is given: from the segment's lower end, segment axes (X forward, Y left, Z up
+    /// when standing); [0, 0, 0] if absent.
     pub(crate) point: Option<[Length; 3]>,
-    /// Where that point is in the frame, whose z is down, or up of "space"; [0, 0, 0] if absent.
+    /// Position of the mounting point in the frame (z down; z up in "space"); [0, 0, 0] if absent.
     pub(crate) place: Option<[Length; 3]>,
-    /// Roll of the segment from upright and facing forward, right side down; 0 if absent.
+    /// Roll of the segment from upright and facing forward, positive with the right side down; 0 if absent.
     pub(crate) roll: Option<Angle>,
-    /// Pitch, its top leant back; 0 if absent.
+    /// Pitch, positive with the top leant back; 0 if absent.
     pub(crate) pitch: Option<Angle>,
-    /// Yaw, to the right; 0 if absent.
+    /// Yaw, positive to the right; 0 if absent.
     pub(crate) yaw: Option<Angle>,
-    /// Velocity beside that of the frame, along its axes, with which it lets the body go at the start: a head that falls. It holds
-    /// the body throughout if absent.
+    /// Velocity relative to the frame, in its axes, with which the body is released at the start, such as a head that
+    /// falls. If absent, the mount holds the body throughout.
     pub(crate) let_go: Option<[Speed; 3]>,
-    /// Angles of the other segments and of pins as in `posture`, in the plane that the mount faces. A segment of which nothing is
-    /// said stands as the one that it hangs on.
+    /// Angles of the other segments and of pins, as in `posture`, in the plane in which the mount faces. Other segments
+    /// are aligned with their parent.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) posture: IndexMap<String, Angle>,
 }
@@ -75,7 +75,7 @@ pub(super) fn held(b: &mut Builder, section: &MountSection, body: &Body) -> Opti
         if called.is_empty() {
             b.unknown(&path, "segment", word, &names);
         } else if called.iter().any(|s| Some(*s) == root) {
-            b.error(&path, format!("`{word}`, which the mount holds"), "segments beyond the one that is held");
+            b.error(&path, format!("`{word}`, which the mount holds"), "segments beyond the mounted one");
         }
         left_out.extend(called);
     }
@@ -109,8 +109,8 @@ fn tell_of_space(b: &mut Builder, section: &MountSection) {
     for (path, z, unit) in place.into_iter().chain(let_go) {
         if section.frame == Some(MountFrame::Space) && z != 0.0 {
             let way = if z > 0.0 { "up" } else { "down" };
-            let found = format!("z = {z} {unit} in \"space\", which is {way}: there z is up and y left");
-            let expected = "so, or frame = \"vehicle\", in which z is down and y right as in all other frames";
+            let found = format!("z = {z} {unit} is {way} in \"space\", where z is up and y left");
+            let expected = "this, or frame = \"vehicle\", where z is down and y right as in all other frames";
             b.report(Problem::warning(path, found, expected));
         }
     }

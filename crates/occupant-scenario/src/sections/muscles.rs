@@ -28,10 +28,11 @@ pub(crate) enum Readiness {
 /// Muscles of an occupant.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub(crate) struct MusclesSection {
-    /// How ready a volunteer is (`joints.preset = "volunteer"`): "unaware", who answers late; "aware", as the men to whom it is fitted;
-    /// "braced", with tense muscles from the start. "aware" if absent.
+    /// Readiness of a volunteer (`joints.preset = "volunteer"`): "unaware", who reacts late; "aware", as the men whose
+    /// tests it is fitted to; "braced", with tense muscles from the start. "aware" if absent.
     pub(crate) readiness: Option<Readiness>,
-    /// Name of the trigger that a volunteer's muscles answer; the vehicle's acceleration along its floor, from 0.5 g on, if absent.
+    /// Name of the trigger of a volunteer's muscles; if absent, 0.5 g of vehicle acceleration in the plane of its
+    /// floor.
     pub(crate) trigger: Option<String>,
     /// Muscles by joint: active torques that hold its posture. `elbows` and the like stand for left and right, `all` for every
     /// joint; what is said of one joint replaces what is said of its pair, and that what is said of `all`. A volunteer's neck has
@@ -40,34 +41,36 @@ pub(crate) struct MusclesSection {
     pub(crate) named: IndexMap<String, MuscleSection>,
 }
 
-/// A muscle: a spring and a damper to a posture of the joint, and a torque of its own, as strong as it is active.
+/// A muscle: a spring and a damper towards a posture of the joint, and a torque of its own, all scaled by its
+/// activation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-together" = [["trigger", "rise"]]))]
 pub(crate) struct MuscleSection {
-    /// Name of the trigger that it answers; without one it keeps its tone.
+    /// Name of its trigger; without one it keeps its tone.
     pub(crate) trigger: Option<String>,
-    /// Time from the trigger until it begins to act; 0 if absent.
+    /// Reaction time: from the trigger until it begins to act; 0 if absent.
     pub(crate) reaction: Option<Time<NOT_NEGATIVE>>,
-    /// Time constant with which its activation follows.
+    /// Time constant of its activation.
     pub(crate) rise: Option<Time<POSITIVE>>,
-    /// Time at which it relaxes to its tone again; never if absent.
+    /// Time at which it relaxes to its tone; never if absent.
     pub(crate) until: Option<Time>,
-    /// The posture that it holds, [yaw, pitch, roll] that turn the outer segment from the joint's angle 0; of a pin the pitch
-    /// is its angle. For a left joint those of the right one. The posture at the start if absent.
+    /// Posture that it holds: [yaw, pitch, roll] of the outer segment from the joint's zero position; for a pin, pitch
+    /// is its angle. For a left joint give those of the right one; they are mirrored. The initial posture if absent.
     pub(crate) hold: Option<[Angle; 3]>,
-    /// A torque of its own on the outer segment, wholly active, [about ahead, about left, about up] of the joint's axes on
-    /// the inner one; the second one of a pin bends it. For a left joint that of the right one.
+    /// Its own torque on the outer segment at full activation, [about X forward, about Y left, about Z up] of the
+    /// joint's axes on the inner segment; for a pin the second value bends it. For a left joint give that of the right
+    /// one; it is mirrored.
     pub(crate) torque: Option<[Moment; 3]>,
-    /// Torque per angle away from the posture, wholly active.
+    /// Stiffness towards the posture, at full activation.
     pub(crate) stiffness: Option<RotationalStiffness<NOT_NEGATIVE>>,
-    /// Torque per rate, wholly active.
+    /// Damping, at full activation.
     pub(crate) damping: Option<RotationalDamping<NOT_NEGATIVE>>,
-    /// What it does late.
+    /// Its reflex, which acts late.
     pub(crate) reflex: Option<ReflexSection>,
-    /// Greatest torque, wholly active; none if absent.
+    /// Limit of the torque at full activation; none if absent.
     pub(crate) limit: Option<Moment<POSITIVE>>,
-    /// Activation before, 0 to 1; 0 if absent.
+    /// Tone: activation before the trigger, 0 to 1; 0 if absent.
     pub(crate) tone: Option<Ratio<FRACTION>>,
 }
 
@@ -76,11 +79,11 @@ pub(crate) struct MuscleSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ReflexSection {
-    /// Torque per angle away from the posture, wholly active; 0 if absent.
+    /// Stiffness towards the posture, at full activation; 0 if absent.
     pub(crate) stiffness: Option<RotationalStiffness<NOT_NEGATIVE>>,
-    /// Torque per rate, wholly active; 0 if absent.
+    /// Damping, at full activation; 0 if absent.
     pub(crate) damping: Option<RotationalDamping<NOT_NEGATIVE>>,
-    /// Time constant with which the torque follows, nerves and muscle together; at least 1 ms.
+    /// Time constant of the torque, nerves and muscle together; at least 1 ms.
     pub(crate) delay: Time<POSITIVE>,
 }
 

@@ -25,41 +25,44 @@ const SLIDE_M_S: f64 = 10.0;
 pub(crate) struct NodeSection {
     /// Its name; that of the sphere, or its number, if absent.
     pub(crate) name: Option<String>,
-    /// Place [x, y, z]: vehicle axes, or with `on` segment axes from the segment's lower end.
+    /// Position [x, y, z] in vehicle axes; with `on`, in segment axes from the segment's lower end.
     pub(crate) at: Option<[Length; 3]>,
-    /// Name of the segment that carries it.
+    /// Name of the segment that it is fixed to.
     pub(crate) on: Option<String>,
     /// Name of the sphere that the webbing wraps.
     pub(crate) sphere: Option<String>,
-    /// Inner end, crown and outer end of an arc across which the webbing slides, segment axes from the segment's lower end. It
-    /// begins at the crown, and comes off beyond the outer end or where it pulls away from the body.
+    /// Inner end, crown and outer end of an arc across which the webbing slides, in segment axes from the segment's
+    /// lower end. The webbing starts at the crown. It comes off beyond the outer end, or where it pulls away from the
+    /// body.
     pub(crate) track: Option<[[Length; 3]; 3]>,
-    /// "left" or "right": the iliac wing of that side, a track of the pelvis on which a lap belt bears; a guess of its place. Webbing that
-    /// slides up from it lies on the abdomen.
+    /// "left" or "right": the iliac wing of that side, a track on the pelvis for the lap belt, at an estimated
+    /// position. Webbing that slides up off it lies on the abdomen.
     pub(crate) wing: Option<WingSide>,
-    /// Of a track: the point of the body that takes the webbing over once it has come off. None: it lies nowhere then.
+    /// For a track: the body point that takes over the webbing once it has come off. If absent, the webbing then
+    /// touches nothing here.
     pub(crate) then: Option<NextSection>,
     /// Friction across a track; 0.3 if absent, 0.25 of a wing.
     pub(crate) across: Option<Ratio<NOT_NEGATIVE>>,
-    /// Speed at which webbing slides across a track for each kN beyond friction; 10 m/s if absent.
+    /// Speed at which webbing slides across a track, per kN beyond friction; 10 m/s if absent.
     pub(crate) slide_speed: Option<Speed<POSITIVE>>,
-    /// Direction away from the body, segment axes: webbing that pulls that way comes off. Without it a guide holds for ever.
+    /// Direction away from the body, segment axes. Webbing that pulls that way comes off. If absent, it never comes
+    /// off.
     pub(crate) normal: Option<[Ratio; 3]>,
     /// Friction along the webbing; 0 if absent.
     pub(crate) friction: Option<Ratio<NOT_NEGATIVE>>,
-    /// True: the webbing is sewn fast here.
+    /// True: the webbing is fixed here.
     pub(crate) tie: Option<bool>,
     /// Name of the retractor of the first node.
     pub(crate) retractor: Option<String>,
-    /// Of a point of a segment, shares from 0 to 1 of the deflections of plates of the body with which it goes along, by their names;
-    /// none if absent. Of a sphere its own `ride` says so.
+    /// For a point of a segment: how far it follows the deflection of each plate, 0 to 1, by the plate's name; not at
+    /// all if absent. A sphere has its own `ride`.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) ride: IndexMap<String, Ratio>,
-    /// "chest": a point of the upper torso goes along with the plates near it, by its place.
+    /// "chest": a point of the upper torso follows the plates near it, depending on its position.
     pub(crate) lies_on: Option<PlaceRide>,
-    /// Force at which the webbing comes out of it; never if absent.
+    /// Force at which the webbing leaves it; never if absent.
     pub(crate) strength: Option<Force<POSITIVE>>,
-    /// Pretensioner that pulls a point of the vehicle.
+    /// Pretensioner that pulls this vehicle point.
     pub(crate) pretensioner: Option<StrokeSection>,
 }
 
@@ -79,9 +82,10 @@ pub(crate) enum WingSide {
 pub(crate) struct NextSection {
     /// Name of the segment.
     pub(crate) on: String,
-    /// Place from the segment's lower end, segment axes.
+    /// Position from the segment's lower end, segment axes.
     pub(crate) at: [Length; 3],
-    /// Shares from 0 to 1 of the deflections of plates of that segment with which it goes along, by their names; none if absent.
+    /// How far it follows the deflection of each plate of that segment, 0 to 1, by the plate's name; not at all if
+    /// absent.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) ride: IndexMap<String, Ratio>,
 }
@@ -128,7 +132,12 @@ impl Parts<'_> {
         }
         let then = s.then.as_ref().and_then(|then| self.next(b, &format!("{path}.then"), then));
         if let Some(side) = s.wing {
-            b.refuse_keys(path, &["normal", "pretensioner"], |key| format!("`{key}` of a wing"), "neither of them");
+            b.refuse_keys(
+                path,
+                &["normal", "pretensioner"],
+                |key| format!("`{key}` in a node with `wing`"),
+                "neither of them",
+            );
             let track = wings::track(b, path, self.body, side);
             let across = si_or(&s.across, wings::ACROSS);
             let drag_n_s_m = 1e3 / si_or(&s.slide_speed, SLIDE_M_S);
@@ -149,12 +158,7 @@ impl Parts<'_> {
             return Site::Vehicle(at, stroke);
         };
         let index = self.segment(b, path, segment).unwrap_or(0);
-        b.refuse_keys(
-            path,
-            &["pretensioner"],
-            |key| format!("`{key}` of a point of the body"),
-            "a point of the vehicle",
-        );
+        b.refuse_keys(path, &["pretensioner"], |key| format!("`{key}` in a node on the body"), "a node on the vehicle");
         match &s.track {
             Some(points) => Site::Track(
                 index,
@@ -167,7 +171,7 @@ impl Parts<'_> {
                 },
             ),
             None if s.then.is_some() => {
-                b.error(&format!("{path}.then"), "`then` of what is no track", "a node with `track` or `wing`");
+                b.error(&format!("{path}.then"), "`then` in a node without a track", "a node with `track` or `wing`");
                 Site::Segment(index, at, None)
             }
             None => Site::Segment(index, at, s.normal.as_ref().map(|normal| direction(all_si(normal)))),

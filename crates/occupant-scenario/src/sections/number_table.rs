@@ -82,14 +82,14 @@ pub(super) fn read_csv(
             if !text.headings.iter().enumerate().any(is_known) {
                 // any file can be named in a scenario: what is no such table is not shown
                 let expected = one_of(&reader.names(), '`');
-                reader.error(text.first, "a first line that names no column of such a table", expected);
+                reader.error(text.first, "a first line without any known column", expected);
                 return Err(reader.problems);
             }
             reader.header(&text.headings, |i| text.unit(i).map(|(unit, _)| unit), text.first);
         }
     }
     if let Some(behind) = text.behind {
-        reader.error(behind, "a line that is no part of the table", "numbers up to the end of the file");
+        reader.error(behind, "a line that does not belong to the table", "only numbers up to the end of the file");
     }
     for line in text.lines {
         let cells = text.separator.cells(sources, line);
@@ -197,7 +197,7 @@ impl<'a> Reader<'a> {
             return None;
         };
         if self.columns.iter().flatten().any(|(at, _)| *at == i) {
-            self.error(cell.span, format!("column `{name}` a second time"), "each column once");
+            self.error(cell.span, format!("column `{name}` twice"), "each column once");
             return None;
         }
         match KINDS[self.wanted[i].kind].column_factor(name, unit_text) {

@@ -25,13 +25,13 @@ use placed_text::{Diagnostic, Problem, SourceId, with_key};
 pub(crate) enum PathSection {
     /// The vehicle stands still.
     Fixed(Box<PoseSection>),
-    /// Straight travel, slowed by a deceleration pulse.
+    /// Straight travel with a deceleration pulse.
     Pulse(Box<PulseSection>),
-    /// Places and angles at given times.
+    /// Positions and angles at given times.
     Table(Box<TableSection>),
-    /// Recorded accelerations and turning rates, or velocity changes, as of an event data recorder.
+    /// Recorded accelerations and angular rates, or velocity changes as from an event data recorder.
     Sensors(Box<SensorsSection>),
-    /// A vehicle of `drive`, which is driven first.
+    /// A vehicle of `drive`.
     Drive(Box<DrivenPathSection>),
 }
 
@@ -57,27 +57,27 @@ pub(crate) struct TableSection {
     /// CSV file beside the scenario; its first line names the columns and their units, such as
     /// `t[s],x[m],y[m],z[m],roll[deg],pitch[deg],yaw[deg]`. Columns other than `t` may be left out and are then 0.
     pub(crate) file: Option<String>,
-    /// Names and units of the columns of `rows`, such as `["t[s]", "x[ft]", "yaw[deg]"]`; or of those of `file` in place of its headings, `"-"` for one
-    /// that is left out.
+    /// Names and units of the columns of `rows`, such as `["t[s]", "x[ft]", "yaw[deg]"]`; or of those of `file`,
+    /// instead of its headings; `"-"` skips a column.
     pub(crate) columns: Option<Vec<String>>,
     /// The table itself, one list for each time.
     pub(crate) rows: Option<Vec<Vec<f64>>>,
-    /// Which way the axes of the table point; "z_down" if absent.
+    /// Axes of the table; "z_down" if absent.
     pub(crate) axes: Option<SensorAxes>,
-    /// In which order the table's angles turn the vehicle; "yaw_pitch_roll" if absent.
+    /// Order of the rotations; "yaw_pitch_roll" if absent.
     pub(crate) angles: Option<AngleOrder>,
-    /// The point of the vehicle whose places the table gives, such as the middle of its rear axle, [x, y, z] from the vehicle's centre of gravity,
-    /// forward, right, down; [0, 0, 0] if absent.
+    /// The vehicle point that the table follows, such as the middle of the rear axle: [x, y, z] from the centre of
+    /// gravity, forward, right, down; [0, 0, 0] if absent.
     pub(crate) offset: Option<[Length; 3]>,
-    /// Frequency from which on places and angles are smoothed, without phase lag and 3 dB down there, as where they are rounded and their second
-    /// derivatives are mostly that; not smoothed if absent.
+    /// Cut-off frequency (3 dB, no phase lag) of a smoothing filter on positions and angles, for tables whose rounding
+    /// would dominate the second derivatives. Not smoothed if absent.
     pub(crate) filter: Option<Frequency<POSITIVE>>,
-    /// What the accelerations of the path are multiplied by, those of its angles too; place, angles and their rates at the first time stay. 1 if
+    /// Factor on the linear and angular accelerations of the path. Initial position, angles and rates stay. 1 if
     /// absent.
     pub(crate) strength: Option<Ratio<NOT_NEGATIVE>>,
-    /// How the table is read between its times; "spline" if absent.
+    /// Interpolation between the times; "spline" if absent.
     pub(crate) interpolation: Option<Interpolation>,
-    /// What the vehicle does after the last time; a run that goes on is refused if absent.
+    /// What the vehicle does after the last time. If absent, a run beyond it is an error.
     pub(crate) after: Option<AfterEnd>,
 }
 

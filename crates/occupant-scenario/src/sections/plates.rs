@@ -72,44 +72,45 @@ pub(crate) enum AbdomenChoice {
     Person,
 }
 
-/// A part of a segment that gives way along a line.
+/// A deformable part of a segment, which moves along a line.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BodyPlateSection {
-    /// Segment, of whose mass it is a part.
+    /// Segment that it belongs to. Its mass is part of the segment's.
     pub(crate) segment: Option<String>,
-    /// Where its mass is before it gives way, from the segment's lower end, segment axes (X ahead, Y left, Z up when standing).
+    /// Initial position of its mass, from the segment's lower end, segment axes (X forward, Y left, Z up when
+    /// standing).
     pub(crate) at: Option<[Length; 3]>,
-    /// The way inwards along which it gives way, segment axes; any length.
+    /// Inward direction of its motion, segment axes; any length.
     pub(crate) inward: Option<[Ratio; 3]>,
-    /// Mass that moves; the segment's whole mass stays what it is.
+    /// Moving mass. The segment's total mass does not change.
     pub(crate) mass: Option<Mass<POSITIVE>>,
-    /// Depth of the trunk behind it, with which deflections are compared.
+    /// Depth of the trunk behind it, for relative deflections.
     pub(crate) depth: Option<Length<POSITIVE>>,
-    /// Force over its deflection, outwards the same.
+    /// Force over deflection, the same outwards.
     pub(crate) spring: Option<BodySpringSection>,
-    /// Force over its deflection outwards, where that is another.
+    /// Force over outward deflection, if it differs.
     pub(crate) outward_spring: Option<BodySpringSection>,
-    /// What damps it.
+    /// Its damper.
     pub(crate) damper: Option<BodyDamperSection>,
-    /// A spring that gives way with a time constant, beside the others.
+    /// A relaxing spring (Maxwell element) in parallel.
     pub(crate) viscous: Option<BodyViscousSection>,
 }
 
-/// A spring and a damper over the deflections of several plates.
+/// A spring and a damper on a sum of plate deflections.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LinkSection {
-    /// Factors of the plates' deflections by their names: 1 and -1 for their difference, 1 and 1 for their sum.
+    /// Factors on the plate deflections, by name: 1 and -1 for the difference, 1 and 1 for the sum.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) of: IndexMap<String, Ratio>,
-    /// Force over that sum, below 0 the same.
+    /// Force over that sum, the same below 0.
     pub(crate) spring: Option<BodySpringSection>,
-    /// Force where the sum is below 0, if that is another.
+    /// Force where the sum is below 0, if it differs.
     pub(crate) outward_spring: Option<BodySpringSection>,
-    /// What damps it.
+    /// Its damper.
     pub(crate) damper: Option<BodyDamperSection>,
-    /// A spring that gives way with a time constant, beside the others.
+    /// A relaxing spring (Maxwell element) in parallel.
     pub(crate) viscous: Option<BodyViscousSection>,
 }
 
@@ -118,13 +119,13 @@ pub(crate) struct LinkSection {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-at-most-one" = [["returned", "returned_each"]]))]
 pub(crate) struct BodySpringSection {
-    /// Deflections, from 0 on.
+    /// Deflections, from 0.
     pub(crate) depth: Option<Vec<Length<NOT_NEGATIVE>>>,
-    /// Force at each; must not fall. It goes on with its last slope.
+    /// Force at each; must not fall. The last slope continues.
     pub(crate) force: Option<Vec<Force<NOT_NEGATIVE>>>,
-    /// One slope instead of depths and forces, which then do not count.
+    /// Linear stiffness, instead of depths and forces.
     pub(crate) stiffness: Option<Stiffness<POSITIVE>>,
-    /// Fraction of its work that comes back; 1 if absent.
+    /// Fraction of its work that unloading returns; 1 if absent.
     pub(crate) returned: Option<Ratio<FRACTION>>,
     /// The same for each interval.
     pub(crate) returned_each: Option<Vec<Ratio<FRACTION>>>,
@@ -134,11 +135,11 @@ pub(crate) struct BodySpringSection {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BodyDamperSection {
-    /// Force per speed inwards; 0 if absent.
+    /// Force per inward speed; 0 if absent.
     pub(crate) linear: Option<Damping<NOT_NEGATIVE>>,
-    /// Force per square of the speed inwards, added to it; 0 if absent.
+    /// Force per inward speed squared, added to it; 0 if absent.
     pub(crate) quadratic: Option<QuadraticDamping<NOT_NEGATIVE>>,
-    /// Force per speed outwards; `linear` if absent.
+    /// Force per outward speed; `linear` if absent.
     pub(crate) outward: Option<Damping<NOT_NEGATIVE>>,
 }
 
@@ -156,13 +157,13 @@ pub(crate) struct BodyViscousSection {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RideSection {
-    /// Under surfaces, solids and other spheres.
+    /// When touched by surfaces, solids and other spheres.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) contact: IndexMap<String, Ratio>,
-    /// Under belts.
+    /// When touched by belts.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) belt: IndexMap<String, Ratio>,
-    /// Under air bags.
+    /// When touched by air bags.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) bag: IndexMap<String, Ratio>,
 }
@@ -187,9 +188,9 @@ fn plate(b: &mut Builder, name: &str, s: &BodyPlateSection, body: &Body) -> Opti
             b.error(&path, format!("`{path}` has no key `{key}`"), expected);
         }
     };
-    missing("segment", s.segment.is_some(), "segment = the segment, of whose mass it is a part");
+    missing("segment", s.segment.is_some(), "segment = the segment that it belongs to");
     missing("at", s.at.is_some(), "at = [x, y, z] from the lower end of that segment");
-    missing("inward", s.inward.is_some(), "inward = the way in which it gives way, such as [-1, 0, 0]");
+    missing("inward", s.inward.is_some(), "inward = its direction of motion, such as [-1, 0, 0]");
     let mass_kg = b.needed(&path, "mass", &s.mass);
     let named = s.segment.as_deref()?;
     let Some(segment) = body.tree.segment_named(named) else {
@@ -301,8 +302,8 @@ pub(super) fn node(b: &mut Builder, path: &str, s: &NodeSection, site: &Site, bo
         Site::Segment(segment, at, _) => (*segment, *at),
         Site::Track(segment, track) => (*segment, track.points_m[1]),
         Site::Vehicle(..) | Site::Sphere(_) => {
-            let found = "`ride` or `lies_on` of what is no point of a segment";
-            b.error(path, found, "`on` and `at`; a sphere rides as `body.spheres` says");
+            let found = "`ride` or `lies_on` in a node that is not a point of a segment";
+            b.error(path, found, "`on` and `at`; for a sphere set `ride` in `body.spheres`");
             return Vec::new();
         }
     };
@@ -329,8 +330,8 @@ pub(super) fn chest(b: &mut Builder, section: &BodySection, body: &Body) -> Opti
     let place = |name: &str| body.plates.iter().position(|plate| plate.name == name);
     let (Some(breastbone), choice) = (place("sternum"), choice) else {
         if let Some(choice) = choice {
-            let found = format!("the chest of `{}` for a body of one's own, or of a child", choice.name());
-            let expected = "a preset or a person that is grown up; of others `body.plates`";
+            let found = format!("the chest of `{}` in a child or a body with its own joints", choice.name());
+            let expected = "an adult preset or person; for others give `body.plates`";
             b.error("body.chest", found, expected);
         }
         return None;

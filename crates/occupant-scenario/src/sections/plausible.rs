@@ -43,21 +43,21 @@ const USUAL: [Usual; 11] = [
         "386.09 is standard gravity in in/s², 32.17 in ft/s²"]),
     usual(&["body.segments"], 3.0..=250.0, ["kg", "3 kg to 250 kg", "the mass of a person",
         "a bare mass is in kg, under units = \"in-lbf-s\" in lbf·s²/in; use \"11.5 lb\", or `weight`"]),
-    usual(&["time.end"], 0.01..=20.0, ["s", "10 ms to 20 s", "the length of a crash",
+    usual(&["time.end"], 0.01..=20.0, ["s", "10 ms to 20 s", "the duration of a crash",
         "bare numbers are seconds; use \"200 ms\""]),
     usual(&["body.spheres.*.radius"], 0.005..=0.5, ["m", "5 mm to 0.5 m", "the radius of a sphere of the body", METRES]),
     usual(&["materials.*.k1", "belts.*.k1"], 500.0..=1e9, ["N/m", "500 N/m to 1 GN/m", "the stiffness of a part of a car",
         "bare numbers are N/m unless units = \"in-lbf-s\" says lbf/in; 1 lbf/in is 175 N/m"]),
     usual(&["materials.*.friction"], 0.0..=3.0, ["", "0 to 3", "a coefficient of friction",
-        "it is the force along the surface over that into it"]),
-    usual(&["belts.*.anchors[*]", "posture.heels[*]"], -10.0..=10.0, ["m", "within 10 m of the origin", "a place in a vehicle", METRES]),
+        "it is tangential force over normal force"]),
+    usual(&["belts.*.anchors[*]", "posture.heels[*]"], -10.0..=10.0, ["m", "within 10 m of the origin", "a position in a vehicle", METRES]),
     usual(&["posture.middle_torso", "posture.upper_torso", "posture.lower_torso"], -45.0..=90.0,
         [DEGREES, "−45° to 90°", "the lean of a person who sits", LEAN]),
     usual(&["posture.head"], -60.0..=90.0, [DEGREES, "−60° to 90°", "the lean of a head", LEAN]),
     usual(&["posture.upper_arms"], -90.0..=180.0, [DEGREES, "−90° to 180°", "the angle of upper arms",
-        "positive angles bring the elbows ahead of the shoulders"]),
+        "positive angles move the elbows ahead of the shoulders"]),
     usual(&["posture.elbows"], -150.0..=10.0, [DEGREES, "−150° to 10°", "the angle of elbows",
-        "negative angles bring the hands forward"]),
+        "negative angles move the hands forward"]),
 ];
 
 /// Adds a warning for every kind of number that looks like a slip.
@@ -96,7 +96,7 @@ fn warn_unless(b: &mut Builder, values: Vec<(String, f64)>, usual: &Usual) {
     let Some((path, value)) = unusual.next() else { return };
     let more = match unusual.count() {
         0 => String::new(),
-        n => format!(", and so are {n} more"),
+        n => format!(", as are {n} more"),
     };
     let rounded = (value * 1e6).round() / 1e6;
     let value = number(if rounded == 0.0 { value } else { rounded });
@@ -116,7 +116,7 @@ fn look_like_radians(angles: &[&Angle]) -> bool {
 fn check_posture_angles(b: &mut Builder, p: &PostureSection) {
     let angles: Vec<&Angle> = p.angles().map(|(_, angle)| angle).collect();
     if look_like_radians(&angles) {
-        let found = "angles of the posture that are all below 3.2°, as if they were radians";
+        let found = "all angles of the posture are below 3.2°, as if in radians";
         let hint = "bare angles are degrees; write \"0.26 rad\" for radians";
         b.report(Problem::warning("posture", found, "degrees").with_hint(Some(hint)));
     }
@@ -128,7 +128,7 @@ fn check_stop_angles(b: &mut Builder, tree: &Tree) {
         let stops = [("stop", &section.stop), ("lower_stop", &section.lower_stop), ("upper_stop", &section.upper_stop)];
         for (key, stop) in stops {
             if stop.as_ref().is_some_and(|s| look_like_radians(&[&s.begin, &s.full])) {
-                let found = "angles of a stop that are both below 3.2°, as if they were radians";
+                let found = "both angles of a stop are below 3.2°, as if in radians";
                 let hint = "bare angles are degrees; write \"0.79 rad\" for radians";
                 let path = format!("joints.{}.{key}", joint.name);
                 b.report(Problem::warning(path, found, "degrees").with_hint(Some(hint)));

@@ -25,7 +25,7 @@ pub(crate) struct SeatSection {
     pub(crate) cushion: String,
     /// Name of the seat back in `surfaces` or `solids`.
     pub(crate) back: String,
-    /// Lateral place of the occupant's middle plane; left is negative; 0 if absent.
+    /// Lateral position of the occupant's midsagittal plane; left is negative; 0 if absent.
     pub(crate) y: Option<Length>,
 }
 
@@ -43,23 +43,24 @@ pub(crate) struct PostureSection {
     pub(crate) head: Option<Angle>,
     /// γ₄.
     pub(crate) lower_torso: Option<Angle>,
-    /// γ₅, both upper arms; positive brings the elbows ahead of the shoulders.
+    /// γ₅, both upper arms; positive moves the elbows ahead of the shoulders.
     pub(crate) upper_arms: Option<Angle>,
-    /// α, both elbows; negative brings the hands forward.
+    /// α, both elbows; negative moves the hands forward.
     pub(crate) elbows: Option<Angle>,
     /// [x, z] of both heels, vehicle axes.
     pub(crate) heels: Option<[Length; 2]>,
-    /// [x, z] of both hands, vehicle axes, elbows below, instead of `upper_arms` and `elbows`.
+    /// [x, z] of both hands, vehicle axes, with the elbows below, instead of `upper_arms` and `elbows`.
     pub(crate) hands: Option<[Length; 2]>,
-    /// Move the seated body as one piece until cushion, back and belts carry it; true if absent. False is the report's seating.
+    /// True: move the seated body, as one piece, into balance with cushion, back and belts. False: the seating of the
+    /// 1970 report. True if absent.
     pub(crate) settle: Option<bool>,
-    /// True: all joints give way while the body settles, as of one who sleeps, until limits, springs, locks and what it lies on
-    /// carry it; the posture is where it sinks from. False if absent.
+    /// True: all joints are limp while the body settles, as in sleep, until limits, springs, locks and contacts carry
+    /// it. The posture is where it starts to sink from. False if absent.
     pub(crate) limp: Option<bool>,
-    /// True: every point starts with the velocity of the vehicle there. False: all start with the velocity of the
-    /// vehicle's origin. True if absent.
+    /// True: every point starts with the velocity of the vehicle at that point. False: all points start with the
+    /// velocity of the vehicle's origin. True if absent.
     pub(crate) moves_with_vehicle: Option<bool>,
-    /// Velocity of every point at the start, vehicle axes, instead of the vehicle's.
+    /// Initial velocity of every point, vehicle axes, instead of that of the vehicle.
     pub(crate) velocity: Option<[Speed; 3]>,
     /// Further angles by the names of segments, `neck`, or of pins; `left_upper_arm` and `right_upper_arm` stand for one each.
     /// A segment of which nothing is said hangs as the one that carries it.
@@ -100,8 +101,8 @@ pub(crate) struct InitialStateSection {
     /// Their rates.
     #[schemars(extend("minItems" = 31, "maxItems" = 31))]
     pub(crate) rates: Vec<f64>,
-    /// To extend a run from cards: [sphere, surface] of the pairs that have passed each other; all others that overlap
-    /// touch. If absent, a sphere whose centre is beyond the plane or beside the face has passed it.
+    /// To extend a run from cards: [sphere, surface] of pairs that have passed each other; all other overlapping pairs
+    /// touch. If absent, a sphere has passed if its centre is beyond the plane or beside the face.
     pub(crate) passed: Option<Vec<[String; 2]>>,
 }
 
@@ -120,7 +121,7 @@ pub(super) fn posture(b: &mut Builder, s: &Scenario, body: &Body) -> (Option<Ini
         (None, Some(state)) => (state_of(b, s, state, body), InitialVelocity::default()),
         (None, None) => {
             let expected = "one of `posture`, `initial_state`, `mount`, `stance`";
-            b.error("", "nothing says how the body begins", expected);
+            b.error("", "the initial posture of the body is missing", expected);
             (None, InitialVelocity::default())
         }
     }
@@ -151,7 +152,7 @@ fn settling(b: &mut Builder, p: &PostureSection) -> Settling {
         (true, false) => Settling::Locked,
         (false, is_limp) => {
             if is_limp {
-                b.error("posture.limp", "a limp body that is not to settle", "settle = true, or no `limp`");
+                b.error("posture.limp", "`limp = true` without settling", "settle = true, or no `limp`");
             }
             Settling::Not
         }
@@ -205,7 +206,7 @@ fn state_of(b: &mut Builder, s: &Scenario, state: &InitialStateSection, body: &B
     for (i, [sphere, surface]) in pairs.iter().enumerate() {
         let meeting = s.surfaces.get(surface).and_then(|f| f.spheres.as_ref());
         if meeting.is_some_and(|spheres| !spheres.contains(sphere)) {
-            let found = format!("`{surface}` cannot be passed by `{sphere}`: it is not among its `spheres`");
+            let found = format!("`{sphere}` cannot have passed `{surface}`: it is not one of its `spheres`");
             let expected = format!("one of the spheres of `surfaces.{surface}.spheres`");
             let hint = format!("add \"{sphere}\" to them, or leave this pair out");
             let path = format!("initial_state.passed[{i}][0]");

@@ -20,36 +20,36 @@ use placed_text::{Problem, SourceId};
     "dependentRequired" = {"rows": ["columns"]},
 ))]
 pub(crate) struct PulseSection {
-    /// Shape of the deceleration over time.
+    /// Pulse shape: deceleration over time.
     pub(crate) shape: PulseShape,
-    /// Speed before the pulse, in the direction of travel.
+    /// Speed before the pulse.
     pub(crate) speed: Speed<NOT_NEGATIVE>,
-    /// Greatest deceleration. Give this or `delta_v`.
+    /// Peak deceleration. Give this or `delta_v`.
     pub(crate) peak: Option<Acceleration>,
-    /// Change of speed over the whole pulse. Give this or `peak`.
+    /// Change of speed over the pulse. Give this or `peak`.
     pub(crate) delta_v: Option<Speed>,
-    /// Length of the pulse; half_sine, haversine, triangle, square.
+    /// Duration of a half_sine, haversine, triangle or square pulse.
     pub(crate) duration: Option<Time<POSITIVE>>,
-    /// When a triangle has its peak, as a fraction of its duration; 0.5 if absent.
+    /// Time of a triangle's peak, as a fraction of its duration; 0.5 if absent.
     pub(crate) peak_fraction: Option<Ratio<FRACTION>>,
-    /// Time a trapezoid takes to its plateau.
+    /// Rise time of a trapezoid.
     pub(crate) rise: Option<Time<NOT_NEGATIVE>>,
-    /// Time a trapezoid stays on its plateau.
+    /// Plateau time of a trapezoid.
     pub(crate) plateau: Option<Time<NOT_NEGATIVE>>,
-    /// Time a trapezoid takes back to zero.
+    /// Fall time of a trapezoid.
     pub(crate) fall: Option<Time<NOT_NEGATIVE>>,
     /// CSV file beside the scenario with the deceleration of a tabulated pulse; columns `t` and `a`.
     pub(crate) file: Option<String>,
-    /// Names and units of the columns of `rows`, such as `["t[ms]", "a[g]"]`; or of those of `file` in place of its headings, `"-"` for one
-    /// that is left out.
+    /// Names and units of the columns of `rows`, such as `["t[ms]", "a[g]"]`; or of those of `file`, instead of its
+    /// headings; `"-"` skips a column.
     pub(crate) columns: Option<Vec<String>>,
     /// The table itself, one list for each time.
     pub(crate) rows: Option<Vec<Vec<f64>>>,
     /// When the pulse starts; 0 if absent.
     pub(crate) start: Option<Time<NOT_NEGATIVE>>,
-    /// Speed at which the vehicle may be driven back; it stays where it stops if absent.
+    /// Largest rebound speed; if absent the vehicle stays where it stops.
     pub(crate) rebound: Option<Speed<NOT_NEGATIVE>>,
-    /// Direction of travel [x, y, z], any length; where the vehicle heads if absent.
+    /// Direction of travel [x, y, z], any length; the vehicle's heading if absent.
     pub(crate) direction: Option<[Ratio; 3]>,
     /// [x, y, z] of the vehicle's centre of gravity at time 0; [0, 0, 0] if absent.
     pub(crate) position: Option<[Length; 3]>,
@@ -144,9 +144,9 @@ fn strength(b: &mut Builder, s: &PulseSection) -> Option<Strength> {
         (Some(peak), _) => Some(Strength::PeakDeceleration(peak.si())),
         (None, Some(delta_v)) => Some(Strength::DeltaV(delta_v.si())),
         (None, None) => {
-            let expected = "`peak`, its greatest deceleration, or `delta_v`, its change of speed";
+            let expected = "`peak`, the peak deceleration, or `delta_v`, the change of speed";
             let hint = "delta_v equal to speed brings the vehicle to rest";
-            let found = "a pulse that does not say how strong it is";
+            let found = "a pulse without `peak` or `delta_v`";
             b.report(Problem::error("path", found, expected).with_hint(Some(hint)));
             None
         }
@@ -157,6 +157,6 @@ fn refuse_foreign_keys(b: &mut Builder, s: &PulseSection) {
     let known = keys_of(s.shape);
     let keys = ["peak", "delta_v", "duration", "peak_fraction", "rise", "plateau", "fall", "file", "columns", "rows"];
     let foreign: Vec<&str> = keys.into_iter().filter(|key| !known.contains(key)).collect();
-    let expected = format!("of such keys only {}", known.join(", "));
-    b.refuse_keys("path", &foreign, |key| format!("`{key}` has no meaning for this shape of pulse"), &expected);
+    let expected = format!("of these keys only {}", known.join(", "));
+    b.refuse_keys("path", &foreign, |key| format!("this pulse shape does not use `{key}`"), &expected);
 }

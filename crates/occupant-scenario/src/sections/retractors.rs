@@ -28,11 +28,11 @@ pub(crate) struct RetractorSection {
     pub(crate) on_spool: Option<Length<POSITIVE>>,
     /// Tension while it is open; 6 N if absent.
     pub(crate) spool_tension: Option<Force<POSITIVE>>,
-    /// What locks it; without it a pretensioner alone does.
+    /// What locks it. If absent, only a pretensioner does.
     pub(crate) lock: Option<LockSection>,
-    /// Name of the limiter; locked, it gives nothing if absent.
+    /// Name of the load limiter. If absent, the locked retractor pays out nothing.
     pub(crate) limiter: Option<String>,
-    /// A limiter that takes over.
+    /// A second limiter that takes over.
     pub(crate) second_limiter: Option<SecondLimiterSection>,
     /// Pretensioner.
     pub(crate) pretensioner: Option<PullSection>,
@@ -44,9 +44,9 @@ pub(crate) struct RetractorSection {
 pub(crate) struct LockSection {
     /// Name of the trigger.
     pub(crate) trigger: String,
-    /// Webbing that leaves the spool from the trigger until it is locked; 0 if absent.
+    /// Webbing that pays out between trigger and lock; 0 if absent.
     pub(crate) payout: Option<Length<NOT_NEGATIVE>>,
-    /// Time from the trigger until it is locked in any case.
+    /// Longest time from trigger to lock.
     pub(crate) within: Option<Time<NOT_NEGATIVE>>,
 }
 
@@ -58,7 +58,7 @@ pub(crate) struct SecondLimiterSection {
     pub(crate) limiter: String,
     /// Name of the trigger.
     pub(crate) trigger: String,
-    /// Time in which the force moves over; 5 ms if absent.
+    /// Transition time between the two forces; 5 ms if absent.
     pub(crate) within: Option<Time<POSITIVE>>,
 }
 
@@ -71,13 +71,13 @@ pub(crate) struct PullSection {
     pub(crate) trigger: String,
     /// Time from the trigger until it acts; 0 if absent.
     pub(crate) delay: Option<Time<NOT_NEGATIVE>>,
-    /// Times since it acts, from 0 on; it ends with the last.
+    /// Times since it began to act, from 0; it ends with the last.
     pub(crate) times: Vec<Time<NOT_NEGATIVE>>,
-    /// Webbing pulled in at each; must not fall.
+    /// Webbing pulled in at each time; must not fall.
     pub(crate) pull: Option<Vec<Length<NOT_NEGATIVE>>>,
     /// Force at each.
     pub(crate) force: Option<Vec<Force<NOT_NEGATIVE>>>,
-    /// Greatest speed of webbing that a force pulls in; 15 m/s if absent.
+    /// Largest pull-in speed of a pretensioner given by force; 15 m/s if absent.
     pub(crate) speed: Option<Speed<POSITIVE>>,
     /// Tension at which it stops; none if absent.
     pub(crate) stall_force: Option<Force<POSITIVE>>,
@@ -91,13 +91,13 @@ pub(crate) struct StrokeSection {
     pub(crate) trigger: String,
     /// Time from the trigger until it acts; 0 if absent.
     pub(crate) delay: Option<Time<NOT_NEGATIVE>>,
-    /// Which way it pulls, vehicle axes; away from the belt, if absent down and back.
+    /// Direction of pull away from the belt, vehicle axes; down and back if absent.
     pub(crate) direction: Option<[Ratio; 3]>,
-    /// Times since it acts, from 0 on.
+    /// Times since it began to act, from 0.
     pub(crate) times: Vec<Time<NOT_NEGATIVE>>,
-    /// Its way at each; must not fall.
+    /// Its travel at each time; must not fall.
     pub(crate) pull: Vec<Length<NOT_NEGATIVE>>,
-    /// Force against it at which it stops for good; none if absent.
+    /// Opposing force at which it stops for good; none if absent.
     pub(crate) stall_force: Option<Force<POSITIVE>>,
 }
 
@@ -109,7 +109,7 @@ impl Parts<'_> {
     /// What holds the first node; a retractor anywhere else is an error.
     pub(super) fn device(&self, b: &mut Builder, path: &str, s: &BeltSection, nodes: &[NodeSection]) -> Device {
         for (i, _) in nodes.iter().enumerate().skip(1).filter(|(_, node)| node.retractor.is_some()) {
-            let expected = "the retractor at the first node: list the nodes the other way round";
+            let expected = "the retractor at the first node: reverse the order of the nodes";
             b.error(&format!("{path}.nodes[{i}].retractor"), format!("a retractor at node {}", i + 1), expected);
         }
         let reel = nodes.first().and_then(|node| self.scenario.retractors.get_key_value(node.retractor.as_ref()?));
@@ -118,10 +118,14 @@ impl Parts<'_> {
             return Device { limiter, second: None, reel: None };
         };
         if s.limiter.is_some() {
-            b.error(&format!("{path}.limiter"), "a limiter of a belt with a retractor", "`limiter` of the retractor");
+            b.error(
+                &format!("{path}.limiter"),
+                "a belt with both a limiter and a retractor",
+                "`limiter` of the retractor",
+            );
         }
         if section.second_limiter.is_some() && section.limiter.is_none() {
-            b.error(path, "a retractor with a second limiter and no first", "`limiter` of the retractor");
+            b.error(path, "a retractor with a second limiter but no first", "`limiter` of the retractor");
         }
         let second = |second: &SecondLimiterSection, b: &mut Builder| {
             let limiter = self.limiter(b, &second.limiter)?;

@@ -22,8 +22,8 @@ pub(crate) struct TimeSection {
     pub(crate) start: Option<Time>,
     /// End.
     pub(crate) end: Time,
-    /// True: the run ends before that once every body has had less than 1e-4 of the greatest kinetic energy, in space, for 0.2 s.
-    /// False if absent.
+    /// True: the run ends early, once every body has had less than 1e-4 of its peak kinetic energy (in space) for 0.2
+    /// s. False if absent.
     pub(crate) stop_at_rest: Option<bool>,
 }
 
@@ -31,9 +31,9 @@ pub(crate) struct TimeSection {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct OutputSection {
-    /// Time between two records; 1 ms if absent.
+    /// Output interval; 1 ms if absent.
     pub(crate) interval: Option<Time<POSITIVE>>,
-    /// Also record the report's coordinates q₁…q₃₁ and their rates; false if absent.
+    /// True: also record the coordinates q₁…q₃₁ of the 1970 report and their rates. False if absent.
     pub(crate) report_coordinates: Option<bool>,
 }
 
@@ -42,12 +42,12 @@ pub(crate) struct OutputSection {
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 #[schemars(transform = kind_goes_without_saying)]
 pub(crate) enum IntegratorSection {
-    /// The classical fourth-order Runge–Kutta method with a fixed step, as in the report.
+    /// The classical fourth-order Runge–Kutta method with a fixed step, as in the 1970 report.
     Rk4 {
-        /// Step.
+        /// Time step.
         step: Time<POSITIVE>,
     },
-    /// An embedded 3(2) pair that chooses its step.
+    /// An embedded 3(2) Runge–Kutta pair with adaptive step.
     Adaptive(Box<AdaptiveSection>),
 }
 
@@ -69,19 +69,19 @@ fn kind_goes_without_saying(schema: &mut Schema) {
     "x-at-most-one" = [["accuracy", "relative"], ["accuracy", "absolute_length"], ["accuracy", "absolute_speed"]],
 ))]
 pub(crate) struct AdaptiveSection {
-    /// How far the head's path and the peaks may be from the solution: "survey" (1 mm, 0.5 %), "engineering" (0.1 mm, 0.1 %) or
-    /// "reference" (a thousandth of that). It chooses the tolerances by the length of the run; "engineering" if neither it nor
-    /// a tolerance is written.
+    /// Allowed integration error of the head's path and of peaks: "survey" (1 mm, 0.5 %), "engineering" (0.1 mm, 0.1 %)
+    /// or "reference" (a thousandth of that). Sets the tolerances for the length of the run. "engineering" if neither
+    /// this nor a tolerance is given.
     pub(crate) accuracy: Option<Accuracy>,
-    /// Relative tolerance of velocities; 3e-8 if absent and another tolerance is written.
+    /// Relative tolerance of velocities; 3e-8 if absent and another tolerance is given.
     pub(crate) relative: Option<Ratio<NOT_NEGATIVE>>,
-    /// Absolute tolerance of positions; 3e-9 m if absent and another tolerance is written.
+    /// Absolute tolerance of positions; 3e-9 m if absent and another tolerance is given.
     pub(crate) absolute_length: Option<Length<POSITIVE>>,
-    /// Absolute tolerance of velocities; 3e-7 m/s if absent and another tolerance is written.
+    /// Absolute tolerance of velocities; 3e-7 m/s if absent and another tolerance is given.
     pub(crate) absolute_speed: Option<Speed<POSITIVE>>,
-    /// Smallest step, and the first; 1e-10 s if absent, 1e-12 s with the accuracy "reference".
+    /// Smallest step, also the first one; 1e-10 s if absent, 1e-12 s with accuracy "reference".
     pub(crate) min_step: Option<Time<POSITIVE>>,
-    /// Largest step; if absent 0.5 ms in a run of 0.35 s at most of which no tolerance is written, else 2 ms.
+    /// Largest step. If absent, 0.5 ms in a run of up to 0.35 s without tolerances, else 2 ms.
     pub(crate) max_step: Option<Time<POSITIVE>>,
 }
 

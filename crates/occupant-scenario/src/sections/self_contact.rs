@@ -14,13 +14,13 @@ use placed_text::with_key;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SelfContactSection {
-    /// Name of the material in `materials` of which the body's skin is. Two skins deform in series.
+    /// Name of the skin material in `materials`. Two skins deform in series.
     pub(crate) skin: String,
-    /// Materials of the skins of single parts, by the names of parts or spheres.
+    /// Skin materials of single parts, by the names of parts or spheres.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) skins: IndexMap<String, String>,
-    /// Pairs of parts that can touch; absent: hands, elbows, knees, thighs, shins and feet with what they reach. Parts that
-    /// share a joint or overlap in a body that stands never meet.
+    /// Pairs of parts that can touch. If absent: hands, elbows, knees, thighs, shins and feet with what they can reach.
+    /// Parts that share a joint, or overlap in a standing body, never touch.
     pub(crate) pairs: Option<Vec<[String; 2]>>,
 }
 
@@ -52,8 +52,8 @@ fn named(b: &mut Builder, body: &Body, i: usize, pair: &[String; 2]) -> Vec<[usi
     }
     let spheres = SelfContact::between(body, [pair.clone()].into_iter());
     if spheres.is_empty() {
-        let found = format!("{} and {}, which share a joint or overlap in a body that stands", pair[0], pair[1]);
-        b.error(&path, found, "parts that can be apart and meet");
+        let found = format!("{} and {}, which share a joint or overlap in a standing body", pair[0], pair[1]);
+        b.error(&path, found, "parts that can be apart and then touch");
     }
     spheres
 }

@@ -22,41 +22,42 @@ use placed_text::{Diagnostic, Problem, SourceId};
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-exactly-one" = [["file", "rows"]], "dependentRequired" = {"rows": ["columns"], "baseline_end": ["baseline"]}))]
 pub(crate) struct SensorsSection {
-    /// CSV file beside the scenario; its first line names the columns and their units: `t`, accelerations `ax`, `ay`, `az`
-    /// and rates `wx`, `wy`, `wz` (or `roll_rate`, `pitch_rate`, `yaw_rate`), such as `t[s],ax[g],ay[g],wz[deg/s]`; or
-    /// velocity changes `dvx`, `dvy` with `wz`, such as `t[ms],dvx[km/h]`; or as recorders do, such as
-    /// `Time (ms),Delta-V longitudinal (km/h)`. Commas, semicolons, tabs or blanks separate them. An acceleration, rate or velocity change that
-    /// has no column is a motion that is not there.
+    /// CSV file beside the scenario; its first line names the columns and their units: `t`, accelerations `ax`, `ay`,
+    /// `az` and rates `wx`, `wy`, `wz` (or `roll_rate`, `pitch_rate`, `yaw_rate`), such as
+    /// `t[s],ax[g],ay[g],wz[deg/s]`; or velocity changes `dvx`, `dvy` with `wz`, such as `t[ms],dvx[km/h]`; or as
+    /// recorders do, such as `Time (ms),Delta-V longitudinal (km/h)`. Separators are commas, semicolons, tabs or
+    /// blanks. A missing acceleration, rate or velocity change counts as zero.
     pub(crate) file: Option<String>,
-    /// Names and units of the columns of `rows`, such as `["t[ms]", "ax[g]"]`; or of those of `file` in place of its headings, `"-"` for one
-    /// that is left out.
+    /// Names and units of the columns of `rows`, such as `["t[ms]", "ax[g]"]`; or of those of `file`, instead of its
+    /// headings; `"-"` skips a column.
     pub(crate) columns: Option<Vec<String>>,
     /// The record itself, one list for each time.
     pub(crate) rows: Option<Vec<Vec<f64>>>,
-    /// Speed of the vehicle's centre of gravity when the path starts.
+    /// Speed of the vehicle's centre of gravity at the start of the path.
     pub(crate) speed: Speed<NOT_NEGATIVE>,
-    /// Direction of that speed [x, y, z], any length; where the vehicle heads if absent.
+    /// Direction of that speed [x, y, z], any length; the vehicle's heading if absent.
     pub(crate) direction: Option<[Ratio; 3]>,
-    /// What gravity does in the accelerations. Must be given with them.
+    /// How gravity is treated in the accelerations. Needed with accelerations.
     pub(crate) gravity: Option<SensorGravity>,
-    /// Which way the sensors' axes point; "z_down" if absent.
+    /// Axes of the sensors; "z_down" if absent.
     pub(crate) axes: Option<SensorAxes>,
-    /// Where the sensors stand, [x, y, z] from the vehicle's centre of gravity, forward, right, down; [0, 0, 0] if absent.
+    /// Position of the sensors, [x, y, z] from the vehicle's centre of gravity, forward, right, down; [0, 0, 0] if
+    /// absent.
     pub(crate) offset: Option<[Length; 3]>,
-    /// Channel frequency class (ISO 6487, without phase lag) that all accelerations and rates are filtered by; not
-    /// filtered if absent.
+    /// Channel frequency class (ISO 6487, no phase lag) of the filter for all accelerations and rates; not filtered if
+    /// absent.
     pub(crate) filter: Option<FilterClass>,
-    /// Length of the rest, or steady travel, at the beginning of the record; what each channel reads there on average
-    /// beyond what it should is taken away from all of it. Nothing is taken away if absent.
+    /// Length of the quiet part (rest or steady travel) at the start of the record. The mean offset of each channel
+    /// there is subtracted from the whole record. Nothing is subtracted if absent.
     pub(crate) baseline: Option<Time<POSITIVE>>,
-    /// Length of a rest, level as at the start, at the end of the record as well: what is taken away then follows a straight line from one mean
-    /// to the other, as sensors drift.
+    /// Length of the quiet part at the end of the record, level as at the start. The subtracted offset then changes
+    /// linearly from one mean to the other, which removes sensor drift.
     pub(crate) baseline_end: Option<Time<POSITIVE>>,
-    /// What the recorded motion is multiplied by: accelerations without gravity, velocity changes, and the changes of rates; the state at the start
-    /// stays. 1 if absent.
+    /// Factor on the recorded motion: accelerations without gravity, velocity changes and changes of rate. The initial
+    /// state stays. 1 if absent.
     pub(crate) strength: Option<Ratio<NOT_NEGATIVE>>,
-    /// Time of the record at which the path starts and position, angles and speed hold; its first time if absent.
-    /// With `time.start` at the same time a run leaves out the braking before a crash, under which a body without muscles folds.
+    /// Time of the record at which the path starts with the given position, angles and speed; its first time if absent.
+    /// Set `time.start` to the same time to leave out braking before the crash, which folds a body without muscles.
     pub(crate) start: Option<Time>,
     /// [x, y, z] of the vehicle's centre of gravity when the path starts; [0, 0, 0] if absent.
     pub(crate) position: Option<[Length; 3]>,
@@ -66,7 +67,7 @@ pub(crate) struct SensorsSection {
     pub(crate) pitch: Option<Angle>,
     /// Yaw when the path starts; 0 if absent.
     pub(crate) yaw: Option<Angle>,
-    /// What the vehicle does after the last time; a run that goes on is refused if absent.
+    /// What the vehicle does after the last time. If absent, a run beyond it is an error.
     pub(crate) after: Option<AfterEnd>,
 }
 
@@ -194,11 +195,11 @@ fn check_delta_v(b: &mut Builder, table: &NumberTable) -> bool {
     let before = b.problems.len();
     for i in [1, 2, 3, 4, 5].into_iter().filter(|&i| table.present[i]) {
         let found = format!("`{}` beside velocity changes", COLUMNS[i].name);
-        let expected = "`t`, `dvx`, `dvy` and `wz`, or accelerations and rates without velocity changes";
+        let expected = "either `t`, `dvx`, `dvy` and `wz`, or accelerations and rates";
         let problem = Problem::error("path", found, expected);
         b.problems.push(Diagnostic::at(&b.document.sources, table.header, problem));
     }
-    let expected = "a record of accelerations, or no such key";
+    let expected = "accelerations, or leave the key out";
     let found = |key: &str| format!("`{key}` with a record of velocity changes");
     b.refuse_keys("path", &["gravity", "filter", "baseline", "baseline_end"], found, expected);
     b.problems.len() == before

@@ -64,7 +64,7 @@ pub(crate) fn setup(
     let behind = plates::behind(explicit, (&surfaces, &solids), posture.as_ref());
     let (mut chains, mut bags) = (Vec::new(), Vec::new());
     if let Some(path) = &path {
-        let triggers = triggers::triggers(b, explicit, path, &time);
+        let triggers = triggers::triggers(b, explicit, triggers::Paths { first: path, others: &frames }, &time);
         joints.muscles = muscles::muscles(b, explicit, &body, &triggers);
         chains = chains::chains(b, explicit, &body, &triggers);
         bags = bags::bags(b, explicit, &body, &triggers);
@@ -133,7 +133,7 @@ fn check_provenance(b: &mut Builder, written: &Scenario) {
     for topic in written.provenance.keys() {
         let is_path = topic.contains('.') && !topic.contains(' ');
         if is_path && locate(&b.document.root, topic).is_none() {
-            let found = format!("`{topic}` is no part of the scenario");
+            let found = format!("`{topic}` is not part of the scenario");
             let expected = "a path such as materials.seat, or a topic in words";
             b.report(Problem::warning(with_key("provenance", topic), found, expected));
         }

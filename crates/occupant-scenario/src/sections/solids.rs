@@ -19,7 +19,7 @@ use placed_text::{Problems, with_key};
 /// The sections of all kinds, each with the keys that every solid has.
 macro_rules! kinds {
     ($($(#[$about:meta])* $Kind:ident($Section:ident $(, $rule:literal = $keys:tt)*) { $($(#[$doc:meta])* $key:ident: $Type:ty,)* })*) => {
-        /// A body with thickness that spheres can touch.
+        /// A solid: a body with thickness that spheres can touch.
         #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
         #[serde(tag = "kind", rename_all = "snake_case")]
         pub(crate) enum SolidSection {
@@ -36,13 +36,13 @@ macro_rules! kinds {
                 pub(crate) material: String,
                 /// What it is fixed to; "vehicle" if absent.
                 pub(crate) frame: Option<String>,
-                /// Of several bodies, who can touch it, as of a surface; "all" if absent.
+                /// With several bodies, which ones can touch it, as for a surface; "all" if absent.
                 pub(crate) meets: Option<Meets>,
-                /// Solids of one group are met as one body without seams; they have one frame and one material.
+                /// Name of a group. Solids of a group act as one body without seams; they share frame and material.
                 pub(crate) group: Option<String>,
-                /// Names of the parts or spheres of the body that can touch it; all if absent.
+                /// Names of the body parts or spheres that can touch it; all if absent.
                 pub(crate) spheres: Option<Vec<String>>,
-                /// True: the spine leans on it, as on the seat's back; see surfaces.
+                /// True: it supports the spine, as a seat back does; see surfaces.
                 pub(crate) behind: Option<bool>,
                 $($(#[$doc])* pub(crate) $key: $Type,)*
             }
@@ -97,24 +97,24 @@ struct Common<'a> {
 }
 
 kinds! {
-    /// A convex polygon and what lies to both sides of it.
+    /// A prism: a convex polygon, extended to both sides.
     Prism(PrismSection, "x-exactly-one" = [["points", "profile"]]) {
         /// Corners [x, y, z] of a convex plane polygon, in any order.
         points: Option<Vec<[Length; 3]>>,
-        /// The same seen from the side, as [x, z].
+        /// The same, seen from the side, as [x, z].
         profile: Option<Vec<[Length; 2]>>,
-        /// Lateral place of the profile; 0 if absent.
+        /// Lateral position of the profile; 0 if absent.
         y: Option<Length>,
-        /// How far it reaches to either side of the polygon.
+        /// Extent to each side of the polygon.
         half_width: Length<POSITIVE>,
         /// Radius of its edges and corners; 0 if absent.
         rounding: Option<Length<NOT_NEGATIVE>>,
     }
     /// A box. Angles are yaw, then pitch, then roll.
     Box(BoxSection) {
-        /// Its middle.
+        /// Its centre.
         centre: [Length; 3],
-        /// Its lengths along x, y and z before it is turned.
+        /// Its lengths along x, y and z, before rotation.
         lengths: [Length<POSITIVE>; 3],
         /// Roll; 0 if absent.
         roll: Option<Angle>,
@@ -133,7 +133,7 @@ kinds! {
         edge: Option<[[Length; 2]; 2]>,
         /// Half the rectangle's width.
         half_width: Option<Length<POSITIVE>>,
-        /// Lateral place of the rectangle's middle; 0 if absent.
+        /// Lateral position of the rectangle's centre; 0 if absent.
         y: Option<Length>,
         /// Thickness behind the front.
         thickness: Length<POSITIVE>,
@@ -141,14 +141,14 @@ kinds! {
         rounding: Option<Length<NOT_NEGATIVE>>,
         /// A point on the open side, in the solid's frame; the scenario's `inside` if absent.
         inside: Option<[Length; 3]>,
-        /// "order" takes the open side from the order of the corners instead of from a point.
+        /// "order": the order of the corners gives the open side, instead of a point.
         facing: Option<FacingChoice>,
     }
     /// A round plate, such as the hub of a steering wheel.
     Disc(DiscSolidSection, "x-exactly-one" = [["tilt", "axis"]]) {
-        /// Its middle.
+        /// Its centre.
         centre: [Length; 3],
-        /// Angle of its plane from the vertical, its upper edge ahead, as a steering wheel's.
+        /// Angle of its plane from the vertical, upper edge forward, as for a steering wheel.
         tilt: Option<Angle>,
         /// Direction of its axis; any length.
         axis: Option<[Ratio; 3]>,
@@ -166,11 +166,11 @@ kinds! {
         /// Radius.
         radius: Length<POSITIVE>,
     }
-    /// The rim of a steering wheel. A sphere fits through it: give the wheel its hub too.
+    /// The rim of a steering wheel. A sphere can pass through it: add a hub.
     Rim(RimSection, "x-exactly-one" = [["tilt", "axis"]]) {
-        /// Its middle.
+        /// Its centre.
         centre: [Length; 3],
-        /// Angle of its plane from the vertical, its upper edge ahead.
+        /// Angle of its plane from the vertical, upper edge forward.
         tilt: Option<Angle>,
         /// Direction of its axis; any length.
         axis: Option<[Ratio; 3]>,
@@ -179,9 +179,9 @@ kinds! {
         /// Radius of the tube.
         tube_radius: Length<POSITIVE>,
     }
-    /// All that is behind a plane: the ground, a wall.
+    /// Everything behind a plane: the ground, a wall.
     HalfSpace(HalfSpaceSection) {
-        /// A point of the plane.
+        /// A point on the plane.
         point: [Length; 3],
         /// Its normal, out of the solid; any length.
         normal: [Ratio; 3],

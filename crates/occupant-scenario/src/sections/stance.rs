@@ -18,18 +18,18 @@ use occupant_core::model::seating::{InitialPosture, InitialVelocity, Mounting, P
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StanceSection {
-    /// Angles to begin with: "standing", arms hanging; "walking", the left leg ahead, arms opposite; "none", every segment as
-    /// the one that carries it. "standing" if absent.
+    /// Basic posture: "standing", arms hanging; "walking", left leg forward, arms opposite; "none", every segment
+    /// aligned with its parent. "standing" if absent.
     #[schemars(extend("enum" = ["standing", "walking", "none"]))]
     pub(crate) preset: Option<String>,
-    /// [x, y] of the body's reference point T1, vehicle-space, or the axes of its vehicle.
+    /// [x, y] of the body's reference point T1, in vehicle-space or in the axes of its vehicle.
     pub(crate) at: [Length; 2],
-    /// Where it faces, to the right of x; 0 if absent.
+    /// Heading, to the right of x; 0 if absent.
     pub(crate) yaw: Option<Angle>,
-    /// Speed ahead, as it faces, beside that of its vehicle; 0 if absent.
+    /// Forward speed relative to its vehicle; 0 if absent.
     pub(crate) speed: Option<Speed<NOT_NEGATIVE>>,
-    /// Angles by the names of segments and of pins as in `posture`: a segment leans its top back, in the plane that the body
-    /// faces.
+    /// Angles by the names of segments and pins, as in `posture`: positive leans the top of a segment back, in the
+    /// plane in which the body faces.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) posture: IndexMap<String, Angle>,
 }

@@ -26,9 +26,9 @@ pub(crate) struct SurfaceSection {
     /// What it is fixed to: "vehicle", "space", "ground", or the name of another vehicle, a frame or a loose body; "vehicle" if
     /// absent.
     pub(crate) frame: Option<String>,
-    /// Of several bodies, who can touch it: "own", those that begin in its vehicle; "others", all but those; "all". "own" if
-    /// absent, as a surface has one side alone; `check` then names those who pass through it. What belongs to no vehicle all
-    /// can touch.
+    /// With several bodies, which ones can touch it: "own", those that start in its vehicle; "others", all except
+    /// those; or "all". "own" if absent, because a surface has only one side; `check` then lists bodies that pass
+    /// through it. Surfaces of no vehicle can be touched by all.
     pub(crate) meets: Option<Meets>,
     /// Corners [x, y, z] in order round a convex plane polygon.
     #[schemars(extend("minItems" = 3))]
@@ -37,22 +37,22 @@ pub(crate) struct SurfaceSection {
     pub(crate) edge: Option<[[Length; 2]; 2]>,
     /// Half the rectangle's width.
     pub(crate) half_width: Option<Length<POSITIVE>>,
-    /// Half the width at the second point of `edge`, where it differs.
+    /// Half the width at the second point of `edge`, if it differs.
     pub(crate) end_half_width: Option<Length<NOT_NEGATIVE>>,
-    /// Lateral place of the rectangle's middle; 0 if absent.
+    /// Lateral position of the rectangle's centre; 0 if absent.
     pub(crate) y: Option<Length>,
     /// A circular disc, such as a steering wheel.
     pub(crate) disc: Option<DiscSection>,
-    /// A whole plane without bounds.
+    /// An unbounded plane.
     pub(crate) plane: Option<PlaneSection>,
     /// A point on the open side, in the surface's frame; the scenario's `inside` if absent.
     pub(crate) inside: Option<[Length; 3]>,
-    /// "order" takes the open side from the order of the corners, or from `normal`, instead of from a point.
+    /// "order": the order of the corners, or `normal`, gives the open side, instead of a point.
     pub(crate) facing: Option<FacingChoice>,
-    /// Names of the parts or spheres of the body that can touch it; all if absent.
+    /// Names of the body parts or spheres that can touch it; all if absent.
     pub(crate) spheres: Option<Vec<String>>,
-    /// True: the spine leans on it, as on the seat's back, so that a chest that gives way meets it as a rigid one. Only the `back` of
-    /// the seat if absent.
+    /// True: it supports the spine, as a seat back does, so a deformable chest meets it as rigid. If absent, only the
+    /// `back` of the seat.
     pub(crate) behind: Option<bool>,
 }
 
@@ -65,7 +65,7 @@ pub(crate) struct DiscSection {
     pub(crate) centre: [Length; 3],
     /// Diameter.
     pub(crate) diameter: Length<POSITIVE>,
-    /// Angle of the disc's plane from the vertical, its upper edge ahead, as a steering wheel's.
+    /// Angle of the disc's plane from the vertical, upper edge forward, as for a steering wheel.
     pub(crate) tilt: Option<Angle>,
     /// Normal of the disc; any length.
     pub(crate) normal: Option<[Ratio; 3]>,
@@ -75,7 +75,7 @@ pub(crate) struct DiscSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlaneSection {
-    /// A point of it.
+    /// A point on it.
     pub(crate) point: [Length; 3],
     /// Its normal; any length.
     pub(crate) normal: [Ratio; 3],
@@ -89,16 +89,15 @@ pub(crate) enum FacingChoice {
     Order,
 }
 
-/// How contact forces act.
+/// Options for contact forces.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ContactSection {
-    /// Where the in-plane force of a surface's edge acts on a sphere; "centre" if absent: it is the slope of what the edge stores, which
-    /// knows the centre alone. "contact_point", as in the report and in runs of 0.1.0, makes energy where bodies turn at edges. Solids
-    /// have no such force.
+    /// Where the in-plane force of a surface's edge acts on a sphere. "centre" conserves energy. "contact_point", as in
+    /// the 1970 report and in version 0.1.0, creates energy when bodies turn at edges. Solids have no such force.
+    /// "centre" if absent.
     pub(crate) edge_force: Option<EdgeForce>,
-    /// Name of the material of which the skins of several bodies are, where they have no other: spheres of two bodies that touch
-    /// deform both skins in series.
+    /// Default skin material of bodies that touch each other. The skins of two touching spheres deform in series.
     pub(crate) skin: Option<String>,
     /// Pairs of bodies that can touch each other, by their names; all if absent.
     pub(crate) bodies: Option<Vec<[String; 2]>>,
@@ -143,7 +142,7 @@ pub(super) fn surface(
 fn outline(b: &mut Builder, path: &str, section: &SurfaceSection, frame: Frame) -> Outline {
     if section.edge.is_none() {
         let for_edges = ["half_width", "end_half_width", "y"];
-        b.refuse_keys(path, &for_edges, |key| format!("`{key}` without `edge`"), "`edge`, which it belongs to");
+        b.refuse_keys(path, &for_edges, |key| format!("`{key}` without `edge`"), "`edge`, which it needs");
     }
     if let Some(plane) = &section.plane {
         let axis = Vector3::from(all_si(&plane.normal));
@@ -200,10 +199,10 @@ fn facing(
 pub(super) fn report_undecided(b: &mut Builder, paths: &[String]) {
     let Some((first, others)) = paths.split_first() else { return };
     let found = match others.len() {
-        0 => format!("`{first}` does not say which side is open"),
-        n => format!("`{first}` and {n} more do not say which side is open"),
+        0 => format!("the open side of `{first}` is not given"),
+        n => format!("the open sides of `{first}` and {n} more are not given"),
     };
     let expected = "inside = [x, y, z], a point on the open side, or facing = \"order\"";
-    let hint = "a key `inside` at the top of the scenario serves all surfaces of the vehicle";
+    let hint = "a key `inside` at the top of the scenario applies to all surfaces of the vehicle";
     b.report(Problem::error(first, found, expected).with_hint(Some(hint)));
 }

@@ -85,7 +85,7 @@ pub(super) fn nodes(
     let lacking = needed.into_iter().find(|name| body.sphere(name).is_none());
     let (Some([x, y, z]), None) = (pelvis_m(scenario, body), lacking) else {
         let expected = "a body with pelvis, chest and shoulders in a seat that has edges or profiles; else `nodes`";
-        b.error(&format!("{path}.preset"), "a preset that finds no seat or no such body", expected);
+        b.error(&format!("{path}.preset"), "a three-point preset without a suitable seat or body", expected);
         return Vec::new();
     };
     let out = if section.side == Some(Side::Right) { 1.0 } else { -1.0 };

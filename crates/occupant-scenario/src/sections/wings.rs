@@ -21,7 +21,7 @@ pub(super) fn track(b: &mut Builder, path: &str, body: &Body, side: WingSide) ->
     let (Some(sphere), Some(above)) = (sphere, pelvis.and_then(|pelvis| above(body, pelvis))) else {
         b.error(
             &format!("{path}.wing"),
-            "a wing of a body without a pelvis",
+            "`wing` in a body without a pelvis",
             "a body with a trunk and the sphere pelvis",
         );
         return None;

@@ -4,7 +4,7 @@ use super::belts::changed;
 use occupant_core::forces::bag::{Gas, Leakage, Shape};
 use occupant_core::forces::chain::NEVER;
 
-const DRIVER: &str = include_str!("../../scenarios/airbag-driver.toml");
+const DRIVER: &str = include_str!("../../testdata/hand/airbag-driver.toml");
 
 #[test]
 fn numbers_of_bags_come_to_their_data() {
@@ -45,7 +45,7 @@ fn what_is_wrong_with_bags_is_said_at_its_place() {
         (&["bags.driver.trigger=\"crush\""][..], "did you mean \"crash\"?"),
         (
             &["bags.driver.trigger=\"b\"", "triggers.b={ kind = \"belt_tension\", threshold = 100 }"],
-            "a trigger that belts watch",
+            "a trigger on a belt",
         ),
         (&[ball], "`dome`"),
         (&["bags.driver.dome=null"], "capsule"),
@@ -54,7 +54,7 @@ fn what_is_wrong_with_bags_is_said_at_its_place() {
         (&["bags.driver.dome.edge=0.31"], "an edge of at most its depth and radius"),
         (&["bags.driver.inflators[0].gas={ generatr = 1 }"], "did you mean \"generator\"?"),
         (&["bags.driver.inflators[0].gas={ helium = 0.9 }"], "fractions with the sum 1"),
-        (&["bags.driver.inflators[0].flow=[0, 1, 0]"], "as many of each"),
+        (&["bags.driver.inflators[0].flow=[0, 1, 0]"], "the same number of each"),
         (&["bags.driver.inflators[0].times=[0, 0.02, 0.004, 0.045]"], "times that rise"),
         (&["bags.driver.inflators[0].temperature[1]=1900"], "hotter than 1500 K"),
         (&["bags.driver.inflators[0].flow=[0, 0.2, 0.1, 0]"], "gas for 0.8 to 3 times the volume"),
@@ -65,7 +65,7 @@ fn what_is_wrong_with_bags_is_said_at_its_place() {
             "from pressure 0",
         ),
         (&["bags.driver.spheres=[]", "bags.driver.reach=null"], "1 to 20 spheres"),
-        (&["bags.driver.reach={ pelvis = 2 }"], "which is none of its spheres"),
+        (&["bags.driver.reach={ pelvis = 2 }"], "which is not one of its spheres"),
         (&["bags.driver.reach={ chest = 9 }"], "less wide than the bag"),
         (&["bags.driver.ambient={ temperature = \"20 deg\" }"], "a temperature above absolute zero"),
         (&["bags.driver.mount=[0, -0.35, -0.5]"], "within the full bag at the start"),

@@ -11,7 +11,7 @@ use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::Summarizer;
 use occupant_core::run::simulate::{resume, simulate};
 
-const DRIVER: &str = include_str!("../../scenarios/three-point.toml");
+const DRIVER: &str = include_str!("../../testdata/hand/three-point.toml");
 
 /// A scenario with these changes, or what is said of it.
 pub(super) fn changed(text: &str, changes: &[&str]) -> Result<(Model, String), String> {
@@ -51,7 +51,7 @@ fn what_is_wrong_with_belts_is_said_at_its_place() {
             "`slack` with a retractor",
         ),
         (&[WEBBING, BELT, "belts.b.nodes[2].on=\"upper_torse\""], "did you mean \"upper_torso\"?"),
-        (&[WEBBING, BELT, "webbings.w.force=[0, 4000]"], "as many in one as in the other"),
+        (&[WEBBING, BELT, "webbings.w.force=[0, 4000]"], "the same number in both"),
         (&[WEBBING, BELT, "webbings.w.force=[0, 4000, 4000]"], "forces that rise from point to point"),
         (
             &[WEBBING, BELT, "limiters.l={ payout = [0, 0.1, 0.2], force = [0, 4000, 3000] }", "belts.b.limiter=\"l\""],
@@ -68,7 +68,7 @@ fn what_is_wrong_with_belts_is_said_at_its_place() {
                 "triggers.p={ kind = \"payout\", threshold = 0.1 }",
                 "muscles.neck={ trigger = \"p\", rise = 0.03, stiffness = 3 }",
             ],
-            "a trigger that belts watch",
+            "a trigger on a belt",
         ),
         (&["belts.lap.k1=5e4", "belts.lap.k2=4e4", "belts.lap.delta_b=0.01"], "softer than k1"),
     ] {
@@ -281,7 +281,7 @@ fn a_belt_that_is_not_worn_is_not_there() {
     assert!(build(&off).belts.is_empty());
     let worn = SHORT.replace("[belts.lap]\n", "[belts.lap]\nworn = true\n");
     assert_eq!(build(&worn).belts.len(), 1);
-    let draft = include_str!("../../../../scenarios/three-point.toml");
+    let draft = include_str!("../../testdata/hand/three-point.toml");
     let name = draft.lines().find_map(|line| line.strip_prefix("[belts.")?.strip_suffix(']')).unwrap();
     assert!(!build(draft).chains.is_empty());
     let off = draft.replacen(&format!("[belts.{name}]\n"), &format!("[belts.{name}]\nworn = false\n"), 1);

@@ -97,13 +97,13 @@ fn a_body_of_ones_own_hangs_together_whatever_the_order_of_its_joints() {
 fn what_is_wrong_with_a_body_of_ones_own_is_said_at_its_place() {
     for (old, new, expected) in [
         ("distal = \"stalk\"", "distal = \"stilk\"", "no segment is named \"stilk\""),
-        ("distal = \"stalk\"", "distal = \"skull\"", "`skull` is carried by joint `top` already"),
+        ("distal = \"stalk\"", "distal = \"skull\"", "segment `skull` already has a parent joint, `top`"),
         ("proximal = \"trunk\", distal = \"stalk\"", "distal = \"stalk\"", "`body.joints.base` has no key `proximal`"),
-        ("proximal = \"trunk\"", "proximal = \"skull\"", "joints that go round in a circle: `top`, `base`"),
+        ("proximal = \"trunk\"", "proximal = \"skull\"", "joints that form a loop, or hang on one: `top`, `base`"),
         (
             "segments.stalk",
             "segments.tail = { length = 1 }\nsegments.stalk",
-            "`tail` is carried by no joint, nor is `trunk`",
+            "neither `tail` nor `trunk` has a parent joint",
         ),
         ("head = \"skull\"", "head = \"skul\"", "no segment for the landmark `head`"),
         ("on_distal = [0, 0, 0] }\njoints.base", "}\njoints.base", "has no key `on_distal`"),
@@ -145,7 +145,7 @@ fn names_that_a_body_does_not_know_are_refused() {
         ("head = 5", "haed = 5", "`posture` has no key `head`"),
         ("[body]\npreset = \"male50\"", "[body]\npreset = \"male50\"\nsegment_count = 14", "14 segments"),
         ("[body]\npreset = \"male50\"", "[body]\npreset = \"male50-1970\"\nsegment_count = 15", "male50-1970 in 15"),
-        ("[body]\npreset = \"male50\"", "[body]\nsegment_count = 15", "`segment_count` of a body of one's own"),
+        ("[body]\npreset = \"male50\"", "[body]\nsegment_count = 15", "`segment_count` in a body with its own joints"),
     ] {
         let problem = complaint(&short_with(old, new));
         assert!(problem.contains(expected), "{new}: {problem}");

@@ -43,7 +43,7 @@ fn a_neck_beyond_its_stop_takes_the_neck_figures_with_it_and_no_others() {
 
 #[test]
 fn a_head_that_flies_through_a_seat_takes_its_figures_with_it() {
-    let seat = include_str!("../../scenarios/rear-seat.toml");
+    let seat = include_str!("../../testdata/hand/rear-seat.toml");
     let lap = &seat[seat.find("[belts.lap]").unwrap()..seat.find("[materials]").unwrap()];
     let (summary, _) = caveats_of(&seat.replace(lap, ""), &[]);
     let head = summary.caveats.iter().find(|caveat| caveat.name == "head_passed").unwrap();
@@ -95,7 +95,7 @@ fn an_absurd_vehicle_does_not_hide_the_error_of_the_energy_balance() {
     let energy = serde_json::to_value(&summary).unwrap()["energy"].clone();
     assert_eq!(
         (&energy["reference"], &energy["balance"]),
-        (&"greatest work of gravity and force elements".into(), &"lost".into())
+        (&"largest work of gravity and force elements".into(), &"lost".into())
     );
     let [error, reference_j, kinetic_j] =
         ["balance_error", "reference_j", "greatest_kinetic_j"].map(|key| energy[key].as_f64().unwrap());

@@ -3,7 +3,7 @@
 use super::belts::changed;
 use occupant_core::forces::contact::surface::Frame;
 
-const DRIVER: &str = include_str!("../../scenarios/column-driver.toml");
+const DRIVER: &str = include_str!("../../testdata/hand/column-driver.toml");
 
 #[test]
 fn numbers_of_columns_come_to_their_data() {
@@ -34,12 +34,12 @@ fn what_is_wrong_with_columns_is_said_at_its_place() {
         (&["frames.column.axis=null"], "`frames.column` has no key `axis`"),
         (&["frames.column.mass=null"], "`frames.column` has no key `mass`"),
         (&["frames.column.mass=0"], "frames.column.mass"),
-        (&["frames.column.stroke=[0, 0.1]"], "as many in one as in the other"),
+        (&["frames.column.stroke=[0, 0.1]"], "the same number in both"),
         (&["frames.column.stroke[2]=0.0005"], "deformations that rise"),
         (&["frames.column.force=[0, 0, 0, 0, 0]"], "a force that never rises"),
         (&["frames.column.unload_slope=\"1 kN/mm\""], "no less than the greatest slope of the force"),
-        (&["frames.column.path={ kind = \"fixed\" }"], "a column, which goes where it is pushed"),
-        (&["frames.column.kind=\"panel\""], "`axis` of a panel"),
+        (&["frames.column.path={ kind = \"fixed\" }"], "a column, which moves where it is pushed"),
+        (&["frames.column.kind=\"panel\""], "`axis` in a panel"),
         (&["frames.column.kind=\"colum\""], "did you mean \"column\"?"),
         (&["frames.column.parent=\"space\"", "bags.driver=null"], "no vehicle and no panel"),
         (&[hangs], "a frame that hangs on a column"),

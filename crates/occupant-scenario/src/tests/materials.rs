@@ -38,7 +38,7 @@ fn what_is_wrong_with_materials_is_said_at_its_place() {
         (foam("returned_each = [0.5]"), "one for each interval"),
         (foam("unload_slope = 1e4"), "at least the greatest slope of loading"),
         (foam("atb = { r = 0.3, g = 0.6 }"), "ATB's quadratic makes"),
-        (foam("atb = { depth = [0, 0.1], r_each = [0.6], g = 0.1 }"), "as many in one as in the other"),
+        (foam("atb = { depth = [0, 0.1], r_each = [0.6], g = 0.1 }"), "the same number in both"),
         (foam("atb = { depth = [0, 0.1], r_each = [0.6, 1.2], g = 0.1 }"), "1.2"),
         (foam("polynomial = { depth = 0.1, force = [1, 2, 3] }"), "together"),
         (
@@ -46,7 +46,7 @@ fn what_is_wrong_with_materials_is_said_at_its_place() {
             "below 0",
         ),
         (foam("unload_depth = [0, 1], unload_force = [0, 1]"), "`unload_force` without `unload_slope`"),
-        (foam("rate = { speed = [-1, 0], factor = [1] }"), "as many in one as in the other"),
+        (foam("rate = { speed = [-1, 0], factor = [1] }"), "the same number in both"),
         (foam("friction_over_slip = { speed = [0, 0.1], factor = [1, 0.3] }"), "sticks and slips"),
         (foam("shape = \"smooth\""), "\"monotone\""),
         (foam("self = 1"), "unknown key `self`"),

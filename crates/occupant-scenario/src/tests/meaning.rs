@@ -162,7 +162,7 @@ fn an_exact_state_replaces_the_posture() {
     let never =
         with_passed(r#"[["left_hand", "cushion"]]"#).replace("cushion = {", "cushion = { spheres = [\"pelvis\"],");
     let wrong = complaint(&never);
-    assert!(wrong.contains("`cushion` cannot be passed by `left_hand`"), "{wrong}");
+    assert!(wrong.contains("`left_hand` cannot have passed `cushion`"), "{wrong}");
 }
 
 #[test]
@@ -197,10 +197,10 @@ fn slips_of_units_are_warned_of() {
         found,
         [
             "32.17 m/s² is unusual for gravity on earth",
-            "150 s is unusual for the length of a crash",
+            "150 s is unusual for the duration of a crash",
             "400 N/m is unusual for the stiffness of a part of a car",
-            "27 m is unusual for a place in a vehicle, and so are 1 more",
-            "angles of the posture that are all below 3.2°, as if they were radians",
+            "27 m is unusual for a position in a vehicle, as are 1 more",
+            "all angles of the posture are below 3.2°, as if in radians",
         ]
     );
 }
@@ -267,7 +267,7 @@ fn provenance_of_nothing_is_warned_of() {
     let warnings = load(&text).unwrap().build().unwrap().1;
     assert_eq!(
         warnings.to_string(),
-        "warning: `material.foam.k1` is no part of the scenario
+        "warning: `material.foam.k1` is not part of the scenario
   --> s.toml:13:22
    |
 13 | \"material.foam.k1\" = \"a guess\"

@@ -28,7 +28,7 @@ fn what_is_wrong_with_muscles_triggers_markers_and_locks_is_said_at_its_place() 
         (&[go, "muscles.neck={ trigger = \"go\", stiffness = 3 }"], "`trigger` without `rise`"),
         (&[go, NECK, "muscles.neck.until=0.02"], "a muscle that relaxes at 0.02 s and begins to act at 0.05 s"),
         (&[go, "muscles.neck={ tone = 1 }"], "a muscle without stiffness, damping and torque"),
-        (&[NECK, "triggers.go={ kind = \"time\", at = 9 }"], "a trigger that never fires in this run"),
+        (&[NECK, "triggers.go={ kind = \"time\", at = 9 }"], "this trigger does not fire in this run"),
         (&[NECK, "triggers.go={ kind = \"vehicle_acceleration\", threshold = \"900 g\" }"], "never fires"),
         (&["markers.t1={ segment = \"torso\", place = [0, 0, 0] }"], "no segment is named \"torso\""),
         (&["markers.t1={ segment = \"head\", place = [0, 0, 0], frame = \"ground\" }"], "\"segment\""),

@@ -48,7 +48,7 @@ fn null_takes_away_what_stands_there() {
     assert_eq!(setup.belts.len(), changed(&[]).unwrap().belts.len() - 1);
     assert!(setup.belts.iter().all(|belt| belt.name != "lap"));
     let refused = changed(&["belts.nothing=null"]).unwrap_err();
-    assert!(refused.contains("nothing at `belts.nothing` to be taken away"), "{refused}");
+    assert!(refused.contains("there is no `belts.nothing` to remove"), "{refused}");
 }
 
 #[test]
@@ -118,13 +118,13 @@ fn problems_are_reported_as_of_the_override() {
             "belts.lap.anchors[2][0]=5",
             "error: `belts.lap.anchors` has no item 2
  --> override of belts.lap.anchors[2][0]
-  = expected: a path that exists in the scenario",
+  = expected: the path of an existing key",
         ),
         (
             "joints.*.k1=5",
-            "error: `joints.*.k1` leads to nothing in this scenario
+            "error: this scenario has no `joints.*.k1`
  --> override of joints.*.k1
-  = expected: a path to at least one place",
+  = expected: the path of an existing key",
         ),
         (
             "path.speed",

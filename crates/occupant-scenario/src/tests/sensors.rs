@@ -121,7 +121,7 @@ fn mistakes_name_the_place_and_the_remedy() {
             "error: `ax` beside velocity changes
  --> record.csv:1:1
   = in: path
-  = expected: `t`, `dvx`, `dvy` and `wz`, or accelerations and rates without velocity changes
+  = expected: either `t`, `dvx`, `dvy` and `wz`, or accelerations and rates
 
 error: `gravity` with a record of velocity changes
   --> s.toml:10:11
@@ -129,7 +129,7 @@ error: `gravity` with a record of velocity changes
 10 | gravity = \"removed\"
    |           ^^^^^^^^^
    = in: path.gravity
-   = expected: a record of accelerations, or no such key",
+   = expected: accelerations, or leave the key out",
         ),
         (
             format!("{SENSORS}\ngravity = \"removed\""),

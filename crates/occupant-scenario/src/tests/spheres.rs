@@ -55,7 +55,7 @@ fn the_body_meets_itself_only_where_a_scenario_says_so() {
         ("self_contact.skins={ haed = \"foam\" }", "no sphere is named \"haed\""),
         ("self_contact.pairs=[[\"left_hand\", \"cheast\"]]", "did you mean \"chest\"?"),
         ("self_contact.pairs=[[\"chest\", \"head\"]]", "share a joint"),
-        ("self_contact.pairs=[[\"left_shoulder\", \"chest\"]]", "parts that can be apart and meet"),
+        ("self_contact.pairs=[[\"left_shoulder\", \"chest\"]]", "parts that can be apart and then touch"),
     ] {
         let found = with(&[OWN, change]).unwrap_err();
         assert!(found.contains(expected), "{change}: {found}");

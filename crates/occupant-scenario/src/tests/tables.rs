@@ -154,7 +154,7 @@ fn mistakes_name_the_file_line_and_column() {
         ),
         (
             "user:secret,q\nroot:hidden,0\n",
-            "error: a first line that names no column of such a table
+            "error: a first line without any known column
  --> path.csv:1:1
   = expected: `t`, `x`, `y`, `z`, `roll`, `pitch` or `yaw`",
         ),

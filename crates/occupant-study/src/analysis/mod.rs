@@ -42,7 +42,7 @@ impl Estimate {
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum AnalysisError {
     /// Columns of different length.
-    #[error("a column of {found} rows beside one of {expected}")]
+    #[error("a column of {found} rows next to one of {expected}")]
     Length {
         /// Rows found.
         found: usize,
@@ -64,7 +64,7 @@ pub enum AnalysisError {
         parameter: Option<usize>,
     },
     /// Parameters that depend on one another, so that no part can be given to each.
-    #[error("parameters that depend on one another cannot be told apart")]
+    #[error("parameters that depend on one another cannot be separated")]
     Dependent,
 }
 

@@ -16,7 +16,7 @@ impl Binder<'_> {
             matches!(design, Design::LatinHypercube { .. } | Design::Sobol { .. } | Design::MonteCarlo { .. });
         if !sampled {
             let expected = "the design \"latin_hypercube\", \"sobol\" or \"monte_carlo\"";
-            self.error("correlations", "correlations in a design that has none", expected, None);
+            self.error("correlations", "correlations in a design that does not support them", expected, None);
             return None;
         }
         let mut ranks: Vec<(usize, usize, f64)> = Vec::new();
@@ -27,7 +27,7 @@ impl Binder<'_> {
                 let found = format!("a correlation of {}", section.rank);
                 self.error(&format!("correlations[{n}].rank"), found, "a number from -1 to 1", None);
             } else if a == b || ranks.iter().any(|(x, y, _)| [*x, *y] == [a, b] || [*x, *y] == [b, a]) {
-                let found = "a pair of parameters a second time, or one with itself";
+                let found = "a pair of parameters given twice, or a parameter with itself";
                 self.error(&format!("correlations[{n}]"), found, "each pair once", None);
             } else {
                 ranks.push((a, b, section.rank));
@@ -35,7 +35,7 @@ impl Binder<'_> {
         }
         let copula = Copula::new(parameters.len(), &ranks);
         if copula.is_none() {
-            let hint = "if a goes with b and b with c, then a must go with c to some degree".to_owned();
+            let hint = "if a correlates with b and b with c, then a must correlate with c to some degree".to_owned();
             let found = "correlations that contradict each other: their matrix is not positive definite";
             self.error("correlations", found, "a positive definite matrix", Some(hint));
         }

@@ -51,7 +51,7 @@ impl Binder<'_> {
         let levels: Vec<Option<u64>> = parameters.iter().map(|p| p.law.levels()).collect();
         if *design == Design::FullFactorial {
             for (parameter, _) in parameters.iter().zip(&levels).filter(|(_, l)| l.is_none()) {
-                let found = format!("`{}` has no values to go through", parameter.name);
+                let found = format!("`{}` has no list of values", parameter.name);
                 let hint = "or choose another design, such as \"latin_hypercube\"".to_owned();
                 self.error("design", found, "a `grid` or a `list` for each parameter", Some(hint));
             }
@@ -80,7 +80,7 @@ impl Binder<'_> {
         if let Design::Morris { levels, .. } = design
             && levels % 2 == 1
         {
-            let found = format!("`{levels}` is no even number");
+            let found = format!("`{levels}` is not an even number");
             self.error("design.levels", found, "an even number of levels, such as 4", None);
         }
         if let Design::Morris { tail, .. } | Design::OneAtATime { tail } = design
@@ -95,7 +95,7 @@ impl Binder<'_> {
         let (Design::Sobol { samples, .. } | Design::Saltelli { samples, .. }) = design else { return };
         if !samples.is_power_of_two() {
             let near = samples.checked_next_power_of_two().unwrap_or(*samples);
-            let found = format!("{samples} points of Sobol's sequence, which is even only in powers of 2");
+            let found = format!("{samples} points of Sobol's sequence, which is balanced only for powers of 2");
             let hint = format!("samples = {} or {near}", near / 2);
             self.report(Problem::warning("design.samples", found, "a power of 2").with_hint(Some(hint)));
         }

@@ -33,10 +33,10 @@ pub(super) fn check(binder: &mut Binder, base: &Draft, parameters: &[Parameter],
 fn tell(binder: &mut Binder, at: &str, parameter: &Parameter, wrong: Diagnostics, rare: bool) {
     let Some(first) = wrong.iter().next() else { return };
     let (name, words) = (&parameter.name, &first.problem);
-    let found = format!("`{name}` spoils the scenario: {}", words.found);
+    let found = format!("`{name}` makes the scenario invalid: {}", words.found);
     let problem = Problem::error(at, found, words.expected.clone());
     binder.report(if rare {
-        let hint = "a \"truncated_normal\" distribution keeps to what is possible";
+        let hint = "a \"truncated_normal\" distribution stays within what is possible";
         Problem { severity: Severity::Warning, ..problem }.with_hint(Some(hint))
     } else {
         problem.with_hint(words.hint.clone())
@@ -69,7 +69,7 @@ fn by_hand(binder: &mut Binder, base: &Draft, parameter: &Parameter, overrides: 
         let places = base.places(path.0.trim()).unwrap_or_default();
         let shared = |place: &Place| parameter.targets.iter().any(|t| t.path == place.path);
         if let Some(place) = places.iter().find(|p| shared(p)) {
-            let found = format!("`{}` is given by hand and varied by `{}`", place.path, parameter.name);
+            let found = format!("`{}` is overridden and also varied by `{}`", place.path, parameter.name);
             binder.error(at, found, "one of the two", Some("leave the override out".into()));
         }
     }

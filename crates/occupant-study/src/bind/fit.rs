@@ -104,7 +104,7 @@ impl Binder<'_> {
         for (key, number) in [("tolerance", section.tolerance), ("near", section.near)] {
             if number.is_some_and(|x| !(x > 0.0 && x.is_finite())) {
                 let at = format!("fit.{key}");
-                self.error(&at, "no number above 0", "a number above 0", None);
+                self.error(&at, "not a number above 0", "a number above 0", None);
             }
         }
     }
@@ -116,7 +116,7 @@ impl Binder<'_> {
         for (i, parameter) in parameters.iter().enumerate() {
             if parameter.law.bounds().is_none() {
                 let at = if parameters.len() == written { format!("parameters[{i}]") } else { "parameters".to_owned() };
-                let found = format!("`{}` has no ends between which to look", parameter.name);
+                let found = format!("`{}` has no range to search", parameter.name);
                 let expected = "a `range`, a `grid`, or a distribution with `from` and `to`";
                 let hint = "range = { from = …, to = … }".to_owned();
                 self.error(&at, found, expected, Some(hint));
@@ -134,7 +134,7 @@ impl Binder<'_> {
         for (i, channel) in channels.iter().enumerate() {
             let at = format!("fit.channels[{i}]");
             if channels[..i].iter().any(|c| c.name == channel.name) {
-                let found = format!("the channel `{}` a second time", channel.name);
+                let found = format!("the channel `{}` twice", channel.name);
                 self.error(&format!("{at}.channel"), found, "each channel once", None);
             }
             self.check_weight(channel.weight(), &at);
@@ -144,14 +144,14 @@ impl Binder<'_> {
     fn check_test(&mut self, test: &FitTest, at: &str) {
         if let Some(seat) = test.seat.as_ref().filter(|seat| seat.chars().count() != 1) {
             let expected = "one character, such as \"1\" or \"3\"";
-            self.error(&format!("{at}.seat"), format!("\"{seat}\" is no position"), expected, None);
+            self.error(&format!("{at}.seat"), format!("\"{seat}\" is not a position"), expected, None);
         }
         self.check_window(test.window_s(), at);
         let [offset, gain] = test.nuisances();
         for (key, ends, least) in [("offset", offset, f64::NEG_INFINITY), ("gain", gain, 0.0)] {
             if ends.is_some_and(|[from, to]| !(least < from && from < to && to.is_finite())) {
                 let expected = "`from` below `to`, of a gain both above 0";
-                self.error(&format!("{at}.{key}"), "ends between which nothing lies", expected, None);
+                self.error(&format!("{at}.{key}"), "an empty range", expected, None);
             }
         }
         self.check_weight(test.weight(), at);

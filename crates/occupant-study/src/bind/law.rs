@@ -91,8 +91,8 @@ impl Quantities<'_> {
                 let [from, to] = ends?;
                 // beyond that hardly anything of the bell is left between the ends
                 if (from - mean) / sd > 30.0 || (to - mean) / sd < -30.0 {
-                    let found = "ends more than 30 standard deviations from the mean, on one side";
-                    binder.error(at, found, "ends that hold a part of the bell", None);
+                    let found = "both ends more than 30 standard deviations from the mean, on one side";
+                    binder.error(at, found, "ends that include part of the distribution", None);
                     return None;
                 }
                 Some(Distribution::TruncatedNormal { mean, sd, from, to })
@@ -145,7 +145,7 @@ impl Quantities<'_> {
                 None
             }
             _ => {
-                let found = format!("{} where {} should stand", free.kind(), self.wanted.noun());
+                let found = format!("{} instead of {}", free.kind(), self.wanted.noun());
                 binder.error(at, found, self.wanted.noun(), None);
                 None
             }

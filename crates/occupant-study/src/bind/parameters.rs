@@ -53,8 +53,8 @@ impl Binder<'_> {
     pub(super) fn refuse_size(&mut self, parameters: &[Parameter], at: &str) {
         if let Some(path) = size(parameters.iter().flat_map(|parameter| &parameter.targets)) {
             let found = format!("`{path}` is varied, and with it all segments of the base scenario's body");
-            let hint = "`mass` of a person alone is varied well enough by `segments`".to_owned();
-            self.error(at, found, "a body of one size beside `segments`", Some(hint));
+            let hint = "for a person's mass alone, use `segments`".to_owned();
+            self.error(at, found, "a body of fixed size with `segments`", Some(hint));
         }
     }
 
@@ -111,7 +111,7 @@ impl Binder<'_> {
             Some(other) => {
                 let found =
                     format!("`{}` is {}, `{}` is {}", first.path, first.wanted.noun(), other.path, other.wanted.noun());
-                self.error(at, found, "places of one kind", None);
+                self.error(at, found, "paths of one quantity", None);
                 None
             }
         }
@@ -129,7 +129,7 @@ impl Binder<'_> {
             None => "is not in the base scenario".to_owned(),
         };
         let found = format!("`{}` {what}, so it cannot be {word}", other.path);
-        self.error(at, found, "a path to numbers that the base scenario has", None);
+        self.error(at, found, "the path of numbers in the base scenario", None);
         false
     }
 
@@ -161,7 +161,7 @@ impl Binder<'_> {
         if !given {
             let hint = "grid = { from = …, to = …, steps = … }".to_owned();
             let expected = "`grid`, `list`, `range` or `distribution`";
-            self.error(at, "a parameter that does not say how it varies", expected, Some(hint));
+            self.error(at, "a parameter without values", expected, Some(hint));
             return None;
         }
         let quantities = Quantities { kind: kind_of(wanted, apply), wanted, units: self.units() };
@@ -171,8 +171,8 @@ impl Binder<'_> {
     /// Tells of two parameters of one name, and of a value that an earlier parameter has already put there.
     pub(super) fn clash(&mut self, parameter: &Parameter, earlier: &[Parameter], at: &str) {
         if earlier.iter().any(|p| p.name == parameter.name) {
-            let found = format!("a second parameter named `{}`", parameter.name);
-            self.error(at, found, "a name of its own", Some("name = \"…\"".into()));
+            let found = format!("two parameters named `{}`", parameter.name);
+            self.error(at, found, "a unique name", Some("name = \"…\"".into()));
         }
         if parameter.apply != ApplyChoice::Value {
             return;
@@ -181,8 +181,8 @@ impl Binder<'_> {
             let shared = parameter.targets.iter().find(|t| other.targets.iter().any(|o| o.path == t.path));
             if let Some(target) = shared {
                 let found = format!("`{}` is already varied by `{}`", target.path, other.name);
-                let hint = "a factor or an offset may follow a value, but not the other way round";
-                self.error(at, found, "each place varied by one value", Some(hint.into()));
+                let hint = "a factor or an offset may come after a value, not before it";
+                self.error(at, found, "each key varied by one parameter", Some(hint.into()));
             }
         }
     }

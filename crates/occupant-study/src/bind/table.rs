@@ -52,7 +52,7 @@ pub(super) fn rows(
     let columns = reader.header(header, parameters);
     let rows: Vec<Vec<Value>> = lines.filter_map(|line| reader.row(line, &columns, parameters.len())).collect();
     if rows.is_empty() && !reader.binder.problems.has_errors() {
-        reader.error(header, "a table without samples", "a line for each sample");
+        reader.error(header, "a table without samples", "one line per sample");
     }
     rows
 }
@@ -80,7 +80,7 @@ impl Reader<'_, '_, '_> {
             let taken = |c: &Column| columns.iter().flatten().any(|o| o.parameter == c.parameter);
             match column {
                 Some(column) if taken(&column) => {
-                    let found = format!("a second column for `{}`", name_and_unit(cell.text).0);
+                    let found = format!("two columns for `{}`", name_and_unit(cell.text).0);
                     self.error(cell.span, found, "each column once");
                     columns.push(None);
                 }
@@ -91,7 +91,7 @@ impl Reader<'_, '_, '_> {
         for parameter in parameters.iter() {
             if !cells.iter().any(|c| name_and_unit(c.text).0 == parameter.name) {
                 let found = format!("no column `{}`", parameter.name);
-                self.error(line, found, "a column for each parameter");
+                self.error(line, found, "one column per parameter");
             }
         }
         columns
@@ -133,7 +133,7 @@ impl Reader<'_, '_, '_> {
         let wanted = places.first().map(|p| p.wanted.clone())?;
         if let Some(other) = places.iter().find(|p| p.wanted != wanted) {
             let found = format!("`{}` is {}, others are not", other.path, other.wanted.noun());
-            self.error(span, found, "places of one kind");
+            self.error(span, found, "paths of one quantity");
             return None;
         }
         Some(Parameter {

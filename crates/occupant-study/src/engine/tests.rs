@@ -126,7 +126,7 @@ fn a_run_that_is_refused_or_breaks_the_program_costs_itself_alone() {
         for (row, alone) in rows.iter().zip(&fine) {
             match (row.0, &row.1) {
                 (4, Ending::Refused(reason)) => assert!(reason.starts_with("time.end: "), "{reason}"),
-                (11, Ending::Broken(reason)) => assert_eq!(reason, "the program broke off: a defect"),
+                (11, Ending::Broken(reason)) => assert_eq!(reason, "the program stopped: a defect"),
                 _ => assert!(row == alone, "{}", row.0),
             }
         }

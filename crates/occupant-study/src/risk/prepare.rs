@@ -44,7 +44,7 @@ pub struct Preparation {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Unprepared {
     /// It has no channel.
-    #[error("there is no acceleration and no rate")]
+    #[error("there is no acceleration and no angular rate")]
     NoChannel,
     /// A channel, or the times ("t"), are wrong.
     #[error("{name}: {error}")]
@@ -56,7 +56,7 @@ pub enum Unprepared {
     },
     /// Sensors away from the c.g. need rates that are not there.
     #[error(
-        "sensors away from the centre of gravity need all three rates, and {} {} not there",
+        "sensors away from the centre of gravity need all three rates; {} {} missing",
         missing.join(", "), if missing.len() == 1 { "is" } else { "are" }
     )]
     OffsetNeedsRates {
@@ -68,7 +68,7 @@ pub enum Unprepared {
     Baseline(PathProblem),
     /// First contact and end do not lie in the record, in this order.
     #[error(
-        "the window from {} s to {} s does not lie in the record, which goes from {} s to {} s",
+        "the window from {} s to {} s is outside the record, which covers {} s to {} s",
         number(*start_s), number(*end_s), number(*first_s), number(*last_s)
     )]
     Window {

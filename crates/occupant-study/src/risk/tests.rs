@@ -93,7 +93,7 @@ fn sensors_away_from_the_centre_are_moved_to_it() {
     let planar = AccelerationRecord { rate_rad_s: [None, None, record.rate_rad_s[2].clone()], ..record };
     assert_eq!(
         prepare(&planar, &preparation).unwrap_err().to_string(),
-        "sensors away from the centre of gravity need all three rates, and wx, wy are not there"
+        "sensors away from the centre of gravity need all three rates; wx, wy are missing"
     );
 }
 

@@ -92,7 +92,7 @@ impl Built {
                 shifts.push(if is_rough { 0.0 } else { slope.value });
                 match (is_within(base, *time_s), is_rough) {
                     (true, true) => notes.push(format!(
-                        "{}: what happens at {:.3} ms shifts with it, but not in proportion: the shift is left out",
+                        "{}: the event at {:.3} ms shifts with it, but not in proportion; the shift is ignored",
                         parameter.name,
                         time_s * 1e3
                     )),
@@ -102,25 +102,31 @@ impl Built {
             }
             in_order(times_s, shifts)
         } else {
-            notes.push(format!("{}: beside its value other devices fire, or other corners of a path", parameter.name));
+            notes.push(format!(
+                "{}: close to its value other devices fire, or other corners of a path apply",
+                parameter.name
+            ));
             Vec::new()
         };
         if let Some(time_s) = coincidence(base, &shifts) {
             notes.push(format!(
-                "{}: two things fall together at {:.3} ms that it shifts apart: the two sides differ",
+                "{}: two events coincide at {:.3} ms and it separates them, so the two sides differ",
                 parameter.name,
                 time_s * 1e3
             ));
         }
         if let Some(reason) = &family.one_sided {
             let reason = reason.lines().next().unwrap_or_default();
-            notes.push(format!("{}: a derivative to one side only, as the other is refused: {reason}", parameter.name));
+            notes.push(format!(
+                "{}: a derivative to one side only, because the other is invalid: {reason}",
+                parameter.name
+            ));
         }
         let phases = |m: &Model| m.start().history.memory.contacts.iter().map(|p| p.phase.to_bits()).collect();
         let at_base: Vec<u64> = phases(base);
         if family.models.iter().any(|m| phases(m) != at_base) {
             notes.push(format!(
-                "{}: within {:.1} % of its value other spheres touch at the start",
+                "{}: within {:.1} % of its value, other spheres touch at the start",
                 parameter.name,
                 STEP * 100.0
             ));

@@ -69,7 +69,7 @@ pub fn derivatives(
     }
     let reach = trajectory.reach(k);
     if !reach.is_finite() {
-        return Err(Trouble::Output(format!("the derivative by `{}` grows beyond all numbers", parameter.name)));
+        return Err(Trouble::Output(format!("the derivative by `{}` overflows", parameter.name)));
     }
     let at_base = plain_values(model, trajectory, request)?;
     let mut best: Option<Derivatives> = None;
@@ -209,9 +209,9 @@ pub fn chosen(figures: &[Figure], name: &str) -> Result<Vec<String>, Problem> {
         let found: Vec<String> = usable.map(|f| f.name.clone()).collect();
         return match (found.is_empty(), all.is_empty()) {
             (false, _) => Ok(found),
-            (true, true) => Err(refuse(format!("no measure is called `{name}`"), "a measure of the run")),
+            (true, true) => Err(refuse(format!("there is no measure `{name}`"), "a measure of the run")),
             (true, false) => {
-                let found = format!("no measure called `{name}` has a value and a derivative in this run");
+                let found = format!("no measure that matches `{name}` has a value and a derivative in this run");
                 Err(refuse(found, "a measure that the run has"))
             }
         };
@@ -219,7 +219,7 @@ pub fn chosen(figures: &[Figure], name: &str) -> Result<Vec<String>, Problem> {
     let Some(figure) = figures.iter().find(|f| f.name == name) else {
         let near = nearest(name, figures.iter().map(|f| f.name.as_str()));
         let expected = "a measure of the run, such as hic15, head.peak, belts.lap.peak";
-        let problem = refuse(format!("no measure is called `{name}`"), expected);
+        let problem = refuse(format!("there is no measure `{name}`"), expected);
         return Err(problem.with_hint(near.map(|n| format!("did you mean `{n}`?"))));
     };
     if let Some(reason) = without_derivative(name) {
@@ -227,7 +227,7 @@ pub fn chosen(figures: &[Figure], name: &str) -> Result<Vec<String>, Problem> {
         return Err(refuse(found, "a measure that changes with the motion"));
     }
     if figure.value.is_none() {
-        let found = format!("`{name}` has no value in this run: what it measures did not happen");
+        let found = format!("`{name}` has no value in this run: the event did not happen");
         return Err(refuse(found, "a measure that the run has"));
     }
     Ok(vec![name.to_owned()])

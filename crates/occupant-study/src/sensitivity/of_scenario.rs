@@ -22,7 +22,7 @@ pub fn parameter<'a>(draft: &'a Draft, path: &str, resolver: Resolver<'a>) -> Re
             (None, Wanted::Quantity(_) | Wanted::Number, None) => {
                 return Err(refuse(
                     format!("`{at}` has no value in this scenario"),
-                    Some("give it one with --set, or choose what the scenario says instead"),
+                    Some("give it one with --set, or choose another key"),
                 ));
             }
             (None, Wanted::Truth, _) => {
@@ -37,7 +37,7 @@ pub fn parameter<'a>(draft: &'a Draft, path: &str, resolver: Resolver<'a>) -> Re
         [only] => (ApplyChoice::Value, only.unit),
         several if several.iter().all(|t| t.base == Value::Number(0.0)) => {
             return Err(refuse(
-                format!("`{path}` leads to {} numbers, all 0, which no factor changes", several.len()),
+                format!("`{path}` matches {} numbers, all 0, which a factor cannot change", several.len()),
                 Some("name one of them"),
             ));
         }

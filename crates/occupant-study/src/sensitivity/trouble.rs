@@ -16,7 +16,7 @@ pub enum Trouble {
     #[error("{0}")]
     Parameter(String),
     /// No model a little to either side of a parameter's value.
-    #[error("there is no scenario a little above or below the value of `{parameter}`: {reason}")]
+    #[error("the scenario is invalid just above and below the value of `{parameter}`: {reason}")]
     Refused {
         /// The parameter.
         parameter: String,
@@ -32,7 +32,7 @@ pub enum Trouble {
         unlike: Unlike,
     },
     /// The parameter changes the times or steps of the run.
-    #[error("`{parameter}` changes the times or the steps of the run, of which there is no derivative here")]
+    #[error("`{parameter}` changes the times or steps of the run; such a derivative is not available")]
     Times {
         /// The parameter.
         parameter: String,
@@ -49,10 +49,10 @@ pub enum Trouble {
         doubt: f64,
     },
     /// The run did not come to its end.
-    #[error("the run was not completed: {0}")]
+    #[error("the run did not complete: {0}")]
     Run(String),
     /// The run in dual numbers left the plain run: a defect of this program.
-    #[error("the run in dual numbers left the plain run before t = {time_s} s: a defect of this program")]
+    #[error("the run in dual numbers differs from the plain run before t = {time_s} s: a defect of this program")]
     Apart {
         /// At this output time, s.
         time_s: f64,

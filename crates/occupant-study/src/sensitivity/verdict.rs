@@ -76,15 +76,15 @@ impl Why {
     /// In words.
     pub fn words(self) -> &'static str {
         match self {
-            Why::NoRun => "a run beside this one is not completed or has no such measure",
+            Why::NoRun => "a comparison run did not complete or lacks this measure",
             Why::OtherTouches => "the body touches other surfaces, or in another order",
-            Why::OtherPeak => "another peak becomes the greatest",
-            Why::Corner => "the measure has a corner here: the two sides have slopes of their own",
+            Why::OtherPeak => "another peak becomes the largest",
+            Why::Corner => "the measure has a corner here: its slope differs between the two sides",
             Why::OtherSlope => {
-                "finite changes have one slope, another than this: the steps of the run are too long, or an event is not followed"
+                "finite changes agree on a different slope: the steps of the run are too long, or an event is not followed"
             }
             Why::Irregular => {
-                "finite changes have no slope: an event sets in within them, or the error of the integration hides their effect"
+                "finite changes have no consistent slope: an event starts within them, or integration error hides their effect"
             }
         }
     }

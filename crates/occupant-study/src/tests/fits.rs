@@ -1,4 +1,4 @@
-//! The `[fit]` of a study.
+//! The `[fit]` in a study.
 
 use indexmap::IndexMap;
 
@@ -91,7 +91,7 @@ fn parameters_without_ends_are_told_by_a_fit_and_not_by_a_sweep() {
     let set = IndexMap::new();
     let message = text.bind_fit(base(), (&set, ""), &[], &no_files);
     let message = message.unwrap_err().to_string();
-    assert!(message.contains("`friction` has no ends between which to look"), "{message}");
+    assert!(message.contains("`friction` has no range to search"), "{message}");
     assert!(message.contains("study.toml:4:"), "{message}");
 }
 

@@ -92,7 +92,7 @@ error: `joints.*.dampng` matches nothing in the base scenario
   |        ^^^^^^^^^^^^^^^^^
   = help: did you mean `damping`?
   = in: parameters[1].path
-  = expected: a path to at least one value
+  = expected: the path of an existing value
 
 error: `materials` has nothing named `seat`
   --> study.toml:10:8
@@ -102,13 +102,13 @@ error: `materials` has nothing named `seat`
    = in: parameters[2].path
    = expected: one of foam
 
-error: `belts.lap` leads to a table or list, not to a single value
+error: `belts.lap` is a table or list, not a single value
   --> study.toml:13:8
    |
 13 | path = "belts.lap"
    |        ^^^^^^^^^^^
    = in: parameters[3].path
-   = expected: a path to numbers or names"#,
+   = expected: the path of a number or a name"#,
     );
 }
 
@@ -190,7 +190,7 @@ fn a_value_that_the_scenario_cannot_have_is_told() {
 path = \"materials.foam.k1\"
 range = { from = -1, to = 2 }
 ",
-        r#"error: `materials.foam.k1` spoils the scenario: `-1.0 N/m` is out of range
+        r#"error: `materials.foam.k1` makes the scenario invalid: `-1.0 N/m` is out of range
  --> study.toml:3:1
   |
 3 | [[parameters]]
@@ -211,14 +211,14 @@ distribution = { kind = \"normal\", mean = 0.3, sd = 0.1 }
     );
     assert_eq!(
         study.warnings.to_string(),
-        r#"warning: `materials.foam.friction` spoils the scenario: `-0.1753424308822899` is out of range
+        r#"warning: `materials.foam.friction` makes the scenario invalid: `-0.1753424308822899` is out of range
  --> study.toml:3:1
   |
 3 | [[parameters]]
   | ^^^^^^^^^^^^^^
   = in: parameters[0]
   = expected: a plain number of at least 0
-  = help: a "truncated_normal" distribution keeps to what is possible"#
+  = help: a "truncated_normal" distribution stays within what is possible"#
     );
 }
 
@@ -247,7 +247,7 @@ range = { from = 1, to = 2 }
 4 | path = "surfaces.floor.material"
   |        ^^^^^^^^^^^^^^^^^^^^^^^^^
   = in: parameters[0].path
-  = expected: a path to numbers that the base scenario has
+  = expected: the path of numbers in the base scenario
 
 error: numbers for a name
  --> study.toml:7:1
@@ -266,7 +266,7 @@ error: "squar" is not one of its names
    = in: parameters[2].list[0]
    = expected: "half_sine", "haversine", "triangle", "trapezoid", "square" or "tabulated"
 
-error: a number where a name should stand
+error: a number instead of a name
   --> study.toml:13:18
    |
 13 | list = ["squar", 3]
@@ -280,7 +280,7 @@ error: `materials.foam.k1` is a stiffness, `materials.foam.friction` is a plain 
 15 | paths = ["materials.foam.k1", "materials.foam.friction"]
    |          ^^^^^^^^^^^^^^^^^^^
    = in: parameters[3].paths[0]
-   = expected: places of one kind"#,
+   = expected: paths of one quantity"#,
     );
 }
 
@@ -298,13 +298,13 @@ name = \"a\"
 path = \"joints.neck.damping\"
 range = { from = 1, to = 2 }
 ",
-        r#"error: a second parameter named `a`
+        r#"error: two parameters named `a`
  --> study.toml:8:1
   |
 8 | [[parameters]]
   | ^^^^^^^^^^^^^^
   = in: parameters[1]
-  = expected: a name of its own
+  = expected: a unique name
   = help: name = "…"
 
 error: `joints.neck.damping` is already varied by `a`
@@ -313,8 +313,8 @@ error: `joints.neck.damping` is already varied by `a`
 8 | [[parameters]]
   | ^^^^^^^^^^^^^^
   = in: parameters[1]
-  = expected: each place varied by one value
-  = help: a factor or an offset may follow a value, but not the other way round"#,
+  = expected: each key varied by one parameter
+  = help: a factor or an offset may come after a value, not before it"#,
     );
 }
 
@@ -347,14 +347,14 @@ rank = -0.9
    | ^^^^^^^^^^^^^^^^
    = in: correlations
    = expected: a positive definite matrix
-   = help: if a goes with b and b with c, then a must go with c to some degree"#,
+   = help: if a correlates with b and b with c, then a must correlate with c to some degree"#,
     );
     let unknown = text.replace("[\"a\", \"c\"]", "[\"a\", \"d\"]");
     let words = complaint(&unknown);
     assert!(words.contains("no parameter is named \"d\""), "{words}");
     let factorial = text.replace("kind = \"monte_carlo\", samples = 9", "kind = \"one_at_a_time\"");
     let words = complaint(&factorial);
-    assert!(words.contains("correlations in a design that has none"), "{words}");
+    assert!(words.contains("correlations in a design that does not support them"), "{words}");
 }
 
 #[test]
@@ -369,7 +369,7 @@ fn designs_that_do_not_fit_are_told() {
     );
     expect(
         &format!("design.kind = \"full_factorial\"\n{one}"),
-        r#"error: `materials.foam.friction` has no values to go through
+        r#"error: `materials.foam.friction` has no list of values
  --> study.toml:2:1
   |
 2 | design.kind = "full_factorial"
@@ -388,7 +388,7 @@ fn designs_that_do_not_fit_are_told() {
         &format!(
             "keep = \"best 5 by hic\"\ndesign = {{ kind = \"morris\", trajectories = 3, levels = 5, tail = 0.5 }}\n{one}"
         ),
-        r#"error: "best 5 by hic" says nothing about which runs to keep
+        r#"error: "best 5 by hic" does not say which runs to keep
  --> study.toml:2:8
   |
 2 | keep = "best 5 by hic"
@@ -396,7 +396,7 @@ fn designs_that_do_not_fit_are_told() {
   = in: keep
   = expected: "all", "none", a list of indices, or such as "worst 5 by hic15"
 
-error: `5` is no even number
+error: `5` is not an even number
  --> study.toml:3:56
   |
 3 | design = { kind = "morris", trajectories = 3, levels = 5, tail = 0.5 }

@@ -50,7 +50,7 @@ error: column `posture.head` without a unit
 
 error: no column `damping`
  --> samples.csv:1:1
-  = expected: a column for each parameter
+  = expected: one column per parameter
 
 error: `sine`
  --> samples.csv:2:4

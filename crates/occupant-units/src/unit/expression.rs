@@ -183,7 +183,7 @@ impl<'a> Parser<'a> {
                 Word::Times | Word::Name(_) | Word::Open | Word::Power(_) if divided => {
                     return Err(UnitError {
                         hint: Some("write a/(b·c) if both divide, a·c/b if only b does".into()),
-                        ..token.error("a product after `/`", "parentheses that say what is divided")
+                        ..token.error("a product after `/`", "parentheses around the divisor")
                     });
                 }
                 Word::Times => {
@@ -201,7 +201,7 @@ impl<'a> Parser<'a> {
     /// name [power] | ( expression ) [power]
     fn factor(&mut self, depth: usize) -> Result<Scale, UnitError> {
         let Some(token) = self.peek().copied() else {
-            let found = "no unit where one should follow";
+            let found = "a missing unit";
             return Err(UnitError::new(self.end, self.end, found, "a unit such as in, lbf, s"));
         };
         self.at += 1;
@@ -211,11 +211,11 @@ impl<'a> Parser<'a> {
                 let inner = self.expression(depth + 1)?;
                 match self.peek() {
                     Some(t) if t.word == Word::Close => self.at += 1,
-                    _ => return Err(token.error("`(` without its `)`", "`)`")),
+                    _ => return Err(token.error("`(` without `)`", "`)`")),
                 }
                 inner
             }
-            _ => return Err(token.error("a sign where a unit should stand", "a unit such as in, lbf, s")),
+            _ => return Err(token.error("a sign instead of a unit", "a unit such as in, lbf, s")),
         };
         match self.peek().copied() {
             Some(Token { word: Word::Power(n), .. }) => {

@@ -196,7 +196,7 @@ pub enum WorldError {
         what: &'static str,
     },
     /// Steps became too short.
-    #[error("at {time_s} s the step fell below {step_s} s: stiff parts or inputs beyond reason")]
+    #[error("at {time_s} s the step fell below {step_s} s: parts are too stiff, or inputs are implausible")]
     Step {
         /// When, s.
         time_s: f64,

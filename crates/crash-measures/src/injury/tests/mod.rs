@@ -60,7 +60,7 @@ fn known_pulses_give_known_measures() {
     let middle = 0.5 * (hic.from_s.unwrap() + hic.to_s.unwrap());
     assert!((middle - 0.53).abs() < 1e-4, "{middle}");
     let remark = of(&found, "nij").remark.as_deref();
-    let crossed = "the curves of neck AIS3+, neck AIS4+ cross: their risks are not to be quoted";
+    let crossed = "the curves of neck AIS3+, neck AIS4+ cross: do not quote their risks";
     assert_eq!(remark, Some(format!("in tension and extension; {crossed}").as_str()));
     let femur = of(&found, "right_femur");
     assert!((femur.risks[0].probability - 0.064_320).abs() < 1e-6);

@@ -24,7 +24,7 @@ fn pulse(peak: f64) -> Vec<f64> {
 }
 
 fn judged_by(dummy: Dummy, signals: &Signals) -> Vec<Measure> {
-    assess(signals, &Options { dummy, ..Options::default() })
+    assess(signals, &Options::default().with(dummy))
 }
 
 fn names(measures: &[Measure]) -> Vec<&'static str> {
@@ -97,7 +97,7 @@ fn of_a_person_no_limit_and_no_risk_of_a_dummy_is_told() {
         assert!(own.limits.is_empty() && own.risks.is_empty(), "{own:?}");
     }
     assert!(of(&found, "cti").remark.as_deref().unwrap().contains("no more"));
-    assert!(of(&found, "chest_compression").remark.as_deref().unwrap().contains("24 %, more than six at 38 %"));
+    assert!(of(&found, "chest_compression").remark.as_deref().unwrap().contains("24 %, and more than six at 38 %"));
     // of a dummy the same numbers have them
     assert!(!of(&assess(&signals, &Options::default()), "chest_deflection").limits.is_empty());
 }
@@ -236,7 +236,7 @@ fn hostile_signals_are_told_and_never_panic() {
                 assert!(own.value.is_none_or(f64::is_finite), "{own:?}");
             }
             let measures = judged_by(dummy, &signals);
-            let off = coarseness(&signals, &Options { dummy, ..Options::default() }, &measures);
+            let off = coarseness(&signals, &Options::default().with(dummy), &measures);
             assert_eq!(off.len(), measures.len());
         }
     }

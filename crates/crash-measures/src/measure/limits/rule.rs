@@ -121,7 +121,7 @@ impl Rule {
             Self::En12767 | Self::En12767Slow => {
                 "CEN, EN 12767:2007, levels of occupant safety; the edition of 2019 has classes A to E instead"
             }
-            Self::SeverityIndex => "Gadd, SAE 660793, 1966; of the chest as of the head",
+            Self::SeverityIndex => "Gadd, SAE 660793, 1966; applied to the chest as to the head",
         }
     }
 

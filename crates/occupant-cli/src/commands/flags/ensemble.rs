@@ -22,34 +22,34 @@ use occupant_pictures::Format;
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = "Ensemble")]
 pub(crate) struct EnsembleArgs {
-    /// Run the scenario N times, all but the first with small changes of posture, place, pulse and stiffness, and say which
-    /// figures are stable
+    /// Run the scenario N times with small random changes of posture, position, pulse and stiffness, and say which results
+    /// are stable. The first run has no change
     #[arg(long, value_name = "N", conflicts_with = "resume", value_parser = clap::value_parser!(u32).range(2..=100_000))]
     ensemble: Option<u32>,
 
-    /// Names the random numbers of the changes
+    /// Seed of the random changes
     #[arg(long, value_name = "N", default_value = "0", requires = "ensemble")]
     seed: u64,
 
-    /// Number of threads; one for each core if absent
+    /// Number of threads; one per core if absent
     #[arg(long, value_name = "N", requires = "ensemble")]
     threads: Option<NonZeroUsize>,
 
-    /// How far the members are changed: posture='1 deg', place='5 mm', path=1%, stiffness=2% if absent; also
-    /// segments=15%, mass and inertia of each of the body. May be repeated
+    /// Size of the changes: posture='1 deg', place='5 mm', path=1% and stiffness=2% if absent. segments=15% also varies mass
+    /// and inertia of each body segment. May be repeated
     #[arg(long, value_name = "WHAT=AMOUNT", requires = "ensemble")]
     change: Vec<String>,
 
-    /// A figure is stable if the middle 90% of the members lie within this part of the median
-    #[arg(long, value_name = "PART", default_value = "10%", requires = "ensemble")]
+    /// A result is stable if the middle 90% of the runs lie within this fraction of the median
+    #[arg(long, value_name = "FRACTION", default_value = "10%", requires = "ensemble")]
     stable_within: String,
 
-    /// Write the bands over time: NAME.csv, .parquet, .xlsx or .mat for numbers, NAME.svg or NAME.png for a picture; may be repeated
+    /// Write the bands over time as numbers (.csv, .parquet, .xlsx, .mat) or as a picture (.svg, .png). May be repeated
     #[arg(long, value_name = "FILE", requires = "ensemble")]
     bands: Vec<PathBuf>,
 
-    /// Channels of the bands, by name or pattern with commas between, such as 'head.*,belt.*.force'; if absent, the main
-    /// accelerations, forces and places
+    /// Channels of the bands, by name or pattern, such as 'head.*,belt.*.force'; the main accelerations, forces and
+    /// positions if absent
     #[arg(long = "channel", alias = "channels", value_name = "NAMES", requires = "ensemble")]
     channels: Vec<String>,
 }
@@ -73,11 +73,11 @@ impl EnsembleArgs {
         let lost = without_place(draft, &changes);
         let asked = |name: &&&str| self.change.iter().any(|change| change.trim_start().starts_with(**name));
         if let Some(name) = lost.iter().find(asked) {
-            let found = format!("--change {name}: the scenario has nothing that it could change");
+            let found = format!("--change {name}: the scenario has nothing of this kind to change");
             return Err(Failure::with_help(found, "leave it out"));
         }
         if !lost.is_empty() {
-            note(&format!("not changed, for the scenario has no place for it: {}", lost.join(", ")));
+            note(&format!("not changed, because the scenario has none: {}", lost.join(", ")));
         }
         let within = part("--stable-within", &self.stable_within)?;
         let channels = choose(&opened.model, &self.channels)?;
@@ -110,7 +110,7 @@ fn band_file(path: &Path) -> Result<BandFile, Failure> {
         (Some(form), _) => Ok(BandFile::Table(form)),
         (None, Some(format)) => Ok(BandFile::Picture(format)),
         (None, None) => Err(Failure::with_help(
-            format!("--bands {}: its ending says no kind of file", path.display()),
+            format!("--bands {}: unknown file format", path.display()),
             "give NAME.csv, .parquet, .xlsx, .mat, .svg or .png",
         )),
     }
@@ -129,7 +129,7 @@ fn changes(given: &[String]) -> Result<Tolerances, Failure> {
                 "give posture='1 deg', place='5 mm', path='1 %', stiffness='2 %' or segments='15 %'",
             )
         };
-        let (what, amount) = text.split_once('=').ok_or_else(|| refused("it has no ="))?;
+        let (what, amount) = text.split_once('=').ok_or_else(|| refused("it has no `=`"))?;
         let amount = amount.trim();
         let si = |value: Result<f64, UnitError>| {
             value.map_err(|e| refused(&format!("{}; expected {}", e.found, e.expected)))
@@ -140,10 +140,10 @@ fn changes(given: &[String]) -> Result<Tolerances, Failure> {
             "path" => (&mut changes.path, si(ratio(amount))?, 1.0),
             "stiffness" => (&mut changes.stiffness, si(ratio(amount))?, 1.0),
             "segments" => (&mut changes.segments, si(ratio(amount))?, MOST_OF_A_SEGMENT),
-            other => return Err(refused(&format!("nothing is called `{other}`"))),
+            other => return Err(refused(&format!("unknown name `{other}`"))),
         };
         if !(0.0..=most).contains(&value) {
-            return Err(refused("the amount is not from 0 to all of it"));
+            return Err(refused("the amount is out of range"));
         }
         *to = value;
     }
@@ -152,7 +152,8 @@ fn changes(given: &[String]) -> Result<Tolerances, Failure> {
 
 /// A part such as `10 %` or 0.1, above 0.
 fn part(flag: &str, text: &str) -> Result<f64, Failure> {
-    let refused = |found: String| Failure::with_help(format!("{flag} {text}: {found}"), "give a part such as '10 %'");
+    let refused =
+        |found: String| Failure::with_help(format!("{flag} {text}: {found}"), "give a fraction such as '10 %'");
     let value = ratio(text);
     let value = value.map_err(|e| refused(format!("{}; expected {}", e.found, e.expected)))?;
     if value > 0.0 && value.is_finite() { Ok(value) } else { Err(refused("it is not above 0".to_owned())) }

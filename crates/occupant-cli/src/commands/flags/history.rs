@@ -7,11 +7,11 @@ use occupant_files::measured::MapArgument;
 /// The part of the time that is shown or compared, s.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub(crate) struct WindowArgs {
-    /// First time, such as '20 ms'
+    /// Begin at this time, such as '20 ms'
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = seconds)]
     pub(crate) from: Option<f64>,
 
-    /// Last time
+    /// End at this time
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = seconds)]
     pub(crate) to: Option<f64>,
 }
@@ -19,16 +19,16 @@ pub(crate) struct WindowArgs {
 /// How the signals of a test belong to channels and their time.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct TestArgs {
-    /// Which column of the test is which channel: 'column=channel', 'column[unit]=channel', 'column=-channel' for opposite
-    /// signs
+    /// Assign a column of the test to a channel: 'column=channel', 'column[unit]=channel', or 'column=-channel' to reverse
+    /// the sign
     #[arg(long, value_name = "MAP")]
     pub(crate) map: Vec<MapArgument>,
 
-    /// Position of the occupant in the test's ISO-MME codes
+    /// Position code of the occupant in the test's ISO-MME channel names
     #[arg(long, value_name = "CODE", default_value = "1", value_parser = code_letter)]
     pub(crate) seat: char,
 
-    /// Time added to the test's clock
+    /// Shift the test by this time
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, default_value = "0", value_parser = seconds)]
     pub(crate) shift: f64,
 }

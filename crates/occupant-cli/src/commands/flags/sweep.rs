@@ -17,8 +17,9 @@ use occupant_jobs::sweep::plan::Plan;
 
 /// The part to compute, and the variable that says so.
 pub(crate) fn shard(given: Option<&str>) -> Result<(Shard, Option<&'static str>), Failure> {
-    let refused =
-        |found: String| Failure::with_help(found, "--shard 1/1 computes everything, whatever the environment says");
+    let refused = |found: String| {
+        Failure::with_help(found, "use --shard 1/1 to compute everything, regardless of the environment")
+    };
     if let Some(text) = given {
         let shard = Shard::parse(text).map_err(|e| refused(format!("--shard: {e}")))?;
         return Ok((shard, None));
@@ -35,7 +36,7 @@ pub(crate) fn keep(given: Option<&str>, plan: &Plan) -> Result<Keep, Failure> {
     let keep = match given {
         Some(text) => kept::parse(text).ok_or_else(|| {
             Failure::with_help(
-                format!("--keep {text}: it does not say which runs to write"),
+                format!("--keep {text}: unknown choice of runs"),
                 "give all, none, numbers of samples such as '3, 17', or 'worst 5 by head.peak'",
             )
         })?,
@@ -56,7 +57,7 @@ pub(crate) fn keep(given: Option<&str>, plan: &Plan) -> Result<Keep, Failure> {
                 let figures = manifest.columns.iter().filter(|c| c.role == Role::Figure);
                 let names: Vec<&str> = figures.map(|c| c.name.as_str()).collect();
                 return Err(Failure::with_help(
-                    format!("keep: no measure is named `{measure}`"),
+                    format!("keep: there is no measure `{measure}`"),
                     &format!("the measures are {}", names.join(", ")),
                 ));
             }
@@ -74,7 +75,7 @@ pub(crate) fn engine(threads: Option<NonZeroUsize>, kernel: Kernel) -> Result<En
     let cores = || available_parallelism().unwrap_or(NonZeroUsize::MIN);
     let threads = threads.unwrap_or_else(cores).get();
     if threads > MOST_THREADS {
-        let found = format!("--threads {threads}: more than a machine has cores");
+        let found = format!("--threads {threads}: too many");
         return Err(Failure::with_help(found, &format!("give at most {MOST_THREADS}, or leave it out")));
     }
     Engine::new(threads, kernel).map_err(|e| Failure::plain(format!("no thread can be started: {e}")))
@@ -83,11 +84,11 @@ pub(crate) fn engine(threads: Option<NonZeroUsize>, kernel: Kernel) -> Result<En
 /// What computes many runs.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct EngineArgs {
-    /// Number of threads; one for each core if absent
+    /// Number of threads; one per core if absent
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
 
-    /// How runs are computed: scalar, lanes4 or lanes8, the fastest of this processor if absent; all give the same bits
+    /// How runs are computed: scalar, lanes4 or lanes8; the fastest for this processor if absent. Results are the same
     #[arg(long, value_name = "KERNEL")]
     kernel: Option<String>,
 }
@@ -114,6 +115,6 @@ impl EngineArgs {
 /// A study without a name.
 pub(crate) fn folder_of(study: &Path) -> Result<PathBuf, Failure> {
     let is_named = |name: &&OsStr| *name != "-" && study.extension().is_some();
-    let nameless = || Failure::with_help("the study's name gives no name to its results", "use -o FOLDER");
+    let nameless = || Failure::with_help("the results cannot be named after the study", "use -o FOLDER");
     study.file_stem().filter(is_named).map(PathBuf::from).ok_or_else(nameless)
 }

@@ -101,8 +101,8 @@ pub(super) fn measures(args: &Args, options: &Options) -> Result<Done, Failure> 
     }
     if let Some(run) = args.runs.iter().find(|file| !is_test(file)) {
         return Err(Failure::with_help(
-            format!("{} is no test, and another file is one", run.display()),
-            "tests and runs are asked for one kind at a time",
+            format!("{} is a run, but another file is a test", run.display()),
+            "give only runs or only tests",
         ));
     }
     let all = args.runs.iter().map(|file| Judged::of(file, args, options)).collect::<Result<Vec<_>, _>>()?;
@@ -135,10 +135,10 @@ fn texts(all: &[Judged], options: &Options, units: Units) -> String {
 
 /// Flags of tests say nothing of runs.
 pub(super) fn refuse_flags(args: &Args) -> Result<(), Failure> {
-    let mend = "leave it out, or name a test";
+    let mend = "leave it out, or give a test";
     match () {
-        () if !args.test.map.is_empty() => Err(Failure::with_help("--map: a run's signals are known", mend)),
-        () if args.test.shift != 0.0 => Err(Failure::with_help("--shift: a run has its own time", mend)),
+        () if !args.test.map.is_empty() => Err(Failure::with_help("--map: the signals of a run need no map", mend)),
+        () if args.test.shift != 0.0 => Err(Failure::with_help("--shift: a run has its own clock", mend)),
         () => Ok(()),
     }
 }

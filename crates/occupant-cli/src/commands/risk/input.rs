@@ -96,7 +96,7 @@ fn path_of(
     if let Some((flag, _)) = foreign.iter().find(|(_, given)| *given) {
         return Err(Failure::with_help(
             format!("{flag} does not go with {name}"),
-            "a path has the motion of the centre of gravity itself; leave the flag out",
+            "a path is the motion of the centre of gravity itself; leave the flag out",
         ));
     }
     let model = match extension {
@@ -134,7 +134,7 @@ fn path_of(
 fn unsampled(name: &str, interval_s: f64) -> Failure {
     Failure::with_help(
         format!("the path of {name} cannot be sampled every {interval_s} s"),
-        "give an interval that the run has at least one and at most 1.5 million of",
+        "give an interval with at least one and at most 1.5 million samples",
     )
 }
 
@@ -142,7 +142,10 @@ fn unsampled(name: &str, interval_s: f64) -> Failure {
 fn motion(args: &Args, name: &str, notes: &mut Vec<String>) -> Result<(Motion, Axes), Failure> {
     let vehicle = args.vehicle.as_deref().map(|number| {
         number.parse().map_err(|_| {
-            Failure::with_help(format!("--vehicle {number}: a record numbers its vehicles"), "give a number, such as 2")
+            Failure::with_help(
+                format!("--vehicle {number}: a record has numbered vehicles"),
+                "give a number, such as 2",
+            )
         })
     });
     let reading = Reading { vehicle: vehicle.transpose()?, object: None, columns: args.columns.as_deref() };
@@ -153,8 +156,8 @@ fn motion(args: &Args, name: &str, notes: &mut Vec<String>) -> Result<(Motion, A
     let names: Vec<String> = imported.recording.signals.iter().take(12).map(|s| format!("`{}`", s.name)).collect();
     let motion = found.ok_or_else(|| {
         Failure::with_help(
-            format!("{name} has no acceleration, no rate, no velocity change and no place; it has {}", names.join(", ")),
-            "name its columns ax, ay, az, wx, wy, wz with their units, by their headings or by --columns 't[s],ax[g],-,wz[deg/s]'",
+            format!("{name} has no acceleration, angular rate, velocity change or position; it has {}", names.join(", ")),
+            "name its columns ax, ay, az, wx, wy, wz with units, in the headings or with --columns 't[s],ax[g],-,wz[deg/s]'",
         )
     })?;
     let unused = imported.recording.signals.iter().filter(|signal| !motion.signals.contains(&signal.name));
@@ -240,9 +243,9 @@ fn doubt_of_gravity(record: &AccelerationRecord, included: bool) -> Option<Strin
     let mean_g = az[..count].iter().sum::<f64>() / count as f64 / STANDARD_GRAVITY_MPS2;
     let near = |expected: f64| (mean_g - expected).abs() < 0.2;
     let remedy = match included {
-        _ if near(1.0) => "z seems to point up: say --axes z_up",
-        false if near(-1.0) => "gravity seems to be in the record: say --gravity-included",
-        true if near(0.0) => "gravity seems not to be in the record: leave --gravity-included out",
+        _ if near(1.0) => "z seems to point up: use --axes z_up",
+        false if near(-1.0) => "the record seems to include gravity: use --gravity-included",
+        true if near(0.0) => "the record seems not to include gravity: leave --gravity-included out",
         _ => return None,
     };
     Some(format!("az begins at {mean_g:.2} g; {remedy}"))
@@ -252,9 +255,11 @@ fn doubt_of_gravity(record: &AccelerationRecord, included: bool) -> Option<Strin
 fn remedy(nyquist_hz: f64) -> String {
     // the corner of one pass of two lies at 2.08 times the class
     let fits = ChannelClass::ALL.into_iter().rev().find(|class| 2.1 * class.hertz() < nyquist_hz);
-    let class =
-        fits.map_or_else(|| "no class fits so few samples".to_owned(), |c| format!("use --filter CFC{}", c.hertz()));
-    format!("{class}; --filter none is for data that are filtered already")
+    let class = fits.map_or_else(
+        || "the sample rate is too low for any class".to_owned(),
+        |c| format!("use --filter CFC{}", c.hertz()),
+    );
+    format!("{class}; use --filter none for data that are filtered already")
 }
 
 /// Why a record cannot be measured, with the remedy.
@@ -262,21 +267,21 @@ fn unprepared(name: &str, error: &Unprepared) -> Failure {
     if let Unprepared::Channel { name: "t", error: SignalError::NotUniform { index, found_s, expected_s } } = error {
         return Failure::with_help(
             format!(
-                "{name}: samples that are not evenly spaced: sample {} stands at {found_s} s, not {expected_s} s",
+                "{name}: samples are not evenly spaced: sample {} is at {found_s} s, not {expected_s} s",
                 index + 1
             ),
-            "resample by straight lines with --interval, such as --interval '0.1 ms'",
+            "resample linearly, such as --interval '0.1 ms'",
         );
     }
     let help = match error {
         Unprepared::Channel { error: SignalError::CornerAboveNyquist { nyquist_hz, .. }, .. } => &remedy(*nyquist_hz),
-        Unprepared::Channel { .. } => "mend the record, or choose another interval or window",
+        Unprepared::Channel { .. } => "correct the record, or choose another interval or window",
         Unprepared::NoChannel => "name columns ax, ay, az, wx, wy, wz with their units",
         Unprepared::OffsetNeedsRates { .. } => {
             "add the columns (zeros, if the vehicle did not turn), or leave --offset out"
         }
-        Unprepared::Baseline(_) => "give the length of the rest, such as --baseline '50 ms'",
+        Unprepared::Baseline(_) => "give the length of the quiet part, such as --baseline '50 ms'",
         Unprepared::Window { .. } => "give --start and --to inside the record",
     };
-    Failure::with_help(format!("{name} cannot be measured: {error}"), help)
+    Failure::with_help(format!("{name} cannot be assessed: {error}"), help)
 }

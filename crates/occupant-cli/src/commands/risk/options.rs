@@ -42,19 +42,19 @@ pub(crate) fn errors(args: &Args) -> Result<SensorErrors, Failure> {
             let help = "give gain='1 %', offset='0.05 g', rate='0.2 deg/s', angle='1 deg' or place='20 mm'";
             Failure::with_help(format!("--sensor-error {text}: {found}"), help)
         };
-        let (what, amount) = text.split_once('=').ok_or_else(|| refused("it has no ="))?;
+        let (what, amount) = text.split_once('=').ok_or_else(|| refused("it has no `=`"))?;
         let (bound, kind) = match what.trim() {
             "gain" => (&mut errors.gain, RATIO),
             "offset" => (&mut errors.offset_m_s2, ACCELERATION),
             "rate" => (&mut errors.rate_rad_s, ANGULAR_VELOCITY),
             "angle" => (&mut errors.angle_rad, ANGLE),
             "place" => (&mut errors.place_m, LENGTH),
-            other => return Err(refused(&format!("nothing is called `{other}`"))),
+            other => return Err(refused(&format!("unknown name `{other}`"))),
         };
         let value =
             KINDS[kind].read(amount.trim()).map_err(|e| refused(&format!("{}; expected {}", e.found, e.expected)))?;
         if !(value >= 0.0 && value.is_finite()) {
-            return Err(refused("the bound is not 0 or more"));
+            return Err(refused("the bound is below 0"));
         }
         *bound = value;
     }

@@ -5,37 +5,36 @@ use std::path::PathBuf;
 
 use occupant_core::run::batch::Kernel;
 
-use crate::base::{Existing, Failure, listen, say};
+use crate::base::{Existing, Failure, listen, progress, say};
 use crate::commands::flags::sweep::engine;
 use occupant_jobs::ensemble::bands::choose;
 use occupant_jobs::files::study_folder::checksums::Checksums;
 use occupant_jobs::study::bands::StudyBands;
 use occupant_jobs::sweep::stored::{MadeBy, open};
 
-/// Write the bands over time of a study with an ensemble: within which the members of each sample lie, and when they part
+/// Write the bands over time of each sample's ensemble
 ///
-/// A sweep keeps no histories: the members of every sample are run once more, one sample after the other, and leave
-/// FOLDER/bands/SAMPLE.parquet (sample, channel, time, quantiles, and the time from which on the members are parted). The same
-/// command resumes what was interrupted or killed.
+/// A sweep keeps no time histories, so the ensemble of each sample is run again. Writes FOLDER/bands/SAMPLE.parquet: sample,
+/// channel, time, quantiles, and the time at which the runs diverge. Run the same command again to resume.
 #[derive(Debug, clap::Args)]
 pub(crate) struct BandsArgs {
-    /// The folder that `occupant sweep` has written or still writes
+    /// The folder of `occupant sweep`, finished or still running
     #[arg(value_name = "FOLDER")]
     folder: PathBuf,
 
-    /// Channels, such as head.acceleration.resultant,belt.*.force; the main ones if absent
+    /// Channels, such as head.acceleration.resultant,belt.*.force; the main channels if absent
     #[arg(long = "channel", alias = "channels", value_name = "NAMES", value_delimiter = ',')]
     channels: Vec<String>,
 
-    /// Number of threads; one for each core if absent
+    /// Number of threads; one per core if absent
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
 
-    /// Replace the bands of other channels, or of what the folder held before
+    /// Replace bands of other channels or of an earlier sweep
     #[arg(short, long)]
     force: bool,
 
-    /// No word on how far it is
+    /// Print no progress
     #[arg(short, long)]
     quiet: bool,
 }
@@ -47,7 +46,7 @@ pub(crate) fn bands(args: &BandsArgs) -> Result<(), Failure> {
     if study.ensemble.is_none() {
         return Err(Failure::with_help(
             format!("the study of {} has no ensemble", args.folder.display()),
-            "an [ensemble] in the study repeats every sample with small changes",
+            "add [ensemble] to the study, to repeat each sample with small changes",
         ));
     }
     // names that are none are refused before anything is run
@@ -57,7 +56,7 @@ pub(crate) fn bands(args: &BandsArgs) -> Result<(), Failure> {
     for note in &opened.notes {
         say(note);
     }
-    let interrupt = listen("stopping; once more to stop at once");
+    let interrupt = listen("stopping; press Ctrl-C again to stop at once");
     let bands = StudyBands {
         plan: &opened.plan,
         manifest_sha256: &opened.manifest_sha256,
@@ -66,6 +65,7 @@ pub(crate) fn bands(args: &BandsArgs) -> Result<(), Failure> {
         engine: &engine(args.threads, Kernel::best())?,
         interrupt: &interrupt,
         sums: Checksums::open(&args.folder, |name| name.starts_with("bands/"))?,
+        show: progress::show(args.quiet),
     };
-    bands.write_all(Existing::by(args.force), args.quiet)
+    bands.write_all(Existing::by(args.force))
 }

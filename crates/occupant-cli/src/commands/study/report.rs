@@ -7,28 +7,28 @@ use occupant_jobs::study::{Report, Tables, matrix_text, page, subject, write_tab
 use occupant_jobs::sweep::stored::{MadeBy, open};
 use occupant_pictures::html::is_page_of;
 
-/// Make a page of a study: what matters, how much, how sure that is, and the command that runs each worst case again
+/// Make an HTML page of a study: which inputs matter, how much, and the worst cases
 ///
-/// The folder may be finished, or a sweep may still write it. The page opens in any browser and loads nothing from the
-/// network. All its numbers stand in REPORT.parquet beside it, the samples they are made of in REPORT-samples.parquet.
+/// The sweep may be finished or still running. The page opens in any browser and needs no network. Its numbers are also
+/// written to REPORT.parquet beside it, and the samples to REPORT-samples.parquet.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ReportArgs {
-    /// The folder that `occupant sweep` has written, or several with shards of one sweep
+    /// The folder of `occupant sweep`, or several folders with shards of one sweep
     #[arg(value_name = "FOLDER", required = true)]
     folders: Vec<PathBuf>,
 
-    /// The page; FOLDER/report.html if absent, where an earlier report of the same study is replaced with its tables
+    /// The page; FOLDER/report.html if absent. An earlier report of the same study is replaced
     #[arg(short, long, value_name = "FILE.html")]
     output: Option<PathBuf>,
 
-    /// Replace files that exist
+    /// Replace existing files
     #[arg(short, long)]
     force: bool,
 
     #[command(flatten)]
     units: UnitsArg,
 
-    /// Figures to report on, such as hic15,belts.*.peak; those of head, chest, pelvis and belts that vary if absent
+    /// Results to report, such as hic15,belts.*.peak; if absent, those of head, chest, pelvis and belts that vary
     #[arg(long, value_name = "FIGURES", value_delimiter = ',')]
     to: Vec<String>,
 }
@@ -36,7 +36,7 @@ pub(crate) struct ReportArgs {
 /// Makes the report of a study.
 pub(crate) fn report(args: &ReportArgs) -> Result<(), Failure> {
     let Some(first) = args.folders.first() else {
-        return Err(Failure::plain("no folder was given"));
+        return Err(Failure::plain("give the folder of a sweep"));
     };
     let page_at = args.output.clone().unwrap_or_else(|| first.join("report.html"));
     let tables = Tables::beside(&page_at);
@@ -48,7 +48,7 @@ pub(crate) fn report(args: &ReportArgs) -> Result<(), Failure> {
     if !force {
         refuse_there(&page_at, &tables)?;
     } else if !args.force {
-        say(&format!("{} is an earlier report of this study and is replaced; -o keeps both", page_at.display()));
+        say(&format!("note: replacing {}, an earlier report of this study (use -o to keep it)", page_at.display()));
     }
     for note in &report.notes {
         say(note);
@@ -62,10 +62,7 @@ pub(crate) fn report(args: &ReportArgs) -> Result<(), Failure> {
 /// Refuses names that are no page, and files of the sweep itself.
 fn refuse_names(page: &Path, tables: &Tables, args: &ReportArgs) -> Result<(), Failure> {
     if !is_page(page) {
-        return Err(Failure::with_help(
-            format!("{} has not the ending of a page", page.display()),
-            "give a name that ends with .html",
-        ));
+        return Err(Failure::with_help(format!("{} is not an .html file", page.display()), "use the extension .html"));
     }
     let names = ["results.parquet", "ensemble.parquet"];
     let own = |table: &PathBuf| {

@@ -16,35 +16,35 @@ use occupant_jobs::sweep::stored::{MadeBy, Stored, open};
 use occupant_jobs::sweep::words::{judged, tell, tell_damaged};
 use occupant_jobs::sweep::{kept, results};
 
-/// Make one table of a sweep's shards
+/// Merge the shards of a sweep into one table
 ///
-/// Says which samples are missing, if any are.
+/// Lists missing samples, if any.
 #[derive(Debug, clap::Args)]
 pub(crate) struct MergeArgs {
-    /// The folder of the sweep, or several with parts of one sweep
+    /// The folder of the sweep, or several folders with parts of one sweep
     #[arg(value_name = "FOLDER", required = true)]
     folders: Vec<PathBuf>,
 
-    /// The folder that the table is written into; the first FOLDER if absent
+    /// The folder for the table; the first FOLDER if absent
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
 
-    /// Which whole runs to write, if the sweep was given --keep 'worst 5 by head.peak'
+    /// Which whole runs to write, as in `occupant sweep --keep`, such as 'worst 5 by head.peak'
     #[arg(long, value_name = "WHICH")]
     keep: Option<String>,
 
-    /// Number of threads for the worst runs; one for each core if absent
+    /// Number of threads for the worst runs; one per core if absent
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
 
-    /// Write the table as results.csv too, with the units in columns.csv
+    /// Also write the table as results.csv, with the units in columns.csv
     #[arg(long)]
     csv: bool,
 
     #[command(flatten)]
     units: UnitsArg,
 
-    /// No table of what it came to
+    /// Print no summary
     #[arg(short, long)]
     quiet: bool,
 }
@@ -54,7 +54,7 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     let Stored { manifest, plan, journal, .. } = open(&args.folders, MadeBy::ThisProgram)?;
     refuse_gaps(&journal, &manifest)?;
     let Some(target) = args.output.as_ref().or(args.folders.first()) else {
-        return Err(Failure::plain("no folder was given"));
+        return Err(Failure::plain("give the folder of a sweep"));
     };
     let target = Folder::at(target);
     std::fs::create_dir_all(&target.path).map_err(Problem::io("create", &target.path))?;

@@ -85,11 +85,10 @@ fn overview(d: &Diagnosis, units: Units) -> String {
 
 fn segments(d: &Diagnosis, units: Units) -> String {
     let all = &d.body.segments;
-    let heads = ["mass, kg", "length, m"].map(|head| units.heading(head));
-    let mut columns: Vec<&str> = heads.iter().map(String::as_str).collect();
+    let heads = ["mass, kg", "length, m", "5–95 % range, m"].map(|head| units.heading(head));
     let length = |m| units.number(m, "m", 4);
     let has_bands = all.iter().any(|s| s.length_band_m.is_some());
-    columns.extend(has_bands.then_some("of 90 % of such people"));
+    let columns: Vec<&str> = heads.iter().take(if has_bands { 3 } else { 2 }).map(String::as_str).collect();
     let row = |s: &SegmentFigures| {
         let band =
             s.length_band_m.map_or(NONE.to_owned(), |[least, most]| format!("{} to {}", length(least), length(most)));
@@ -116,7 +115,7 @@ fn seating(seat: &SeatStart, units: Units) -> String {
         lines.push((
             "settled",
             format!(
-                "moved {} and turned {:.2}°; left over {} and {} of a weight of {}",
+                "moved {} and turned {:.2}°; residual {} and {}, weight {}",
                 mm(s.moved_m),
                 s.turned_rad.to_degrees(),
                 units.say(s.residual_force_n, "N", 2),
@@ -128,15 +127,18 @@ fn seating(seat: &SeatStart, units: Units) -> String {
     if let Some(lack) = seat.settled.and_then(|s| s.lack).filter(|lack| lack.moment_n_m > LEAST_LACK_N_M) {
         let joint = lack.joint.replace('_', " ");
         let words = format!(
-            "nothing holds the posture: {joint} lacks {}, and the body sags; ",
+            "posture is not in balance: {joint} lacks {}, so the body sags as the run begins; ",
             units.say(lack.moment_n_m, "N·m", 1)
         );
-        lines.push(("joints", words + "muscles with tone hold it, posture.limp = true lets it sink before the run"));
+        lines.push(("joints", words + "give it muscles with tone, or set posture.limp = true to let it settle first"));
     }
     if let Some(s) = seat.unsettled.filter(Settled::is_unbalanced) {
         let left = [s.residual_force_n, s.weight_n].map(|n| units.say(n, "N", 0));
-        let left = format!("{} left over of a weight of {}", left[0], left[1]);
-        lines.push(("unsettled", format!("{left} spoil the first 50 ms; posture.settle = true mends it")));
+        let left = format!("a force of {} (weight {})", left[0], left[1]);
+        lines.push((
+            "unsettled",
+            format!("{left} is left over and disturbs the first 50 ms; set posture.settle = true"),
+        ));
     }
     facts(&lines)
 }
@@ -164,15 +166,14 @@ fn friction(d: &Diagnosis, units: Units) -> String {
         let creeps = f.creeps_m_s.map_or("slides".to_owned(), speed);
         [f.material.clone(), trimmed(f.coefficient, 3), speed(f.speed_m_s), creeps]
     });
-    let note = "friction grows with slip and never sticks: at rest there is none; a smaller friction_speed of a material comes \
-                nearer, with shorter steps\n";
+    let note = "friction grows with slip and never sticks; a smaller `friction_speed` is closer to sticking, but needs shorter steps\n";
     table(&[(Left, &["material that rubs"]), (Right, &heads)], rows) + note
 }
 
 /// Corners that a sphere may come round.
 fn corners(d: &Diagnosis) -> String {
     let rows = d.corners.iter().cloned();
-    let note = "a sphere that comes round such a corner goes through without force; a solid holds it off\n";
+    let note = "a sphere that comes round such a corner passes through without force; a solid stops it\n";
     table(&[(Left, &["convex corner of", "and"])], rows) + note
 }
 
@@ -214,7 +215,7 @@ fn verdict(d: &Diagnosis) -> String {
     let scale = format!("fastest time scale: {:.4} ms ({}, {})", fastest.time_scale_s * 1e3, fastest.of, fastest.by);
     match d.step_by_time_scale {
         Some(number) => {
-            format!("{scale}; step/time scale {number:.3}, which must stay below 2.8\n")
+            format!("{scale}; step/time scale {number:.3}, must be below 2.8\n")
         }
         None => format!("{scale}; the error control chooses the step\n"),
     }

@@ -19,8 +19,8 @@ pub(super) fn ejections(summary: &Summary, marks: &Marks) -> Option<String> {
     let all = summary.ejections.iter().map(|(name, ejection)| {
         let of = if name.is_empty() { "occupant".to_owned() } else { shown(name).to_string() };
         let degree = match (ejection.degree, ejection.complete_s) {
-            (Degree::Complete, Some(time_s)) => format!("complete: all of the {of} outside at {} ms", ms(time_s)),
-            _ if ejection.inside.is_empty() => format!("partial: never was all of the {of} outside at one time"),
+            (Degree::Complete, Some(time_s)) => format!("complete: the whole {of} outside at {} ms", ms(time_s)),
+            _ if ejection.inside.is_empty() => format!("partial: the {of} was never completely outside"),
             _ => format!("partial: {} never outside", ejection.inside.join(", ")),
         };
         let prefix = if name.is_empty() { String::new() } else { format!("{name}.") };
@@ -46,10 +46,10 @@ fn one(name: &str, throw: &Throw, marks: &Marks, units: Units) -> String {
     let words = Words { marks: marks.of_occupant(&prefix), units };
     let of = if name.is_empty() { "occupant".to_owned() } else { shown(name).to_string() };
     let start = match throw.from {
-        ThrowStart::Struck => "struck by what is not its own vehicle",
-        ThrowStart::Blow => "the blow on its vehicle, from which the throw counts",
-        ThrowStart::Launch => "leaves its vehicle, from where the throw counts",
-        ThrowStart::Ground => "touches the ground, from where the throw counts",
+        ThrowStart::Struck => "struck by something other than its own vehicle",
+        ThrowStart::Blow => "impact on its vehicle; the throw counts from there",
+        ThrowStart::Launch => "leaves its vehicle; the throw counts from there",
+        ThrowStart::Ground => "touches the ground; the throw counts from there",
     };
     let mut lines = vec![("throw", of), ("start", format!("{} ms, {start}", ms(throw.struck_s)))];
     lines.extend(throw.launch.as_ref().map(|launch| ("launch", words.launch(launch))));
@@ -115,7 +115,7 @@ impl Words<'_> {
         let gone_m = throw.from_launch_m.unwrap_or(f64::NAN);
         let drag = drag_factor.map_or(String::new(), |factor| format!(": a drag factor of {}", number(factor, 2)));
         format!(
-            "{} to {} by the throw distance, with friction {} and a fall of {}; from a launch at its speed {} to {}, gone {}{drag}",
+            "{} to {} from the throw distance, with friction {} and a fall of {}; at its launch speed it would go {} to {}, it went {}{drag}",
             self.speed("searle_least_speed", slow),
             self.speed("searle_greatest_speed", fast),
             number(friction, 2),

@@ -28,7 +28,7 @@ pub(super) const SEGMENT: &[Of] = &[
             "acceleration",
             "accelerometer reading (acceleration minus gravity) at the centre of gravity of the {}",
         )
-        .field(7, "accelerometer", "what an accelerometer there reads: the same less gravity (item 2)")
+        .field(7, "accelerometer", "accelerometer reading: the same minus gravity (item 2)")
         .resultant(8, "accelerometer", "magnitude of the accelerometer's reading"),
     Of::vector(MetrePerSecondSquared, Axes::Segment, |(s, n)| s.cg_acceleration_m_s2(*n))
         .channel("kinematic_acceleration", "kinematic acceleration of the centre of gravity of the {}")
@@ -87,10 +87,10 @@ pub(super) const MOUNT: &[Instrument] = &[
         .channel("mount.moment", "moment of the mount on the segment that it holds, at the point where it holds it")
         .field(3, "moment", "moment on the segment that is held, at the point where it is held"),
     Instrument::vector(Newton, Axes::J211, |s| to_j211(carried(s).force_n))
-        .channel("mount.carried_force", "force of the segment that the mount holds on all that it carries: mount.force without what the segment's own mass and contacts ask")
+        .channel("mount.carried_force", "force of the mounted segment on everything that it carries: mount.force without the share of the segment's own mass and contacts")
         .field(4, "carried_force", "force of the segment that is held on all that it carries, without its own mass and contacts"),
     Instrument::vector(NewtonMetre, Axes::J211, |s| to_j211(carried(s).moment_n_m))
-        .channel("mount.carried_moment", "moment of the segment that the mount holds on all that it carries, at the point where it is held: mount.moment without what the segment's own mass and contacts ask")
+        .channel("mount.carried_moment", "moment of the mounted segment on everything that it carries, at the mounting point: mount.moment without the share of the segment's own mass and contacts")
         .field(5, "carried_moment", "moment of the segment that is held on all that it carries, at the point where it is held"),
 ];
 
@@ -116,7 +116,7 @@ const NECK: [Instrument; 2] = [
     Instrument::vector(Newton, Axes::J211, |s| read(s, instruments::NECK))
         .channel(
             "neck.force",
-            "upper neck force on the head at its joint: +x shear that pushes the head ahead, +z tension",
+            "upper neck force on the head at its joint: +x shear that pushes the head forward, +z tension",
         )
         .field(2, "neck_force", "upper neck force on the head at its joint, SAE J211 axes: +z tension"),
     Instrument::vector(NewtonMetre, Axes::J211, |s| read(s, instruments::NECK + 3))

@@ -35,7 +35,7 @@ pub(super) fn quantities(frame: MarkerFrame) -> [Of; 4] {
         MarkerFrame::Segment => (Axes::Vehicle, Axes::J211, SEGMENT),
     };
     [
-        Of::vector(Metre, place, |m| m[0]).channel("position", "place of the {}").field(2, "position", "place"),
+        Of::vector(Metre, place, |m| m[0]).channel("position", "position of the {}").field(2, "position", "place"),
         Of::vector(MetrePerSecond, others, |m| m[1]).channel("velocity", words[0]).field(3, "velocity", words[1]),
         Of::vector(MetrePerSecondSquared, others, |m| m[2]).channel("acceleration", words[2]).field(
             4,
@@ -62,7 +62,7 @@ const SEGMENT: [&str; 4] = [
     "absolute velocity of the {} along its segment",
     "absolute velocity along the segment",
     "accelerometer reading (acceleration minus gravity) of the {}",
-    "what an accelerometer there reads: acceleration less gravity",
+    "accelerometer reading: acceleration minus gravity",
 ];
 
 /// The place of a point at the start of the run, as a frame has it.

@@ -20,15 +20,15 @@ type Joined = Quantity<OfJoint>;
 pub(super) const SEGMENT: &[Of] = &[
     Of::vector(Radian, Axes::Vehicle, |(s, n)| from_upright(s, *n, &home_at_start(s, *n))).channel(
         "rotation",
-        "turn of the {} in space from upright and facing ahead, a rotation vector along the axes that the vehicle had at the start: +y leans its top back",
+        "rotation of the {} in space from upright and facing forward, as a rotation vector in the vehicle's initial axes: +y leans its top back",
     ),
     Of::vector(Radian, Axes::Vehicle, |(s, n)| from_upright(s, *n, &home(s, *n))).channel(
         "rotation_in_vehicle",
-        "turn of the {} as the vehicle sees it from upright and facing ahead, a rotation vector along the vehicle's axes: +y leans its top back",
+        "rotation of the {} relative to the vehicle from upright and facing forward, as a rotation vector in vehicle axes: +y leans its top back",
     ),
     Of::vector(Metre, Axes::Vehicle, |(s, n)| from_vehicle(s, *n)).channel(
         "level_position",
-        "place of the centre of gravity of the {} from the vehicle's origin, along the axes that the vehicle had at the start",
+        "position of the centre of gravity of the {} from the vehicle's origin, in the vehicle's initial axes",
     ),
 ];
 
@@ -36,7 +36,7 @@ pub(super) const SEGMENT: &[Of] = &[
 pub(super) const JOINT: &[Joined] =
     &[Joined::vector(Radian, Axes::J211, |(s, joint)| to_j211(in_joint(s, *joint))).channel(
         "rotation",
-        "turn of the distal segment of the {} against the proximal one, a rotation vector along the proximal one's SAE J211 axes",
+        "rotation of the distal segment of the {} relative to the proximal one, as a rotation vector in the proximal segment's SAE J211 axes",
     )];
 
 /// The home of a segment's body at the start.

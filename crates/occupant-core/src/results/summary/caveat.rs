@@ -66,7 +66,7 @@ impl Caveat {
             RunStatus::Interrupted => ("run_interrupted", "was interrupted"),
             RunStatus::Failed => ("run_failed", "failed"),
         };
-        let text = format!("the run {ended}: all figures are those up to {:.1} ms", 1e3 * reached_s);
+        let text = format!("the run {ended}: all results are up to {:.1} ms", 1e3 * reached_s);
         Some(Caveat::new(name, text, owned(&["*"])))
     }
 
@@ -74,7 +74,7 @@ impl Caveat {
     pub(super) fn not_at_rest(body: &str, throw: &Throw) -> Option<Self> {
         let figures = ["distance", "slide_distance", "from_launch", "height"].map(|name| format!("throw.{name}"));
         let text = format!(
-            "thrown, and still at {:.1} m/s when the run ends: its distances are those so far",
+            "thrown, and still moving at {:.1} m/s when the run ends: throw distances are those so far",
             throw.end_speed_m_s
         );
         (!throw.at_rest).then(|| Caveat::new("not_at_rest", text, figures.to_vec()).of_occupant(body))
@@ -88,8 +88,7 @@ impl Caveat {
     /// What a resumed run counts from its own start, `from_s`, on.
     pub(super) fn of_rest(from_s: f64, summary: &Summary) -> Self {
         let text = format!(
-            "the file resumes a run at {:.1} ms: peaks and measures are those of the whole run; events, throws, ejections and the signs of \
-             other caveats are those from there on",
+            "the file resumes a run at {:.1} ms: peaks and measures cover the whole run, but events, throws, ejections and other caveats only the time from there on",
             1e3 * from_s
         );
         let prefix = |name: &&str| if name.is_empty() { String::new() } else { format!("{name}.") };
@@ -111,8 +110,7 @@ impl Caveat {
     pub(super) fn of_rough_balance(energy: &EnergyCheck) -> Option<Self> {
         let is_rough = energy.balance == Balance::Kept && energy.balance_error > ROUGH;
         let text = format!(
-            "the energy balance is off by {:.2} % of the {}, where steps that are short enough keep it to {:.1} %: the figures may be those of the step, \
-             not of the scenario; a shorter step, error control or --estimate-error shows which hold",
+            "the energy balance is off by {:.2} % of the {}; short enough steps keep it within {:.1} %. Results may depend on the step: use a shorter step or error control, or check them with --estimate-error",
             1e2 * energy.balance_error,
             energy.reference,
             1e2 * ROUGH
@@ -129,7 +127,7 @@ impl Caveat {
         let acted = rates.iter().filter(|rate| !is_sphere(rate) || touched(rate));
         let worst = acted.min_by(|a, b| a.time_scale_s.total_cmp(&b.time_scale_s))?;
         let text = format!(
-            "the step of {:.4} ms is {:.1} times the time scale of {} ({}), where {most} times is the most that it bears: the figures are those of the step",
+            "the step of {:.4} ms is {:.1} times the time scale of {} ({}); the limit is {most} times. Results depend on the step",
             1e3 * step_s,
             step_s / worst.time_scale_s,
             worst.of,
@@ -141,8 +139,7 @@ impl Caveat {
     /// A sphere that friction on a surface may have made chatter, at a fixed step that is too long for it.
     pub fn chatters(sphere: &str, surface: &str, step_s: f64, time_s: f64) -> Self {
         let text = format!(
-            "friction of {sphere} on {surface} is too stiff for the step of {:.4} ms at {:.1} ms: the sphere may chatter, and what follows is that of \
-             the step; a shorter step, error control or --estimate-error shows which figures hold",
+            "friction of {sphere} on {surface} is too stiff for the step of {:.4} ms at {:.1} ms: the sphere may chatter, and later results depend on the step. Use a shorter step or error control, or check them with --estimate-error",
             1e3 * step_s,
             1e3 * time_s
         );
@@ -153,7 +150,7 @@ impl Caveat {
     pub fn undetermined(against: &str, changed: &[(String, f64)], figures: Vec<String>) -> Option<Self> {
         let (name, part) = changed.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
         let text = format!(
-            "{} figures are not determined: with {against} {name} differs by {:.0} %; quote what is stable in an ensemble (--ensemble)",
+            "{} results are not determined: with {against}, {name} differs by {:.0} %; quote only results that are stable in an ensemble (--ensemble)",
             changed.len(),
             1e2 * part
         );
@@ -163,8 +160,7 @@ impl Caveat {
     /// A body that does not rest where the run puts it, and its figures of the first 50 ms.
     pub(super) fn unbalanced(left: &Settled, early: Vec<String>) -> Self {
         let text = format!(
-            "the body does not rest at the start: {:.0} N are left over of a weight of {:.0} N, and figures of the first {:.0} ms are those of its way \
-             into balance; posture.settle = true mends it, or surfaces that just carry it",
+            "the body is not in balance at the start: a force of {:.0} N is left over (weight {:.0} N), so results of the first {:.0} ms show how it settles. Set posture.settle = true, or move the surfaces so that they just carry it",
             left.residual_force_n,
             left.weight_n,
             1e3 * Settled::FADES_S
@@ -181,7 +177,7 @@ impl Caveat {
         let [angle, stop] = [turned.angle_rad, turned.stop_rad].map(f64::to_degrees);
         let (at, name) = (at(turned.beyond), row.name.replace('_', " "));
         let seen = if turned.is_elastic {
-            format!("{angle:.0}° beyond its elastic limit {at}, where {stop:.0}° is the most")
+            format!("{angle:.0}° beyond its elastic limit {at}; {stop:.0}° is the most that is meaningful")
         } else {
             format!("{angle:.0}° {at}, the stop ends at {stop:.0}°")
         };
@@ -191,8 +187,7 @@ impl Caveat {
 
     /// A neck of one joint that has the limit of one of two.
     pub(super) fn half_a_neck() -> Self {
-        let text = "neck of the gebod or the person preset, the limit of one of two joints in the only one: 218 and 178 N·m at 52° and 44° where 88 to \
-                    108 N·m at 64° to 78° are asked in the pendulum test of 49 CFR 572.33; neck figures are not to be quoted";
+        let text = "a one-joint neck with the limits of a two-joint one (preset gebod or person): 218 and 178 N·m at 52° and 44°, instead of 88 to 108 N·m at 64° to 78° in the pendulum test of 49 CFR 572.33. Do not quote neck results";
         Caveat::new("neck_of_gebod", text.to_owned(), owned(&["nij", "neck_*"]))
     }
 
@@ -204,7 +199,12 @@ impl Caveat {
 
     /// A sphere that went deeper into a surface than anything gives way.
     pub(super) fn too_deep(body: &Body, sphere: usize, surface: &str, depth: Peak, most_m: f64) -> Self {
-        let seen = format!("{} deep in {surface} {}, where {} is the most", mm(depth.value), at(depth), mm(most_m));
+        let seen = format!(
+            "{} deep in {surface} {}; {} is the most that is meaningful",
+            mm(depth.value),
+            at(depth),
+            mm(most_m)
+        );
         Caveat::of_sphere(body, sphere, "too_deep", seen)
     }
 
@@ -219,14 +219,17 @@ impl Caveat {
     pub(super) fn beyond_curve(body: &Body, sphere: usize, surface: &str, beyond: Peak, last_m: f64) -> Self {
         let (deep, last) = (mm(last_m + beyond.value), mm(last_m));
         let seen =
-            format!("{deep} deep in {surface} {}, the last point of its force function is at {last}", at(beyond));
+            format!("{deep} deep in {surface} {}, beyond the last point of its force function at {last}", at(beyond));
         Caveat::of_sphere(body, sphere, "beyond_curve", seen)
     }
 
     /// Webbing that was stretched beyond the last point of its curve.
     pub(super) fn stretched(strap: &str, beyond: Peak, last: f64) -> Self {
         let [strain, last] = [last + beyond.value, last].map(|strain| 1e2 * strain);
-        let seen = format!("webbing {strap} stretched by {strain:.1} % {}, its curve ends at {last:.1} %", at(beyond));
+        let seen = format!(
+            "webbing {strap} stretched by {strain:.1} % {}, beyond the end of its curve at {last:.1} %",
+            at(beyond)
+        );
         let text = format!("{seen}; {}", not_to_be_quoted("its"));
         Caveat::new(format!("{strap}_stretched"), text, vec![format!("straps.{}.*", word(strap))])
     }
@@ -234,7 +237,7 @@ impl Caveat {
     /// A limiter that gave more webbing than its curve says.
     pub(super) fn run_out(belt: &str, beyond: Peak, last_m: f64) -> Self {
         let (way, last) = (mm(last_m + beyond.value), mm(last_m));
-        let seen = format!("limiter of {belt} bottomed at {way} {}, its curve ends at {last}", at(beyond));
+        let seen = format!("limiter of {belt} bottomed out at {way} {}; its curve ends at {last}", at(beyond));
         let text = format!("{seen}; {}", not_to_be_quoted("the belt's"));
         Caveat::new(format!("{belt}_limiter_bottomed"), text, vec![format!("straps.{}_*", word(belt))])
     }
@@ -248,8 +251,7 @@ impl Caveat {
         let belt = &chain.belt;
         let side = if wing > 1.5 { "right" } else { "left" };
         let text = format!(
-            "the belt {belt} left the {side} iliac wing at {:.1} ms and lies on the abdomen: submarining, which is no better restraint for loads that fall; \
-             the wing's place is a guess; {}",
+            "the belt {belt} left the {side} iliac wing at {:.1} ms and lies on the abdomen: submarining. Lower loads here do not mean better restraint. The position of the wing is an estimate; {}",
             1e3 * time_s,
             not_to_be_quoted("the belt's, pelvis and chest")
         );
@@ -263,8 +265,7 @@ impl Caveat {
     pub(super) fn would_submarine(body: &Body, sphere: usize, belts: &str, own: Vec<String>, time_s: f64) -> Self {
         let part = &body.spheres[sphere];
         let text = format!(
-            "the pull of {belts} on {} would have drawn it up over the crests of the iliac wings by {:.1} ms: submarining, which a belt round a sphere \
-             cannot show; the wings' place is a guess; {}",
+            "the pull of {belts} on {} would have drawn it over the iliac crests by {:.1} ms: submarining, which a belt round a sphere cannot show. The position of the wings is an estimate; {}",
             part.name,
             1e3 * time_s,
             not_to_be_quoted("the belt's, pelvis and chest")
@@ -281,7 +282,7 @@ impl Caveat {
             Known::Last(last_m) => format!("beyond {}, where its force ends", mm(last_m)),
         };
         let text = format!(
-            "{plate} is pressed in by {}, {seen}, {}: no data reach there; {}",
+            "{plate} is pressed in by {}, {seen}, {}: beyond all test data; {}",
             mm(most.value),
             at(most),
             not_to_be_quoted("its")
@@ -289,28 +290,22 @@ impl Caveat {
         Caveat::new(format!("{plate}_too_deep"), text, vec![format!("plates.{plate}.*")])
     }
 
-    /// A chest that gives way.
+    /// How far a chest that gives way may be believed. It is told of every run, so that it marks no figure by itself.
     pub(super) fn of_chest(chest: &Chest) -> Self {
         let of = match chest.preset.as_str() {
             "own" => return Caveat::own_chest(chest),
-            "person" => "of a person, fitted to hub tests of dead men at 4.3 and 6.7 m/s",
+            "person" => "of a person, fitted to hub tests of cadavers at 4.3 and 6.7 m/s",
             _ => "of a dummy, fitted to one hub test",
         };
         let text = format!(
-            "chest {of}; under belts and bags one constant share of their force bears on the breastbone, a deflection goes with it (0.2 to 0.5 is its range); nothing is known from the side, from behind, of broken ribs"
+            "chest {of}. Under belts and bags, a constant share of their force (0.2 to 0.5 is plausible) bears on the breastbone, and the deflection depends on it. Not valid for loads from the side or from behind, or for broken ribs"
         );
-        Caveat::new("chest_of_one_share", text, vec!["plates.*".to_owned()]).of_occupant_text(&chest.of)
+        Caveat::new("chest_of_one_share", text, Vec::new()).with_subject(&chest.of)
     }
 
     fn own_chest(chest: &Chest) -> Self {
-        let text = "chest of the scenario's own numbers; under belts and bags one constant share of their force bears on the breastbone";
-        Caveat::new("chest_of_one_share", text.to_owned(), vec!["plates.*".to_owned()]).of_occupant_text(&chest.of)
-    }
-
-    /// The same of one of several occupants, whose figures stand among those of all.
-    fn of_occupant_text(self, name: &str) -> Self {
-        let figures = if name.is_empty() { self.figures.clone() } else { vec![format!("plates.{}*", word(name))] };
-        Caveat { figures, ..self }.with_subject(name)
+        let text = "chest with the scenario's own values; under belts and bags, a constant share of their force bears on the breastbone";
+        Caveat::new("chest_of_one_share", text.to_owned(), Vec::new()).with_subject(&chest.of)
     }
 
     /// A column that stroked farther than its force is known.
@@ -318,12 +313,18 @@ impl Caveat {
         let shown = |x: f64| if *turns { format!("{:.1}°", x.to_degrees()) } else { mm(x) };
         let (way, last) = (shown(last + beyond.value), shown(last));
         if *turns {
-            let text =
-                format!("{column} turned {way} {}, its moment ends at {last}; {}", at(beyond), not_to_be_quoted("its"));
+            let text = format!(
+                "{column} turned {way} {}, beyond the end of its moment curve at {last}; {}",
+                at(beyond),
+                not_to_be_quoted("its")
+            );
             return Caveat::new(format!("{column}_beyond_turn"), text, vec![format!("hinges.{column}.*")]);
         }
-        let text =
-            format!("{column} stroked {way} {}, its force ends at {last}; {}", at(beyond), not_to_be_quoted("its"));
+        let text = format!(
+            "{column} stroked {way} {}, beyond the end of its force curve at {last}; {}",
+            at(beyond),
+            not_to_be_quoted("its")
+        );
         Caveat::new(format!("{column}_beyond_stroke"), text, vec![format!("columns.{column}.*")])
     }
 
@@ -332,10 +333,10 @@ impl Caveat {
         let at = format!("at {:.1} ms", 1e3 * time_s);
         let seen = if sign == "caught" {
             format!(
-                "was within the bag {bag} when it fired, {at}: of its blow as it unfolds nothing but a guess is known"
+                "was inside the space of the bag {bag} when it fired, {at}; of the forces of unfolding only a guess is known"
             )
         } else {
-            format!("pressed the bag {bag} in as far as its mount or its middle {at}")
+            format!("pressed the bag {bag} in as far as its mount or its centre {at}")
         };
         Caveat::of_sphere(body, sphere, sign, seen)
     }
@@ -350,7 +351,7 @@ impl Caveat {
     pub(super) fn left_compartment(body: &Body, sphere: usize, exit: &Exit) -> Self {
         let past = exit.past.as_ref().map_or(String::new(), |past| format!(", past {past}"));
         let seen = format!(
-            "left the modelled compartment {} at {:.1} ms{past}: nothing stands there that would have met it",
+            "left the modelled compartment {} at {:.1} ms{past}: the scenario has nothing there that it would have hit",
             exit.side.words(),
             1e3 * exit.time_s
         );
@@ -363,7 +364,7 @@ impl Caveat {
         let (label, of) = (worst.label, cut.len());
         let others = if of == 1 { String::new() } else { format!(" and {} more", of - 1) };
         let text = format!(
-            "{label}{others}: the greatest value stands in a window that ends with the run, at {:.1} ms; a longer run may find a greater one",
+            "{label}{others}: the peak is at the end of the run, {:.1} ms; a longer run may have a higher one",
             1e3 * reached_s
         );
         Some(Caveat::new("window_at_end", text, names_of(cut.iter().copied())))
@@ -379,8 +380,7 @@ impl Caveat {
     pub(super) fn by_chance(ejection: &Ejection, later: Vec<String>) -> Option<Self> {
         let first = ejection.parts.first()?;
         let text = format!(
-            "who leaves his seat tumbles: whether and what is ejected ({} first, at {:.1} ms), and what comes after, may be chance in one run; \
-             --estimate-error shows what is not determined, --ensemble what is stable",
+            "an occupant who leaves the seat tumbles: ejection ({} first, at {:.1} ms) and what follows may be chance in a single run; --estimate-error shows what is not determined, --ensemble what is stable",
             first.part.rsplit('.').next().unwrap_or_default().replace('_', " "),
             1e3 * first.time_s
         );
@@ -412,14 +412,14 @@ impl Caveat {
         let of_measures = worst.map(|(worst, most)| {
             let (count, label, percent) = (off.len(), worst.label, 100.0 * most);
             let measures = if count == 1 { "measure" } else { "measures" };
-            format!("{count} {measures}: without every other {readings} {label} changes by {percent:.0} %")
+            format!("{count} {measures}: with every other {readings} left out, {label} changes by {percent:.0} %")
         });
         let is_apart = interval_s > APART_S && !are_of_steps;
-        let of_peaks = is_apart.then(|| "peaks of forces, depths and places, which ask for 2 ms at most".to_owned());
+        let of_peaks = is_apart.then(|| "peaks of forces, depths and positions, which need 2 ms or less".to_owned());
         let spoiled: Vec<String> = of_peaks.into_iter().chain(of_measures).collect();
         let mends = if are_of_steps { "a shorter step" } else { "a shorter output.interval" };
         let text = format!(
-            "{readings}s every {} ms are too coarse for {}; {mends} mends it, or `measures --interval`",
+            "{readings}s every {} ms are too coarse for {}; use {mends}, or `measures --interval`",
             (1e9 * interval_s).round() / 1e6,
             spoiled.join(", and for ")
         );
@@ -432,7 +432,7 @@ impl Caveat {
     pub(super) fn other_dummy(dummy: Dummy, mass_kg: f64, measures: &[Measure]) -> Option<Self> {
         let differs = (mass_kg / dummy.mass_kg() - 1.0).abs() > 0.2;
         let text = format!(
-            "limits and risks are those of a {} of {:.0} kg, the body has {mass_kg:.0} kg: neither holds for it",
+            "limits and risks are for a {} of {:.0} kg; the body has {mass_kg:.0} kg, so neither applies",
             dummy.name(),
             dummy.mass_kg()
         );
@@ -454,7 +454,7 @@ pub(super) struct Turned {
 }
 
 fn not_to_be_quoted(of: &str) -> String {
-    format!("{of} figures are not to be quoted")
+    format!("do not quote {of} results")
 }
 
 fn at(peak: Peak) -> String {

@@ -241,7 +241,7 @@ fn room(summarizer: &mut Summarizer) -> Vec<usize> {
 fn limits_of_another_dummy_are_marked() {
     let model = falling(floor(), 0.02);
     let caveats = |dummy| {
-        let mut summarizer = Summarizer::judging(Options { dummy, ..Options::default() });
+        let mut summarizer = Summarizer::judging(Options::default().with(dummy));
         simulate(&model, &mut summarizer).unwrap();
         summarizer.summary(None).unwrap().caveats
     };
@@ -256,7 +256,7 @@ fn a_balance_that_short_steps_would_keep_better_marks_every_figure() {
     use crate::results::energy::{Balance, EnergyCheck};
     let check = |balance_error| EnergyCheck {
         balance_error,
-        reference: "greatest kinetic energy in the vehicle",
+        reference: "largest kinetic energy relative to the vehicle",
         reference_j: 4403.0,
         greatest_kinetic_j: 4403.0,
         balance: Balance::Kept,

@@ -27,8 +27,7 @@ pub(super) fn absurd(motion: &Motion, column: &Column) -> Option<String> {
     let count = column.values.iter().filter(beyond).count();
     let at = column.values.iter().position(|value| beyond(&value))?;
     Some(format!(
-        "{} is {} {} at {} s and {count} time{} beyond {} {}, what no vehicle's sensor reads: a mark of missing values, or another unit? Cells of \
-         missing values are to be empty, and --bridge bridges them; --columns says the unit",
+        "{} is {} {} at {} s and {count} time{} beyond {} {}, more than any vehicle sensor reads. If it marks missing values, leave those cells empty and use --bridge; if the unit is wrong, give it with --columns",
         column.name,
         number(column.values[at]),
         column.unit,
@@ -78,13 +77,13 @@ pub(super) fn held(motion: &Motion) -> Option<String> {
     let is_zero = same.iter().all(|column| column.values[a] == 0.0);
     let names: Vec<&str> = same.iter().map(|column| column.name).collect();
     Some(format!(
-        "{} {} from {} s to {} s, {} samples, and go{} on with a jump: were samples lost there? If so, empty those cells, and --bridge bridges them",
+        "{} {} from {} s to {} s, {} samples, and continue{} with a jump. If samples were lost there, empty those cells and use --bridge",
         names.join(", "),
         match (is_zero, same.len()) {
             (true, 1) => "is 0",
             (true, _) => "are 0",
-            (false, 1) => "stays at one value",
-            (false, _) => "stay at one value",
+            (false, 1) => "is constant",
+            (false, _) => "are constant",
         },
         number(motion.time_s[a]),
         number(motion.time_s[b]),

@@ -64,7 +64,7 @@ pub fn doubts(motion: &Motion, known: Known) -> Vec<String> {
         MotionKind::Places => {
             if !["x", "y"].into_iter().any(|name| motion.has(name)) {
                 said.push(format!(
-                    "no column is x or y, the vehicle is taken to turn on the spot: --columns names them, such as 't[s],x[m],y[m]'; read were {}",
+                    "there is no column x or y, so the vehicle turns on the spot. Name them with --columns, such as 't[s],x[m],y[m]'; columns read: {}",
                     motion.signals.join(", ")
                 ));
             }
@@ -85,8 +85,7 @@ fn is_rate(column: &Column) -> bool {
 fn clipped(column: &Column, time_s: &[f64]) -> Option<String> {
     let found = plateau(&column.values)?;
     Some(format!(
-        "{} stands on its extreme, {} {}, in {} samples, from {} s on {} in a row: a sensor at the end of its range? What is measured may be too low, \
-         and only another sensor mends that (--at, --columns)",
+        "{} reads its extreme, {} {}, in {} samples, from {} s on {} in a row. If the sensor was clipped, results may be too low; use another sensor (--at, --columns)",
         column.name,
         number(found.value),
         column.unit,
@@ -106,8 +105,7 @@ fn struck_from_behind(ax: &[f64], time_s: &[f64]) -> Option<String> {
     let gain = integral(ax, time_s);
     (gain > GAIN_M_S).then(|| {
         format!(
-            "the vehicle becomes faster by {} km/h, as one that is struck from behind: if x points to the back, turn its sign by --columns, such as \
-             't[s],-ax[g]'",
+            "the vehicle gains {} km/h, as in a rear impact. If x points backwards, reverse its sign with --columns, such as 't[s],-ax[g]'",
             number((gain * 36.0).round() / 10.0)
         )
     })
@@ -123,8 +121,7 @@ fn gains_speed(changes: &[f64]) -> Option<String> {
     let least = changes.iter().copied().fold(0.0, f64::min);
     (most > 1.5 && least > -0.1 * most).then(|| {
         format!(
-            "the vehicle becomes faster by {} km/h, as one that is struck from behind: if the table gives the loss of speed as a positive number, turn \
-             its sign by --columns, such as 't[ms],-dvx[km/h]'",
+            "the vehicle gains {} km/h, as in a rear impact. If the table gives a loss of speed as a positive number, reverse its sign with --columns, such as 't[ms],-dvx[km/h]'",
             number((most * 36.0).round() / 10.0)
         )
     })
@@ -134,7 +131,7 @@ fn backwards(change_m_s: f64, known: Known) -> Option<String> {
     let end_m_s = known.speed_m_s? + change_m_s;
     (end_m_s < -2.0 && known.speed_m_s? > 0.0).then(|| {
         format!(
-            "the vehicle goes backwards at {} km/h at the end: is the speed too low, or the sign of the record wrong?",
+            "the vehicle moves backwards at {} km/h at the end: check the initial speed and the sign of the record",
             number((-end_m_s * 36.0).round() / 10.0)
         )
     })
@@ -197,7 +194,7 @@ mod tests {
         let zeros = said(&[("ax", "g", G, &|t| lost(t, 0.0)), ("ay", "g", G, &|t| lost(t, 0.0))]);
         assert!(zeros.contains("ax, ay are 0 from 0.02 s to 0.0299 s, 100 samples"), "{zeros}");
         let last = said(&[("ax", "g", G, &|t| lost(t, -6.0)), ("wz", "deg/s", 0.01745, &|t| 9.0 * noise(t))]);
-        assert!(last.contains("ax stays at one value from 0.02 s"), "{last}");
+        assert!(last.contains("ax is constant from 0.02 s"), "{last}");
         let marked = said(&[("ax", "g", G, &|t| lost(t, 99_999.0))]);
         assert!(marked.contains("ax is 99999 g at 0.02 s and 100 times beyond 2000 g"), "{marked}");
         assert!(!marked.contains("becomes faster") && !marked.contains("m/s^2"), "{marked}");

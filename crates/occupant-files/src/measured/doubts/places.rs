@@ -21,10 +21,7 @@ pub(super) fn late(motion: &Motion) -> Option<String> {
     let all: Vec<usize> = motion.time_s.windows(2).enumerate().filter(|(_, pair)| odd(pair)).map(|(i, _)| i).collect();
     let [before, after] = all[..] else { return None };
     (after == before + 1 && motion.time_s.len() > 10).then(|| {
-        format!(
-            "the time {} s is out of step with all others: a slip? If so, mend it, or take its row out",
-            number(motion.time_s[after])
-        )
+        format!("the time {} s does not fit the others: correct it, or remove its row", number(motion.time_s[after]))
     })
 }
 
@@ -44,7 +41,7 @@ pub(super) fn rounded(motion: &Motion, known: Known) -> Option<String> {
     let cutoff = CUTOFFS_HZ.iter().find(fits).copied().unwrap_or(CUTOFFS_HZ[CUTOFFS_HZ.len() - 1]);
     let left = worst(Some(cutoff)).map_or(0.0, |(noise, _)| noise / G);
     Some(format!(
-        "{} is rounded to {} {} every {} ms: that alone is {:.2} g of noise in accelerations; --filter '{cutoff} Hz' leaves {left:.2} g of it",
+        "{} is rounded to {} {} every {} ms, which alone makes {:.2} g of noise in accelerations; --filter '{cutoff} Hz' reduces it to {left:.2} g",
         column.name,
         number(steps[i]? / column.factor),
         column.unit,
@@ -72,7 +69,7 @@ pub(super) fn smoothed(motion: &Motion, known: Known) -> Option<String> {
     let all = places.filter_map(|column| Some((apart(column)?, column.name)));
     let (most, name) = all.max_by(|a, b| a.0.total_cmp(&b.0))?;
     Some(format!(
-        "places are smoothed from {} Hz on; from {} Hz on, accelerations along {name} would be up to {:.2} g more or less: so much they depend on the choice",
+        "positions are smoothed above {} Hz; with {} Hz, accelerations along {name} would differ by up to {:.2} g",
         number(hertz),
         number(1.5 * hertz),
         most / G
@@ -126,7 +123,7 @@ pub(super) fn turned(motion: &Motion) -> Option<String> {
         && turn.abs() < 2.5
         && moved(0, part).min(moved(last - part, last)) > 3.0;
     (clear && turn * own < 0.0 && (turn + own).abs() < 0.5 * turn.abs()).then(|| {
-        "yaw turns against the course of the places: are their axes others? --columns turns a sign, such as '-yaw[deg]'".to_owned()
+        "yaw turns opposite to the course of the positions: check the axes; reverse a sign with --columns, such as '-yaw[deg]'".to_owned()
     })
 }
 
@@ -142,13 +139,13 @@ pub(super) fn across(motion: &Motion) -> Option<String> {
     let beside = (turn.sin().atan2(turn.cos())).to_degrees();
     (speed_m_s > ACROSS.0 && beside.abs() > ACROSS.1).then(|| {
         let goes = format!(
-            "at its beginning the vehicle goes at {} km/h, {} deg beside where it points",
+            "at the start the vehicle moves at {} km/h, {} deg off its heading",
             number((3.6 * speed_m_s).round()),
             number(beside.abs().round())
         );
         let mend = match yaw {
-            None => "no column is its yaw: --columns names it, such as '…,yaw[deg]'",
-            Some(_) => "does it slide, or is its yaw counted from another axis? --columns exchanges x and y, or turns a sign, such as '-yaw[deg]'",
+            None => "there is no yaw column; name it with --columns, such as '…,yaw[deg]'",
+            Some(_) => "if it does not slide, yaw counts from another axis: with --columns exchange x and y, or reverse a sign, such as '-yaw[deg]'",
         };
         format!("{goes}; {mend}")
     })

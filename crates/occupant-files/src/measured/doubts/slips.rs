@@ -70,7 +70,7 @@ pub(super) fn slip(motion: &Motion, column: &Column) -> Option<String> {
 
 fn words_of_slip(motion: &Motion, column: &Column, row: usize) -> String {
     format!(
-        "{} jumps in one row, at {} s to {} {}: a slip? If so, take that value out, and --bridge bridges it",
+        "{} jumps in one row, at {} s to {} {}. If it is a mistake, empty that cell and use --bridge",
         column.name,
         number(motion.time_s[row]),
         number(column.values[row]),
@@ -90,14 +90,12 @@ fn flaw_of_places(motion: &Motion, column: &Column) -> Option<String> {
         Flaw::Slip | Flaw::Step if size_m < SPIKE_M_S2 * dt_s * dt_s => None,
         Flaw::Slip => Some(format!("{} (off by {} {})", words_of_slip(motion, column, row), round(size), column.unit)),
         Flaw::Step => Some(format!(
-            "{name} steps by {} {} between the rows before {at} s and at it: two parts put together? Accelerations there are those of the step; \
-             --from and --to take a part",
+            "{name} steps by {} {} at {at} s, as if two records were joined. Accelerations there are those of the step; select a part with --from and --to",
             round(size),
             column.unit
         )),
         Flaw::Kink if is_length && size_m / dt_s > KINK_M_S => Some(format!(
-            "the velocity along {name} changes by {:.1} m/s within the row at {at} s: a blow computed without time, or rows too far apart for it? \
-             Accelerations there are those of the curve through the rows",
+            "the velocity along {name} changes by {:.1} m/s within the row at {at} s: an instantaneous impact, or rows too far apart. Accelerations there are those of the curve through the rows",
             size * column.factor / dt_s
         )),
         Flaw::Kink => None,

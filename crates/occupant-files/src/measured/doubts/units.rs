@@ -35,7 +35,7 @@ pub(super) fn wrong_unit(column: &Column, time_s: &[f64]) -> Option<String> {
             }
             () => return None,
         };
-        return Some(format!("{name} in {unit} {why}: is it in {other}? --columns says so, such as '{name}{mend}'"));
+        return Some(format!("{name} in {unit} {why}: if it is in {other}, use --columns, such as '{name}{mend}'"));
     }
     let start = rest(time_s, None).map(|[from, to]| mean(&column.values[from..to]))?;
     let stands_at = |value: f64| (start.abs() / value - 1.0).abs() < 0.03;
@@ -47,7 +47,7 @@ pub(super) fn wrong_unit(column: &Column, time_s: &[f64]) -> Option<String> {
             true => format!("begins at {} {unit}", number((start * 1e3).round() / 1e3)),
             false => format!("changes the velocity by {} km/h", number((whole * 3.6).round())),
         };
-        format!("{name} in {unit} {why}: is it in {other}? --columns says so, such as '{name}[{other}]'")
+        format!("{name} in {unit} {why}: if it is in {other}, use --columns, such as '{name}[{other}]'")
     })
 }
 
@@ -72,7 +72,7 @@ pub(super) fn weak(motion: &Motion) -> Option<String> {
     let most = all.iter().map(|column| strongest(column, &motion.time_s)).fold(0.0, f64::max);
     (WEAK_M_S2[0]..WEAK_M_S2[1]).contains(&most).then(|| {
         format!(
-            "no acceleration goes beyond {:.1} g (mean of 10 ms): are they in g? --columns says so, such as '{}[g]'",
+            "no acceleration exceeds {:.1} g (mean of 10 ms): if they are in g, use --columns, such as '{}[g]'",
             most / G,
             all[0].name
         )
@@ -86,7 +86,7 @@ pub(super) fn slow(motion: &Motion) -> Option<String> {
     let aside = integral(&motion.si("ay")?, &motion.time_s).abs();
     (0.05 * SLOW.0 < most && most < SLOW.0 && aside > SLOW.1).then(|| {
         format!(
-            "the velocity changes by {} km/h to the side, and no rate goes beyond {:.1} deg/s (mean of 10 ms): are they in rad/s? --columns says so, such as '{}[rad/s]'",
+            "the velocity changes by {} km/h laterally, and no rate exceeds {:.1} deg/s (mean of 10 ms): if rates are in rad/s, use --columns, such as '{}[rad/s]'",
             number((aside * 3.6).round()),
             most.to_degrees(),
             all[0].name
@@ -109,7 +109,7 @@ pub(super) fn rough(motion: &Motion) -> Option<String> {
     let names: Vec<&str> = all.iter().map(|(column, _)| column.name).collect();
     let half = number(0.5 * step);
     Some(format!(
-        "{} are rounded to {} {unit}: what stays below {half} {unit} is lost; `risk --sensor-error offset='{half} {unit}'` gives the measures with intervals",
+        "{} are rounded to {} {unit}: anything below {half} {unit} is lost; `occupant risk --sensor-error offset='{half} {unit}'` gives intervals for the measures",
         names.join(", "),
         number(*step),
         unit = column.unit

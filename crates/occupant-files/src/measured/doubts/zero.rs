@@ -58,7 +58,7 @@ pub(super) fn zero_errors(motion: &Motion, known: Known, said: &mut Vec<String>)
     let ms = number((length_s * 1e3).round());
     if !offsets.is_empty() && !known.baseline[0] {
         said.push(format!(
-            "at rest before first contact the record reads {}: --baseline '{ms} ms' takes that away",
+            "at rest before first contact the record reads {}: remove it with --baseline '{ms} ms'",
             offsets.join(", ")
         ));
     }
@@ -66,7 +66,7 @@ pub(super) fn zero_errors(motion: &Motion, known: Known, said: &mut Vec<String>)
     let drifted = ["az", "wx", "wy"].into_iter().any(has) || has("ay") != has("wz");
     if drifted && still && !known.baseline[1] {
         said.push(format!(
-            "from its beginning to its end, as quiet, the record goes by {}: if the vehicle stands still there, --baseline '{ms} ms' --baseline-end '{ms} ms' takes the drift away",
+            "between its quiet start and end the record drifts by {}: if the vehicle is at rest in both, remove the drift with --baseline '{ms} ms' --baseline-end '{ms} ms'",
             drifts.join(", ")
         ));
     }

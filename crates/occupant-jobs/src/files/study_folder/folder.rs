@@ -90,11 +90,7 @@ impl Folder {
 
     /// What was done, unless the folder was taken away with it.
     pub fn still(&self, done: String) -> String {
-        if self.manifest_path().exists() {
-            done
-        } else {
-            format!("nothing is left: {} was removed", self.path.display())
-        }
+        if self.manifest_path().exists() { done } else { format!("{} was removed", self.path.display()) }
     }
 
     /// The file of the rows so far.
@@ -149,13 +145,13 @@ impl Folder {
         let read = serde_json::from_slice(&bytes).map_err(|error| error.to_string());
         let possible = |manifest: Manifest| match manifest.samples {
             0..=MOST_RUNS => match manifest.texts.iter().find(|text| !stays_within(&text.copy)) {
-                Some(text) => Err(format!("`copy` is {}, which is no file of the folder", text.copy)),
+                Some(text) => Err(format!("`copy` is {}, which is not a file of the folder", text.copy)),
                 None => Ok(manifest),
             },
-            n => Err(format!("`samples` is {n}, and there are at most {MOST_RUNS}")),
+            n => Err(format!("`samples` is {n}; at most {MOST_RUNS} are possible")),
         };
         read.and_then(possible).map(Some).map_err(|error| Problem::Damaged {
-            found: format!("is no manifest of a {}: {error}", self.holds.word),
+            found: format!("is not the manifest of a {}: {error}", self.holds.word),
             path,
         })
     }

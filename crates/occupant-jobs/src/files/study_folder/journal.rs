@@ -270,7 +270,7 @@ impl Journal {
     fn piece(&self, path: &Path) -> Result<(Vec<Row>, bool), Problem> {
         let damaged = |found: &str| Problem::Damaged { path: path.to_owned(), found: found.to_owned() };
         if fs::metadata(path).is_ok_and(|file| file.len() > LARGEST || !file.is_file()) {
-            return Err(damaged("is larger than any piece of a journal, or no file"));
+            return Err(damaged("is too large for a piece of a journal, or not a file"));
         }
         let bytes = fs::read(path).map_err(Problem::io("read", path))?;
         let end = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);
@@ -280,7 +280,7 @@ impl Journal {
             return Ok((Vec::new(), torn));
         };
         match held_by::<Head>(head) {
-            None => return Err(damaged("is no piece of a journal")),
+            None => return Err(damaged("is not a piece of a journal")),
             Some(head) if head.rows_of != self.manifest_sha256 => {
                 return Err(damaged("is a piece of another sweep's journal"));
             }
@@ -288,7 +288,7 @@ impl Journal {
         }
         let row = |(i, line)| {
             let row = held_by(line).filter(|row: &Row| row.index < self.samples);
-            row.ok_or_else(|| damaged(&format!("holds a row that is none of this sweep, in line {}", i + 2)))
+            row.ok_or_else(|| damaged(&format!("has a row of another sweep in line {}", i + 2)))
         };
         Ok((lines.enumerate().map(row).collect::<Result<_, _>>()?, torn))
     }

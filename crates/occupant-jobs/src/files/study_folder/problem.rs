@@ -19,13 +19,13 @@ pub enum Problem {
     #[error(transparent)]
     File(#[from] FileProblem),
     /// Something of that name that is no folder of ours.
-    #[error("{} exists and is not of this sweep\n = help: name a new folder, or an empty one", .path.display())]
+    #[error("{} exists and does not belong to this sweep\n = help: choose a new folder or an empty one", .path.display())]
     Exists {
         /// The file.
         path: PathBuf,
     },
     /// There are files, but none of ours.
-    #[error("{} holds files that are no {}'s\n = help: name a new folder, or an empty one", .folder.display(), .holds.word)]
+    #[error("{} contains files that do not belong to a {}\n = help: choose a new folder or an empty one", .folder.display(), .holds.word)]
     NotOurs {
         /// The folder.
         folder: PathBuf,
@@ -34,8 +34,7 @@ pub enum Problem {
     },
     /// The folder holds something else, or the same of another version; a line for each difference.
     #[error(
-        "{} holds another {} (there → here):\n   {}\n = help: name another folder, or compute everything anew with \
-         --restart, which removes the results that are there",
+        "{} contains another {} (there → here):\n   {}\n = help: choose another folder, or start again with --restart, which removes the old results",
         .folder.display(), .holds.word, .differences.join("\n   ")
     )]
     Differs {
@@ -48,8 +47,7 @@ pub enum Problem {
     },
     /// A file of the folder is not what it should be.
     #[error(
-        "{} {found}\n = help: give the same command of `occupant sweep` or `occupant fit` again: what is damaged is made \
-         again", .path.display()
+        "{} {found}\n = help: run the same `occupant sweep` or `occupant fit` command again to repair it", .path.display()
     )]
     Damaged {
         /// The file.
@@ -59,15 +57,14 @@ pub enum Problem {
     },
     /// A file of results was damaged, and what came after has not made it again.
     #[error(
-        "{} is not what was written and was not made again\n = help: remove the file, or compute everything anew with \
-         --restart", .path.display()
+        "{} was changed after it was written, and was not repaired\n = help: remove the file, or start again with --restart", .path.display()
     )]
     Unmended {
         /// The file.
         path: PathBuf,
     },
     /// Another process is at work there.
-    #[error("another process is at work in {}: it {doing}\n = help: wait for it, or name another folder", .folder.display())]
+    #[error("another process is working in {}: it {doing}\n = help: wait for it, or choose another folder", .folder.display())]
     Busy {
         /// The folder.
         folder: PathBuf,
@@ -76,7 +73,7 @@ pub enum Problem {
     },
     /// Samples are not finished; shards that have begun and how many samples each lacks.
     #[error(
-        "{}\n = help: give the same command of `occupant sweep` again: it resumes with what is there",
+        "{}\n = help: run the same `occupant sweep` command again to resume",
         incomplete(.gaps, .samples, .shards)
     )]
     Incomplete {
@@ -89,8 +86,7 @@ pub enum Problem {
     },
     /// Two results of one sample disagree.
     #[error(
-        "sample {index} has one result in {} and another in {}\n = help: the results were computed by programs or \
-         machines that do not agree; compute them anew with --restart", .first.display(), .second.display()
+        "sample {index} has one result in {} and another in {}\n = help: the results come from programs or machines that do not agree; start again with --restart", .first.display(), .second.display()
     )]
     Disagree {
         /// Number of the sample.

@@ -19,11 +19,12 @@ impl Shard {
     /// # Errors
     /// What is wrong with it.
     pub fn parse(text: &str) -> Result<Shard, String> {
-        let form = "a part and how many there are, such as 3/8";
-        let (number, count) = text.split_once('/').ok_or_else(|| format!("`{text}` is no shard; expected {form}"))?;
+        let form = "part/number of parts, such as 3/8";
+        let (number, count) =
+            text.split_once('/').ok_or_else(|| format!("`{text}` is not a shard; expected {form}"))?;
         let read = |word: &str| {
             let word = word.trim();
-            word.parse::<u64>().map_err(|_| format!("`{word}` in `{text}` is no whole number; expected {form}"))
+            word.parse::<u64>().map_err(|_| format!("`{word}` in `{text}` is not a whole number; expected {form}"))
         };
         Shard::new(read(number)?, read(count)?)
     }
@@ -47,8 +48,9 @@ impl Shard {
             return Ok(Some((shard, "OCCUPANT_SHARD")));
         }
         let number = |name: &str| {
-            let read =
-                |text: String| text.trim().parse::<u64>().map_err(|_| format!("{name}: `{text}` is no whole number"));
+            let read = |text: String| {
+                text.trim().parse::<u64>().map_err(|_| format!("{name}: `{text}` is not a whole number"))
+            };
             get(name).map(read).transpose()
         };
         let Some(id) = number("SLURM_ARRAY_TASK_ID")? else {
@@ -61,7 +63,7 @@ impl Shard {
         let place = id.checked_sub(first).filter(|beyond| step > 0 && beyond % step == 0).map(|beyond| beyond / step);
         let place = place.filter(|place| *place < count).ok_or_else(|| {
             format!(
-                "task {id} of a Slurm array of {count} tasks from {first} in steps of {step} is no part of a study; use an array without gaps"
+                "task {id} of a Slurm array of {count} tasks from {first} in steps of {step} does not match a part of a study; use an array without gaps"
             )
         })?;
         let shard = Shard::new(place + 1, count)?;

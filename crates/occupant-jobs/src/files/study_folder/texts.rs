@@ -92,7 +92,7 @@ impl Texts {
             }
             Source::Copies { folder, texts } => {
                 let text = texts.iter().find(|t| t.by == by && t.name == name);
-                let text = text.ok_or("the sweep holds no copy of it")?;
+                let text = text.ok_or("the sweep has no copy of it")?;
                 let bytes = folder.copy_of(text).map_err(|e| e.to_string())?;
                 if sha256(&bytes) != text.sha256 {
                     let mends = "the same command of `occupant sweep` writes it again";

@@ -17,9 +17,10 @@ use placed_text::with_key;
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-at-most-one" = [["front", "test"]]))]
 pub(crate) struct CrushSection {
-    /// Which crush the stiffness gives; "dynamic" if absent and somebody begins in the vehicle, else "residual".
+    /// Which crush the stiffness reproduces. If absent, "dynamic" if the vehicle has occupants, else "residual".
     pub(crate) reading: Option<CrushReading>,
-    /// How much longer the greatest crush is in dynamic reading than in residual reading; 0.2 if absent, by one test.
+    /// How much larger the maximum dynamic crush is than the residual crush, as a fraction; 0.2 if absent, from one
+    /// test.
     pub(crate) longer: Option<Ratio<NOT_NEGATIVE>>,
     /// Front.
     pub(crate) front: Option<FaceSection>,
@@ -27,9 +28,9 @@ pub(crate) struct CrushSection {
     pub(crate) side: Option<FaceSection>,
     /// Rear.
     pub(crate) rear: Option<FaceSection>,
-    /// A full-width wall test from which the front's stiffness follows.
+    /// A full-width wall test, to derive the front stiffness from.
     pub(crate) test: Option<WallTestSection>,
-    /// Shares of the energy that come back, of that below A/B and of the rest; [0.2, 0.015] if absent.
+    /// Fractions of energy restored: of the part below A/B, and of the rest; [0.2, 0.015] if absent.
     pub(crate) returned: Option<[Ratio<FRACTION>; 2]>,
 }
 
@@ -47,10 +48,10 @@ pub(crate) enum CrushReading {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FaceSection {
-    /// Force per width without residual crush.
+    /// A, force per width at the onset of residual crush.
     #[serde(rename = "A")]
     pub(crate) a: Stiffness<POSITIVE>,
-    /// Its rise with residual crush, such as "632 kN/m^2".
+    /// B, rise of the force per width with residual crush, such as "632 kN/m^2".
     #[serde(rename = "B")]
     pub(crate) b: Pressure<POSITIVE>,
 }
@@ -61,9 +62,9 @@ pub(crate) struct FaceSection {
 pub(crate) struct WallTestSection {
     /// Speed.
     pub(crate) speed: Speed<POSITIVE>,
-    /// Residual crush C1 to C6 at equal distances over the width.
+    /// Residual crush C1 to C6, equally spaced over the width.
     pub(crate) depths: [Length<NOT_NEGATIVE>; 6],
-    /// Mass of the vehicle in the test; its mass here without load if absent.
+    /// Test mass of the vehicle; its kerb mass if absent.
     pub(crate) mass: Option<super::super::Mass<POSITIVE>>,
 }
 
@@ -71,19 +72,20 @@ pub(crate) struct WallTestSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ImpactSection {
-    /// A vehicle, and another vehicle or a barrier, by name.
+    /// Names of a vehicle and of another vehicle or a barrier.
     pub(crate) between: [String; 2],
-    /// When; when they first touch if absent.
+    /// Time of the impact; first contact if absent.
     pub(crate) time: Option<Time<NOT_NEGATIVE>>,
-    /// Where, [x, y]; the first point of their outlines that touches if absent, which is a corner where two meet squarely.
+    /// Point of impact, [x, y]; the first point of contact of the outlines if absent, which is a corner in a square
+    /// impact.
     pub(crate) at: Option<[Length; 2]>,
-    /// Direction across the line of contact, to the right of x, in either sense.
+    /// Direction normal to the contact plane, to the right of x, in either sense.
     pub(crate) normal: Angle,
-    /// Restitution; 0.1 if absent.
+    /// Coefficient of restitution; 0.1 if absent.
     pub(crate) restitution: Option<Ratio<FRACTION>>,
-    /// Greatest share of the impulse along the line of contact in that across it; 0.55 if absent.
+    /// Largest ratio of tangential to normal impulse; 0.55 if absent.
     pub(crate) friction: Option<Ratio<NOT_NEGATIVE>>,
-    /// How long it takes; 0.1 s if absent, 0 is at once.
+    /// Duration of the impact; 0.1 s if absent, 0 is instantaneous.
     pub(crate) duration: Option<Time<NOT_NEGATIVE>>,
 }
 
@@ -104,7 +106,7 @@ impl CrushSection {
                 b.error(
                     &with_key(at, "test"),
                     found,
-                    "crush above 0, and a speed above 2.22 m/s, up to which none stays",
+                    "crush above 0 and a speed above 2.22 m/s, below which no crush remains",
                 );
                 return;
             }

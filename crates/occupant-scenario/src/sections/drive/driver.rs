@@ -17,11 +17,11 @@ use placed_text::with_key;
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-exactly-one" = [["wheel", "angle"]]))]
 pub(crate) struct SteerSection {
-    /// Times, rising.
+    /// Times, increasing.
     pub(crate) time: Vec<Time>,
-    /// Angle of the steering wheel at each; positive steers to the right.
+    /// Steering-wheel angle at each time; positive to the right.
     pub(crate) wheel: Option<Vec<Angle>>,
-    /// Mean angle of the front wheels at each, instead.
+    /// Mean front-wheel angle at each time, instead of `wheel`.
     pub(crate) angle: Option<Vec<Angle>>,
 }
 
@@ -30,11 +30,11 @@ pub(crate) struct SteerSection {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-exactly-one" = [["pedal", "torque"]]))]
 pub(crate) struct BrakeSection {
-    /// Times, rising.
+    /// Times, increasing.
     pub(crate) time: Vec<Time>,
-    /// Share of the greatest brake torque at each, from 0 to 1.
+    /// Brake torque at each time, as a fraction of the full torque, 0 to 1.
     pub(crate) pedal: Option<Vec<Ratio<FRACTION>>>,
-    /// Torque of all wheels at each, instead.
+    /// Brake torque of all wheels at each time, instead.
     pub(crate) torque: Option<Vec<Moment<NOT_NEGATIVE>>>,
 }
 
@@ -42,9 +42,9 @@ pub(crate) struct BrakeSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ThrottleSection {
-    /// Times, rising.
+    /// Times, increasing.
     pub(crate) time: Vec<Time>,
-    /// Torque of all wheels at each; negative is the drag of the engine.
+    /// Drive torque of all wheels at each time; negative for engine braking.
     pub(crate) torque: Vec<Moment>,
 }
 
@@ -52,9 +52,9 @@ pub(crate) struct ThrottleSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SpeedSection {
-    /// Times, rising.
+    /// Times, increasing.
     pub(crate) time: Vec<Time>,
-    /// Speed at each.
+    /// Speed at each time.
     pub(crate) speed: Vec<Speed<NOT_NEGATIVE>>,
 }
 
@@ -64,9 +64,9 @@ pub(crate) struct SpeedSection {
 pub(crate) struct FollowSection {
     /// Corners [x, y] of the line.
     pub(crate) line: Vec<[Length; 2]>,
-    /// Time from seeing to acting; 0.1 s if absent.
+    /// Reaction time; 0.1 s if absent.
     pub(crate) delay: Option<Time<NOT_NEGATIVE>>,
-    /// When he lets go; the wheels then keep their angle. Never, if absent.
+    /// Time at which the driver stops steering; the wheels then keep their angle. Never if absent.
     pub(crate) until: Option<Time<POSITIVE>>,
 }
 
@@ -88,9 +88,9 @@ pub(crate) struct WheelsSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WheelSection {
-    /// Time from which on it is locked.
+    /// Time at which it locks.
     pub(crate) locked_from: Option<Time<NOT_NEGATIVE>>,
-    /// True: it is locked from the first collision on.
+    /// True: it locks at the first collision.
     pub(crate) locked_on_impact: Option<bool>,
 }
 

@@ -14,20 +14,20 @@ use placed_text::with_key;
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-at-most-one" = [["section", "ditch", "cross_slope"]]))]
 pub(crate) struct RoadSection {
-    /// Friction of tyres of grip 1; 0.76 if absent, dry asphalt (0.64 to 0.88 in 95 % of tests).
+    /// Tyre friction for a tyre grip of 1; 0.76 if absent, dry asphalt (0.64 to 0.88 in 95 % of tests).
     pub(crate) friction: Option<Ratio<POSITIVE>>,
-    /// Rise along x; 0 if absent.
+    /// Grade: rise along x; 0 if absent.
     pub(crate) grade: Option<Ratio>,
-    /// Rise to the right of a plane, such as -0.02; 0 if absent.
+    /// Cross slope of a plane: rise to the right, such as -0.02; 0 if absent.
     pub(crate) cross_slope: Option<Ratio>,
-    /// A cross-section that runs along x: shoulder, slopes, ditch.
+    /// Cross-section along x: shoulder, slopes, ditch.
     pub(crate) section: Option<CrossSection>,
-    /// The same of a ditch beside the road, by its slopes.
+    /// A ditch beside the road by its slopes, instead of `section`.
     pub(crate) ditch: Option<DitchSection>,
-    /// Curbs along x, each of which lifts all that lies right of it.
+    /// Curbs along x. Each raises the ground to its right.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) curbs: Vec<CurbSection>,
-    /// Strips along x with friction of their own; of those that hold a point the last counts.
+    /// Strips along x with their own friction. Where strips overlap, the last one counts.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) zones: Vec<ZoneSection>,
 }
@@ -36,7 +36,7 @@ pub(crate) struct RoadSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CrossSection {
-    /// Distances right of the x axis, rising.
+    /// Distances to the right of the x axis, increasing.
     pub(crate) right: Vec<Length>,
     /// Height at each.
     pub(crate) height: Vec<Length>,
@@ -46,17 +46,17 @@ pub(crate) struct CrossSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DitchSection {
-    /// Where the foreslope begins, right of the x axis.
+    /// Start of the foreslope, to the right of the x axis.
     pub(crate) edge: Length,
-    /// Level length for each length of fall: 4 is a slope of 1:4.
+    /// Horizontal length per unit of fall: 4 is a slope of 1V:4H.
     pub(crate) foreslope: Ratio<POSITIVE>,
     /// Depth of the bottom below the road.
     pub(crate) depth: Length<POSITIVE>,
     /// Width of the bottom; 0 if absent: a V.
     pub(crate) bottom: Option<Length<NOT_NEGATIVE>>,
-    /// Level length for each length of rise; no backslope if absent.
+    /// Horizontal length per unit of rise; no backslope if absent.
     pub(crate) backslope: Option<Ratio<POSITIVE>>,
-    /// Rise of the backslope; the depth if absent. Its top is level.
+    /// Height of the backslope; the depth of the ditch if absent. The ground beyond is level.
     pub(crate) rise: Option<Length<POSITIVE>>,
 }
 
@@ -64,11 +64,11 @@ pub(crate) struct DitchSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CurbSection {
-    /// Foot of its face, right of the x axis.
+    /// Foot of its face, to the right of the x axis.
     pub(crate) right: Length,
-    /// Height of its step up to the right; negative steps down.
+    /// Height of the step up to the right; negative is a step down.
     pub(crate) height: Length,
-    /// Angle of its face to the level, below 90 deg; 80 deg if absent.
+    /// Angle of its face to the horizontal, below 90 deg; 80 deg if absent.
     pub(crate) face: Option<Angle>,
 }
 
@@ -76,15 +76,15 @@ pub(crate) struct CurbSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ZoneSection {
-    /// What it is called in events.
+    /// Name used in events.
     pub(crate) name: String,
-    /// From and to, right of the x axis.
+    /// From and to, to the right of the x axis.
     pub(crate) right: [Length; 2],
     /// Friction of tyres of grip 1.
     pub(crate) friction: Ratio<NOT_NEGATIVE>,
-    /// Further factor where a tyre slides sideways: soil that furrows; 1 if absent.
+    /// Extra factor when a tyre slides sideways, such as furrowing soil; 1 if absent.
     pub(crate) lateral: Option<Ratio<NOT_NEGATIVE>>,
-    /// Rolling resistance over load; the tyre's if absent.
+    /// Coefficient of rolling resistance; that of the tyre if absent.
     pub(crate) rolling: Option<Ratio<NOT_NEGATIVE>>,
 }
 

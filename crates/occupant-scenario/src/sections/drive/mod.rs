@@ -42,20 +42,20 @@ use placed_text::{Diagnostics, Document, Problem, with_key};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DriveSection {
-    /// How long is driven, from time 0.
+    /// How long the vehicles drive, from time 0.
     pub(crate) end: Time<POSITIVE>,
-    /// Error of a step's places; 0.01 mm if absent.
+    /// Allowed position error of a step; 0.01 mm if absent.
     pub(crate) tolerance: Option<Length<POSITIVE>>,
     /// Vehicles by name. A `path` of kind "drive" names one of them.
     pub(crate) vehicles: IndexMap<String, DrivenSection>,
-    /// What they drive on; a level road of friction 0.76 if absent.
+    /// The ground; a level road with friction 0.76 if absent.
     pub(crate) ground: Option<RoadSection>,
-    /// What stands beside it, by name.
+    /// Barriers and other obstacles beside the road, by name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) barriers: IndexMap<String, BarrierSection>,
-    /// Friction between vehicles that crush each other; 0.55 if absent.
+    /// Friction between vehicles in contact; 0.55 if absent.
     pub(crate) friction: Option<Ratio<NOT_NEGATIVE>>,
-    /// Impacts by impulse and momentum in the place of crush.
+    /// Collisions modelled by impulse and momentum instead of crush.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) impacts: Vec<ImpactSection>,
 }
@@ -64,7 +64,7 @@ pub(crate) struct DriveSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DrivenPathSection {
-    /// Name of the vehicle in `drive.vehicles`; may be left out where there is one.
+    /// Name of the vehicle in `drive.vehicles`; not needed if there is only one.
     pub(crate) vehicle: Option<String>,
 }
 
@@ -284,10 +284,8 @@ pub(super) fn check_names(b: &mut Builder, s: &Scenario) {
 /// Warns of what a load does that moves with the vehicle.
 fn warn_of_load(b: &mut Builder, at: &str, load_kg: f64, mass_kg: f64) {
     if load_kg > 0.1 * mass_kg {
-        let found = format!(
-            "a load of {load_kg:.0} kg in a vehicle of {mass_kg:.0} kg, which moves with it as if it were fixed"
-        );
-        let expected = "at most a tenth: heavier people and cargo push the vehicle";
+        let found = format!("a fixed load of {load_kg:.0} kg in a vehicle of {mass_kg:.0} kg");
+        let expected = "at most a tenth of its mass: heavier people and cargo move relative to the vehicle and push it";
         b.report(Problem::warning(with_key(at, "payload"), found, expected));
     }
 }

@@ -23,23 +23,23 @@ pub(crate) struct SuspensionSection {
 pub(crate) struct AxleSection {
     /// Track width.
     pub(crate) track: Option<Length<POSITIVE>>,
-    /// Mass that moves with the wheel.
+    /// Unsprung mass at one wheel.
     pub(crate) wheel_mass: Option<Mass<POSITIVE>>,
-    /// Inertia of the wheel about its axle.
+    /// Spin inertia of the wheel.
     pub(crate) spin_inertia: Option<Inertia<POSITIVE>>,
     /// Spring rate.
     pub(crate) rate: Option<Stiffness<POSITIVE>>,
-    /// Damping in jounce over critical damping.
+    /// Damping ratio in jounce.
     pub(crate) jounce_damping: Option<Ratio<NOT_NEGATIVE>>,
-    /// Damping in rebound over critical damping.
+    /// Damping ratio in rebound.
     pub(crate) rebound_damping: Option<Ratio<NOT_NEGATIVE>>,
-    /// Anti-roll bar of the axle.
+    /// Stiffness of the axle's anti-roll bar.
     pub(crate) anti_roll: Option<RotationalStiffness<NOT_NEGATIVE>>,
-    /// Height of the roll centre over the road.
+    /// Height of the roll centre above the road.
     pub(crate) roll_centre: Option<Length>,
-    /// Jounce at which the stop begins.
+    /// Jounce at which the bump stop touches.
     pub(crate) jounce_stop: Option<Length<POSITIVE>>,
-    /// Rebound at which the stop begins.
+    /// Rebound at which the rebound stop touches.
     pub(crate) rebound_stop: Option<Length<POSITIVE>>,
 }
 
@@ -53,21 +53,22 @@ pub(crate) struct TyresSection {
     pub(crate) radius: Option<Length<POSITIVE>>,
     /// Radial stiffness.
     pub(crate) stiffness: Option<Stiffness<POSITIVE>>,
-    /// Cornering stiffness over load at the reference load, for each radian of slip.
+    /// Cornering coefficient at the reference load: cornering stiffness per radian over load.
     pub(crate) cornering: Option<Ratio<POSITIVE>>,
-    /// Load at which `cornering` holds.
+    /// Reference load, at which `cornering` applies.
     pub(crate) reference_load: Option<Force<POSITIVE>>,
-    /// Load of the greatest cornering stiffness over the reference load; large: it is proportional to load.
+    /// Load at which cornering stiffness peaks, over the reference load. A large value makes cornering stiffness
+    /// proportional to load.
     pub(crate) greatest_at: Option<Ratio<POSITIVE>>,
     /// Longitudinal slip stiffness over load.
     pub(crate) slip_stiffness: Option<Ratio<POSITIVE>>,
-    /// Camber stiffness over load, for each radian.
+    /// Camber stiffness per radian over load.
     pub(crate) camber: Option<Ratio<NOT_NEGATIVE>>,
-    /// Friction of fast sliding over the greatest.
+    /// Sliding friction over peak friction.
     pub(crate) sliding_share: Option<Ratio<FRACTION>>,
     /// Relaxation length.
     pub(crate) relaxation: Option<Length<POSITIVE>>,
-    /// Rolling resistance over load.
+    /// Coefficient of rolling resistance.
     pub(crate) rolling: Option<Ratio<NOT_NEGATIVE>>,
 }
 
@@ -75,7 +76,7 @@ pub(crate) struct TyresSection {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BrakesSection {
-    /// Torque of all wheels at a full pedal; that of 1.2 g if absent.
+    /// Brake torque of all wheels at full pedal; enough for 1.2 g if absent.
     pub(crate) max_torque: Option<Moment<POSITIVE>>,
     /// Shares: left front, right front, left rear, right rear.
     pub(crate) shares: Option<[Ratio<NOT_NEGATIVE>; 4]>,

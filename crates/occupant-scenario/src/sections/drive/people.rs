@@ -86,14 +86,12 @@ impl Scenario {
             let Some((ball, reach_m)) = solved.reached(number, self.time.end.si()) else { continue };
             let name = &solved.vehicles[number].name;
             let found = format!(
-                "the crush of {name} reaches {reach_m:.2} m into the {} of who sits there; nothing moves his side of the car",
+                "the crush of {name} reaches {reach_m:.2} m into the {} of its occupant, but no panel of the scenario intrudes",
                 ball.name
             );
-            let expected = "a panel in [frames] that moves in as far, a seat away from it, or less of a collision";
+            let expected = "a panel in [frames] that intrudes as far, a seat farther away, or a milder collision";
             let problem = match self.has_panel(number) {
-                true => {
-                    Problem::warning(&ball.who, found, "a panel in [frames] that moves as far: yours is not compared")
-                }
+                true => Problem::warning(&ball.who, found, "a panel in [frames] that intrudes as far: check yours"),
                 false => Problem::error(&ball.who, found, expected),
             };
             b.report(problem);
@@ -155,8 +153,9 @@ impl Solved {
             let front_m = own.car.body.front_m - own.car.front.ahead_m;
             if damage.front_m() > front_m {
                 let found = format!("{} is crushed by {:.2} m at its front", own.name, damage.front_m());
-                let expected =
-                    format!("at most {front_m:.2} m, the way to its front axle: class stiffness knows no firewall");
+                let expected = format!(
+                    "at most {front_m:.2} m, the distance to its front axle: class stiffness does not model the firewall"
+                );
                 b.report(Problem::warning(with_key("drive.vehicles", &own.name), found, expected));
             }
         }

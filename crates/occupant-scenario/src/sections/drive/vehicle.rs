@@ -17,30 +17,31 @@ use super::parts::{BrakesSection, SuspensionSection, TyresSection, put};
 use super::{DrivenVehicle, People, warn_of_load};
 use placed_text::{Problem, with_key};
 
-/// A vehicle of `drive`. What is not said is its preset's.
+/// A vehicle of `drive`. Keys that are absent take the value of the preset.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend(
     "x-at-most-one" = [["steer", "follow"], ["speed", "hold_speed"], ["speed", "brake"], ["speed", "drive"], ["hold_speed", "brake"], ["hold_speed", "drive"], ["payload", "load"]],
 ))]
 pub(crate) struct DrivenSection {
-    /// A class: "small" (MASH 1100C), "sedan", "suv", "van", "pickup" (MASH 2270P), "en900", "en1500" (EN 1317), or a measured
-    /// car of the 1980s, "bmw-320i", "vanagon".
+    /// Vehicle class: "small" (MASH 1100C), "sedan", "suv", "van", "pickup" (MASH 2270P), "en900", "en1500" (EN 1317),
+    /// or a measured car of the 1980s, "bmw-320i" or "vanagon".
     #[schemars(extend("enum" = ["small", "sedan", "suv", "van", "pickup", "en900", "en1500", "bmw-320i", "vanagon"]))]
     pub(crate) preset: String,
-    /// Mass without load.
+    /// Kerb mass, without occupants and load.
     pub(crate) mass: Option<Mass<POSITIVE>>,
-    /// Distance between the axles.
+    /// Wheelbase.
     pub(crate) wheelbase: Option<Length<POSITIVE>>,
-    /// Centre of gravity behind the front axle.
+    /// Distance of the centre of gravity behind the front axle.
     pub(crate) cg_behind_front_axle: Option<Length<POSITIVE>>,
-    /// Height of the centre of gravity over the road.
+    /// Height of the centre of gravity above the road.
     pub(crate) cg_height: Option<Length<POSITIVE>>,
     /// Track width of both axles.
     pub(crate) track: Option<Length<POSITIVE>>,
-    /// Roll, pitch and yaw inertia about the centre of gravity; by rule from mass, axles and track if one of these is given.
+    /// Roll, pitch and yaw moments of inertia about the centre of gravity. If absent and mass, wheelbase or track is
+    /// given, estimated from them.
     pub(crate) inertia: Option<[Inertia<POSITIVE>; 3]>,
-    /// Area times drag coefficient.
+    /// Frontal area times drag coefficient.
     pub(crate) drag_area: Option<Area<NOT_NEGATIVE>>,
     /// Front and rear suspension.
     pub(crate) suspension: Option<SuspensionSection>,
@@ -48,35 +49,37 @@ pub(crate) struct DrivenSection {
     pub(crate) tyres: Option<TyresSection>,
     /// Brakes.
     pub(crate) brakes: Option<BrakesSection>,
-    /// Shares of the drive torque: left front, right front, left rear, right rear; front-wheel drive if absent.
+    /// Distribution of the drive torque: left front, right front, left rear, right rear; front-wheel drive if absent.
     pub(crate) drive_shares: Option<[Ratio<NOT_NEGATIVE>; 4]>,
-    /// Angle of the steering wheel over that of the front wheels; 16 if absent.
+    /// Steering ratio: steering-wheel angle over front-wheel angle; 16 if absent.
     pub(crate) steering_ratio: Option<Ratio<POSITIVE>>,
-    /// "from occupants": those who begin in the vehicle move with it as if they were fixed. Without it they weigh nothing for it.
+    /// "from occupants": the occupants' mass is added to the vehicle, as if they were fixed in it. If absent the
+    /// vehicle drives without their mass.
     #[schemars(extend("enum" = ["from occupants"]))]
     pub(crate) payload: Option<String>,
-    /// A load that moves with the vehicle as if it were fixed, instead.
+    /// A fixed load, instead of the occupants.
     pub(crate) load: Option<LoadSection>,
-    /// Where and how it starts, standing on the ground.
+    /// Initial position and motion, on the ground.
     #[serde(default)]
     pub(crate) start: StartSection,
     /// Steering over time; straight ahead if neither this nor `follow` is given.
     pub(crate) steer: Option<SteerSection>,
-    /// A line to follow.
+    /// A path that the driver follows.
     pub(crate) follow: Option<FollowSection>,
     /// Brake over time.
     pub(crate) brake: Option<BrakeSection>,
     /// Drive torque over time.
     pub(crate) drive: Option<ThrottleSection>,
-    /// Speed over time, which drive and brakes follow.
+    /// Speed over time, which the driver follows by drive and brake.
     pub(crate) speed: Option<SpeedSection>,
-    /// Speed that drive and brakes hold.
+    /// Speed that the driver holds by drive and brake.
     pub(crate) hold_speed: Option<Speed<NOT_NEGATIVE>>,
     /// Wheels that lock.
     pub(crate) wheels: Option<WheelsSection>,
-    /// What the driver does from the first collision on; "release" if absent. He holds the steering wheel unless he goes on.
+    /// What the driver does after the first collision; "release" if absent. Unless it is "continue", the steering wheel
+    /// is held.
     pub(crate) on_impact: Option<AfterImpact>,
-    /// How it crushes.
+    /// Crush stiffness.
     pub(crate) crush: Option<CrushSection>,
 }
 
@@ -86,7 +89,7 @@ pub(crate) struct DrivenSection {
 pub(crate) struct LoadSection {
     /// Mass.
     pub(crate) mass: Mass<POSITIVE>,
-    /// [x, z] of its centre, vehicle axes from the centre of gravity without load; [0, 0] if absent.
+    /// [x, z] of its centre from the vehicle's unladen centre of gravity, vehicle axes; [0, 0] if absent.
     pub(crate) at: Option<[Length; 2]>,
 }
 
@@ -94,19 +97,19 @@ pub(crate) struct LoadSection {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StartSection {
-    /// Place of the centre of gravity; 0 if absent.
+    /// x of the centre of gravity; 0 if absent.
     pub(crate) x: Option<Length>,
-    /// To the right; 0 if absent.
+    /// y of the centre of gravity, to the right; 0 if absent.
     pub(crate) y: Option<Length>,
     /// Heading, to the right of x; 0 if absent.
     pub(crate) yaw: Option<Angle>,
     /// Speed along the ground; 0 if absent.
     pub(crate) speed: Option<Speed<NOT_NEGATIVE>>,
-    /// Direction of travel to the right of the heading; 0 if absent.
+    /// Sideslip: direction of travel to the right of the heading; 0 if absent.
     pub(crate) sideslip: Option<Angle>,
     /// Yaw rate, to the right; 0 if absent.
     pub(crate) yaw_rate: Option<AngularVelocity>,
-    /// True: the wheels do not turn at the start. False if absent: they roll.
+    /// True: the wheels start locked, without spin. False if absent: they roll.
     pub(crate) wheels_stand: Option<bool>,
 }
 
@@ -221,7 +224,7 @@ impl DrivenSection {
     fn warn(&self, b: &mut Builder, at: &str, car: &Car) {
         if car.stability() < 1.0 {
             let found = format!("a stability factor T/2h of {:.2}", car.stability());
-            let expected = "at least 1: it tips over before it slides on a road of friction 1";
+            let expected = "at least 1: below that it tips before it slides on a road with friction 1";
             b.report(Problem::warning(at, found, expected));
         }
         for (key, axle) in [("front", &car.front), ("rear", &car.rear)] {

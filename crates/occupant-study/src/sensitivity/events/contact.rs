@@ -50,7 +50,7 @@ impl Touching {
             Touching::Stiffens => "reaches the second slope of",
             Touching::Unloads => "begins to unload",
             Touching::Reloads => "loads again",
-            Touching::SlipsBack => "slips the other way on",
+            Touching::SlipsBack => "reverses its sliding on",
         };
         format!("{sphere} {verb} {surface}")
     }

@@ -8,21 +8,21 @@ use serde::{Deserialize, Serialize};
 use super::super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE};
 use super::super::{Angle, Force, Length, Mass, Ratio, Stiffness};
 
-/// What stands beside the road. Places are [x, y] in vehicle-space: x along the road, y to the right.
+/// An obstacle beside the road. Positions are [x, y] in vehicle-space: x along the road, y to the right.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub(crate) enum BarrierSection {
-    /// A rigid wall without end: all that lies behind a line.
+    /// A rigid wall of unlimited length: everything behind a line.
     Wall(Box<WallSection>),
     /// A rigid upright cylinder.
     Pole(Box<PoleSection>),
-    /// A rigid upright prism: a parapet's end, an abutment.
+    /// A rigid upright prism, such as a parapet end or an abutment.
     Block(Box<BlockSection>),
     /// A guardrail on posts.
     Rail(Box<RailSection>),
-    /// A crash cushion: a block that a force holds back over its stroke.
+    /// A crash cushion: a block that resists with a force over its stroke.
     Cushion(Box<CushionSection>),
-    /// A sign or luminaire on a base that breaks away.
+    /// A sign or luminaire on a breakaway base.
     Sign(Box<SignSection>),
 }
 
@@ -30,9 +30,9 @@ pub(crate) enum BarrierSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WallSection {
-    /// A point of its face.
+    /// A point on its face.
     pub(crate) at: [Length; 2],
-    /// Direction in which its face looks, to the right of x; 180 deg if absent: against what comes along x.
+    /// Direction that its face looks, to the right of x; 180 deg if absent: towards traffic along x.
     pub(crate) facing: Option<Angle>,
     /// "concrete": smooth concrete along a road, friction 0.2.
     #[schemars(extend("enum" = ["concrete"]))]
@@ -62,13 +62,13 @@ pub(crate) struct PoleSection {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-exactly-one" = [["corners", "centre"]], "x-together" = [["centre", "lengths"]]))]
 pub(crate) struct BlockSection {
-    /// Corners [x, y] of a convex polygon, in their order round it.
+    /// Corners [x, y] of a convex polygon, in order.
     pub(crate) corners: Option<Vec<[Length; 2]>>,
-    /// Middle of a rectangle, instead.
+    /// Centre of a rectangle, instead of `corners`.
     pub(crate) centre: Option<[Length; 2]>,
-    /// Its lengths along x and y before it is turned.
+    /// Its lengths along x and y, before rotation.
     pub(crate) lengths: Option<[Length<POSITIVE>; 2]>,
-    /// How it is turned, to the right; 0 if absent.
+    /// Its rotation, to the right; 0 if absent.
     pub(crate) yaw: Option<Angle>,
     /// Friction; 0.55 if absent.
     pub(crate) friction: Option<Ratio<NOT_NEGATIVE>>,
@@ -78,15 +78,15 @@ pub(crate) struct BlockSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RailSection {
-    /// "w-beam": a W-beam on steel posts every 1.905 m, which it is if absent. Its section is the profile's; anchors, posts and
-    /// their release are guesses that meet one deflection known from memory.
+    /// "w-beam": a W-beam on steel posts every 1.905 m; the default. The section is that of the profile. Anchors, posts
+    /// and their release are estimates, tuned to one remembered deflection.
     #[schemars(extend("enum" = ["w-beam"]))]
     pub(crate) preset: Option<String>,
     /// Its two ends.
     pub(crate) line: [[Length; 2]; 2],
-    /// Side from which it is hit, seen from its first end; where the first vehicle starts if absent.
+    /// Side that is struck, seen from its first end; the side on which the first vehicle starts if absent.
     pub(crate) traffic: Option<Hand>,
-    /// Height at which its force acts.
+    /// Height of its resultant force.
     pub(crate) height: Option<Length<POSITIVE>>,
     /// Heights of its lower and upper edge.
     pub(crate) edges: Option<[Length<NOT_NEGATIVE>; 2]>,
@@ -115,15 +115,15 @@ pub(crate) enum Hand {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PostsSection {
-    /// Distance between them.
+    /// Post spacing.
     pub(crate) spacing: Option<Length<POSITIVE>>,
     /// Force at which a post yields.
     pub(crate) force: Option<Force<POSITIVE>>,
-    /// Stiffness before that.
+    /// Stiffness of a post before it yields.
     pub(crate) stiffness: Option<Stiffness<POSITIVE>>,
-    /// Way at which a post lets the rail go.
+    /// Displacement at which a post releases the rail.
     pub(crate) release: Option<Length<POSITIVE>>,
-    /// Mass that moves with each.
+    /// Mass that moves with each post.
     pub(crate) mass: Option<Mass<POSITIVE>>,
 }
 
@@ -133,19 +133,19 @@ pub(crate) struct PostsSection {
 pub(crate) struct CushionSection {
     /// Middle of its nose.
     pub(crate) at: [Length; 2],
-    /// Direction in which its nose looks, to the right of x; 180 deg if absent.
+    /// Direction that its nose looks, to the right of x; 180 deg if absent.
     pub(crate) facing: Option<Angle>,
     /// Width.
     pub(crate) width: Length<POSITIVE>,
     /// Length.
     pub(crate) length: Length<POSITIVE>,
-    /// Mass that is taken along from the first touch.
+    /// Mass that moves with the vehicle from first contact.
     pub(crate) mass: Mass<POSITIVE>,
-    /// Strokes, rising from 0; behind the last it stands as a wall.
+    /// Strokes, increasing from 0; beyond the last it acts as a wall.
     pub(crate) stroke: Vec<Length<NOT_NEGATIVE>>,
-    /// Force at each, straight between.
+    /// Force at each stroke, linear between.
     pub(crate) force: Vec<Force<NOT_NEGATIVE>>,
-    /// Share of its energy that comes back; 0.05 if absent.
+    /// Fraction of its energy that is restored; 0.05 if absent.
     pub(crate) returned: Option<Ratio<FRACTION>>,
     /// Friction; 0.55 if absent.
     pub(crate) friction: Option<Ratio<NOT_NEGATIVE>>,
@@ -155,15 +155,15 @@ pub(crate) struct CushionSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SignSection {
-    /// Axis of its support.
+    /// Position of its support.
     pub(crate) at: [Length; 2],
     /// Diameter of its support.
     pub(crate) diameter: Length<POSITIVE>,
-    /// Mass that is taken along.
+    /// Mass that moves with the vehicle.
     pub(crate) mass: Mass<POSITIVE>,
-    /// Ways of its base, rising from 0; behind the last it is free.
+    /// Displacements of its base, increasing from 0; beyond the last it is free.
     pub(crate) stroke: Vec<Length<NOT_NEGATIVE>>,
-    /// Force at each, straight between: their integral is the energy of the base.
+    /// Force at each displacement, linear between. The integral is the breakaway energy.
     pub(crate) force: Vec<Force<NOT_NEGATIVE>>,
     /// Friction; 0.55 if absent.
     pub(crate) friction: Option<Ratio<NOT_NEGATIVE>>,
