@@ -107,10 +107,47 @@ pub(crate) struct CarBagsSection {
     pub(crate) driver: Option<bool>,
     /// Bag in the panel before a front passenger; true if absent.
     pub(crate) passenger: Option<bool>,
-    /// From the crash sensor to firing; 9 ms if absent.
+    /// Curtains before the side windows; "none" if absent. They wait for a blow on their side.
+    pub(crate) curtain: Option<CarSides>,
+    /// Bags in the outer sides of seats in which somebody sits beside a door; "none" if absent.
+    pub(crate) side: Option<CarSides>,
+    /// From the crash sensor to firing; 9 ms, and 4 ms of curtains and side bags, if absent.
     pub(crate) delay: Option<Time<NOT_NEGATIVE>>,
     /// Factor on the area of the vents; 1 if absent.
     pub(crate) vent: Option<Ratio<POSITIVE>>,
+}
+
+/// Sides of a car.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum CarSides {
+    /// Neither.
+    #[default]
+    None,
+    /// The left one.
+    Left,
+    /// The right one.
+    Right,
+    /// Both.
+    Both,
+}
+
+impl CarSides {
+    /// Those of either.
+    pub(crate) fn with(self, other: CarSides) -> CarSides {
+        match (self, other) {
+            (CarSides::None, one) | (one, CarSides::None) => one,
+            (one, other) if one == other => one,
+            _ => CarSides::Both,
+        }
+    }
+
+    /// Their names and directions.
+    pub(crate) fn each(self) -> impl Iterator<Item = (&'static str, f64)> {
+        let left = matches!(self, CarSides::Left | CarSides::Both).then_some(("left", -1.0));
+        let right = matches!(self, CarSides::Right | CarSides::Both).then_some(("right", 1.0));
+        left.into_iter().chain(right)
+    }
 }
 
 /// Sides that come in, as what the car struck or was struck by pushes them. Pillars and roof stay.
