@@ -37,7 +37,8 @@ def mean(change):
 
 def pairs(occupant, scenario, parameters):
     """All pairs of a scenario; where a parameter is refused each by itself, and that one says so."""
-    path = Path(__file__).parent.parent / "scenarios" / f"{scenario}.toml"
+    folder = "scenarios" if scenario.startswith("sled") else "tests/data/hand"
+    path = Path(__file__).parent.parent / folder / f"{scenario}.toml"
     words = [occupant, "sensitivity", path, "--to", MEASURES, "--of", ",".join(parameters), "--json"]
     ran = subprocess.run(words, capture_output=True, text=True, check=False)
     if ran.returncode == 0:

@@ -13,8 +13,8 @@ use occupant_tests::measure::assert_below;
 use occupant_tests::room::setup;
 
 const SHORT: [(&str, &str); 4] = [
-    ("three-point", include_str!("../../scenarios/three-point.toml")),
-    ("airbag-driver", include_str!("../../scenarios/airbag-driver.toml")),
+    ("three-point", include_str!("../../tests/data/hand/three-point.toml")),
+    ("airbag-driver", include_str!("../../tests/data/hand/airbag-driver.toml")),
     ("sled-person", include_str!("../../scenarios/sled-person.toml")),
     ("sled-17-segments", include_str!("../../scenarios/sled-17-segments.toml")),
 ];

@@ -11,7 +11,7 @@ use occupant_core::run::simulate::{resume, simulate};
 use occupant_tests::measure::assert_below;
 use occupant_tests::room::{FINE, Last, ends_alike_side_by_side, setup};
 
-const DRIVER: &str = include_str!("../../scenarios/airbag-driver.toml");
+const DRIVER: &str = include_str!("../../tests/data/hand/airbag-driver.toml");
 const SIDE: &str = include_str!("../../scenarios/templates/side.toml");
 
 const NO_BELT: &str = "belts.driver=null";

@@ -289,7 +289,7 @@ fn the_belt_force_acts_at_the_spheres_centre() {
 
 /// What is said of the driver's lap belt with these anchors.
 fn said_of_lap(anchors: &str) -> String {
-    let text = include_str!("../../crates/occupant-cli/src/commands/new/cabin.toml");
+    let text = include_str!("../../tests/data/hand/cabin.toml");
     let driver = setup(text, &[&format!("belts.lap.anchors = {anchors}")]);
     Model::new(driver).unwrap().warnings().to_string()
 }

@@ -204,7 +204,7 @@ fn a_stroke_stays_when_the_ball_has_gone() {
     assert!(left.iter().all(|x| (x - (most - 0.002)).abs() < 0.00201), "{most} {left:?}");
 }
 
-const DRIVER: &str = include_str!("../../scenarios/column-driver.toml");
+const DRIVER: &str = include_str!("../../tests/data/hand/column-driver.toml");
 
 /// A driver whose wheel hangs on this column.
 fn driver(set: &[&str]) -> Setup {

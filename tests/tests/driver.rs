@@ -10,7 +10,7 @@ use occupant_core::run::simulate::simulate;
 use occupant_tests::measure::assert_below;
 use occupant_tests::room::{ends_alike_side_by_side, setup};
 
-const DRIVER: &str = include_str!("../../crates/occupant-cli/src/commands/new/cabin.toml");
+const DRIVER: &str = include_str!("../../tests/data/hand/cabin.toml");
 const TEMPLATES: [(&str, &str); 5] = [
     ("driver", DRIVER),
     ("right-hand-drive", include_str!("../../scenarios/templates/right-hand-drive.toml")),

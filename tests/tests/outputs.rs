@@ -13,7 +13,7 @@ use occupant_tests::strap::{FALLS, Strap, mass_text};
 
 const TWO: &str = include_str!("../../scenarios/two-vehicles.toml");
 const LAP: &str = include_str!("../../scenarios/cart-lap.toml");
-const SOLIDS: &str = include_str!("../../scenarios/rear-seat-solids.toml");
+const SOLIDS: &str = include_str!("../../tests/data/hand/rear-seat-solids.toml");
 
 fn model(text: &str) -> Model {
     let loaded = Scenario::from_text(text, Format::Toml, "test", &|name| Err(format!("no {name}")));

@@ -66,7 +66,7 @@ fn carts_side_by_side_take_steps_of_their_own() {
 /// Spools lock, pretensioners fire and stall, limiters yield at times of their own.
 #[test]
 fn so_do_drivers_with_three_point_belts() {
-    differ_and_agree(&scenario(include_str!("../../scenarios/three-point.toml"), 6, 0.05));
+    differ_and_agree(&scenario(include_str!("../../tests/data/hand/three-point.toml"), 6, 0.05));
 }
 
 /// Bags fire at times of their own.
@@ -75,14 +75,14 @@ fn so_do_drivers_with_air_bags() {
     let delays = ["12 ms", "9 ms", "15 ms", "12.7 ms", "10 ms"];
     let fired = |i: usize| {
         let delay = format!("bags.driver.delay={:?}", delays[i]);
-        own(i, setup(include_str!("../../scenarios/airbag-driver.toml"), &[&delay]), 0.045)
+        own(i, setup(include_str!("../../tests/data/hand/airbag-driver.toml"), &[&delay]), 0.045)
     };
     differ_and_agree(&(0..5).map(fired).collect::<Vec<_>>());
 }
 
 #[test]
 fn so_do_drivers_behind_columns() {
-    differ_and_agree(&scenario(include_str!("../../scenarios/column-driver.toml"), 4, 0.04));
+    differ_and_agree(&scenario(include_str!("../../tests/data/hand/column-driver.toml"), 4, 0.04));
 }
 
 /// Corners of contacts come before switches in the same trial.

@@ -140,7 +140,7 @@ fn what_rides_is_drawn_where_it_rides() {
     assert_below("direction of webbing", worst[1], 1e-12);
 }
 
-const THREE_POINT: &str = include_str!("../../scenarios/three-point.toml");
+const THREE_POINT: &str = include_str!("../../tests/data/hand/three-point.toml");
 const CHEST_TEST: &str = include_str!("../../scenarios/impactor-chest.toml");
 
 /// A driver with the chest of a person and flesh under the lap belt.

@@ -147,7 +147,7 @@ fn every_channel_has_its_own_name_and_a_finite_value() {
 
 #[test]
 fn loads_of_the_upper_neck_are_those_at_the_condyles_and_follow_from_the_head_alone() {
-    let mut driver = setup(include_str!("../../crates/occupant-cli/src/commands/new/cabin.toml"), &["time.end = 0.1"]);
+    let mut driver = setup(include_str!("../../tests/data/hand/cabin.toml"), &["time.end = 0.1"]);
     driver.time.output_s = 2e-3;
     let model = Model::new(driver).unwrap();
     let channel = |name: &str| ["x", "y", "z"].map(|c| find(&model, &format!("{name}.{c}")).unwrap());

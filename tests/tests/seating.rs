@@ -371,7 +371,7 @@ fn a_body_whose_feet_hang_tips_until_they_stand() {
 /// Friction holds what the 6 N of a spool pull at one shoulder; without it they turned the body by 6 degrees.
 #[test]
 fn the_spool_of_a_retractor_does_not_turn_a_seated_body() {
-    let start = start(setup(include_str!("../../scenarios/three-point.toml"), &[]));
+    let start = start(setup(include_str!("../../tests/data/hand/three-point.toml"), &[]));
     assert!(start.model.start().settled.unwrap().moved_m > 1e-3);
     let [l, r] = [tti12::LEFT_LOWER_LEG, tti12::RIGHT_LOWER_LEG].map(|n| start.joints_m[n.index()][0]);
     assert_below("one knee ahead of the other, m", l.x - r.x, 1e-3);

@@ -104,7 +104,7 @@ fn among_solids_twice_as_many_steps_allocate_no_more() {
 
 #[test]
 fn a_head_that_comes_over_the_front_seat_is_held_off() {
-    let setup = setup(include_str!("../../scenarios/rear-seat-solids.toml"), &["time.end=0.16"]);
+    let setup = setup(include_str!("../../tests/data/hand/rear-seat-solids.toml"), &["time.end=0.16"]);
     let model = Model::new(setup).unwrap();
     let mut summarizer = Summarizer::new();
     simulate(&model, &mut summarizer).unwrap();

@@ -236,9 +236,9 @@ fn head(text: &str, set: &[&str]) -> Found {
 #[test]
 fn shipped_restraints_and_ten_variants_are_within_a_tenth_of_a_millimetre_of_short_steps() {
     let cases = [
-        ("three-point", include_str!("../../scenarios/three-point.toml"), 2789.0),
-        ("airbag-driver", include_str!("../../scenarios/airbag-driver.toml"), 3181.0),
-        ("column-driver", include_str!("../../scenarios/column-driver.toml"), 3226.0),
+        ("three-point", include_str!("../../tests/data/hand/three-point.toml"), 2789.0),
+        ("airbag-driver", include_str!("../../tests/data/hand/airbag-driver.toml"), 3181.0),
+        ("column-driver", include_str!("../../tests/data/hand/column-driver.toml"), 3226.0),
     ];
     for (name, text, evaluations) in cases {
         let mut worst = [0.0_f64; 4];

@@ -132,7 +132,7 @@ fn the_mirror_image_of_a_driver_among_solids_moves_in_the_mirror() {
         // the forefeet of full spheres are ahead of the heels
         "posture.heels=[0.64, 0.33]",
     ];
-    let here = setup(include_str!("../../crates/occupant-cli/src/commands/new/cabin.toml"), &set);
+    let here = setup(include_str!("../../tests/data/hand/cabin.toml"), &set);
     let there = mirrored(here.clone());
     let paths = |setup: Setup| {
         let model = Model::new(setup).unwrap();

@@ -12,7 +12,7 @@ use occupant_tests::room::setup;
 const PEDESTRIAN: &str = include_str!("../../scenarios/pedestrian.toml");
 const RIDER: &str = include_str!("../../scenarios/thrown-rider.toml");
 const ROLLOVER: &str = include_str!("../data/roads/rollover-ejection.toml");
-const BELTED: &str = include_str!("../../scenarios/three-point.toml");
+const BELTED: &str = include_str!("../../tests/data/hand/three-point.toml");
 
 /// What is seen of a run from outside: at each output the time, the centre of gravity, and the names of what touches the body.
 type Seen = Vec<(f64, Vector3<f64>, Vec<String>)>;

@@ -22,13 +22,13 @@ use occupant_scenario::{Draft, Format, Loaded, Scenario};
 pub const TEXT: &str = include_str!("../car.toml");
 
 /// A driver in a three-point belt, as shipped.
-pub const BELTED: &str = include_str!("../../../scenarios/three-point.toml");
+pub const BELTED: &str = include_str!("../../../tests/data/hand/three-point.toml");
 
 /// A driver with belt and air bag, as shipped.
-pub const BAGGED: &str = include_str!("../../../scenarios/airbag-driver.toml");
+pub const BAGGED: &str = include_str!("../../../tests/data/hand/airbag-driver.toml");
 
 /// The same on a column that gives way, as shipped.
-pub const STROKING: &str = include_str!("../../../scenarios/column-driver.toml");
+pub const STROKING: &str = include_str!("../../../tests/data/hand/column-driver.toml");
 
 /// A person of 19 segments on a sled, as shipped.
 pub const SLED: &str = include_str!("../../../scenarios/sled-person.toml");
@@ -39,7 +39,7 @@ pub const PRESSED_S: f64 = 0.058;
 /// Instant of that crash that is timed, s: on the limiter, webbing slides over the rings.
 pub const LIMITED_S: f64 = 0.06;
 
-const SOLIDS: &str = include_str!("../../occupant-cli/src/commands/new/cabin.toml");
+const SOLIDS: &str = include_str!("../../../tests/data/hand/cabin.toml");
 
 /// Solids of that car that stand far from the driver.
 const LEFT_OUT: [&str; 9] = [

@@ -327,7 +327,7 @@ CROWDS = {
 
 def crowd(n, item):
     """A scenario of about `n` bytes with as many of these as fit, 10,000 at most."""
-    whole = (ROOT / "scenarios/three-point.toml").read_text() + "\n"
+    whole = (ROOT / "tests/data/hand/three-point.toml").read_text() + "\n"
     count = min(10_000, (n - len(whole)) // (len(item) + 12))
     return (whole + "".join(item.format(i=i, next=i + 1, x=5 + i % 100, y=i // 100) for i in range(count))).encode()
 

@@ -207,7 +207,7 @@ fn a_report_is_one_file_whose_data_stay_data() {
 #[test]
 fn peaks_of_all_elements_have_their_own_units() {
     let folder = tempfile::tempdir().expect("a folder");
-    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/three-point.toml");
+    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/hand/three-point.toml");
     let words = ["run", scenario, "--json", "-o", "run.mcap", "--set", "time.end=90 ms"];
     let run = answer(folder.path(), &words);
     let summary: serde_json::Value = serde_json::from_slice(&run.stdout).expect("JSON");

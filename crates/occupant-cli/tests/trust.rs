@@ -207,7 +207,8 @@ fn friction_that_is_too_stiff_for_the_step_marks_every_figure() {
 #[test]
 fn how_far_a_column_went_beyond_its_force_does_not_depend_on_the_outputs() {
     let folder = folder();
-    fs::write(folder.path().join("c.toml"), include_str!("../../../scenarios/column-driver.toml")).expect("written");
+    fs::write(folder.path().join("c.toml"), include_str!("../../../tests/data/hand/column-driver.toml"))
+        .expect("written");
     let beyond = |interval: &str| {
         let interval = format!("output.interval={interval}");
         let words = ["run", "c.toml", "--no-mcap", "--set", "belts.driver=null", "--set", &interval];

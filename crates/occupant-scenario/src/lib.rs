@@ -86,6 +86,7 @@
 mod car;
 mod check;
 mod draft;
+mod dummies;
 pub mod ending;
 mod expand;
 pub mod kind;

@@ -130,7 +130,7 @@ const ROWS: &[Row] = &[
     ("sensors of endless errors", || { let _any = SensorErrors { gain: f64::INFINITY, place_m: f64::NAN, angle_rad: 1e300, ..SensorErrors::default() }.member(&signals([5, 5, 5, 2, 0, 5], 1.0, 1e-3), 3); Ok(()) }, false),
     ("signals of an empty record", || said(prepare(&AccelerationRecord::default(), &Default::default())), true),
     ("a path sampled for ever", || sampled(&VehiclePath::parked(), 0.0, f64::INFINITY, 1e-3).map(|_| ()).ok_or_else(|| "none".into()), true),
-    ("a jolt looked for without end", || { assert_eq!(VehiclePath::parked().jolt_s([0.0, f64::INFINITY], 1.0, 0.0), None); Ok(()) }, false),
+    ("a jolt looked for without end", || { assert_eq!(VehiclePath::parked().jolt_s([0.0, f64::INFINITY], None, 1.0, 0.0), None); Ok(()) }, false),
     ("a change looked for at no time", || { assert_eq!(VehiclePath::parked().change_s([f64::NAN; 2], 1.0, 0.0), None); Ok(()) }, false),
     ("zeros of other samples", || { let rest = Baseline::of(&[0.0, 0.1, 0.2, 0.3], 0.1, Some(0.1)).unwrap(); rest.take(&[0.0], &mut [1.0], 0.0); rest.take(&[0.0; 4], &mut [1.0], 0.0); Ok(()) }, false),
     ("a curve through nothing", || { let _any = Curve::periodic(&[]).around(1.0); let _any = Curve::periodic(&[[0.0, 1.0]]).around(1.0); Ok(()) }, false),

@@ -169,9 +169,9 @@ fn named<'s>((name, number): (&str, &'s mut f64)) -> (String, &'s mut f64) {
 
 const CASES: [(&str, &str); 4] = [
     ("cart", include_str!("../../../scenarios/cart-lap-torso.toml")),
-    ("three-point", include_str!("../../../scenarios/three-point.toml")),
-    ("air bag", include_str!("../../../scenarios/airbag-driver.toml")),
-    ("column", include_str!("../../../scenarios/column-driver.toml")),
+    ("three-point", include_str!("../../../tests/data/hand/three-point.toml")),
+    ("air bag", include_str!("../../../tests/data/hand/airbag-driver.toml")),
+    ("column", include_str!("../../../tests/data/hand/column-driver.toml")),
 ];
 
 /// 1312 calls: 656 numbers, each not a number and infinite.

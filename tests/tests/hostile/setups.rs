@@ -250,10 +250,10 @@ fn so_is_one_of_other_elements() {
         ("gravity that is none among several", |s| s.gravity_m_s2 = f64::NAN, "gravity"),
     ];
     let cases = [
-        (include_str!("../../../scenarios/three-point.toml"), chain),
-        (include_str!("../../../scenarios/airbag-driver.toml"), bag),
-        (include_str!("../../../scenarios/column-driver.toml"), column),
-        (include_str!("../../../scenarios/rear-seat-solids.toml"), solids),
+        (include_str!("../../../tests/data/hand/three-point.toml"), chain),
+        (include_str!("../../../tests/data/hand/airbag-driver.toml"), bag),
+        (include_str!("../../../tests/data/hand/column-driver.toml"), column),
+        (include_str!("../../../tests/data/hand/rear-seat-solids.toml"), solids),
         (include_str!("../../../scenarios/side-by-side.toml"), several),
     ];
     let mut failures = Vec::new();

@@ -42,14 +42,35 @@ pub enum Filtering {
 pub struct Options {
     /// The dummy whose limits and risk curves hold.
     pub dummy: Dummy,
+    /// Whether a body of another size is compared with the frontal dummy of its own: see [`Options::for_body`].
+    pub by_size: bool,
     /// Filters.
     pub filtering: Filtering,
 }
 
 impl Default for Options {
-    /// Hybrid III 50M, unfiltered.
+    /// Hybrid III 50M, or that of the body's size, unfiltered.
     fn default() -> Self {
-        Options { dummy: Dummy::HybridIii50M, filtering: Filtering::None }
+        Options { dummy: Dummy::HybridIii50M, by_size: true, filtering: Filtering::None }
+    }
+}
+
+impl Options {
+    /// Compares with one dummy, whatever the body.
+    #[must_use]
+    pub fn with(self, dummy: Dummy) -> Options {
+        Options { dummy, by_size: false, ..self }
+    }
+
+    /// What a body of this mass, kg, is compared with: the Hybrid III nearest to it, where its size decides.
+    #[must_use]
+    pub fn for_body(self, mass_kg: f64) -> Options {
+        if !self.by_size {
+            return self;
+        }
+        let far = |dummy: &Dummy| (mass_kg / dummy.mass_kg()).ln().abs();
+        let nearest = Dummy::SIZES.into_iter().min_by(|a, b| far(a).total_cmp(&far(b)));
+        self.with(nearest.unwrap_or(self.dummy))
     }
 }
 

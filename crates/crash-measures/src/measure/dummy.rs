@@ -58,6 +58,9 @@ impl Dummy {
         BioRidIi,
     ];
 
+    /// The frontal dummies of one family, by size.
+    pub const SIZES: [Dummy; 3] = [HybridIii5F, HybridIii50M, HybridIii95M];
+
     /// Its usual name.
     #[must_use]
     pub fn name(self) -> &'static str {

@@ -50,9 +50,9 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TIME", value_parser = interval)]
     interval: Option<f64>,
 
-    /// The dummy whose limits and risk curves apply
-    #[arg(long, value_name = "DUMMY", default_value = "hybrid-iii-50m", value_parser = one_of(&DUMMIES))]
-    dummy: Dummy,
+    /// The dummy whose limits and risk curves apply; the Hybrid III nearest in mass if absent
+    #[arg(long, value_name = "DUMMY", value_parser = one_of(&DUMMIES))]
+    dummy: Option<Dummy>,
 
     /// Exit with code 1 if a limit is exceeded
     #[arg(long)]
@@ -161,13 +161,13 @@ impl Judged {
         args.units.or(self.results.loaded.scenario.units)
     }
 
-    fn answer(&self, options: &Options) -> Answer<'_> {
+    fn answer(&self) -> Answer<'_> {
         Answer {
             file: &self.file,
             title: &self.results.model.setup().title,
             complete: self.results.is_complete(),
             covers_s: self.results.covers_s(),
-            dummy: options.dummy.name(),
+            dummy: self.summary.dummy,
             occupant: self.summary.occupant,
             measures: &self.summary.measures,
             others: self.summary.others.iter().map(|(name, person)| (*name, &person.measures[..])).collect(),
@@ -179,7 +179,8 @@ impl Judged {
 
 /// Prints the measures of runs.
 pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
-    let options = Options { dummy: args.dummy, filtering: args.filtering() };
+    let filtered = Options { filtering: args.filtering(), ..Options::default() };
+    let options = args.dummy.map_or(filtered, |dummy| filtered.with(dummy));
     if args.runs.iter().any(|file| test::is_test(file)) {
         return test::measures(args, &options);
     }
@@ -187,7 +188,7 @@ pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
     let all = args.runs.iter().map(|file| Judged::of(file, args.interval, options));
     let all = all.collect::<Result<Vec<_>, _>>()?;
     if args.json {
-        let answers: Vec<_> = all.iter().map(|one| one.answer(&options)).collect();
+        let answers: Vec<_> = all.iter().map(Judged::answer).collect();
         print(&if let [one] = &answers[..] { json(one)? } else { json(&answers)? })?;
     } else if let [one] = &all[..] {
         one.notes.iter().for_each(note);
@@ -214,7 +215,9 @@ fn texts(all: &[Judged], options: &Options, units: Units) -> String {
         let lines = marks.explained()?;
         Some(lines.lines().map(|line| format!("{number}  {line}\n")).collect::<String>())
     });
-    let (filter, dummy) = (filter(options), options.dummy.name());
+    let mut dummies: Vec<_> = all.iter().map(|one| one.summary.dummy).collect();
+    dummies.dedup();
+    let (filter, dummy) = (filter(options), dummies.join(", of a "));
     [
         runs.collect::<String>() + &format!("{filter}; limits of a {dummy}\n"),
         side_by_side(&columns, units) + "> beyond a limit\n",
@@ -239,7 +242,9 @@ fn text(results: &Results, interval_ms: f64, options: &Options, summary: &Summar
     let (people, all) = (summary.people(), Marks::of(&summary.caveats));
     let filter = filter(options);
     let title = shown(&results.model.setup().title);
-    let dummy = options.dummy.name();
+    let mut dummies: Vec<_> = people.iter().map(|(_, person)| person.dummy).collect();
+    dummies.dedup();
+    let dummy = dummies.join(", of a ");
     let mut parts =
         vec![format!("{title}\nreadings every {interval_ms} ms, {filter}; limits and risks of a {dummy}\n")];
     for (prefix, Person { measures, .. }) in &people {

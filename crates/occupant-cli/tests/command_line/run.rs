@@ -308,15 +308,18 @@ fn friction_is_too_stiff_where_the_energy_balance_says_so() {
         let greatest = ran["unstable_friction"].as_array().unwrap().iter().map(|f| f["number"].as_f64().unwrap());
         (greatest.fold(0.0, f64::max), ran["energy"]["balance_error"].as_f64().unwrap())
     };
-    for (name, below, beyond) in
-        [("../tests/data/carts/cart-unbelted", "0.125 ms", "0.16 ms"), ("rear-seat", "0.075 ms", "0.1 ms")]
-    {
+    for (name, below, beyond) in [
+        ("../tests/data/carts/cart-unbelted", "0.125 ms", "0.16 ms"),
+        ("../tests/data/hand/rear-seat", "0.075 ms", "0.1 ms"),
+    ] {
         let ((none, kept), (number, off)) = (ran(name, below), ran(name, beyond));
         // measured: 2.4e-6 and 3.3e-4, 1.2e-6 and 2.6e-4
         assert!(none == 0.0 && (2.785..4.0).contains(&number), "{name}: {none}, {number}");
         assert!(off > 30.0 * kept, "{name}: {kept}, {off}");
     }
-    for name in ["../tests/data/carts/cart-unbelted", "rear-seat", "rear-seat-solids"] {
+    for name in
+        ["../tests/data/carts/cart-unbelted", "../tests/data/hand/rear-seat", "../tests/data/hand/rear-seat-solids"]
+    {
         let scenario = format!("{}/../../scenarios/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let said = err(&answer(folder.path(), &["run", &scenario, "--no-mcap"]));
         assert!(!said.contains("too stiff"), "{said}");

@@ -214,7 +214,7 @@ fn warn_apart(
 }
 
 /// The planes of a seat: of solids, the face of the cushion that looks most upwards and that of the back that looks most
-/// towards the heels.
+/// towards the heels and a little upwards, as a back that lies nearly flat has another face ahead.
 fn seat_of<'a>(
     setup: &'a Setup,
     faces: &[FlatFace],
@@ -234,7 +234,7 @@ fn seat_of<'a>(
     };
     let up = vehicle.rotation.tr_mul(&Vector3::z());
     let cushion = plane(seating.cushion, "cushion", &|_| up);
-    let back = plane(seating.back, "back", &|middle| Vector3::x() * (seating.heels_m[0] - middle.x).signum());
+    let back = plane(seating.back, "back", &|middle| Vector3::new((seating.heels_m[0] - middle.x).signum(), 0.0, -0.5));
     let (cushion, back) = (cushion?, back?);
     let material = setup.materials.get(setup.surface_material(seating.cushion))?;
     Some(Seat { cushion, back, force: &material.force })

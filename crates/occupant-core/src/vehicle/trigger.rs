@@ -1,5 +1,7 @@
 //! When a vehicle's motion sets something off.
 
+use nalgebra::Vector3;
+
 use super::{Interpolation, PathCursor, VehiclePath};
 
 /// The motion is looked at so often, s (ours).
@@ -18,14 +20,15 @@ impl VehiclePath {
         !matches!(self, VehiclePath::Table(table) if table.interpolation() == Interpolation::Linear)
     }
 
-    /// The first time of a span, s, at which the acceleration of the vehicle's centre of gravity along its floor has been at
-    /// least `threshold_m_s2` for `for_s` without a break; none if it never is within the first 500 s.
-    pub fn jolt_s(&self, span_s: [f64; 2], threshold_m_s2: f64, for_s: f64) -> Option<f64> {
+    /// The first time of a span, s, at which the acceleration of the vehicle's centre of gravity along its floor, or along `way`, a unit
+    /// vector in its axes, has been at least `threshold_m_s2` for `for_s` without a break; none if it never is within the first 500 s.
+    pub fn jolt_s(&self, span_s: [f64; 2], way: Option<Vector3<f64>>, threshold_m_s2: f64, for_s: f64) -> Option<f64> {
         let start_s = span_s[0];
         let mut cursor = PathCursor::default();
         let mut excess = |t_s: f64| {
             let motion = self.motion(t_s, t_s, &mut cursor);
-            motion.vector_to_frame(motion.acceleration_m_s2).xy().norm() - threshold_m_s2
+            let own = motion.vector_to_frame(motion.acceleration_m_s2);
+            way.map_or_else(|| own.xy().norm(), |way| own.dot(&way)) - threshold_m_s2
         };
         let (mut before, mut since_s) = (-1.0, start_s);
         for i in 0..=looks(span_s) {

@@ -1,4 +1,5 @@
-//! `[car]` written out: the inside of a car in the words of the other sections, under what the scenario says itself.
+//! `[car]` written out: the inside of a car in the words of the other sections, under what the scenario says itself. Dummies in one word
+//! are written out with it.
 
 mod classes;
 mod ride;
@@ -10,39 +11,50 @@ use std::fmt::Write as _;
 use serde::Deserialize;
 
 use crate::check::check_parts;
+use crate::dummies;
 use crate::expand::{over, written};
 use crate::presets;
 use crate::sections::{BodySection, CarClass, CarSeatSection, CarSection, Side, schema};
 use classes::Measures;
 use placed_text::{Diagnostics, Document, Node, Problem, Sources, Table, did_you_mean, one_of, with_key};
 
-/// The section of a car: it is checked before it is written out.
-pub(super) const CAR: [&str; 1] = ["car"];
+/// Sections in which a car stands: they are checked before it is written out.
+pub(super) const CAR: [&str; 2] = ["car", "vehicles"];
 /// Sections of those who sit in it.
 const BODIES: [&str; 2] = ["body", "occupants"];
 
-/// Whether a scenario has a car in words.
+/// Whether a scenario has a car or a dummy in words.
 pub(super) fn is_there(root: &Node) -> bool {
-    root.get("car").is_some()
+    cars(root).next().is_some() || dummies::any(root)
+}
+
+/// The cars of a scenario: the vehicle's name that stands before the names of all its parts, none of the first, and where it stands.
+fn cars(root: &Node) -> impl Iterator<Item = (Option<&str>, &Node)> {
+    let others = root.get("vehicles").and_then(Node::as_table).into_iter().flatten();
+    let others = others.filter_map(|(name, entry)| Some((Some(name.as_str()), entry.node.get("car")?)));
+    root.get("car").map(|car| (None, car)).into_iter().chain(others)
 }
 
 /// What is wrong with a car whose words are right.
 pub(super) fn check(document: &Document) -> Diagnostics {
     let mut problems = Diagnostics::new();
     let names: Vec<&str> = SEATS.iter().map(|(name, ..)| *name).collect();
-    let seats = document.root.get("car").and_then(|car| car.get("seats")).and_then(Node::as_table);
-    for name in seats.into_iter().flat_map(Table::keys).filter(|name| !names.contains(&name.as_str())) {
-        let problem =
-            Problem::error(with_key("car.seats", name), format!("`{name}` is not a seat"), one_of(&names, '`'));
-        problems.add(problem.with_hint(did_you_mean(name, &names, '`')), |problem| document.place(problem));
+    for (vehicle, car) in cars(&document.root) {
+        let path = vehicle.map_or_else(|| "car".to_owned(), |name| with_key("vehicles", name) + ".car");
+        let seats = car.get("seats").and_then(Node::as_table);
+        for name in seats.into_iter().flat_map(Table::keys).filter(|name| !names.contains(&name.as_str())) {
+            let at = with_key(&format!("{path}.seats"), name);
+            let problem = Problem::error(at, format!("`{name}` is not a seat"), one_of(&names, '`'));
+            problems.add(problem.with_hint(did_you_mean(name, &names, '`')), |problem| document.place(problem));
+        }
+        bounded(document, Some(car), &path, &mut problems);
     }
-    bounded(document, document.root.get("car"), "car", &mut problems);
     problems
 }
 
 /// What numbers of a car lie between: its key, the least and the greatest in SI units, and how a message says them.
 #[rustfmt::skip]
-const BETWEEN: [(&str, f64, f64, &str); 24] = [
+const BETWEEN: [(&str, f64, f64, &str); 29] = [
     ("seat_height", 0.05, 0.8, "5 cm to 80 cm"), ("seat_offset", 0.05, 1.2, "5 cm to 1.2 m"), ("couple", 0.4, 2.0, "0.4 m to 2 m"),
     ("shoulder_room", 0.8, 2.5, "0.8 m to 2.5 m"), ("roof", 0.5, 2.0, "0.5 m to 2 m"), ("ahead", 0.1, 1.5, "10 cm to 1.5 m"),
     ("above", -1.0, 1.5, "-1 m to 1.5 m"), ("angle", 0.0, 1.4, "0 to 80 degrees"), ("diameter", 0.2, 0.6, "20 cm to 60 cm"),
@@ -51,6 +63,8 @@ const BETWEEN: [(&str, f64, f64, &str); 24] = [
     ("track", -0.5, 0.5, "-0.5 m to 0.5 m"), ("height", -0.3, 0.3, "-0.3 m to 0.3 m"), ("recline", 0.0, 1.4, "0 to 80 degrees"),
     ("y", -1.5, 1.5, "-1.5 m to 1.5 m"), ("foam", 0.01, 100.0, "0.01 to 100"), ("head_gap", 0.0, 0.5, "0 to 0.5 m"),
     ("head_height", 0.3, 1.2, "0.3 m to 1.2 m"), ("limiter", 100.0, 1e6, "100 N to 1 MN"), ("film", 0.001, 0.4, "1 mm to 0.4 m"),
+    ("depth", 0.001, 1.0, "1 mm to 1 m"), ("begins", 0.0, 10.0, "0 to 10 s"), ("lasts", 0.005, 1.0, "5 ms to 1 s"),
+    ("booster", 0.02, 0.3, "2 cm to 30 cm"), ("back_moment", 50.0, 1e5, "50 N·m to 100 kN·m"),
 ];
 const OTHERS_M: [&str; 4] = ["slack", "pretensioner", "behind", "outboard"];
 
@@ -81,26 +95,38 @@ pub(super) fn whole(sources: &mut Sources, root: &Node) -> Node {
     }
     // for their quantities: what they lack the car gives them
     check_parts(&mut read, schema(), &BODIES);
-    let document = words(&read.root).and_then(|text| written(TITLE, &text));
-    let Some(document) = document else { return root.clone() };
-    let id = sources.add(TITLE, document.shared());
-    over(document.root.moved_to(id), root)
+    let texts = [dummies::words(&read.root), words(&read.root).unwrap_or_default()];
+    texts.iter().filter(|text| !text.is_empty()).fold(root.clone(), |root, text| {
+        let Some(document) = written(TITLE, text) else { return root };
+        let id = sources.add(TITLE, document.shared());
+        over(document.root.moved_to(id), &root)
+    })
 }
 
 /// What messages call a car that was written out.
-const TITLE: &str = "car";
+pub(super) const TITLE: &str = "car";
 
 fn words(root: &Node) -> Option<String> {
-    let section = CarSection::deserialize(root.get("car")?).ok()?;
-    let riders = riders(root);
-    let car = Car { measures: Measures::of(&section), section: &section };
-    Some(car.words(&riders))
+    let riders: Vec<Rider> = cars(root).flat_map(|(vehicle, _)| riders(root, vehicle)).collect();
+    cars(root).next()?;
+    let mut text = String::from(SOURCES) + include_str!("materials.toml");
+    if riders.iter().any(|rider| !rider.prefix.is_empty()) {
+        text += "[contact]\nskin = \"flesh\"\n\n";
+    }
+    for (vehicle, car) in cars(root) {
+        let section = CarSection::deserialize(car).ok()?;
+        let car = Car { vehicle, measures: Measures::of(&section), section: &section };
+        text += &car.words(&riders);
+    }
+    Some(text)
 }
 
 /// Somebody in a seat.
 pub(super) struct Rider {
     /// Where his own sections stand: nothing, or "occupants.NAME.".
     prefix: String,
+    /// The vehicle that he sits in, none for the first.
+    vehicle: Option<String>,
     /// The seat's name.
     seat: String,
     /// Standing height, m.
@@ -136,22 +162,32 @@ pub(super) const SEATS: [(&str, usize, f64); 8] = [
     ("third_right", 2, 1.0),
 ];
 
-/// Those who sit in a seat of the car.
-fn riders(root: &Node) -> Vec<Rider> {
+/// Those who sit in a seat of a vehicle's car.
+fn riders(root: &Node, vehicle: Option<&str>) -> Vec<Rider> {
     let Some(several) = root.get("occupants").and_then(Node::as_table) else {
-        return rider(root, "", "driver").into_iter().collect();
+        let drives = vehicle.is_none().then(|| rider(root, "", "driver", vehicle));
+        return drives.flatten().into_iter().collect();
     };
-    let sits = |(name, entry): (&String, &placed_text::Entry)| rider(&entry.node, &format!("occupants.{name}."), name);
-    several.iter().filter_map(sits).collect()
+    let sits_here = |own: &Node| match own.get("vehicle").and_then(Node::as_str) {
+        None | Some("vehicle") => vehicle.is_none(),
+        of => of == vehicle,
+    };
+    let here: Vec<_> = several.iter().filter(|(_, entry)| sits_here(&entry.node)).collect();
+    let usual = |name: &str| if here.len() == 1 && !is_seat(name) { "driver".to_owned() } else { name.to_owned() };
+    let sits = |(name, entry): &(&String, &placed_text::Entry)| {
+        rider(&entry.node, &format!("occupants.{name}."), &usual(name), vehicle)
+    };
+    here.iter().filter_map(sits).collect()
 }
 
-fn rider(own: &Node, prefix: &str, usual: &str) -> Option<Rider> {
+fn is_seat(name: &str) -> bool {
+    SEATS.iter().any(|(seat, ..)| *seat == name)
+}
+
+fn rider(own: &Node, prefix: &str, usual: &str, vehicle: Option<&str>) -> Option<Rider> {
     let said = own.get("posture").and_then(|posture| posture.get("seat")).and_then(Node::as_str);
-    let seat = said.unwrap_or(usual);
-    let elsewhere = own.get("vehicle").and_then(Node::as_str).is_some_and(|vehicle| vehicle != "vehicle");
-    if elsewhere || SEATS.iter().all(|(name, ..)| *name != seat) {
-        return None;
-    }
+    let stripped = |said| vehicle.map_or(Some(said), |vehicle| str::strip_prefix(said, vehicle)?.strip_prefix('_'));
+    let seat = said.map_or(Some(usual), stripped).filter(|seat| is_seat(seat))?;
     let (body, joints) = (own.get("body"), own.get("joints"));
     let section = body.and_then(|body| BodySection::deserialize(body).ok());
     let person = section.as_ref().map_or_else(|| presets::person_of(None), |own| presets::person_of(Some(own)));
@@ -160,35 +196,36 @@ fn rider(own: &Node, prefix: &str, usual: &str) -> Option<Rider> {
     let preset = joints.and_then(|joints| joints.get("preset")).and_then(Node::as_str);
     let is_person = joints.is_none() || preset.is_some_and(|preset| presets::OF_PEOPLE.contains(&preset));
     let lacks = Lacks {
-        body: !says(body, &["preset", "sex", "stature", "mass", "segments", "joints"]),
-        joints: !says(joints, &["preset"]) && !says(body, &["joints"]),
+        body: !says(body, &["preset", "dummy", "sex", "stature", "mass", "segments", "joints"]),
+        joints: !says(joints, &["preset"]) && !says(body, &["joints", "dummy"]),
         flesh: is_person
             && person.is_some()
-            && !says(body, &["chest", "pelvis", "abdomen", "segments", "segment_count"]),
+            && !says(body, &["dummy", "chest", "pelvis", "abdomen", "segments", "segment_count"]),
         arms: !says(own.get("posture"), &["upper_arms", "elbows", "left_upper_arm", "right_upper_arm"]),
         posture: !says(Some(own), &["initial_state", "mount", "stance"]),
     };
     let stature_m = person.map_or(classes::MEAN_STATURE_M, |person| person.stature_m);
-    Some(Rider { prefix: prefix.to_owned(), seat: seat.to_owned(), stature_m, lacks })
+    let vehicle = vehicle.map(str::to_owned);
+    Some(Rider { prefix: prefix.to_owned(), vehicle, seat: seat.to_owned(), stature_m, lacks })
 }
 
 /// A car with all its distances.
 pub(super) struct Car<'a> {
+    /// The vehicle that it is the inside of, none for the first.
+    vehicle: Option<&'a str>,
     measures: Measures,
     section: &'a CarSection,
 }
 
 impl Car<'_> {
+    /// All of it, for those who sit in any.
     fn words(&self, riders: &[Rider]) -> String {
         let mut text = String::new();
-        text.push_str(SOURCES);
-        text.push_str(include_str!("materials.toml"));
-        if riders.iter().any(|rider| !rider.prefix.is_empty()) {
-            text.push_str("[contact]\nskin = \"flesh\"\n\n");
-        }
-        let seats = self.seats(riders);
+        let count = riders.len();
+        let riders: Vec<&Rider> = riders.iter().filter(|rider| rider.vehicle.as_deref() == self.vehicle).collect();
+        let seats = self.seats(&riders);
         for rider in riders {
-            text.push_str(&self.ride(rider, riders.len()));
+            text.push_str(&self.ride(rider, count));
         }
         for seat in &seats {
             text.push_str(&seat.words());
@@ -203,6 +240,22 @@ impl Car<'_> {
         if self.section.drive == Some(Side::Right) { 1.0 } else { -1.0 }
     }
 
+    /// What a part of it is called.
+    fn name(&self, part: &str) -> String {
+        self.vehicle.map_or_else(|| part.to_owned(), |vehicle| format!("{vehicle}_{part}"))
+    }
+
+    /// The frame that it is fixed to.
+    fn frame(&self) -> &str {
+        self.vehicle.unwrap_or("vehicle")
+    }
+
+    /// A prism of it.
+    fn prism(&self, name: &str, material: &str, profile: &[[f64; 2]], across: [f64; 2], more: &str) -> String {
+        let frame = if more.contains("frame = ") { String::new() } else { frame_line(self.vehicle) };
+        prism(&self.name(name), material, profile, across, &(frame + more))
+    }
+
     fn seat(&self, name: &str) -> CarSeatSection {
         self.section.seats.get(name).cloned().unwrap_or_default()
     }
@@ -215,6 +268,11 @@ car = "ours: distances of the size that SAE J1100 dimensions of a class have; no
 "car.materials" = "ours, of the size of seats, panels and floors of a car; not measured, not fitted"
 "car.bags" = "made up: no measured inflator may be shipped"
 "#;
+
+/// What fixes a part to a vehicle, none for the first.
+fn frame_line(frame: Option<&str>) -> String {
+    frame.map_or_else(String::new, |frame| format!("frame = \"{frame}\"\n"))
+}
 
 /// A length, m, as a text.
 fn m(length: f64) -> String {

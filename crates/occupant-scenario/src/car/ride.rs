@@ -19,13 +19,15 @@ pub(super) const SOLE_M: f64 = 0.03;
 
 /// Heels of passengers ahead of their H-point and below the front one.
 const PASSENGER_HEELS_M: f64 = 0.70;
+/// How far heels of people behind stay behind the H-points of the row ahead of them.
+const REAR_FEET_M: f64 = 0.41;
 
 impl Car<'_> {
     /// All of one rider's own.
     pub(super) fn ride(&self, rider: &Rider, riders: usize) -> String {
         let Some((name, row, side)) = SEATS.iter().find(|(name, ..)| *name == rider.seat) else { return String::new() };
         let seat = self.placed(name, *row, *side, Some(rider));
-        let mut text = body(rider, riders);
+        let mut text = self.body(rider, riders);
         if rider.lacks.posture {
             text += &self.posture(rider, &seat, riders);
         }
@@ -38,21 +40,23 @@ impl Car<'_> {
         let heels = if is_driver {
             [self.measures.heels, self.measures.seat_height]
         } else {
-            let ahead = PASSENGER_HEELS_M.min(self.measures.heels);
+            // rows behind the front have the seats ahead before their shins
+            let room = if seat.row == 0 { self.measures.heels } else { self.measures.couple - REAR_FEET_M };
+            let ahead = PASSENGER_HEELS_M.min(room);
             [seat.h[0] + ahead, self.measures.seat_height]
         };
         let arms = if is_driver && rider.lacks.arms {
             let [ahead, above] = self.measures.wheel;
             format!("hands = {}\n", list(&[ahead - HANDS_BEFORE_RIM_M, -above]))
         } else {
-            // hands on the thighs
-            String::from("upper_arms = \"15 deg\"\nelbows = \"-75 deg\"\n")
+            // hands on the thighs, elbows clear of the back
+            format!("upper_arms = \"{} deg\"\nelbows = \"-75 deg\"\n", (lean - 5.0).max(15.0))
         };
         format!(
             "[{}posture]\nseat = \"{}\"\nlower_torso = \"{} deg\"\nmiddle_torso = \"{} deg\"\nupper_torso = \"{} deg\"\n{}head = \"{} deg\"\n\
              {arms}heels = {}\n\n",
             rider.prefix,
-            seat.name,
+            seat.id,
             lean,
             lean - 3.0,
             lean - 2.0,
@@ -98,7 +102,7 @@ impl Car<'_> {
                 if rider.lacks.flesh {
                     belt += "lap = \"wings\"\n";
                 }
-                belt + "\n" + &retractor(prefix, seat)
+                belt + "\n" + &self.retractor(prefix, seat)
             }
         }
     }
@@ -116,60 +120,62 @@ fn segment_count(riders: usize) -> usize {
     }
 }
 
-fn body(rider: &Rider, riders: usize) -> String {
-    let (prefix, lacks) = (&rider.prefix, rider.lacks);
-    let mut text = String::new();
-    if let Some(own) = prefix.strip_suffix('.') {
-        text += &format!("[{own}]\nvehicle = \"vehicle\"\n\n");
+impl Car<'_> {
+    fn body(&self, rider: &Rider, riders: usize) -> String {
+        let (prefix, lacks) = (&rider.prefix, rider.lacks);
+        let mut text = String::new();
+        if let Some(own) = prefix.strip_suffix('.') {
+            text += &format!("[{own}]\nvehicle = \"{}\"\n\n", self.frame());
+        }
+        text += &format!("[{prefix}body]\n");
+        if lacks.body {
+            text += "preset = \"male50\"\n";
+        }
+        if lacks.flesh {
+            text += &format!("segment_count = {}\n", segment_count(riders));
+            text += "chest = \"person\"\npelvis = \"flesh\"\nabdomen = \"person\"\n";
+        }
+        text += &format!("[{prefix}joints]\n");
+        if lacks.joints {
+            text += "preset = \"person\"\n";
+        }
+        text + "\n"
     }
-    text += &format!("[{prefix}body]\n");
-    if lacks.body {
-        text += "preset = \"male50\"\n";
-    }
-    if lacks.flesh {
-        text += &format!("segment_count = {}\n", segment_count(riders));
-        text += "chest = \"person\"\npelvis = \"flesh\"\nabdomen = \"person\"\n";
-    }
-    text += &format!("[{prefix}joints]\n");
-    if lacks.joints {
-        text += "preset = \"person\"\n";
-    }
-    text + "\n"
-}
 
-/// Retractor, limiter and pretensioner of a seat's belt.
-fn retractor(prefix: &str, seat: &Seat) -> String {
-    let own = &seat.own;
-    let name = if prefix.is_empty() { seat.name } else { BELT };
-    let limiter = seat.name;
-    let force = si_or(&own.limiter, 3000.0);
-    let film = si_or(&own.film, 0.03);
-    let pulls = si_or(&own.pretensioner, if seat.row == 0 { 0.1 } else { 0.0 });
-    // a pretensioner takes loose webbing up first; what it leaves comes before the film, at little more than the spool's tension
-    let slack = si_or(&own.slack, 0.0);
-    let (loose, pulled) = ((slack - pulls).max(0.0), (pulls - slack).max(0.0));
-    let (starts, held) = if loose > 0.0 {
-        (format!("\"0 m\", \"{loose} m\""), "\"0 N\", \"10 N\"")
-    } else {
-        ("\"0 m\"".to_owned(), "\"0 N\"")
-    };
-    let film = loose + film;
-    let pretensioner = if pulled > 0.0 {
-        // it moves evenly, and pulls from when the slack is gone
-        let free = if slack > 0.0 { format!("\"{} s\", ", 0.008 * slack / pulls) } else { String::new() };
-        let still = if slack > 0.0 { "\"0 m\", " } else { "" };
+    /// Retractor, limiter and pretensioner of a seat's belt.
+    fn retractor(&self, prefix: &str, seat: &Seat) -> String {
+        let own = &seat.own;
+        let name = if prefix.is_empty() { seat.name } else { BELT };
+        let (limiter, [sensor, crash]) = (&seat.id, ["sensor", "crash"].map(|trigger| self.name(trigger)));
+        let force = si_or(&own.limiter, 3000.0);
+        let film = si_or(&own.film, 0.03);
+        let pulls = si_or(&own.pretensioner, if seat.row == 0 { 0.1 } else { 0.0 });
+        // a pretensioner takes loose webbing up first; what it leaves comes before the film, at little more than the spool's tension
+        let slack = si_or(&own.slack, 0.0);
+        let (loose, pulled) = ((slack - pulls).max(0.0), (pulls - slack).max(0.0));
+        let (starts, held) = if loose > 0.0 {
+            (format!("\"0 m\", \"{loose} m\""), "\"0 N\", \"10 N\"")
+        } else {
+            ("\"0 m\"".to_owned(), "\"0 N\"")
+        };
+        let film = loose + film;
+        let pretensioner = if pulled > 0.0 {
+            // it moves evenly, and pulls from when the slack is gone
+            let free = if slack > 0.0 { format!("\"{} s\", ", 0.008 * slack / pulls) } else { String::new() };
+            let still = if slack > 0.0 { "\"0 m\", " } else { "" };
+            format!(
+                "pretensioner = {{ trigger = \"{crash}\", delay = \"3 ms\", times = [\"0 s\", {free}\"8 ms\"], pull = [\"0 m\", {still}\"{pulled} m\"], \
+                 stall_force = \"2 kN\" }}\n"
+            )
+        } else {
+            String::new()
+        };
         format!(
-            "pretensioner = {{ trigger = \"crash\", delay = \"3 ms\", times = [\"0 s\", {free}\"8 ms\"], pull = [\"0 m\", {still}\"{pulled} m\"], \
-             stall_force = \"2 kN\" }}\n"
+            "[{prefix}retractors.{name}]\non_spool = \"0.8 m\"\nspool_tension = \"6 N\"\nlock = {{ trigger = \"{sensor}\", payout = \"5 mm\" }}\nlimiter = \"{limiter}\"\n\
+             {pretensioner}\n[limiters.{limiter}]\npayout = [{starts}, \"{film} m\", \"{} m\", \"{} m\"]\nforce = [{held}, \"{force} N\", \"{force} N\", \"{} N\"]\n\n",
+            film + 0.47,
+            film + 0.52,
+            3.0 * force,
         )
-    } else {
-        String::new()
-    };
-    format!(
-        "[{prefix}retractors.{name}]\non_spool = \"0.8 m\"\nspool_tension = \"6 N\"\nlock = {{ trigger = \"sensor\", payout = \"5 mm\" }}\nlimiter = \"{limiter}\"\n\
-         {pretensioner}\n[limiters.{limiter}]\npayout = [{starts}, \"{film} m\", \"{} m\", \"{} m\"]\nforce = [{held}, \"{force} N\", \"{force} N\", \"{} N\"]\n\n",
-        film + 0.47,
-        film + 0.52,
-        3.0 * force,
-    )
+    }
 }

@@ -1,11 +1,15 @@
 //! Seats of a car: cushion, pan, back, frame and head restraint.
 
-use super::{Car, Rider, SEATS, classes, list, m, prism};
+use super::{Car, Rider, SEATS, classes, frame_line, list, m, prism};
 use crate::sections::{CarClass, CarSeatSection, si_or};
 
 /// A seat in its place.
 pub(super) struct Seat {
     pub(super) name: &'static str,
+    /// Its name, after that of the vehicle where it is not the first.
+    pub(super) id: String,
+    /// What the vehicle is called as a frame; none for the first.
+    vehicle: Option<String>,
     pub(super) row: usize,
     /// Its H-point x, y, z, vehicle axes, m.
     pub(super) h: [f64; 3],
@@ -21,6 +25,9 @@ pub(super) struct Seat {
 const BACK_BEHIND_M: f64 = 0.105;
 /// Back of the head of an average man who sits so, ahead of the line of the back through the H-point, m.
 const HEAD_BACK_M: f64 = -0.02;
+/// Recliner and middle of the back's mass: up along the back's line through the H-point and ahead of it, m; ours.
+const RECLINER_M: [f64; 2] = [-0.08, -0.15];
+const BACK_MIDDLE_M: [f64; 2] = [0.32, -0.20];
 /// Lean of backs in the front and behind, degrees; ours.
 const RECLINE_DEG: [f64; 3] = [20.0, 24.0, 24.0];
 /// Height of the H-points of the rows over that of the front, m; ours.
@@ -28,9 +35,9 @@ const RISES_M: [f64; 3] = [0.0, 0.02, 0.04];
 
 impl Car<'_> {
     /// The seats that somebody sits in or the scenario names, and those of the front row before and beside them.
-    pub(super) fn seats(&self, riders: &[Rider]) -> Vec<Seat> {
+    pub(super) fn seats(&self, riders: &[&Rider]) -> Vec<Seat> {
         let is_sled = self.section.class == Some(CarClass::Sled);
-        let rider = |name: &str| riders.iter().find(|rider| rider.seat == name);
+        let rider = |name: &str| riders.iter().copied().find(|rider| rider.seat == name);
         let is_there = |(name, row, _): &&(&str, usize, f64)| {
             let is_ahead = *row == 0 && !is_sled;
             is_ahead || rider(name).is_some() || self.section.seats.contains_key(*name)
@@ -50,7 +57,17 @@ impl Car<'_> {
         let z = -RISES_M[row] - si_or(&own.height, 0.0);
         let recline_deg = own.recline.as_ref().map_or(RECLINE_DEG[row], |angle| angle.si().to_degrees());
         let half_width = if row == 0 { 0.25 } else { m.seat_offset / 2.0 };
-        Seat { name, row, h: [x, y, z], recline_deg, half_width, own, taken: rider.is_some() }
+        Seat {
+            name,
+            id: self.name(name),
+            vehicle: self.vehicle.map(str::to_owned),
+            row,
+            h: [x, y, z],
+            recline_deg,
+            half_width,
+            own,
+            taken: rider.is_some(),
+        }
     }
 }
 
@@ -71,46 +88,87 @@ impl Seat {
     }
 
     pub(super) fn words(&self) -> String {
-        let name = self.name;
+        let id = &self.id;
         let across = [self.h[1], self.half_width];
         let steel = [self.h[1], self.half_width - 0.02];
-        // rows behind the front are benches, met without seams
-        let group = |part: &str| {
-            if self.row == 0 { String::new() } else { format!("group = \"row_{}_{part}\"\n", self.row + 1) }
+        let (still, back) = (frame_line(self.vehicle.as_deref()), frame_line(self.back_frame().as_deref()));
+        let rounded = |frame: &str, part: &str, radius: f64| {
+            format!("{frame}{}rounding = {}\n", self.group(part, frame), m(radius))
         };
-        let rounded = |part: &str, radius: f64| format!("{}rounding = {}\n", group(part), m(radius));
         let all = |points: &[[f64; 2]]| points.iter().map(|point| self.at(*point)).collect::<Vec<_>>();
-        let back = |points: &[[f64; 2]]| points.iter().map(|point| self.along(*point)).collect::<Vec<_>>();
+        let along = |points: &[[f64; 2]]| points.iter().map(|point| self.along(*point)).collect::<Vec<_>>();
         let foam = all(&[[-0.11, 0.12], [0.35, 0.08], [0.35, 0.28], [-0.11, 0.32]]);
         let b = -BACK_BEHIND_M;
-        let cover = back(&[[-0.14, b], [0.56, b], [0.56, b - 0.17], [-0.14, b - 0.17]]);
-        let mut text = prism(&format!("{name}_foam"), &self.foam(), &foam, across, &rounded("foam", 0.02));
-        text += &prism(&format!("{name}_back"), &self.foam(), &cover, across, &rounded("back", 0.02));
+        let cover = along(&[[-0.14, b], [0.56, b], [0.56, b - 0.17], [-0.14, b - 0.17]]);
+        let mut text = prism(&format!("{id}_foam"), &self.foam(), &foam, across, &rounded(&still, "foam", 0.02));
+        text += &prism(&format!("{id}_back"), &self.foam(), &cover, across, &rounded(&back, "back", 0.02));
         if self.taken {
             let pan = all(&[[-0.09, 0.17], [0.33, 0.133], [0.33, 0.27], [-0.09, 0.31]]);
             let ramp = all(&[[0.13, 0.16], [0.28, 0.12], [0.33, 0.12], [0.33, 0.26], [0.13, 0.28]]);
-            let of_pan = format!("group = \"{name}_pan\"\nrounding = \"0.01 m\"\n");
-            text += &prism(&format!("{name}_pan"), "pan", &pan, steel, &of_pan);
-            text += &prism(&format!("{name}_ramp"), "pan", &ramp, steel, &of_pan);
+            let of_pan = format!("{still}group = \"{id}_pan\"\nrounding = \"0.01 m\"\n");
+            text += &prism(&format!("{id}_pan"), "pan", &pan, steel, &of_pan);
+            text += &prism(&format!("{id}_ramp"), "pan", &ramp, steel, &of_pan);
         }
-        let frame = back(&[[-0.12, b - 0.07], [0.54, b - 0.07], [0.54, b - 0.16], [-0.12, b - 0.16]]);
-        text += &prism(&format!("{name}_frame"), "frame", &frame, steel, &rounded("frame", 0.01));
-        text + &self.head_restraint() + &self.place()
+        let frame = along(&[[-0.12, b - 0.07], [0.54, b - 0.07], [0.54, b - 0.16], [-0.12, b - 0.16]]);
+        text += &prism(&format!("{id}_frame"), "frame", &frame, steel, &rounded(&back, "frame", 0.01));
+        self.hinge() + &text + &self.booster() + &self.head_restraint(&back) + &self.place()
+    }
+
+    /// Rows behind the front are benches, met without seams, where they do not yield by themselves.
+    fn group(&self, part: &str, frame: &str) -> String {
+        let yields =
+            self.back_frame().is_some_and(|own| frame_line(Some(&own)) == frame && self.own.back_moment.is_some());
+        if self.row == 0 || yields {
+            return String::new();
+        }
+        let prefix = self.id.strip_suffix(self.name).unwrap_or_default();
+        format!("group = \"{prefix}row_{}_{part}\"\n", self.row + 1)
+    }
+
+    /// What the back is fixed to: the vehicle, none for the first, or its hinge.
+    fn back_frame(&self) -> Option<String> {
+        if self.own.back_moment.is_some() { Some(format!("{}_recliner", self.id)) } else { self.vehicle.clone() }
+    }
+
+    /// A firm cushion on the foam, under a child.
+    fn booster(&self) -> String {
+        let Some(height) = self.own.booster.as_ref().map(|height| height.si()) else { return String::new() };
+        let corners =
+            [[-0.11, 0.12 - height], [0.27, 0.09 - height], [0.27, 0.12], [-0.11, 0.15]].map(|at| self.at(at));
+        let more = frame_line(self.vehicle.as_deref()) + "rounding = \"0.03 m\"\n";
+        prism(&format!("{}_booster", self.id), "pan", &corners, [self.h[1], 0.20], &more)
+    }
+
+    /// The recliner of a back that yields: a few degrees of spring, then the moment; ours, as is the back's mass.
+    fn hinge(&self) -> String {
+        let Some(moment) = self.own.back_moment.as_ref().map(|moment| moment.si()) else { return String::new() };
+        let ([x, z], [cx, cz]) = (self.along(RECLINER_M), self.along(BACK_MIDDLE_M));
+        let (parent, y) = (self.vehicle.as_deref().unwrap_or("vehicle"), self.h[1]);
+        format!(
+            "[frames.{}_recliner]\nkind = \"hinge\"\nparent = \"{parent}\"\norigin = {}\naxis = [0, 1, 0]\nmass = \"14 kg\"\ncentre = {}\n\
+             inertia = \"1 kg m^2\"\nangle = [\"0 deg\", \"2 deg\", \"40 deg\", \"45 deg\"]\n\
+             moment = [\"0 N m\", \"{moment} N m\", \"{} N m\", \"{} N m\"]\n\n",
+            self.id,
+            list(&[x, y, z]),
+            list(&[cx, y, cz]),
+            1.17 * moment,
+            1.17 * moment + 7000.0,
+        )
     }
 
     /// The foam's material: that of all, or a stiffer or softer one of its own.
     fn foam(&self) -> String {
-        if self.own.foam.is_some() { format!("{}_foam", self.name) } else { "foam".to_owned() }
+        if self.own.foam.is_some() { format!("{}_foam", self.id) } else { "foam".to_owned() }
     }
 
-    fn head_restraint(&self) -> String {
+    fn head_restraint(&self, frame: &str) -> String {
         let front = HEAD_BACK_M - si_or(&self.own.head_gap, 0.05);
         let top = si_or(&self.own.head_height, 0.80);
         let [x, z] = self.along([top - 0.10, front - 0.05]);
         format!(
-            "[solids.{}_head_restraint]\nkind = \"box\"\nmaterial = \"padding\"\ncentre = {}\nlengths = [\"0.10 m\", \"0.26 m\", \"0.20 m\"]\n\
+            "[solids.{}_head_restraint]\n{frame}kind = \"box\"\nmaterial = \"padding\"\ncentre = {}\nlengths = [\"0.10 m\", \"0.26 m\", \"0.20 m\"]\n\
              pitch = \"{} deg\"\nrounding = \"0.03 m\"\n\n",
-            self.name,
+            self.id,
             list(&[x, self.h[1], z]),
             self.recline_deg / 2.0,
         )
@@ -118,9 +176,10 @@ impl Seat {
 
     /// The seat's own words, and its foam where that is another.
     fn place(&self) -> String {
-        let name = self.name;
+        let name = &self.id;
+        let cushion = if self.own.booster.is_some() { "booster" } else { "foam" };
         let mut text =
-            format!("[seats.{name}]\ncushion = \"{name}_foam\"\nback = \"{name}_back\"\ny = {}\n\n", m(self.h[1]));
+            format!("[seats.{name}]\ncushion = \"{name}_{cushion}\"\nback = \"{name}_back\"\ny = {}\n\n", m(self.h[1]));
         if let Some(factor) = self.own.foam.as_ref().map(|factor| factor.si()) {
             text += &format!(
                 "[materials.{name}_foam]\nk1 = \"{} kN/m\"\ndelta_b = \"45 mm\"\nk2 = \"{} kN/m\"\nmu1 = 0.3\nfriction = 0.8\n\

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use super::ride::SOLE_M;
 use super::seats::Seat;
-use super::{Car, list, m, points, prism};
-use crate::sections::si_or;
+use super::{Car, frame_line, list, m, points};
+use crate::sections::{CarClass, IntrusionSection, si_or};
 use occupant_units::trig::sin_cos;
 
 /// Thickness of a door.
@@ -13,9 +13,15 @@ const DOOR_M: f64 = 0.20;
 
 impl Car<'_> {
     /// Triggers of belts and bags stand here, as every car has them.
-    fn triggers() -> &'static str {
-        "[triggers.sensor]\nkind = \"vehicle_acceleration\"\nthreshold = \"0.45 g\"\n\n\
-         [triggers.crash]\nkind = \"vehicle_acceleration\"\nthreshold = \"3 g\"\nfor = \"2 ms\"\n\n"
+    fn triggers(&self) -> String {
+        let of = |name: &str, more: &str| {
+            let (name, vehicle) = (self.name(name), self.frame());
+            format!(
+                "[triggers.{name}]\nkind = \"vehicle_acceleration\"\nvehicle = \"{vehicle}\"\nthreshold = {more}\n\n"
+            )
+        };
+        let front = "\"3 g\"\nfor = \"2 ms\"\ndirection = [-1, 0, 0]";
+        of("sensor", "\"0.45 g\"") + &of("crash", "\"3 g\"\nfor = \"2 ms\"") + &of("front", front)
     }
 
     /// Half the width between the doors, m.
@@ -40,8 +46,50 @@ impl Car<'_> {
         let back = -2.0 * self.measures.couple - 0.6;
         let ground = [[back, floor], [toe + 0.11, floor], [toe + 0.11, floor + 0.10], [back, floor + 0.10]];
         let sides = [0.0, w];
-        let text = prism("toe_board", "floor", &board, sides, "") + &prism("floor", "floor", &ground, sides, "");
-        Self::triggers().to_owned() + &text
+        let text = self.prism("toe_board", "floor", &board, sides, &self.moved("front"))
+            + &self.prism("floor", "floor", &ground, sides, "");
+        self.triggers() + &text
+    }
+
+    /// What fixes a part to a side that may come in.
+    fn moved(&self, side: &str) -> String {
+        match self.intrusion(side) {
+            Some(_) => format!("frame = \"{}\"\n", self.name(&format!("{side}_intrusion"))),
+            None => frame_line(self.vehicle),
+        }
+    }
+
+    fn intrusion(&self, side: &str) -> Option<&IntrusionSection> {
+        let all = &self.section.intrusion;
+        match side {
+            "left" => all.left.as_ref(),
+            "right" => all.right.as_ref(),
+            _ => all.front.as_ref(),
+        }
+    }
+
+    /// How sides come in: a fifth of the time at rising speed, then at falling speed.
+    pub(super) fn intrusions(&self) -> String {
+        let mut text = String::new();
+        for (side, way) in [("left", "y"), ("right", "y"), ("front", "x")] {
+            let Some(own) = self.intrusion(side) else { continue };
+            let sign = if side == "left" { 1.0 } else { -1.0 };
+            let (begins, lasts) = (si_or(&own.begins, 0.005), si_or(&own.lasts, 0.060));
+            let row = |i: u32| {
+                let share = f64::from(i) / 20.0;
+                let way = if share <= 0.2 { share * share / 0.2 } else { 1.0 - (1.0 - share).powi(2) / 0.8 };
+                format!("[{}, {}]", begins + share * lasts, sign * own.depth.si() * way)
+            };
+            let still = if begins > 0.0 { "[0, 0], " } else { "" };
+            let rows = (0..=20).map(row).collect::<Vec<_>>().join(", ");
+            let (name, parent) = (self.name(&format!("{side}_intrusion")), self.frame());
+            _ = write!(
+                text,
+                "[frames.{name}]\nparent = \"{parent}\"\npath = {{ kind = \"table\", interpolation = \"linear\", after = \"hold\", \
+                 columns = [\"t[s]\", \"{way}[m]\"], rows = [{still}{rows}] }}\n\n",
+            );
+        }
+        text
     }
 
     /// All but seats and wheel.
@@ -50,7 +98,25 @@ impl Car<'_> {
         let rear = -last * self.measures.couple - 0.75;
         let drives = seats.iter().any(|seat| seat.name == "driver" && seat.is_taken());
         let wheel = if drives { self.wheel() } else { String::new() };
-        self.foot_rest() + &self.ahead() + &self.around(rear) + &wheel + &self.bags(seats)
+        self.intrusions()
+            + &self.foot_rest()
+            + &self.console()
+            + &self.ahead()
+            + &self.around(rear)
+            + &wheel
+            + &self.bags(seats)
+    }
+
+    /// What stands between the front seats.
+    fn console(&self) -> String {
+        let class = self.section.class.unwrap_or_default();
+        if !self.section.console.unwrap_or(!matches!(class, CarClass::Van | CarClass::Pickup)) {
+            return String::new();
+        }
+        let (b, floor) = (self.measures.bolster, self.floor_z());
+        let block = [[-0.10, -0.02], [b, -0.02], [b, floor], [-0.10, floor]];
+        let half_width = (self.measures.seat_offset - 0.26).max(0.03);
+        self.prism("console", "padding", &block, [0.0, half_width], "rounding = \"0.02 m\"\n")
     }
 
     /// Bolster, panel and windscreen.
@@ -65,14 +131,16 @@ impl Car<'_> {
         let stiffness = self.section.panel.bolster_stiffness.as_ref().map(|stiffness| stiffness.si());
         let own = stiffness.map_or_else(String::new, |k| {
             format!(
-                "[materials.knee_bolster]\nk1 = \"{k} N/m\"\ndelta_b = \"50 mm\"\nk2 = \"{} N/m\"\nmu1 = 0.2\nfriction = 0.4\n\n",
+                "[materials.{}]\nk1 = \"{k} N/m\"\ndelta_b = \"50 mm\"\nk2 = \"{} N/m\"\nmu1 = 0.2\nfriction = 0.4\n\n",
+                self.name("knee_bolster"),
                 3.0 * k
             )
         });
-        let material = if stiffness.is_some() { "knee_bolster" } else { "bolster" };
-        own + &prism("knee_bolster", material, &bolster, sides, "rounding = \"0.02 m\"\n")
-            + &prism("instrument_panel", "padding", &panel, sides, "rounding = \"0.03 m\"\n")
-            + &prism("windscreen", "glass", &screen, [0.0, w - 0.02], "")
+        let material = if stiffness.is_some() { self.name("knee_bolster") } else { "bolster".to_owned() };
+        let front = self.moved("front");
+        own + &self.prism("knee_bolster", &material, &bolster, sides, &format!("{front}rounding = \"0.02 m\"\n"))
+            + &self.prism("instrument_panel", "padding", &panel, sides, &format!("{front}rounding = \"0.03 m\"\n"))
+            + &self.prism("windscreen", "glass", &screen, [0.0, w - 0.02], "")
     }
 
     /// Roof, doors, windows, pillars and what is behind.
@@ -82,15 +150,17 @@ impl Car<'_> {
         let (top, base) = ([0.45, -roof], a + 0.46);
         let sheet = [[top[0], top[1]], [rear, top[1]], [rear, top[1] - 0.06], [top[0], top[1] - 0.06]];
         let wall = [[rear, top[1]], [rear, floor + 0.10], [rear - 0.10, floor + 0.10], [rear - 0.10, top[1]]];
-        let mut text = prism("roof", "padding", &sheet, [0.0, w - 0.09], "");
-        text += &prism("rear_end", "padding", &wall, [0.0, w + 0.05], "");
+        let mut text = self.prism("roof", "padding", &sheet, [0.0, w - 0.09], "");
+        text += &self.prism("rear_end", "padding", &wall, [0.0, w + 0.05], "");
         // the sill of the windows, and how far they lean in
         let (sill, lean) = (-0.44, 0.10);
         for (side, y) in [("left", -1.0), ("right", 1.0)] {
             let middle = [(rear + base) / 2.0, y * (w + DOOR_M / 2.0), (sill + floor) / 2.0];
             _ = write!(
                 text,
-                "[solids.{side}_door]\nkind = \"box\"\nmaterial = \"frame\"\ncentre = {}\nlengths = {}\nrounding = \"0.02 m\"\n\n",
+                "[solids.{}]\n{}kind = \"box\"\nmaterial = \"frame\"\ncentre = {}\nlengths = {}\nrounding = \"0.02 m\"\n\n",
+                self.name(&format!("{side}_door")),
+                self.moved(side),
                 list(&middle),
                 list(&[base - rear, DOOR_M, floor - sill]),
             );
@@ -98,7 +168,9 @@ impl Car<'_> {
             let window = [[base, low, sill], [top[0], high, top[1]], [rear, high, top[1]], [rear, low, sill]];
             _ = write!(
                 text,
-                "[solids.{side}_window]\nkind = \"prism\"\nmaterial = \"glass\"\npoints = {}\nhalf_width = \"0.01 m\"\n\n",
+                "[solids.{}]\n{}kind = \"prism\"\nmaterial = \"glass\"\npoints = {}\nhalf_width = \"0.01 m\"\n\n",
+                self.name(&format!("{side}_window")),
+                frame_line(self.vehicle),
                 points(&window),
             );
             let front = [[base, low * 0.99, -above + 0.02], [top[0], high, top[1] + 0.02]];
@@ -106,7 +178,9 @@ impl Car<'_> {
             for (name, ends, radius) in [("front", front, 0.04), ("middle", middle, 0.05)] {
                 _ = write!(
                     text,
-                    "[solids.{side}_{name}_pillar]\nkind = \"capsule\"\nmaterial = \"padding\"\nends = {}\nradius = {}\n\n",
+                    "[solids.{}]\n{}kind = \"capsule\"\nmaterial = \"padding\"\nends = {}\nradius = {}\n\n",
+                    self.name(&format!("{side}_{name}_pillar")),
+                    frame_line(self.vehicle),
                     points(&ends),
                     m(radius),
                 );
@@ -129,13 +203,14 @@ impl Car<'_> {
         let (force, stroke) =
             (si_or(&self.section.wheel.column_force, 2500.0), si_or(&self.section.wheel.column_stroke, 0.1));
         let beyond = |by: f64| [0, 1, 2].map(|i| centre[i] + by * along[i]);
-        let tilt = self.measures.wheel_angle_deg;
+        let (tilt, column) = (self.measures.wheel_angle_deg, self.name("column"));
         format!(
-            "[frames.column]\nkind = \"column\"\naxis = [{}, 0, {}]\norigin = {}\nmass = \"3 kg\"\n\
+            "[frames.{column}]\nkind = \"column\"\nparent = \"{}\"\naxis = [{}, 0, {}]\norigin = {}\nmass = \"3 kg\"\n\
              stroke = [\"0 m\", \"1 mm\", \"3 mm\", \"{stroke} m\", \"{} m\", \"{} m\"]\nforce = [\"0 N\", \"{} N\", \"{force} N\", \"{force} N\", \"{} N\", \"{} N\"]\n\n\
-             [solids.wheel_rim]\nkind = \"rim\"\nframe = \"column\"\nmaterial = \"wheel\"\ncentre = {}\ntilt = \"{tilt} deg\"\nradius = {}\ntube_radius = \"0.015 m\"\n\n\
-             [solids.wheel_hub]\nkind = \"disc\"\nframe = \"column\"\nmaterial = \"wheel\"\ncentre = {}\ntilt = \"{tilt} deg\"\nradius = \"0.10 m\"\n\
+             [solids.{}]\nkind = \"rim\"\nframe = \"{column}\"\nmaterial = \"wheel\"\ncentre = {}\ntilt = \"{tilt} deg\"\nradius = {}\ntube_radius = \"0.015 m\"\n\n\
+             [solids.{}]\nkind = \"disc\"\nframe = \"{column}\"\nmaterial = \"wheel\"\ncentre = {}\ntilt = \"{tilt} deg\"\nradius = \"0.10 m\"\n\
              thickness = \"0.20 m\"\nrounding = \"0.02 m\"\n\n",
+            self.frame(),
             along[0],
             along[2],
             list(&beyond(0.04)),
@@ -144,15 +219,20 @@ impl Car<'_> {
             1.2 * force,
             force + 10_000.0,
             force + 60_000.0,
+            self.name("wheel_rim"),
             list(&centre),
             m(self.measures.wheel_diameter / 2.0),
+            self.name("wheel_hub"),
             list(&beyond(0.13)),
         )
     }
 
-    /// The bags of those who sit in front.
+    /// The bags of those who sit in front; the first vehicle alone can have some.
     fn bags(&self, seats: &[Seat]) -> String {
         let bags = &self.section.bags;
+        if self.vehicle.is_some() {
+            return String::new();
+        }
         let taken = |name: &str| seats.iter().any(|seat| seat.name == name && seat.is_taken());
         let mut text = String::new();
         if taken("driver") && bags.driver != Some(false) {
@@ -193,7 +273,7 @@ impl Car<'_> {
         let (delay, vent) = (si_or(&bags.delay, 0.009), 1800.0 * litres / 80.0 * si_or(&bags.vent, 1.0));
         let flow = [4.0, 2.5].map(|flow| flow * litres / 80.0);
         format!(
-            "[bags.{name}]\n{frame}trigger = \"crash\"\ndelay = \"{delay} s\"\ndeploy = \"25 ms\"\nmount = {}\n\
+            "[bags.{name}]\n{frame}trigger = \"front\"\ndelay = \"{delay} s\"\ndeploy = \"25 ms\"\nmount = {}\n\
              dome = {{ axis = [{}, {}, {}], depth = {}, radius = {}, face_radius = {}, edge = \"0.08 m\" }}\nvolume = \"{litres} l\"\n\
              vents = [{{ area = \"{vent} mm^2\", discharge = 0.7, opens_at = \"20 kPa\" }}]\nleakage = 0.001\nfriction = 0.3\n\
              spheres = [\"head\", \"chest\", \"left_shoulder\", \"right_shoulder\"]\n\

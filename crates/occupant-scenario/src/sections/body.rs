@@ -30,6 +30,8 @@ pub(crate) struct BodySection {
         "male50", "male50-1970", "female05", "female50", "male95", "child06", "child10",
     ]))]
     pub(crate) preset: Option<String>,
+    /// A dummy in one word: size, chest, neck and joints; keys given here and under `joints` replace them.
+    pub(crate) dummy: Option<DummyChoice>,
     /// Sex of an adult defined by sex, stature and mass.
     #[schemars(extend("enum" = ["female", "male"]))]
     pub(crate) sex: Option<String>,
@@ -86,6 +88,24 @@ pub(crate) struct BodySection {
     /// for both sides.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) spheres: IndexMap<String, SphereSection>,
+}
+
+/// A body that behaves as a dummy in the tests that are named. Its masses, lengths and outside are those of a person of that size.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub(crate) enum DummyChoice {
+    /// Hybrid III, 50th-percentile male: neck fitted to 49 CFR 572.33 (11 of 12 figures within the corridors), chest to 572.34, hips to
+    /// 572.35; the back is that of 572.9; knees and limbs were compared with nothing.
+    #[serde(rename = "hybrid3_50m-like")]
+    HybridIii50M,
+    /// Hybrid III, 5th-percentile female: neck fitted to 572.133, chest to 572.134, trunk to 572.135; nothing else was compared.
+    #[serde(rename = "hybrid3_5f-like")]
+    HybridIii5F,
+    /// Hybrid III, child of six years: neck fitted to 572.123, trunk to 572.125; its chest is rigid; nothing else was compared.
+    #[serde(rename = "hybrid3_6c-like")]
+    HybridIii6C,
+    /// Hybrid II: neck fitted to the pendulum of 572.7 of 1973; its chest is rigid; nothing else was compared.
+    #[serde(rename = "hybrid2-like")]
+    HybridIi,
 }
 
 /// A set of contact spheres.

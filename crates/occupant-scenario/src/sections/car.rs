@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::quantity::{NOT_NEGATIVE, POSITIVE};
 use super::three_point::Side;
-use super::{Angle, Force, Length, Ratio, Stiffness, Time};
+use super::{Angle, Force, Length, Moment, Ratio, Stiffness, Time};
 
 /// A class of cars.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -47,6 +47,8 @@ pub(crate) struct CarSection {
     pub(crate) shoulder_room: Option<Length<POSITIVE>>,
     /// Roof over the front H-point.
     pub(crate) roof: Option<Length<POSITIVE>>,
+    /// Whether a console stands between the front seats; not in vans and pickups if absent, else it does.
+    pub(crate) console: Option<bool>,
     /// Steering wheel.
     #[serde(default)]
     pub(crate) wheel: WheelSection,
@@ -56,6 +58,9 @@ pub(crate) struct CarSection {
     /// Air bags.
     #[serde(default)]
     pub(crate) bags: CarBagsSection,
+    /// Sides that come in.
+    #[serde(default)]
+    pub(crate) intrusion: IntrusionsSection,
     /// Seats: "driver", "passenger", "rear_left", "rear_middle", "rear_right", "third_left", "third_middle", "third_right". Those in
     /// which somebody sits are there without being named.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
@@ -108,6 +113,31 @@ pub(crate) struct CarBagsSection {
     pub(crate) vent: Option<Ratio<POSITIVE>>,
 }
 
+/// Sides that come in, as what the car struck or was struck by pushes them. Pillars and roof stay.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct IntrusionsSection {
+    /// The left door.
+    pub(crate) left: Option<IntrusionSection>,
+    /// The right door.
+    pub(crate) right: Option<IntrusionSection>,
+    /// Toe board, knee bolster and panel.
+    pub(crate) front: Option<IntrusionSection>,
+}
+
+/// How far something comes in, and when: its speed rises evenly in the first fifth of the time and falls evenly in the rest, so that at most
+/// it is twice the mean.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct IntrusionSection {
+    /// How far it comes in for good.
+    pub(crate) depth: Length<POSITIVE>,
+    /// When it begins; 5 ms if absent.
+    pub(crate) begins: Option<Time<NOT_NEGATIVE>>,
+    /// How long it takes; 60 ms if absent.
+    pub(crate) lasts: Option<Time<POSITIVE>>,
+}
+
 /// What holds somebody in a seat.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -133,8 +163,12 @@ pub(crate) struct CarSeatSection {
     pub(crate) recline: Option<Angle<NOT_NEGATIVE>>,
     /// Lateral place of its middle; by class if absent.
     pub(crate) y: Option<Length>,
+    /// Moment about its recliner at which the back yields, such as 1.5 kN·m; it stays upright if absent.
+    pub(crate) back_moment: Option<Moment<POSITIVE>>,
     /// Factor on the stiffness of its foam; 1 if absent.
     pub(crate) foam: Option<Ratio<POSITIVE>>,
+    /// Height of a booster cushion for a child on it; none if absent.
+    pub(crate) booster: Option<Length<POSITIVE>>,
     /// Head restraint behind the head of an average man, the backset; 50 mm if absent.
     pub(crate) head_gap: Option<Length<NOT_NEGATIVE>>,
     /// Top of the head restraint over the H-point along the back; 0.80 m if absent.

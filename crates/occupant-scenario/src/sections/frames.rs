@@ -23,6 +23,8 @@ use placed_text::{Diagnostics, Document, Entry, Node, with_key};
 pub(crate) struct VehicleSection {
     /// Its motion. All vehicles share one vehicle-space and one clock.
     pub(crate) path: PathSection,
+    /// Its inside in words; names of what is written out begin with the vehicle's, as in `NAME_wheel_rim`.
+    pub(crate) car: Option<super::CarSection>,
 }
 
 /// The ground: a level plane in vehicle-space that every body can touch.

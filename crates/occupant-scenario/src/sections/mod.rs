@@ -60,8 +60,8 @@ pub(super) use setup::{occupant, setup};
 
 use self::bags::{BagSection, GasSection};
 use self::belts::BeltSection;
-pub(super) use self::body::BodySection;
-pub(super) use self::car::{AnchorSection, CarBelt, CarClass, CarSeatSection, CarSection};
+pub(super) use self::body::{BodySection, DummyChoice};
+pub(super) use self::car::{AnchorSection, CarBelt, CarClass, CarSeatSection, CarSection, IntrusionSection};
 use self::drive::DriveSection;
 use self::frames::{FrameSection, GroundSection, VehicleSection};
 use self::functions::{LimiterSection, WebbingSection};

@@ -64,7 +64,7 @@ pub(crate) fn setup(
     let behind = plates::behind(explicit, (&surfaces, &solids), posture.as_ref());
     let (mut chains, mut bags) = (Vec::new(), Vec::new());
     if let Some(path) = &path {
-        let triggers = triggers::triggers(b, explicit, path, &time);
+        let triggers = triggers::triggers(b, explicit, triggers::Paths { first: path, others: &frames }, &time);
         joints.muscles = muscles::muscles(b, explicit, &body, &triggers);
         chains = chains::chains(b, explicit, &body, &triggers);
         bags = bags::bags(b, explicit, &body, &triggers);

@@ -3,14 +3,16 @@
 use std::collections::HashMap;
 
 use indexmap::IndexMap;
+use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::builder::Builder;
-use super::quantity::{NOT_NEGATIVE, POSITIVE, si_or};
-use super::{Acceleration, Force, Length, Scenario, Speed, Time};
+use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, si_or};
+use super::{Acceleration, Force, Length, Ratio, Scenario, Speed, Time};
 use occupant_core::forces::chain::{Cue, Watch, Watched};
-use occupant_core::model::setup::TimeSpan;
+use occupant_core::forces::contact::surface::Frame;
+use occupant_core::model::setup::{OtherFrame, TimeSpan};
 use occupant_core::vehicle::VehiclePath;
 use placed_text::{Problem, with_key};
 
@@ -23,16 +25,23 @@ pub(crate) enum TriggerSection {
         /// The time.
         at: Time,
     },
-    /// The acceleration of the vehicle's centre of gravity, in the plane of its floor.
+    /// The acceleration of a vehicle's centre of gravity, in the plane of its floor or along `direction`.
     VehicleAcceleration {
+        /// Name of the vehicle; the first if absent.
+        vehicle: Option<String>,
+        /// Direction along which the acceleration counts, vehicle axes, any length: [-1, 0, 0] for an impact on the front. Any direction
+        /// in the plane of the floor if absent.
+        direction: Option<[Ratio; 3]>,
         /// Threshold.
         threshold: Acceleration<POSITIVE>,
         /// Minimum duration without a break; 0 if absent.
         #[serde(rename = "for")]
         lasting: Option<Time<NOT_NEGATIVE>>,
     },
-    /// The vehicle's change of velocity, in the plane of its floor, since its acceleration last rose above `wake`.
+    /// A vehicle's change of velocity, in the plane of its floor, since its acceleration last rose above `wake`.
     DeltaV {
+        /// Name of the vehicle; the first if absent.
+        vehicle: Option<String>,
         /// Threshold.
         threshold: Speed<POSITIVE>,
         /// Acceleration below which integration restarts from 0.
@@ -92,6 +101,15 @@ impl TriggerSection {
 /// When triggers fire.
 pub(super) struct Triggers<'s>(IndexMap<&'s str, Fires>);
 
+/// Where vehicles go.
+#[derive(Clone, Copy)]
+pub(super) struct Paths<'p> {
+    /// Of the first.
+    pub(super) first: &'p VehiclePath,
+    /// Of the others, and of what else is a frame, in their order.
+    pub(super) others: &'p [OtherFrame],
+}
+
 /// When a trigger fires.
 #[derive(Clone, Copy)]
 enum Fires {
@@ -135,27 +153,31 @@ const MOST: usize = 100;
 const MOST_MOTION_S: f64 = 500.0;
 
 /// When each trigger fires; one that never does is left out and warned about.
-pub(super) fn triggers<'s>(
-    b: &mut Builder,
-    scenario: &'s Scenario,
-    path: &VehiclePath,
-    time: &TimeSpan,
-) -> Triggers<'s> {
+pub(super) fn triggers<'s>(b: &mut Builder, scenario: &'s Scenario, paths: Paths<'_>, time: &TimeSpan) -> Triggers<'s> {
     let mut fires = IndexMap::new();
     if is_too_much(b, scenario, time) {
         return Triggers(fires);
     }
-    let mut search = Search { scenario, path, time, known: HashMap::new() };
+    let mut search = Search { scenario, paths, time, known: HashMap::new() };
     for name in scenario.triggers.keys() {
         let at = with_key("triggers", name);
         match search.found(name, MOST) {
             Ok(Some(Fires::At(at_s))) if at_s <= time.end_s => drop(fires.insert(name.as_str(), Fires::At(at_s))),
             Ok(Some(watch @ Fires::Watch(..))) => drop(fires.insert(name.as_str(), watch)),
+            // triggers of a car in words may wait for an impact that does not come
+            Ok(_) if is_of_car(b, name) => {}
             Ok(_) => b.report(Problem::warning(at, "this trigger does not fire in this run", "a trigger that fires")),
             Err([found, expected]) => b.error(&at, found, expected),
         }
     }
     Triggers(fires)
+}
+
+/// Whether a trigger was written out with a car.
+fn is_of_car(b: &Builder, name: &str) -> bool {
+    let document = b.document;
+    let node = document.root.get("triggers").and_then(|all| all.get(name));
+    node.is_some_and(|node| document.sources.name(node.span.source) == crate::car::TITLE)
 }
 
 /// Refuses more triggers, or more motion to look at for them, than a run needs.
@@ -179,7 +201,7 @@ type Found = Result<Option<Fires>, [&'static str; 2]>;
 /// Works out when triggers fire, each once.
 struct Search<'s> {
     scenario: &'s Scenario,
-    path: &'s VehiclePath,
+    paths: Paths<'s>,
     time: &'s TimeSpan,
     known: HashMap<&'s str, Found>,
 }
@@ -196,25 +218,27 @@ impl<'s> Search<'s> {
     }
 
     fn look(&mut self, trigger: &'s TriggerSection, depth: usize) -> Found {
-        let (path, span_s) = (self.path, [self.time.start_s, self.time.end_s]);
+        let span_s = [self.time.start_s, self.time.end_s];
         let watch = |of, threshold, lasting: &Option<Time<NOT_NEGATIVE>>| {
             Ok(Some(Fires::Watch(of, threshold, si_or(lasting, 0.0))))
         };
-        let by_motion = || {
+        let by_motion = |vehicle: &Option<String>| {
+            let path = self.path(vehicle.as_deref())?;
             let expected = "another kind of trigger, or a path with interpolate = \"spline\"";
             path.has_accelerations()
-                .then_some(())
+                .then_some(path)
                 .ok_or(["a trigger by acceleration on a path without accelerations", expected])
         };
         match trigger {
             TriggerSection::Time { at } => Ok(Some(Fires::At(at.si()))),
-            TriggerSection::VehicleAcceleration { threshold, lasting } => {
-                by_motion()?;
-                Ok(path.jolt_s(span_s, threshold.si(), si_or(lasting, 0.0)).map(Fires::At))
+            TriggerSection::VehicleAcceleration { vehicle, direction, threshold, lasting } => {
+                let way = direction.as_ref().map(|way| Vector3::from(all_si(way)).try_normalize(0.0));
+                let way = way.map(|way| way.ok_or(["a direction of no length", "a way along the vehicle's axes"]));
+                let (way, path) = (way.transpose()?, by_motion(vehicle)?);
+                Ok(path.jolt_s(span_s, way, threshold.si(), si_or(lasting, 0.0)).map(Fires::At))
             }
-            TriggerSection::DeltaV { threshold, wake } => {
-                by_motion()?;
-                Ok(path.change_s(span_s, threshold.si(), wake.si()).map(Fires::At))
+            TriggerSection::DeltaV { vehicle, threshold, wake } => {
+                Ok(by_motion(vehicle)?.change_s(span_s, threshold.si(), wake.si()).map(Fires::At))
             }
             TriggerSection::Any { of } => {
                 let times_s = self.times_s(of, depth)?;
@@ -231,6 +255,19 @@ impl<'s> Search<'s> {
                 watch(Watched::PayoutAcceleration, threshold.si(), lasting)
             }
         }
+    }
+
+    /// The path of a vehicle; the first's where none is named.
+    fn path(&self, vehicle: Option<&str>) -> Result<&'s VehiclePath, [&'static str; 2]> {
+        let frame = vehicle.map_or(Some(Frame::Vehicle), |name| self.scenario.frame_named(name));
+        match frame {
+            Some(Frame::Vehicle) => Some(self.paths.first),
+            Some(Frame::Other(i)) => {
+                self.paths.others.get(i).filter(|other| other.parent.is_none()).map(|other| &other.path)
+            }
+            _ => None,
+        }
+        .ok_or(["a trigger by the motion of what is no vehicle", "\"vehicle\" or a name under `vehicles`"])
     }
 
     /// When others fire, s; none of one that does not.

@@ -4,7 +4,7 @@ use super::belts::changed;
 use occupant_core::forces::bag::{Gas, Leakage, Shape};
 use occupant_core::forces::chain::NEVER;
 
-const DRIVER: &str = include_str!("../../scenarios/airbag-driver.toml");
+const DRIVER: &str = include_str!("../../testdata/hand/airbag-driver.toml");
 
 #[test]
 fn numbers_of_bags_come_to_their_data() {

@@ -11,7 +11,7 @@ use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::Summarizer;
 use occupant_core::run::simulate::{resume, simulate};
 
-const DRIVER: &str = include_str!("../../scenarios/three-point.toml");
+const DRIVER: &str = include_str!("../../testdata/hand/three-point.toml");
 
 /// A scenario with these changes, or what is said of it.
 pub(super) fn changed(text: &str, changes: &[&str]) -> Result<(Model, String), String> {
@@ -281,7 +281,7 @@ fn a_belt_that_is_not_worn_is_not_there() {
     assert!(build(&off).belts.is_empty());
     let worn = SHORT.replace("[belts.lap]\n", "[belts.lap]\nworn = true\n");
     assert_eq!(build(&worn).belts.len(), 1);
-    let draft = include_str!("../../../../scenarios/three-point.toml");
+    let draft = include_str!("../../testdata/hand/three-point.toml");
     let name = draft.lines().find_map(|line| line.strip_prefix("[belts.")?.strip_suffix(']')).unwrap();
     assert!(!build(draft).chains.is_empty());
     let off = draft.replacen(&format!("[belts.{name}]\n"), &format!("[belts.{name}]\nworn = false\n"), 1);

@@ -2,6 +2,7 @@
 
 use super::belts::changed;
 use super::{build, complaint};
+use occupant_core::forces::contact::surface::Frame;
 use occupant_core::model::setup::Setup;
 
 /// A scenario that says nothing but its car.
@@ -45,7 +46,7 @@ fn a_wheel_stands_where_it_was_measured() {
 #[test]
 fn what_a_scenario_says_is_laid_over_the_car() {
     let own = of("")
-        + "[solids.wheel_rim]\nmaterial = \"padding\"\n[solids.console]\nkind = \"box\"\nmaterial = \"padding\"\n\
+        + "[solids.wheel_rim]\nmaterial = \"padding\"\n[solids.box]\nkind = \"box\"\nmaterial = \"padding\"\n\
                        centre = [0.2, 0, 0.1]\nlengths = [0.5, 0.2, 0.2]\n[materials.foam]\nk1 = \"9 kN/m\"\n";
     let (setup, plain) = (build(&own), build(&of("")));
     assert_eq!(setup.solids.len(), plain.solids.len() + 1);
@@ -145,5 +146,78 @@ fn what_is_wrong_with_a_car_is_said_at_its_place() {
     ] {
         let said = complaint(&of(car));
         assert!(said.contains(expected), "{car}: {said}");
+    }
+}
+
+/// A scenario of two vehicles, each with a car and a driver.
+fn of_two() -> String {
+    of("class = \"small\"")
+        + "[vehicles.other.path]\nkind = \"pulse\"\nshape = \"half_sine\"\nspeed = \"40 km/h\"\ndelta_v = \"40 km/h\"\n\
+           duration = \"0.1 s\"\nposition = [\"5 m\", 0, 0]\n[vehicles.other.car]\nclass = \"van\"\n[occupants.a]\n[occupants.b]\n\
+           vehicle = \"other\"\n"
+}
+
+#[test]
+fn each_vehicle_has_a_car_of_its_own() {
+    let setup = build(&of_two());
+    assert_eq!((setup.members.len(), setup.columns.len(), setup.bags.len()), (2, 2, 1));
+    let [own, other] = ["wheel_rim", "other_wheel_rim"].map(|name| format!("{:?}", solid(&setup, name)));
+    assert!(own.contains("0.185") && other.contains("0.1925"), "{own} {other}");
+    let unknown = complaint(&of_two().replace("class = \"van\"", "class = \"van\"\nseats.left.track = 0"));
+    assert!(unknown.contains("vehicles.other.car.seats.left"), "{unknown}");
+    let far = complaint(&of_two().replace("class = \"van\"", "class = \"van\"\nwheel.ahead = \"9 m\""));
+    assert!(far.contains("vehicles.other.car.wheel.ahead"), "{far}");
+}
+
+#[test]
+fn a_side_comes_in_as_far_and_as_fast_as_is_said() {
+    let setup = build(&of("intrusion.left = { depth = \"30 cm\", begins = \"10 ms\", lasts = \"50 ms\" }"));
+    let frame = setup.frames.iter().find(|frame| frame.name == "left_intrusion").unwrap();
+    let y_m = |t_s: f64| frame.path.motion(t_s, t_s, &mut Default::default()).origin_m.y.abs();
+    let found = [0.0, 0.01, 0.02, 0.06, 0.1].map(y_m);
+    for (found, expected) in found.iter().zip([0.0, 0.0, 0.06, 0.3, 0.3]) {
+        assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+    }
+    let fastest = (0..60).map(|i| (y_m(f64::from(i + 1) * 1e-3) - y_m(f64::from(i) * 1e-3)) / 1e-3).fold(0.0, f64::max);
+    // twice the mean of 6 m/s, less what rows of 2.5 ms round off
+    assert!((11.0..12.01).contains(&fastest), "{fastest}");
+    assert!(format!("{:?}", solid(&setup, "left_door")).contains("Other("));
+    assert!(format!("{:?}", solid(&setup, "right_door")).contains("Vehicle"));
+}
+
+#[test]
+fn a_back_that_yields_carries_cover_frame_and_head_restraint() {
+    let setup = build(&of("seats.driver.back_moment = \"1.5 kN m\""));
+    let hinge = setup.columns.iter().find(|column| column.name == "driver_recliner").unwrap();
+    assert!(hinge.turns());
+    let on_it = setup.solids.iter().filter(|solid| solid.frame == Frame::Other(hinge.frame));
+    let mut names: Vec<&str> = on_it.map(|solid| solid.name.as_str()).collect();
+    names.sort_unstable();
+    assert_eq!(names, ["driver_back", "driver_frame", "driver_head_restraint"]);
+}
+
+#[test]
+fn a_child_sits_higher_on_a_booster() {
+    let sits = |height: &str| {
+        let own =
+            format!("seats.rear_left = {{ {height} }}\n[body]\npreset = \"child10\"\n[posture]\nseat = \"rear_left\"");
+        let setup = build(&of(&own));
+        let model = occupant_core::model::Model::new(setup).unwrap();
+        model.start().state.t1().to_vector().z
+    };
+    // the foam under it no longer sinks in
+    let higher = sits("booster = \"10 cm\"") - sits("");
+    assert!((0.10..0.16).contains(&higher), "{higher}");
+}
+
+#[test]
+fn bags_of_the_front_wait_for_blows_on_the_front() {
+    let due_s = |direction: &str| {
+        let text = of("").replace("[car]", &format!("direction = {direction}\n[car]"));
+        build(&text).bags[0].fires_s
+    };
+    assert!(due_s("[1, 0, 0]") < 0.03);
+    for direction in ["[-1, 0, 0]", "[0, 1, 0]"] {
+        assert!(due_s(direction) > 1.0, "{direction}");
     }
 }

@@ -43,7 +43,7 @@ fn a_neck_beyond_its_stop_takes_the_neck_figures_with_it_and_no_others() {
 
 #[test]
 fn a_head_that_flies_through_a_seat_takes_its_figures_with_it() {
-    let seat = include_str!("../../scenarios/rear-seat.toml");
+    let seat = include_str!("../../testdata/hand/rear-seat.toml");
     let lap = &seat[seat.find("[belts.lap]").unwrap()..seat.find("[materials]").unwrap()];
     let (summary, _) = caveats_of(&seat.replace(lap, ""), &[]);
     let head = summary.caveats.iter().find(|caveat| caveat.name == "head_passed").unwrap();

@@ -3,7 +3,7 @@
 use super::belts::changed;
 use occupant_core::forces::contact::surface::Frame;
 
-const DRIVER: &str = include_str!("../../scenarios/column-driver.toml");
+const DRIVER: &str = include_str!("../../testdata/hand/column-driver.toml");
 
 #[test]
 fn numbers_of_columns_come_to_their_data() {

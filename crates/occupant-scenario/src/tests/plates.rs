@@ -2,7 +2,7 @@
 
 use super::belts::changed;
 
-const DRIVER: &str = include_str!("../../scenarios/three-point.toml");
+const DRIVER: &str = include_str!("../../testdata/hand/three-point.toml");
 
 #[test]
 fn a_chest_of_a_person_comes_to_three_plates_that_scale_with_the_body() {

@@ -3,7 +3,7 @@
 use super::super::{Draft, Format};
 use super::no_files;
 
-const DRIVER: &str = include_str!("../../../../scenarios/three-point.toml");
+const DRIVER: &str = include_str!("../../testdata/hand/three-point.toml");
 const CART: &str = include_str!("../../../../scenarios/cart-lap-torso.toml");
 
 /// Plain data and warnings, or what is wrong, as texts, which show every bit.

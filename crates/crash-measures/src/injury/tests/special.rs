@@ -24,7 +24,7 @@ fn pulse(peak: f64) -> Vec<f64> {
 }
 
 fn judged_by(dummy: Dummy, signals: &Signals) -> Vec<Measure> {
-    assess(signals, &Options { dummy, ..Options::default() })
+    assess(signals, &Options::default().with(dummy))
 }
 
 fn names(measures: &[Measure]) -> Vec<&'static str> {
@@ -236,7 +236,7 @@ fn hostile_signals_are_told_and_never_panic() {
                 assert!(own.value.is_none_or(f64::is_finite), "{own:?}");
             }
             let measures = judged_by(dummy, &signals);
-            let off = coarseness(&signals, &Options { dummy, ..Options::default() }, &measures);
+            let off = coarseness(&signals, &Options::default().with(dummy), &measures);
             assert_eq!(off.len(), measures.len());
         }
     }

@@ -1,4 +1,4 @@
-//! The templates of `occupant new`: a driver's scenario, a cabin of solids, and what the others change of them, section by section.
+//! The templates of `occupant new`: a driver's scenario, and what the others change of it, section by section.
 
 use super::STARTER;
 
@@ -12,8 +12,12 @@ pub(super) enum Template {
     RightHandDrive,
     /// A belted passenger behind the driver's seat, 50 km/h into a stop
     RearSeat,
-    /// A belted driver, 30 km/h sideways into a stop on his own side
+    /// A belted driver, struck in the door beside him
     Side,
+    /// A belted driver, struck on the other side
+    FarSide,
+    /// A driver, struck from behind
+    Rear,
     /// A belted driver in a quarter-turn rollover
     Rollover,
     /// A belted driver in a crash that an event data recorder has kept
@@ -43,19 +47,21 @@ struct Section<'a> {
 impl Template {
     /// The scenario.
     pub(super) fn text(self) -> String {
-        let (driver, cabin) = (STARTER, include_str!("cabin.toml"));
+        let driver = STARTER;
         match self {
             Template::Driver => driver.to_owned(),
             Template::RightHandDrive => changed(driver, include_str!("right-hand-drive.toml")),
-            Template::RearSeat => changed(cabin, include_str!("rear-seat.toml")),
-            Template::Side => changed(cabin, include_str!("side.toml")),
-            Template::Rollover => changed(cabin, include_str!("rollover.toml")),
-            Template::Edr => changed(cabin, include_str!("edr.toml")),
+            Template::RearSeat => changed(driver, include_str!("rear-seat.toml")),
+            Template::Side => changed(driver, include_str!("side.toml")),
+            Template::FarSide => changed(driver, include_str!("far-side.toml")),
+            Template::Rear => changed(driver, include_str!("rear.toml")),
+            Template::Rollover => changed(driver, include_str!("rollover.toml")),
+            Template::Edr => changed(driver, include_str!("edr.toml")),
             Template::Sled => include_str!("sled.toml").to_owned(),
             Template::Neck => include_str!("neck.toml").to_owned(),
             Template::Pedestrian => include_str!("pedestrian.toml").to_owned(),
-            Template::Sensors => changed(cabin, include_str!("sensors.toml")),
-            Template::Drive => changed(cabin, include_str!("drive.toml")),
+            Template::Sensors => changed(driver, include_str!("sensors.toml")),
+            Template::Drive => changed(driver, include_str!("drive.toml")),
             Template::Study => include_str!("study.toml").to_owned(),
         }
     }

@@ -290,7 +290,7 @@ impl Caveat {
         Caveat::new(format!("{plate}_too_deep"), text, vec![format!("plates.{plate}.*")])
     }
 
-    /// A chest that gives way.
+    /// How far a chest that gives way may be believed. It is told of every run, so that it marks no figure by itself.
     pub(super) fn of_chest(chest: &Chest) -> Self {
         let of = match chest.preset.as_str() {
             "own" => return Caveat::own_chest(chest),
@@ -300,18 +300,12 @@ impl Caveat {
         let text = format!(
             "chest {of}. Under belts and bags, a constant share of their force (0.2 to 0.5 is plausible) bears on the breastbone, and the deflection depends on it. Not valid for loads from the side or from behind, or for broken ribs"
         );
-        Caveat::new("chest_of_one_share", text, vec!["plates.*".to_owned()]).of_occupant_text(&chest.of)
+        Caveat::new("chest_of_one_share", text, Vec::new()).with_subject(&chest.of)
     }
 
     fn own_chest(chest: &Chest) -> Self {
         let text = "chest with the scenario's own values; under belts and bags, a constant share of their force bears on the breastbone";
-        Caveat::new("chest_of_one_share", text.to_owned(), vec!["plates.*".to_owned()]).of_occupant_text(&chest.of)
-    }
-
-    /// The same of one of several occupants, whose figures stand among those of all.
-    fn of_occupant_text(self, name: &str) -> Self {
-        let figures = if name.is_empty() { self.figures.clone() } else { vec![format!("plates.{}*", word(name))] };
-        Caveat { figures, ..self }.with_subject(name)
+        Caveat::new("chest_of_one_share", text.to_owned(), Vec::new()).with_subject(&chest.of)
     }
 
     /// A column that stroked farther than its force is known.

@@ -72,7 +72,9 @@ pub struct Summary {
     pub sphere_forces: Vec<SpherePeak>,
     /// How far the head's centre went from where it was at the start; absent without a sphere `head`.
     pub head_excursion: Option<Excursion>,
-    /// Injury measures, unless asked otherwise for a Hybrid III 50M and unfiltered.
+    /// Whose limits and risks they are judged by.
+    pub dummy: &'static str,
+    /// Injury measures, unless asked otherwise by the Hybrid III nearest in mass and unfiltered.
     pub measures: Vec<Measure>,
     /// The same of the other occupants, by their names.
     #[serde(skip_serializing_if = "InOrder::is_empty")]
@@ -120,6 +122,8 @@ pub struct Person {
     pub accelerations: Accelerations,
     /// As [`Summary::head_excursion`].
     pub head_excursion: Option<Excursion>,
+    /// As [`Summary::dummy`].
+    pub dummy: &'static str,
     /// As [`Summary::measures`].
     pub measures: Vec<Measure>,
 }
@@ -151,6 +155,7 @@ impl Summary {
         let first = Person {
             accelerations: self.accelerations,
             head_excursion: self.head_excursion,
+            dummy: self.dummy,
             measures: self.measures.clone(),
         };
         let prefix = |name: &str| if name.is_empty() { String::new() } else { format!("{name}.") };

@@ -76,11 +76,13 @@ impl Watched {
         (0..3).filter(|i| !self.has[*i]).for_each(|i| own[i] = Peak::NONE);
         whole.signals.peaks =
             are_of_steps.then(|| std::array::from_fn(|i| Extreme { value: own[i].value, time_s: own[i].time_s }));
-        let readings = Readings::new(&whole.signals, options);
+        let options = options.for_body(self.mass_kg);
+        let readings = Readings::new(&whole.signals, &options);
         let parts = [&readings.head, &readings.chest, &readings.pelvis];
         let [head, chest, pelvis] = std::array::from_fn(|i| self.acceleration(i, own[i], parts[i]));
         let accelerations = Accelerations { head, chest, pelvis };
-        let person = Person { accelerations, head_excursion: self.excursion(&own), measures: readings.measures() };
+        let (dummy, measures) = (options.dummy.name(), readings.measures());
+        let person = Person { accelerations, head_excursion: self.excursion(&own), dummy, measures };
         (person, whole.signals)
     }
 

@@ -120,7 +120,7 @@ impl Summarizer {
         let ejections = self.ejections(case);
         let by_chance = Self::by_chance(&people, &ejections);
         let mut people = people.into_iter().map(|(name, person, _)| (name, person));
-        let (occupant, Person { accelerations, head_excursion, measures }) = people.next()?;
+        let (occupant, Person { accelerations, head_excursion, dummy, measures }) = people.next()?;
         let contacts = contacts(outcome, case);
         let throws: InOrder<_, _> =
             self.flights.iter().filter_map(|flight| Some((flight.name, flight.throw(&case.body.spheres)?))).collect();
@@ -142,6 +142,7 @@ impl Summarizer {
             contacts,
             sphere_forces,
             head_excursion,
+            dummy,
             measures,
             others: people.collect(),
             caveats: Caveat::of_balance(&outcome.energy)
@@ -227,14 +228,14 @@ impl Summarizer {
         caveats.extend(case.is_half_a_neck.then(Caveat::half_a_neck));
         caveats.extend(case.body.chests.iter().map(Caveat::of_chest));
         for (one, (name, person, signals)) in self.people.iter().zip(people) {
-            let measures = &person.measures;
-            let off = injury::coarseness(signals, &self.options, measures);
+            let (measures, options) = (&person.measures, self.options.for_body(one.mass_kg));
+            let off = injury::coarseness(signals, &options, measures);
             let off: Vec<_> = measures.iter().zip(off).filter(|(_, off)| *off > COARSE).collect();
             let cut: Vec<_> = measures.iter().filter(|m| is_cut_off(m, reached_s - signals.interval_s)).collect();
             let own = [
                 Caveat::cut_off(reached_s, &cut),
                 Caveat::too_coarse(signals.interval_s, &off, self.are_of_steps),
-                if case.is_on_rig { None } else { Caveat::other_dummy(self.options.dummy, one.mass_kg, measures) },
+                if case.is_on_rig { None } else { Caveat::other_dummy(options.dummy, one.mass_kg, measures) },
             ];
             caveats.extend(own.into_iter().flatten().map(|caveat| caveat.of_occupant(name)));
         }

@@ -241,7 +241,7 @@ fn room(summarizer: &mut Summarizer) -> Vec<usize> {
 fn limits_of_another_dummy_are_marked() {
     let model = falling(floor(), 0.02);
     let caveats = |dummy| {
-        let mut summarizer = Summarizer::judging(Options { dummy, ..Options::default() });
+        let mut summarizer = Summarizer::judging(Options::default().with(dummy));
         simulate(&model, &mut summarizer).unwrap();
         summarizer.summary(None).unwrap().caveats
     };
