@@ -23,3 +23,8 @@ pub mod segment_motion;
 pub mod space_state;
 pub mod steps;
 pub mod strap;
+
+/// What the book shows of a measure of one's own compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/guides/own-measure.md")]
+struct OwnMeasure;

@@ -385,7 +385,7 @@ fn what_is_wrong_with_a_record_is_said_with_its_place() {
         (vec!["import", "log.csv"], "2 objects\n --> log.csv\n = expected `Ego` or `Target`"),
         (vec!["import", "log.csv", "--object", "Nobody"], "no object `Nobody`"),
         (vec!["import", "nurbs.xosc"], "a Nurbs\n --> nurbs.xosc:2"),
-        (vec!["import", "odd.csv"], "ax has no unit that is known"),
+        (vec!["import", "odd.csv"], "ax has no known unit"),
         (vec!["import", "ego.xosc", "--at", "SILL"], "no forward accelerometer"),
         (vec!["import", "ego.xosc", "--cg", "-1"], "--cg"),
         (vec!["import", "none.csv"], "none.csv"),
