@@ -256,7 +256,7 @@ fn decks_that_cannot_be_run_say_what_to_do() {
     for (file, expected) in [
         ("two.dat", "holds 2 decks"),
         ("wrong.dat", "error[not-a-number]"),
-        (disk.to_str().expect("UTF-8"), "occupant convert has options for such a deck"),
+        (disk.to_str().expect("UTF-8"), "`occupant convert` has options for such a deck"),
     ] {
         let (code, _, said) = occupant(folder.path(), &["run", file]);
         assert!(code == 2 && said.contains(expected), "{file}: {said}");

@@ -189,7 +189,7 @@ fn every_sample_of_a_study_has_its_own_verdicts_and_failures() {
     // all members failed: there is no figure to judge
     assert_eq!(failed("1"), None);
     assert_eq!(failed("2").as_deref(), Some("0"));
-    assert!(said.contains("12 members did not complete"), "{said}");
+    assert!(said.contains("12 runs did not complete"), "{said}");
     // once more from the finished folder: the same bytes
     let bytes = fs::read(path.join("out/ensemble.csv")).unwrap();
     let merged = answer(path, &["sweep", "merge", "out", "--csv"]);

@@ -207,8 +207,8 @@ fn uneven_and_coarse_samples_are_refused_with_a_remedy() {
 fn gravity_that_seems_to_be_in_a_record_or_not_is_told() {
     let folder = folder();
     for (az, flags, words) in [
-        ("-1", &[][..], "say --gravity-included"),
-        ("1", &[], "say --axes z_up"),
+        ("-1", &[][..], "use --gravity-included"),
+        ("1", &[], "use --axes z_up"),
         ("0", &["--gravity-included"], "leave --gravity-included out"),
         ("-1", &["--gravity-included"], ""),
         ("0", &[], ""),

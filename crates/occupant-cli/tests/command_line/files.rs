@@ -84,7 +84,7 @@ fn a_pipe_of_the_shell_is_read_and_bounded() {
     assert_eq!(whole.stdout, said("occupant check case.toml").stdout);
     let endless = said("yes '# more' | occupant check /dev/fd/0");
     assert_eq!(code(&endless), 2);
-    assert!(err(&endless).contains("gives more than 32 MB"), "{}", err(&endless));
+    assert!(err(&endless).contains("longer than 32 MB"), "{}", err(&endless));
     let device = said("occupant check /dev/fd/0 < /dev/zero");
     assert!(err(&device).contains("not an ordinary file"), "{}", err(&device));
 }

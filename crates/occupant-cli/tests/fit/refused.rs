@@ -111,7 +111,7 @@ fn a_fit_in_which_nothing_runs_says_why() {
     let said = err(&output);
     assert_eq!(output.status.code(), Some(1), "{said}");
     assert!(said.contains("none of 17 candidates could be run"), "{said}");
-    assert!(said.contains("narrow the ranges"), "{said}");
+    assert!(said.contains("narrow the parameter ranges"), "{said}");
 }
 
 #[test]
