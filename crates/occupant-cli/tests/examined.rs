@@ -93,7 +93,9 @@ fn each_flaw_of_a_record_is_said_with_its_remedy() {
     ] {
         fs::write(here.join("a.csv"), text).unwrap();
         let said = spoken(here, &["risk", "a.csv", "--start", "0"]);
-        let doubts = ["if it is in", "are in", "points backwards", "are rounded"].iter().filter(|w| said.contains(**w));
+        let doubts = ["if it is in", "they are in", "rates are in", "points backwards", "are rounded"]
+            .iter()
+            .filter(|w| said.contains(**w));
         assert_eq!(doubts.count() > 0, !words.is_empty(), "{name}: {said}");
         assert!(said.contains(words), "{name}: {said}");
     }
@@ -124,7 +126,10 @@ fn each_flaw_of_a_record_is_said_with_its_remedy() {
     ] {
         fs::write(here.join("a.csv"), text).unwrap();
         let said = spoken(here, &["risk", "a.csv", "--filter", "none"]);
-        assert!(said.contains(words) && said.contains("a slip?") != words.is_empty(), "{said}");
+        assert!(
+            said.contains(words) && ["mistake", "fit the others"].iter().any(|w| said.contains(w)) != words.is_empty(),
+            "{said}"
+        );
     }
     // many wrong cells are a few messages
     fs::write(here.join("a.csv"), table(HEADINGS, |t, m| (t, m)).replace("0,", "0x,")).unwrap();
@@ -204,7 +209,7 @@ fn the_place_of_a_test_is_the_quiet_one_of_those_that_agree() {
         said.contains("the path is that of SILLRI, which has the least ringing of the 3 of 4 locations with a forward delta-v of -56 km/h ± 10 %"),
         "{said}"
     );
-    assert!(said.contains("do not agree on its velocity change ahead, km/h: ENGN -76.2"), "{said}");
+    assert!(said.contains("disagree on its forward delta-v, km/h: ENGN -76.2"), "{said}");
     same(&measures(here, &["a.csv", "--at", "SILLRI"]), &measures(here, &["a.csv"]), 0.0);
     // ∫ of the half sine: 2/π · 25 g · 0.1 s
     let change = value(&measures(here, &["a.csv"]), "final_velocity_change_x_m_s");

@@ -153,7 +153,7 @@ fn wrong_words_for_a_view_are_answered() {
         (&["view", "case.toml", "-o", "v.svg", "--times", "0"], "--times needs a run"),
         (&["view", "case.toml", "-o", "v.svg", "--set", "path.speed=1 N"], "path.speed"),
         (&["view", "run.mcap", "-o", "v.svg", "--set", "path.speed=1"], "this is a run"),
-        (&["view", "run.mcap", "-o", "v.gif", "--slow-motion", "1e4"], "at most 3000 are made"),
+        (&["view", "run.mcap", "-o", "v.gif", "--slow-motion", "1e4"], "at most 3000 are possible"),
         (&["view", "none.mcap", "-o", "v.svg"], "cannot be read"),
     ];
     for (words, said) in cases {

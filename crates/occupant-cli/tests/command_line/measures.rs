@@ -106,7 +106,7 @@ fn what_a_test_cannot_give_is_refused_with_its_mend() {
         (&["measures", "test.csv", "--interval", "1 ms"], "cannot be run again"),
         (&["measures", "test.csv", "run.mcap"], "give only runs or only tests"),
         (&["measures", "none.csv"], "none.csv"),
-        (&["measures", "uneven.csv"], "equal intervals"),
+        (&["measures", "uneven.csv"], "constant sample interval"),
     ] {
         let output = answer(folder.path(), words);
         assert_eq!(code(&output), 2, "{words:?}: {}", err(&output));

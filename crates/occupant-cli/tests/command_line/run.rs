@@ -208,7 +208,7 @@ fn the_error_of_a_run_is_estimated_by_a_finer_one() {
     let worst = "head path 0.019 mm; contacts.left_thigh.peak 0.3 %, contacts.right_thigh.peak 0.3 %, ";
     let worst = format!("integration error   {worst}contacts.left_hand.first_speed 0.2 %");
     assert!(table.contains(&worst), "{table}");
-    assert!(table.contains("estimated against rk4 at a quarter of the step"), "{table}");
+    assert!(table.contains("estimated from rk4 at a quarter of the step"), "{table}");
 }
 
 #[test]

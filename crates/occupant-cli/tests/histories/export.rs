@@ -104,7 +104,7 @@ fn an_iso_mme_test_has_codes_units_and_j211_signs() {
     let run = run.to_str().unwrap();
     let all = ["export", run, "-o", "T1.mme", "--filter", "CFC180"];
     let said = super::err(&well(folder.path(), &all));
-    assert!(said.contains("T1.mme") && said.contains("no code for"), "{said}");
+    assert!(said.contains("T1.mme") && said.contains("without an ISO-MME code"), "{said}");
     let words = ["export", run, "-o", "t.csv", "--filter", "CFC180", "--channels", "head.acceleration.*"];
     well(folder.path(), &words);
     let chn = text(&folder.path().join("T1/Channel/T1.chn"));

@@ -72,7 +72,7 @@ fn a_finished_study_has_all_its_sections() {
         "Over two parameters",
         "Worst and best runs",
         "SHA-256",
-        "should not be relied on",
+        "is unreliable",
     ] {
         assert!(text.contains(words), "{words}");
     }
