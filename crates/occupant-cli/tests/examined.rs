@@ -68,7 +68,7 @@ fn each_flaw_of_a_record_is_said_with_its_remedy() {
         (
             "rates in deg/s under rad/s",
             table(&HEADINGS.replace("deg/s", "rad/s"), plain),
-            "times a second: is it in deg/s?",
+            "times a second: if it is in deg/s",
         ),
         (
             "rates in rad/s under deg/s",

@@ -281,7 +281,7 @@ fn recorders_signs_units_and_beginnings_are_asked_for_or_said() {
     let table = |name: &str| fs::read_to_string(here.join(name)).unwrap().replace("MPH", "mph");
     assert_eq!(table("gain-path.csv"), table("loss-path.csv"));
     let said = spoken(here, &["import", "loss.csv", "--speed", "10 mph", "-f"]);
-    assert!(said.contains("goes backwards at"), "{said}");
+    assert!(said.contains("moves backwards at"), "{said}");
     for (name, text) in [
         ("bare.csv", "Time,DeltaV_X\n0,0\n10,-1\n20,-2\n"),
         ("none.csv", "0,0\n10,-1\n20,-2\n"),

@@ -90,7 +90,7 @@ fn keys_are_found_by_what_people_call_them() {
         ("airbag", "bags"),
         ("seatbelt", "belts"),
         ("seat belts", "belts"),
-        ("intrusion", "frames"),
+        ("intrusion", "car.intrusion"),
         ("path.kind=sensors", "path.kind   (kind = \"sensors\")"),
     ] {
         let told = done(folder.path(), &["explain", word]);
@@ -191,7 +191,7 @@ fn readings_that_a_file_has_need_no_other_run() {
     let folder = folder();
     done(folder.path(), &["run", "case.toml", "-q", "-o", "x.mcap", "--until", "40 ms"]);
     let said = |interval| spoken(folder.path(), &["measures", "x.mcap", "--interval", interval]);
-    assert!(!said("0.1 ms").contains("run again") && said("0.05 ms").contains("run again"));
+    assert!(!said("0.1 ms").contains("running the case again") && said("0.05 ms").contains("running the case again"));
 }
 
 #[test]

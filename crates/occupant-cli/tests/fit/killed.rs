@@ -95,7 +95,7 @@ fn another_test_or_study_in_the_same_folder_is_refused_with_what_differs() {
     let study = format!("{STUDY}\n[design]\nkind = \"monte_carlo\"\nsamples = 4\n");
     fs::write(at.join("sweep.toml"), study).unwrap();
     let refused = answer(at, &["sweep", "sweep.toml", "-o", "out"]);
-    assert!(err(&refused).contains("no sweep's"), "{}", err(&refused));
+    assert!(err(&refused).contains("do not belong to a sweep"), "{}", err(&refused));
 }
 
 #[test]

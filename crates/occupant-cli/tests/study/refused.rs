@@ -20,7 +20,7 @@ fn an_earlier_report_is_replaced_and_other_files_only_by_force() {
     for words in [&named[..], &["study", "report", "out"]] {
         let output = answer(at, words);
         assert_eq!(output.status.code(), Some(2));
-        assert!(err(&output).contains("--force replaces it"), "{}", err(&output));
+        assert!(err(&output).contains("replace it with --force"), "{}", err(&output));
         fs::write(at.join("out/report.html"), &changed).unwrap();
     }
     done(at, &["study", "report", "out", "--force"]);

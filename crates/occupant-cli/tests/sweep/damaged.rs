@@ -61,7 +61,7 @@ fn a_changed_number_in_the_journal_is_not_believed() {
     let report = answer(at, &["study", "report", "out"]);
     assert_eq!(report.status.code(), Some(2));
     assert!(err(&report).contains(".rows was changed after it was written"), "{}", err(&report));
-    assert!(err(&report).contains("the same command of `occupant sweep`"), "{}", err(&report));
+    assert!(err(&report).contains("the same `occupant sweep`"), "{}", err(&report));
     assert!(spoken(at, &words).contains(".rows was changed after it was written"));
     assert_eq!(super::rows(at, "out"), whole);
     // one that cannot be read at all is computed again as well, listed or not
