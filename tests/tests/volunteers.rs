@@ -130,7 +130,7 @@ fn what_is_wrong_with_a_volunteer_is_said() {
         (&["muscles.trigger=go", "triggers.go={ kind = \"time\", at = 0.1 }"], "`trigger` without a volunteer"),
         (&[ALIVE, "muscles.readiness=asleep"], "\"unaware\""),
         (&[ALIVE, "muscles.trigger=go"], "no trigger is named \"go\""),
-        (&[ALIVE, linear], "with a path that has none"),
+        (&[ALIVE, linear], "on a path without accelerations"),
         (&["muscles.neck={ tone = 1, reflex = { stiffness = 5 } }"], "delay"),
         (&["muscles.neck={ tone = 1, reflex = { stiffness = 5, delay = 0 } }"], "delay"),
     ] {

@@ -222,7 +222,7 @@ fn wings_that_make_no_sense_are_refused() {
     refused(left, &then("belly", ""), "belly");
     refused(left, &then("middle_torso", "abdomen = 2"), "from 0 to 1");
     refused(left, &then("head", "abdomen = 1"), "another segment");
-    refused(left, &then("head", "").replace(left, "on = \"head\", at = [0, 0, 0]"), "no track");
+    refused(left, &then("head", "").replace(left, "on = \"head\", at = [0, 0, 0]"), "without a track");
     refused(left, r#"wing = "left", sphere = "pelvis""#, "wing");
     refused(r#"at = [-0.5, -0.1, 0], retractor = "reel""#, left, "an end");
 }

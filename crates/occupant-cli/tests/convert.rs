@@ -198,7 +198,7 @@ fn a_recorded_run_is_extended_by_the_same_cards_as_the_deck() {
     for (words, expected) in [
         (&["run.mcap"][..], "--extend TIME"),
         (&["run.mcap", "--extend", "0.1"], "not after the end"),
-        (&["run.mcap", "--extend", "0.3"], "beyond the last station"),
+        (&["run.mcap", "--extend", "0.3"], "after the last station"),
     ] {
         let (code, _, said) = convert(folder.path(), words);
         assert!(code == 2 && said.contains(expected), "{said}");
@@ -254,9 +254,9 @@ fn decks_that_cannot_be_run_say_what_to_do() {
     std::fs::write(folder.path().join("wrong.dat"), text.replace("      352.", "      35?.")).expect("written");
     let disk = decks().join("driver-path-from-disk.dat");
     for (file, expected) in [
-        ("two.dat", "holds 2 decks"),
+        ("two.dat", "contains 2 decks"),
         ("wrong.dat", "error[not-a-number]"),
-        (disk.to_str().expect("UTF-8"), "occupant convert has options for such a deck"),
+        (disk.to_str().expect("UTF-8"), "`occupant convert` has options for such a deck"),
     ] {
         let (code, _, said) = occupant(folder.path(), &["run", file]);
         assert!(code == 2 && said.contains(expected), "{file}: {said}");
@@ -282,6 +282,9 @@ fn an_extension_by_cards_says_how_far_it_is_off() {
         let off_mm: f64 = off.0.parse().expect("a number");
         // both begin where the run ended, and part from there on
         assert!((0.0..500.0).contains(&off_mm), "{off_mm}");
-        assert!(figures.contains("belt lap ") && figures.contains("head ") && figures.contains(" g for "), "{figures}");
+        assert!(
+            figures.contains("belt lap ") && figures.contains("head ") && figures.contains(" g instead of "),
+            "{figures}"
+        );
     }
 }

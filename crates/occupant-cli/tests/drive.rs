@@ -54,7 +54,7 @@ fn a_wall_is_a_collision_and_no_spin() {
     let met = &all[0]["barriers"][0];
     assert!((number(met, "impact_angle_rad") - std::f64::consts::FRAC_PI_2).abs() < 1e-3, "{met:#}");
     let text = done(folder.path(), &["drive", "case.toml"]);
-    assert!(["collision", "PDOF", "EES", "damage", "stays"].iter().all(|word| text.contains(word)), "{text}");
+    assert!(["collision", "PDOF", "EES", "damage", "residual"].iter().all(|word| text.contains(word)), "{text}");
 }
 
 #[test]

@@ -100,10 +100,10 @@ fn what_can_not_be_is_refused_before_anything_is_run() {
         (&["--ensemble", "many"], "invalid value"),
         (&["--seed", "3"], "--ensemble"),
         (&["--ensemble", "10", "--threads", "0"], "invalid value"),
-        (&["--ensemble", "10", "--change", "posture"], "it has no ="),
+        (&["--ensemble", "10", "--change", "posture"], "it has no `=`"),
         (&["--ensemble", "10", "--change", "posture=2 mm"], "expected"),
         (&["--ensemble", "10", "--change", "belts=2 mm"], "unknown name `belts`"),
-        (&["--ensemble", "10", "--change", "path=-1 %"], "not from 0"),
+        (&["--ensemble", "10", "--change", "path=-1 %"], "out of range"),
         (&["--ensemble", "10", "--stable-within", "0"], "not above 0"),
         (&["--ensemble", "10", "--channels", "head.aceleration.x"], "head.acceleration.x"),
         (&["--ensemble", "10", "--bands", "bands.pdf"], "NAME.csv"),
@@ -189,7 +189,7 @@ fn every_sample_of_a_study_has_its_own_verdicts_and_failures() {
     // all members failed: there is no figure to judge
     assert_eq!(failed("1"), None);
     assert_eq!(failed("2").as_deref(), Some("0"));
-    assert!(said.contains("12 members did not complete"), "{said}");
+    assert!(said.contains("12 runs did not complete"), "{said}");
     // once more from the finished folder: the same bytes
     let bytes = fs::read(path.join("out/ensemble.csv")).unwrap();
     let merged = answer(path, &["sweep", "merge", "out", "--csv"]);

@@ -160,7 +160,7 @@ fn a_study_in_place_of_a_scenario_is_told_apart() {
     assert!(said.starts_with("error: case.toml is a scenario, not a study") && said.contains("occupant run"), "{said}");
     fs::write(folder.path().join("case.mcap"), "x").unwrap();
     let said = err(&answer(folder.path(), &["run", "case.mcap"]));
-    assert!(said.starts_with("error: case.mcap is what a run has written"), "{said}");
+    assert!(said.starts_with("error: case.mcap holds the results of a run"), "{said}");
 }
 
 #[test]

@@ -146,14 +146,14 @@ fn wrong_words_for_a_view_are_answered() {
     let folder = folder_with_run();
     let cases: [(&[&str], &str); 10] = [
         (&["view", "run.mcap", "-o", "v.pdf"], "ends with .svg, .png, .gif or .mp4"),
-        (&["view", "run.mcap", "-o", "v.svg", "--times", "9 s"], "the outputs go from"),
+        (&["view", "run.mcap", "-o", "v.svg", "--times", "9 s"], "outputs cover"),
         (&["view", "run.mcap", "-o", "v.svg", "--times", "soon"], "is not a time"),
         (&["view", "run.mcap", "-o", "v.svg", "--views", "back"], "possible values"),
-        (&["view", "case.toml", "-o", "v.gif"], "does not move before it is run"),
-        (&["view", "case.toml", "-o", "v.svg", "--times", "0"], "no times before it is run"),
+        (&["view", "case.toml", "-o", "v.gif"], "a film needs a run"),
+        (&["view", "case.toml", "-o", "v.svg", "--times", "0"], "--times needs a run"),
         (&["view", "case.toml", "-o", "v.svg", "--set", "path.speed=1 N"], "path.speed"),
-        (&["view", "run.mcap", "-o", "v.svg", "--set", "path.speed=1"], "these are results"),
-        (&["view", "run.mcap", "-o", "v.gif", "--slow-motion", "1e4"], "at most 3000 are made"),
+        (&["view", "run.mcap", "-o", "v.svg", "--set", "path.speed=1"], "this is a run"),
+        (&["view", "run.mcap", "-o", "v.gif", "--slow-motion", "1e4"], "at most 3000 are possible"),
         (&["view", "none.mcap", "-o", "v.svg"], "cannot be read"),
     ];
     for (words, said) in cases {
@@ -172,7 +172,7 @@ fn nothing_is_replaced_unasked() {
     for (command, name) in [("view", "v.svg"), ("report", "r.html")] {
         let output = answer(folder.path(), &[command, "run.mcap", "-o", name]);
         assert_eq!(code(&output), 2);
-        assert!(err(&output).contains("exists; --force replaces it"));
+        assert!(err(&output).contains("exists; replace it with --force"));
         assert_eq!(read(folder.path(), name), "mine");
         let forced = answer(folder.path(), &[command, "run.mcap", "-o", name, "--force"]);
         assert_eq!(code(&forced), 0, "{}", err(&forced));
@@ -264,7 +264,7 @@ fn a_report_against_another_run_holds_both() {
     assert_eq!((code(&output), err(&output)), (0, "wrote r.html\n".to_owned()));
     assert_eq!(read(folder.path(), "r.html").matches("\"poses\":").count(), 2);
     for (words, said) in [
-        (&["report", "run.mcap", "-o", "r.txt"][..], "ends with .html"),
+        (&["report", "run.mcap", "-o", "r.txt"][..], "use the extension .html"),
         (&["report", "run.mcap", "-o", "x.html", "--against", "case.toml"], "is a scenario or a study"),
     ] {
         let output = answer(folder.path(), words);

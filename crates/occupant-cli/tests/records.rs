@@ -177,7 +177,7 @@ fn headings_tell_which_program_wrote_a_table() {
     let heads = "t[s],x[ft],y[ft],z[ft],roll[deg],pitch[deg],yaw[deg]\n0,0,0.5,-1.25,2,1,3\n0.033,1.452,";
     for name in ["SmacRT1C.csv", "SmacRT2S.asc"] {
         let said = spoken(here, &["import", name]);
-        for words in ["without units: taken as feet and degrees", "taken as y to the right and z down"] {
+        for words in ["no units: feet and degrees are assumed", "y right and z down are assumed"] {
             assert!(said.contains(words), "{said}");
         }
         let stem = &name[..8];
@@ -248,7 +248,7 @@ fn the_vehicle_that_is_asked_for_is_imported() {
     assert!(said.contains("the path is that of vehicle 1; choose another with --vehicle: 1, 2"), "{said}");
     assert!(path().contains("\n1,10,0,"), "{}", path());
     let said = spoken(here, &["import", "two.csv", "-f", "--vehicle", "2"]);
-    assert!(path().contains("\n1,80,0,0,0,0,9\n") && !said.contains("takes another"), "{said}{}", path());
+    assert!(path().contains("\n1,80,0,0,0,0,9\n") && !said.contains("choose another"), "{said}{}", path());
     for (file, expected) in [
         ("two.csv", "no vehicle 3\n --> two.csv\n = expected `1` or `2`"),
         ("recorder.csv", "no vehicle 3"),

@@ -165,7 +165,7 @@ fn a_file_with_errors_gives_all_of_them_with_their_places() {
     assert!(said.contains("error: `x`\n --> a.csv:3:5"), "{said}");
     fs::write(folder.path().join("a.csv"), "t[s],ax[kg],q[g]\n0,1,2\n0.1,1,2\n").unwrap();
     let (code, _, said) = occupant(folder.path(), &["risk", "a.csv"]);
-    assert!(code == 2 && said.contains("a.csv:1: `kg` as the unit of ax"), "{said}");
+    assert!(code == 2 && said.contains("a.csv:1: `kg` is not a unit for ax"), "{said}");
     // what is no motion of the vehicle is named
     fs::write(folder.path().join("a.csv"), "t[s],ax[g],q[g]\n0,1,2\n0.1,1,2\n").unwrap();
     let (code, _, said) = occupant(folder.path(), &["risk", "a.csv", "--cfc", "none"]);
@@ -187,7 +187,7 @@ fn uneven_and_coarse_samples_are_refused_with_a_remedy() {
     fs::write(folder.path().join("a.csv"), text).unwrap();
     let (code, _, said) = occupant(folder.path(), &["risk", "a.csv"]);
     assert_eq!(code, 2);
-    assert!(said.contains("sample 71 stands at") && said.contains("--interval"), "{said}");
+    assert!(said.contains("sample 71 is at") && said.contains("--interval"), "{said}");
     let report = json(folder.path(), &["a.csv", "--interval", "0.1 ms"]);
     assert_near(value(&report, "oiv_x_m_s"), 10.8480, 5e-5);
 
@@ -207,8 +207,8 @@ fn uneven_and_coarse_samples_are_refused_with_a_remedy() {
 fn gravity_that_seems_to_be_in_a_record_or_not_is_told() {
     let folder = folder();
     for (az, flags, words) in [
-        ("-1", &[][..], "say --gravity-included"),
-        ("1", &[], "say --axes z_up"),
+        ("-1", &[][..], "use --gravity-included"),
+        ("1", &[], "use --axes z_up"),
         ("0", &["--gravity-included"], "leave --gravity-included out"),
         ("-1", &["--gravity-included"], ""),
         ("0", &[], ""),
@@ -230,7 +230,7 @@ fn sensors_away_from_the_centre_need_their_rates() {
     assert_near(value(&report, "max_yaw_rad"), 0.4, 1e-9);
     steady(folder.path(), "ax[m/s^2],wz[rad/s]", "-6,2", 10_000);
     let (code, _, said) = occupant(folder.path(), &["risk", "a.csv", "--offset", "1.5,0,0"]);
-    assert!(code == 2 && said.contains("wx, wy are not there"), "{said}");
+    assert!(code == 2 && said.contains("wx, wy are missing"), "{said}");
     let (code, _, said) = occupant(folder.path(), &["risk", "a.csv", "--offset", "1.5,0"]);
     assert!(code == 2 && said.contains("found 2 lengths, expected 3"), "{said}");
 }

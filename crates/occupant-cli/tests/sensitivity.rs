@@ -225,7 +225,7 @@ fn what_cannot_be_derived_is_refused_with_its_reason() {
     let told = asked("head.three_ms_contiguous", "belts.lap.k1", &short);
     assert!(told.contains("no value in this run"), "{told}");
     let told = asked("chest.peak", "belts.lap.k1", &["-o", "out.txt", "--channels", "*"]);
-    assert!(told.contains("names no format"), "{told}");
+    assert!(told.contains("unknown file format"), "{told}");
     let told = asked("chest.peak", "belts.lap.k1", &["-o", "short.toml"]);
     assert!(told.contains("--channel "), "{told}");
     let told = refused(here, &["sensitivity", "none.toml", "--to", "hic15", "--of", "gravity"]);

@@ -188,7 +188,7 @@ def test_refuses_what_contains_itself_or_has_no_end(scenario):
 def test_a_live_run_is_told_frame_by_frame(scenario):
     scenario["time.end"] = "50 ms"
     live = scenario.live(velocity=[8.9, 0, 0])
-    with pytest.raises(occupant.OccupantError, match="known up to"):
+    with pytest.raises(occupant.OccupantError, match="known only up to"):
         live.advance(0.01)
     saved = None
     while live.time < live.end - 1e-9:

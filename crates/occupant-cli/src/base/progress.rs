@@ -54,7 +54,7 @@ pub(crate) fn watch(work: String) {
         thread::sleep(SILENT);
         let mut line = line();
         if matches!(*line, Line::NotYet) {
-            let spinner = styled(None, "{spinner} {msg}: {elapsed} so far", false);
+            let spinner = styled(None, "{spinner} {msg}: {elapsed} so far", false).with_elapsed(SILENT);
             spinner.set_message(work);
             spinner.enable_steady_tick(SILENT / 10);
             *line = Line::Shown(spinner);

@@ -21,7 +21,7 @@ fn an_earlier_run_of_the_same_scenario_is_replaced_and_nothing_else() {
     let at = |name: &str| folder.path().join(name);
     let run = |words: &[&str]| {
         let output = answer(folder.path(), &[&["run", "case.toml", "--until", "10 ms"], words].concat());
-        (code(&output), err(&output).contains("case.mcap is an earlier run of this scenario"))
+        (code(&output), err(&output).contains("replacing case.mcap, an earlier run of this scenario"))
     };
     assert_eq!(run(&[]), (0, false));
     let text = std::fs::read_to_string(at("case.toml")).unwrap();
@@ -84,7 +84,7 @@ fn a_pipe_of_the_shell_is_read_and_bounded() {
     assert_eq!(whole.stdout, said("occupant check case.toml").stdout);
     let endless = said("yes '# more' | occupant check /dev/fd/0");
     assert_eq!(code(&endless), 2);
-    assert!(err(&endless).contains("gives more than 32 MB"), "{}", err(&endless));
+    assert!(err(&endless).contains("longer than 32 MB"), "{}", err(&endless));
     let device = said("occupant check /dev/fd/0 < /dev/zero");
     assert!(err(&device).contains("not an ordinary file"), "{}", err(&device));
 }
@@ -192,7 +192,7 @@ fn a_run_is_written_only_under_a_name_and_with_a_scenario_that_can_be_read_again
     // whatever a scenario's file is called
     std::fs::write(folder.path().join("long.txt"), vec![b' '; 2_000_001]).unwrap();
     let output = answer(folder.path(), &["check", "long.txt"]);
-    assert!(err(&output).contains("such a text may have at most 2 MB"), "{}", err(&output));
+    assert!(err(&output).contains("the limit for such a file is 2 MB"), "{}", err(&output));
 }
 
 /// A limit on the size of files stands for a disk that is full.

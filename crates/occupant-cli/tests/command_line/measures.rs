@@ -99,14 +99,14 @@ fn what_a_test_cannot_give_is_refused_with_its_mend() {
     let uneven = "t[ms],head.acceleration.resultant[g]\n0,1\n1,2\n2,3\n5,4\n6,4\n";
     std::fs::write(folder.path().join("uneven.csv"), uneven).unwrap();
     for (words, expected) in [
-        (&["measures", "test.csv"][..], "no signal that an injury measure is made of"),
+        (&["measures", "test.csv"][..], "no signal for any injury measure"),
         (&["measures", "test.csv", "--map", "thing=chest.deflexion"], "chest.upper_left.deflection"),
         (&["measures", "test.csv", "--map", "thing=chest.deflection"], "thing is in g"),
         (&["measures", "test.csv", "--map", "other=chest.deflection"], "no column `other`"),
         (&["measures", "test.csv", "--interval", "1 ms"], "cannot be run again"),
-        (&["measures", "test.csv", "run.mcap"], "one kind at a time"),
+        (&["measures", "test.csv", "run.mcap"], "give only runs or only tests"),
         (&["measures", "none.csv"], "none.csv"),
-        (&["measures", "uneven.csv"], "equal intervals"),
+        (&["measures", "uneven.csv"], "constant sample interval"),
     ] {
         let output = answer(folder.path(), words);
         assert_eq!(code(&output), 2, "{words:?}: {}", err(&output));

@@ -139,7 +139,7 @@ fn what_cannot_be_resumed_is_refused_in_words() {
         (&["--resume", "first.mcap", "--until", "0.06"], "--until"),
         (&["--resume", "first.mcap", "--until", "soon"], "soon"),
         (&["--resume", "first.mcap", "--set", "output.interval=\"2 ms\""], "output.interval: "),
-        (&["--resume", "first.mcap", "-f", "-o", "first.mcap"], "write over"),
+        (&["--resume", "first.mcap", "-f", "-o", "first.mcap"], "would overwrite"),
     ];
     for (words, expected) in cases {
         let words = [&["run", "case.toml"], words].concat();

@@ -108,7 +108,7 @@ fn keys_are_explained_wherever_they_stand() {
     };
     let (exit, sections, _) = told(&[]);
     assert_eq!(exit, 0);
-    assert!(sections.contains("  path: table\n      Motion of the vehicle; "), "{sections}");
+    assert!(sections.contains("  path: table\n      Motion of the vehicle. "), "{sections}");
     for path in ["path.delta_v", "delta_v"] {
         let (_, key, _) = told(&[path]);
         assert!(key.starts_with("path.delta_v   (kind = \"pulse\")\n") && key.contains("(in/s with units"), "{key}");

@@ -89,13 +89,13 @@ fn another_test_or_study_in_the_same_folder_is_refused_with_what_differs() {
     let refused = answer(at, &fit);
     assert_eq!(refused.status.code(), Some(2));
     let said = err(&refused);
-    assert!(said.contains("out holds another fit") && said.contains("test.csv, line 2"), "{said}");
+    assert!(said.contains("out contains another fit") && said.contains("test.csv, line 2"), "{said}");
     done(at, &[&fit[..], &["--restart"]].concat());
     // a sweep does not touch it
     let study = format!("{STUDY}\n[design]\nkind = \"monte_carlo\"\nsamples = 4\n");
     fs::write(at.join("sweep.toml"), study).unwrap();
     let refused = answer(at, &["sweep", "sweep.toml", "-o", "out"]);
-    assert!(err(&refused).contains("no sweep's"), "{}", err(&refused));
+    assert!(err(&refused).contains("do not belong to a sweep"), "{}", err(&refused));
 }
 
 #[test]
@@ -117,7 +117,7 @@ fn damage_in_a_finished_folder_is_named_and_made_again() {
     let (before, score) = text.rsplit_once("],\"wall").unwrap();
     let (before, _) = before.split_at(before.len() - 1);
     fs::write(&piece, format!("{before}0],\"wall{score}")).unwrap();
-    assert!(spoken(at, &fit).contains("rows was not what had been written"));
+    assert!(spoken(at, &fit).contains("rows was changed after it was written"));
     assert_eq!(results(at, "out"), whole);
     assert_eq!(spoken(at, &fit), "");
 }

@@ -83,7 +83,7 @@ fn signals_that_do_not_fit_the_run_are_told() {
     };
     table("chest[g]", 0.0);
     let said = refusal(at, &FIT);
-    assert!(said.contains("no signal of test.csv belongs to a channel"), "{said}");
+    assert!(said.contains("no signal of test.csv matches a channel"), "{said}");
     let mapped = [&FIT[..], &["--map", "chest=belt.lap.force"]].concat();
     assert!(refusal(at, &mapped).contains("chest is in g, but belt.lap.force in N"));
     table("belt.lap.force[N]", 5.0);
@@ -111,7 +111,7 @@ fn a_fit_in_which_nothing_runs_says_why() {
     let said = err(&output);
     assert_eq!(output.status.code(), Some(1), "{said}");
     assert!(said.contains("none of 17 candidates could be run"), "{said}");
-    assert!(said.contains("narrow the ranges"), "{said}");
+    assert!(said.contains("narrow the parameter ranges"), "{said}");
 }
 
 #[test]

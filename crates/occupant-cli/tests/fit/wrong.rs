@@ -48,7 +48,7 @@ fn a_turned_sign_a_wrong_unit_and_a_late_clock_are_told() {
     let turned = told(&|i, x| if i == 1 { -x } else { x });
     assert_eq!(of(&turned, "If the sign is wrong: map = [\"column=-"), 1, "{turned:?}");
     let kilo = told(&|i, x| if i == 2 { x / 1e3 } else { x });
-    assert_eq!(of(&kilo, "a wrong unit, or `gain`?"), 1, "{kilo:?}");
+    assert_eq!(of(&kilo, "check its unit, or set `gain`"), 1, "{kilo:?}");
     for late in [2e-3, -2e-3, 0.5e-3] {
         let told = told(&|i, x| if i == 0 { x + late } else { x });
         let word = if late > 0.0 { " late: " } else { " early: " };

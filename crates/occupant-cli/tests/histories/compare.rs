@@ -179,7 +179,7 @@ fn ratings_of_a_run_without_results_mean_nothing() {
     // springs that are too stiff for the step: the energy balance is off by 36 %, or the integration fails at 2 ms
     for (stiffness, file, expected) in [
         ("materials.*.k1=2e7", "off.mcap", "its energy balance is off by"),
-        ("materials.*.k1=1e9", "failed.partial.mcap", "no longer a finite number"),
+        ("materials.*.k1=1e9", "failed.partial.mcap", "no longer finite"),
     ] {
         let name = file.replace(".partial", "");
         let step = "integrator={kind=\"rk4\", step=\"1 ms\"}";
@@ -208,5 +208,5 @@ fn ratings_of_a_run_without_results_mean_nothing() {
     let file = "early.partial.mcap";
     let said = refused(here, &["compare", file, file, "--channel", "vehicle.acceleration.x"]);
     assert!(said.contains("nothing can be rated: all selected channels are zero throughout in early"), "{said}");
-    assert!(said.contains("no longer a finite number"), "{said}");
+    assert!(said.contains("no longer finite"), "{said}");
 }

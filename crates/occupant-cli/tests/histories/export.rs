@@ -104,7 +104,7 @@ fn an_iso_mme_test_has_codes_units_and_j211_signs() {
     let run = run.to_str().unwrap();
     let all = ["export", run, "-o", "T1.mme", "--filter", "CFC180"];
     let said = super::err(&well(folder.path(), &all));
-    assert!(said.contains("T1.mme") && said.contains("no code for"), "{said}");
+    assert!(said.contains("T1.mme") && said.contains("without an ISO-MME code"), "{said}");
     let words = ["export", run, "-o", "t.csv", "--filter", "CFC180", "--channels", "head.acceleration.*"];
     well(folder.path(), &words);
     let chn = text(&folder.path().join("T1/Channel/T1.chn"));
@@ -145,7 +145,7 @@ fn a_class_that_the_outputs_are_too_coarse_for_is_refused() {
     let run = coarse();
     let run = run.to_str().unwrap();
     let said = refused(folder.path(), &["export", run, "-o", "a.csv", "--filter", "j211"]);
-    assert!(said.contains("CFC 1000 needs more than") && said.contains("samples are 1000 a second"), "{said}");
+    assert!(said.contains("CFC 1000 needs more than") && said.contains("there are 1000 per second"), "{said}");
     assert!(said.contains("output.interval"), "{said}");
     assert!(!folder.path().join("a.csv").exists());
     // the outputs end off the grid: the last one cannot be filtered with the others

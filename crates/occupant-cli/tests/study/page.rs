@@ -72,7 +72,7 @@ fn a_finished_study_has_all_its_sections() {
         "Over two parameters",
         "Worst and best runs",
         "SHA-256",
-        "should not be relied on",
+        "is unreliable",
     ] {
         assert!(text.contains(words), "{words}");
     }
@@ -217,8 +217,8 @@ fn failed_and_refused_runs_are_counted_with_their_reasons() {
     let text = page(folder.path());
     sane(&text);
     assert!(text.contains("refused") && text.contains("an end after the start"));
-    assert!(text.contains("12 of 24 runs have no figures that count"));
-    assert!(text.contains("12 of 24 samples have no such figure"));
+    assert!(text.contains("12 of 24 runs have no valid results"));
+    assert!(text.contains("12 of 24 samples lack this result"));
     // half of the runs are missing: what is said of the rest is marked
     let (median, marked) = counted(folder.path(), "median");
     assert!(median > 0 && marked == median);
@@ -273,9 +273,9 @@ fn each_design_has_its_own_table() {
     "#;
     let designs = [
         ("saltelli\", samples = 16, second_order = true", "Sobol indices", "sobol_total"),
-        ("saltelli\", samples = 4", "too few numbers", "median"),
+        ("saltelli\", samples = 4", "too few values", "median"),
         ("morris\", trajectories = 5", "elementary effects", "morris_sigma"),
-        ("morris\", trajectories = 2", "too few numbers", "median"),
+        ("morris\", trajectories = 2", "too few values", "median"),
         ("one_at_a_time\"", "One parameter at a time", "alone_nominal"),
     ];
     for (design, words, quantity) in designs {

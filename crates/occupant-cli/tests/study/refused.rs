@@ -11,7 +11,7 @@ fn an_earlier_report_is_replaced_and_other_files_only_by_force() {
     done(at, &["study", "report", "out"]);
     let before = fs::read(at.join("out/report.html")).unwrap();
     let said = spoken(at, &["study", "report", "out"]);
-    assert!(said.contains("is an earlier report of this study and is replaced"), "{said}");
+    assert!(said.contains("an earlier report of this study (use -o to keep it)"), "{said}");
     // the same rows give the same page
     assert!(before == fs::read(at.join("out/report.html")).unwrap());
     // nor under a name that was asked for, nor a page of somebody else
@@ -20,7 +20,7 @@ fn an_earlier_report_is_replaced_and_other_files_only_by_force() {
     for words in [&named[..], &["study", "report", "out"]] {
         let output = answer(at, words);
         assert_eq!(output.status.code(), Some(2));
-        assert!(err(&output).contains("--force replaces it"), "{}", err(&output));
+        assert!(err(&output).contains("replace it with --force"), "{}", err(&output));
         fs::write(at.join("out/report.html"), &changed).unwrap();
     }
     done(at, &["study", "report", "out", "--force"]);
@@ -43,7 +43,7 @@ fn the_tables_of_the_sweep_are_safe() {
     }
     assert!(before == fs::read(at.join("out/results.parquet")).unwrap());
     let output = answer(at, &["study", "report", "out", "-o", "page.pdf"]);
-    assert!(err(&output).contains("ends with .html"), "{}", err(&output));
+    assert!(err(&output).contains("use the extension .html"), "{}", err(&output));
 }
 
 #[test]
@@ -54,7 +54,7 @@ fn what_is_no_study_is_told_from_one() {
     for name in ["empty", "nowhere"] {
         let output = answer(at, &["study", "report", name]);
         assert_eq!(output.status.code(), Some(2));
-        assert!(err(&output).contains("holds no sweep"), "{}", err(&output));
+        assert!(err(&output).contains("does not contain a sweep"), "{}", err(&output));
     }
     let output = answer(at, &["study", "report", "study.toml"]);
     assert_eq!(output.status.code(), Some(2), "{}", err(&output));

@@ -53,9 +53,9 @@ fn flags_that_make_no_sense_are_refused_in_words() {
     for (more, said) in [
         (&["--shard", "0/3"][..], "shards are counted from 1"),
         (&["--shard", "4/3"], "the last is 3/3"),
-        (&["--keep", "some"], "does not say which runs to write"),
+        (&["--keep", "some"], "unknown choice of runs"),
         (&["--keep", "24"], "there is no sample 24"),
-        (&["--keep", "worst 2 by hick"], "no measure is named `hick`"),
+        (&["--keep", "worst 2 by hick"], "there is no measure `hick`"),
         (&["--shard", "1/2", "--csv"], "a shard does not write a table"),
         (&["--shard", "1/2", "--restart"], "would remove the results of the others"),
         (&["--threads", "0"], "invalid value '0'"),
@@ -67,7 +67,7 @@ fn flags_that_make_no_sense_are_refused_in_words() {
     }
     assert!(!at.join("out").exists());
     let output = answer(at, &["sweep", "merge", "."]);
-    assert!(err(&output).contains("holds no sweep"), "{}", err(&output));
+    assert!(err(&output).contains("does not contain a sweep"), "{}", err(&output));
     let output = answer(at, &["sweep", "nowhere.toml", "-o", "out"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(err(&output).contains("nowhere.toml cannot be read"), "{}", err(&output));
@@ -96,7 +96,7 @@ fn a_study_of_which_every_sample_is_refused_has_failed_and_says_why() {
         let output = answer(folder.path(), &[&["sweep", "study.toml", "-o", "out", "--restart"][..], more].concat());
         let said = err(&output);
         assert_eq!(output.status.code(), Some(2), "{said}");
-        assert!(said.contains("every sample that was looked at is refused"), "{said}");
+        assert!(said.contains("every sample tried is invalid"), "{said}");
         assert!(said.contains("no longer than the run"), "{said}");
         assert!(!folder.path().join("out").exists());
     }
@@ -110,7 +110,7 @@ fn a_study_of_which_every_sample_is_refused_has_failed_and_says_why() {
 fn a_dry_run_tries_the_corners_of_the_study_and_tells_all_that_are_refused() {
     let folder = folder_with(&of_intervals("{ kind = \"one_at_a_time\" }", "1 ms"));
     let said = done(folder.path(), &["sweep", "study.toml", "-o", "dry", "--dry-run"]);
-    assert!(said.contains("1 of 2 are REFUSED"), "{said}");
+    assert!(said.contains("1 of 2 are INVALID"), "{said}");
     let corner = said.lines().find(|line| line.contains("output.interval = ")).expect("a line for the corner");
     assert!(corner.contains("no longer than the run"), "{corner}");
     assert!(!folder.path().join("dry").exists());
@@ -139,7 +139,7 @@ fn a_study_without_any_sample_that_can_be_run_is_refused_at_once() {
         let output = answer(folder.path(), &["sweep", "study.toml", "-o", "out"]);
         assert_eq!(output.status.code(), Some(2));
         let said = err(&output);
-        assert!(said.contains("every sample that was looked at is refused") && said.contains("plateau"), "{said}");
+        assert!(said.contains("every sample tried is invalid") && said.contains("plateau"), "{said}");
         assert!(!folder.path().join("out").exists());
     }
 }

@@ -97,7 +97,7 @@ fn a_sample_that_is_refused_or_fails_is_a_row_with_its_reason() {
     let table = rows(at, "out");
     assert_eq!(column(&table, "status"), ["completed", "failed", "refused", "refused"], "{said}");
     assert!(said.contains("1 completed, 1 failed, 2 refused"), "{said}");
-    assert!(table[2].contains("the error control asks for a step"), "{}", table[2]);
+    assert!(table[2].contains("the error control needs a step"), "{}", table[2]);
     assert!(table[3].contains("an end after the start"), "{}", table[3]);
     // a run that failed has the figures of its work and none else
     assert_eq!(column(&table, "head.peak")[1..], ["", "", ""]);

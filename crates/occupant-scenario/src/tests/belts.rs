@@ -45,7 +45,7 @@ fn what_is_wrong_with_belts_is_said_at_its_place() {
         ),
         (&[WEBBING, BELT, "belts.b.nodes[2]={ sphere = \"left_shoulder\" }"], "between the planes of webbing"),
         (&[WEBBING, BELT, "belts.b.nodes[2].friction=0.9"], "0.1 to 0.6"),
-        (&[WEBBING, BELT, "belts.b.nodes[2].retractor=\"r\"", go, reel], "list the nodes the other way round"),
+        (&[WEBBING, BELT, "belts.b.nodes[2].retractor=\"r\"", go, reel], "reverse the order of the nodes"),
         (
             &[WEBBING, BELT, "belts.b.nodes[0].retractor=\"r\"", go, reel, "belts.b.slack=0.1"],
             "`slack` with a retractor",
@@ -61,7 +61,7 @@ fn what_is_wrong_with_belts_is_said_at_its_place() {
         (&[WEBBING, BELT, "belts.b.nodes[4].at=[-0.05, 0, 0]"], "outside the sphere beside it"),
         (
             &[go, "triggers.a={ kind = \"any\", of = [\"b\"] }", "triggers.b={ kind = \"all\", of = [\"a\"] }"],
-            "in a circle",
+            "in a loop",
         ),
         (
             &[

@@ -44,7 +44,7 @@ fn what_is_wrong_with_columns_is_said_at_its_place() {
         (&["frames.column.parent=\"space\"", "bags.driver=null"], "no vehicle and no panel"),
         (&[hangs], "a frame that hangs on a column"),
         (&[&two, &three], "3 columns"),
-        (&["bags.driver.frame=\"ground\""], "no part of the first vehicle"),
+        (&["bags.driver.frame=\"ground\""], "does not move with the first vehicle"),
         (&["bags.driver.frame=\"colunm\""], "did you mean \"column\"?"),
         (&[line, "bags.driver=null", "belts=null", "retractors=null", "triggers=null"], "which have no acceleration"),
     ] {

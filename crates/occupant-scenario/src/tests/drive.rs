@@ -158,7 +158,7 @@ fn mistakes_are_told_with_their_places() {
             "preset = \"sedan\"\ncg_behind_front_axle = \"3 m\"",
             "between the axles, which are 2.7 m apart",
         ),
-        ("preset = \"sedan\"", "preset = \"sedan\"\ninertia = [1000, 100, 100]", "the inertia is that of no body"),
+        ("preset = \"sedan\"", "preset = \"sedan\"\ninertia = [1000, 100, 100]", "the inertia is impossible"),
         (
             "friction = 0.8",
             "section = { right = [0, 5, 4], height = [0, 0, 0] }",

@@ -29,7 +29,10 @@ fn what_is_wrong_with_muscles_triggers_markers_and_locks_is_said_at_its_place() 
         (&[go, NECK, "muscles.neck.until=0.02"], "a muscle that relaxes at 0.02 s and begins to act at 0.05 s"),
         (&[go, "muscles.neck={ tone = 1 }"], "a muscle without stiffness, damping and torque"),
         (&[NECK, "triggers.go={ kind = \"time\", at = 9 }"], "this trigger does not fire in this run"),
-        (&[NECK, "triggers.go={ kind = \"vehicle_acceleration\", threshold = \"900 g\" }"], "never fires"),
+        (
+            &[NECK, "triggers.go={ kind = \"vehicle_acceleration\", threshold = \"900 g\" }"],
+            "does not fire in this run",
+        ),
         (&["markers.t1={ segment = \"torso\", place = [0, 0, 0] }"], "no segment is named \"torso\""),
         (&["markers.t1={ segment = \"head\", place = [0, 0, 0], frame = \"ground\" }"], "\"segment\""),
         (&["joints.neck.lock={}"], "has no key `stiffness`"),

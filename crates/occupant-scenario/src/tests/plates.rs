@@ -50,7 +50,7 @@ fn what_is_wrong_with_plates_is_said_at_its_place() {
         (&[chest, "body.spheres.chest.ride.belt.sternun=0.5"], "did you mean \"sternum\"?"),
         (&[chest, "body.plate_links.rocking.of={ left_rib = 1 }"], "did you mean \"left_ribs\"?"),
         (&["body.chest=persons"], "did you mean \"person\"?"),
-        (&[chest, "body.preset=child10"], "a preset or a person that is grown up"),
+        (&[chest, "body.preset=child10"], "an adult preset or person"),
     ] {
         let said = match changed(DRIVER, changes) {
             Ok((_, said)) => said,

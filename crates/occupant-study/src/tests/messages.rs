@@ -415,5 +415,5 @@ error: a tail of 0.5
     let words = complaint("design.kind = \"full_factorial\"");
     assert!(words.contains("a design without parameters"), "{words}");
     let bare = "design.kind = \"full_factorial\"\n[[parameters]]\npath = \"materials.foam.friction\"\n";
-    assert!(complaint(bare).contains("does not say how it varies"));
+    assert!(complaint(bare).contains("a parameter without values"));
 }

@@ -151,7 +151,7 @@ fn set_and_overrides_change_the_base_of_all_runs() {
     let by_hand = ["belts.*.slack=1 cm".to_owned()];
     let text = text.bind(base(), &by_hand, &no_files);
     // the wildcard leads nowhere: the scenario does not say the slack
-    assert!(text.unwrap_err().to_string().contains("leads to nothing"));
+    assert!(text.unwrap_err().to_string().contains("this scenario has no"));
 }
 
 #[test]
@@ -164,7 +164,7 @@ fn a_value_given_by_hand_and_varied_is_told() {
     let text = StudyText::read(text, Format::Toml, "study.toml").unwrap();
     let problems = text.bind(base(), &["belts.lap.slack=1 cm".to_owned()], &no_files);
     let words = problems.unwrap_err().to_string();
-    assert!(words.contains("`belts.lap.slack` is given by hand and varied"), "{words}");
+    assert!(words.contains("`belts.lap.slack` is overridden and also varied"), "{words}");
 }
 
 #[test]

@@ -74,7 +74,7 @@ fn segments_beside_another_size_or_other_words_are_refused() {
         format!("{sampled}\n{size}[ensemble]\nmembers = 2\nsegments = 0.15"),
     ] {
         let said = complaint(&study);
-        assert!(said.contains("`body.preset` is varied") && said.contains("a body of one size"), "{said}");
+        assert!(said.contains("`body.preset` is varied") && said.contains("a body of fixed size"), "{said}");
     }
     for (words, said) in [
         ("segments = 0.15, path = \"body.mass\"", "`path`"),

@@ -182,7 +182,7 @@ fn without_contact_it_is_said_and_the_whole_record_counts() {
     signals.special.insert(Special::HeadRestraint, history(|_| 0.0));
     let found = judged_by(Dummy::BioRidIi, &signals);
     for name in ["head_contact_time", "nic_at_contact"] {
-        assert!(of(&found, name).remark.as_deref().unwrap().contains("never rests"));
+        assert!(of(&found, name).remark.as_deref().unwrap().contains("never in contact"));
     }
     near(&found, "nic", 8.0 + 1600.0 * 0.0999 * 0.0999, 1e-9);
     assert_eq!(names(&found), names(&judged_by(Dummy::BioRidIi, &rear())));
