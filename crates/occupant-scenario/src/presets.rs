@@ -139,9 +139,9 @@ fn male50() -> Option<&'static Arc<Document>> {
 }
 
 /// Sections of a scenario that the library has entries for.
-pub(super) const IN_LIBRARY: [&str; 4] = ["materials", "webbings", "limiters", "frames"];
+pub(super) const IN_LIBRARY: [&str; 5] = ["materials", "webbings", "limiters", "frames", "bags"];
 
-/// Materials, webbings, limiters and columns of public texts, with their sources.
+/// Materials, webbings, limiters and columns of public texts, with their sources, and bags that are made up.
 pub(super) fn library() -> Option<&'static Document> {
     static READ: OnceLock<Option<Document>> = OnceLock::new();
     READ.get_or_init(|| written("library", include_str!("presets/library.toml"))).as_ref()

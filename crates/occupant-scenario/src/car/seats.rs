@@ -82,7 +82,7 @@ impl Seat {
     }
 
     /// A point of the back, up along it and ahead of it from the H-point, in vehicle axes.
-    fn along(&self, [up, ahead]: [f64; 2]) -> [f64; 2] {
+    pub(super) fn along(&self, [up, ahead]: [f64; 2]) -> [f64; 2] {
         let (sin, cos) = occupant_units::trig::sin_cos(self.recline_deg.to_radians());
         self.at([ahead * cos - up * sin, -ahead * sin - up * cos])
     }

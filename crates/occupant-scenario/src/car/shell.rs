@@ -8,6 +8,8 @@ use super::{Car, frame_line, list, m, points};
 use crate::sections::{CarClass, IntrusionSection, si_or};
 use occupant_units::trig::sin_cos;
 
+/// Middle of a curtain below the roof, m: beside the heads.
+const CURTAIN_UP_M: f64 = 0.30;
 /// Thickness of a door.
 const DOOR_M: f64 = 0.20;
 
@@ -140,7 +142,7 @@ impl Car<'_> {
         let front = self.moved("front");
         own + &self.prism("knee_bolster", &material, &bolster, sides, &format!("{front}rounding = \"0.02 m\"\n"))
             + &self.prism("instrument_panel", "padding", &panel, sides, &format!("{front}rounding = \"0.03 m\"\n"))
-            + &self.prism("windscreen", "glass", &screen, [0.0, w - 0.02], "")
+            + &self.prism("windscreen", "windscreen", &screen, [0.0, w - 0.02], "")
     }
 
     /// Roof, doors, windows, pillars and what is behind.
@@ -168,7 +170,7 @@ impl Car<'_> {
             let window = [[base, low, sill], [top[0], high, top[1]], [rear, high, top[1]], [rear, low, sill]];
             _ = write!(
                 text,
-                "[solids.{}]\n{}kind = \"prism\"\nmaterial = \"glass\"\npoints = {}\nhalf_width = \"0.01 m\"\n\n",
+                "[solids.{}]\n{}kind = \"prism\"\nmaterial = \"window\"\npoints = {}\nhalf_width = \"0.01 m\"\n\n",
                 self.name(&format!("{side}_window")),
                 frame_line(self.vehicle),
                 points(&window),
@@ -253,11 +255,68 @@ impl Car<'_> {
             let mount = [a + 0.08, seat.h[1], -above];
             text += &self.bag("passenger", "", mount, [-0.94, 0.0, -0.342], [120.0, 0.45, 0.33, 0.60]);
         }
-        if text.is_empty() {
-            text
-        } else {
-            format!("[gases.generator]\nmolar_mass = \"33 kg/kmol\"\ncp = \"1070 J/(kg K)\"\n\n{text}")
+        if !text.is_empty() {
+            text.insert_str(0, "[gases.generator]\nmolar_mass = \"33 kg/kmol\"\ncp = \"1070 J/(kg K)\"\n\n");
         }
+        text + &self.bags_beside(seats)
+    }
+
+    /// Curtains, from the front pillar to behind the last heads, and bags between doors and those who sit beside them.
+    fn bags_beside(&self, seats: &[Seat]) -> String {
+        let (bags, w, roof) = (&self.section.bags, self.half_width(), self.measures.roof);
+        let mut text = String::new();
+        let sides = [bags.curtain, bags.side].map(Option::unwrap_or_default);
+        // what pushes the car away from a side struck that side
+        for (side, y) in sides[0].with(sides[1]).each() {
+            _ = write!(
+                text,
+                "[triggers.{side}_side]\nkind = \"vehicle_acceleration\"\nthreshold = \"3 g\"\nfor = \"2 ms\"\ndirection = [0, {}, 0]\n\n",
+                -y
+            );
+        }
+        for (side, y) in bags.curtain.unwrap_or_default().each() {
+            let rear = seats.iter().filter(|seat| seat.is_taken()).map(|seat| seat.h[0]).fold(0.0, f64::min) - 0.55;
+            let at = |x: f64| [x, y * (w - 0.10), CURTAIN_UP_M - roof];
+            let mount = [0.5 * (rear + 0.25), y * (w - 0.08), 0.05 - roof];
+            text += &self.bag_beside(&format!("{side}_curtain"), ("curtain", side), mount, [at(0.25), at(rear)], 0.07);
+        }
+        for (side, y) in bags.side.unwrap_or_default().each() {
+            for seat in seats.iter().filter(|seat| seat.is_taken() && seat.h[1] * y > 0.1) {
+                let at = |up: f64, ahead: f64| {
+                    let [x, z] = seat.along([up, ahead]);
+                    [x, y * (w - 0.085), z]
+                };
+                let ends = [at(0.12, 0.02), at(0.42, 0.06)];
+                text += &self.bag_beside(&format!("{}_side", seat.name), ("side", side), at(0.30, -0.10), ends, 0.075);
+            }
+        }
+        text
+    }
+
+    /// A bag of the library round a line, with as much more gas as it is larger than that.
+    fn bag_beside(
+        &self,
+        name: &str,
+        (of, side): (&str, &str),
+        mount: [f64; 3],
+        ends: [[f64; 3]; 2],
+        radius: f64,
+    ) -> String {
+        let long = (0..3).map(|i| (ends[1][i] - ends[0][i]).powi(2)).sum::<f64>().sqrt();
+        let litres = 1e3 * std::f64::consts::PI * radius * radius * (long + 4.0 / 3.0 * radius);
+        let (times, flow) = match of {
+            "curtain" => ("[\"0 ms\", \"3 ms\", \"18 ms\"]", 5.0 / 26.5 * litres),
+            _ => ("[\"0 ms\", \"2 ms\", \"10 ms\"]", 3.4 / 10.7 * litres),
+        };
+        let delay = si_or(&self.section.bags.delay, 0.004);
+        format!(
+            "[bags.{name}]\nlibrary = \"{of}\"\ntrigger = \"{side}_side\"\ndelay = \"{delay} s\"\nmount = {}\n\
+             capsule = {{ ends = {}, radius = {} }}\ninflators = [{{ gas = {{ argon = 0.95, helium = 0.05 }}, times = {times}, \
+             flow = [\"0 kg/s\", \"{flow} kg/s\", \"0 kg/s\"], temperature = [\"330 K\", \"330 K\", \"300 K\"] }}]\n\n",
+            list(&mount),
+            points(&ends),
+            m(radius),
+        )
     }
 
     /// A bag of so many litres, of this depth, radius and radius of its face, m.
@@ -275,7 +334,7 @@ impl Car<'_> {
         format!(
             "[bags.{name}]\n{frame}trigger = \"front\"\ndelay = \"{delay} s\"\ndeploy = \"25 ms\"\nmount = {}\n\
              dome = {{ axis = [{}, {}, {}], depth = {}, radius = {}, face_radius = {}, edge = \"0.08 m\" }}\nvolume = \"{litres} l\"\n\
-             vents = [{{ area = \"{vent} mm^2\", discharge = 0.7, opens_at = \"20 kPa\" }}]\nleakage = 0.001\nfriction = 0.3\n\
+             vents = [{{ area = \"{vent} mm^2\", discharge = 0.7, opens_at = \"20 kPa\" }}]\nleakage = 0.001\nfriction = 0.3\ncover = \"0.3 kg\"\n\
              spheres = [\"head\", \"chest\", \"left_shoulder\", \"right_shoulder\"]\n\
              reach = {{ chest = 1.6 }}\n\n[[bags.{name}.inflators]]\ngas = {{ generator = 1 }}\n\
              times = [\"0 ms\", \"4 ms\", \"20 ms\", \"45 ms\"]\nflow = [\"0 kg/s\", \"{} kg/s\", \"{} kg/s\", \"0 kg/s\"]\n\

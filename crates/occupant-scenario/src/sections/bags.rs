@@ -9,7 +9,7 @@ use super::builder::Builder;
 use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, all_si, point, si_or};
 use super::triggers::Triggers;
 use super::{
-    Area, HeatTransfer, Length, MassFlow, MolarMass, Pressure, Quantity, Ratio, Scenario, SpecificHeat,
+    Area, HeatTransfer, Length, Mass, MassFlow, MolarMass, Pressure, Quantity, Ratio, Scenario, SpecificHeat,
     SpecificHeatSlope, Speed, Temperature, Time, Volume,
 };
 use occupant_core::body::Body;
@@ -35,16 +35,19 @@ pub(crate) struct GasSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend(
-    "x-exactly-one" = [["dome", "sphere", "capsule"]],
-    "x-at-most-one" = [["leakage", "permeability"]],
+    "x-at-most-one" = [["dome", "sphere", "capsule"], ["leakage", "permeability"]],
 ))]
 pub(crate) struct BagSection {
+    /// Name of a bag of the library. It gives every key that is not said beside it except `trigger`, `mount` and, of a curtain or
+    /// side bag, `capsule`. Its numbers are made up.
+    #[schemars(extend("enum" = ["driver", "passenger", "curtain", "side"]))]
+    pub(crate) library: Option<String>,
     /// Name of the trigger that fires it, by time or by the vehicle's motion.
     pub(crate) trigger: String,
     /// Time from the trigger until it fires; 0 if absent.
     pub(crate) delay: Option<Time<NOT_NEGATIVE>>,
     /// Time from firing until it is unfolded; its volume grows linearly from 2 %.
-    pub(crate) deploy: Time<POSITIVE>,
+    pub(crate) deploy: Option<Time<POSITIVE>>,
     /// What it is fixed to: "vehicle", or the name of a frame of the first vehicle, such as a column; "vehicle" if absent.
     pub(crate) frame: Option<String>,
     /// Mounting point, from which it unfolds, axes of its frame.
@@ -58,7 +61,7 @@ pub(crate) struct BagSection {
     /// Full volume; that of the shape if absent. It must be within 30 % of the volume of the shape.
     pub(crate) volume: Option<Volume<POSITIVE>>,
     /// Inflators: one, or two stages.
-    pub(crate) inflators: Vec<InflatorSection>,
+    pub(crate) inflators: Option<Vec<InflatorSection>>,
     /// Vents, at most four.
     pub(crate) vents: Option<Vec<VentSection>>,
     /// Fraction of the fabric that leaks like an opening; 0 if absent.
@@ -71,11 +74,14 @@ pub(crate) struct BagSection {
     pub(crate) friction: Option<Ratio<NOT_NEGATIVE>>,
     /// Sliding speed at which friction reaches 71 % of its full value, as for a material.
     pub(crate) friction_speed: Option<Speed<POSITIVE>>,
-    /// Names of the body parts or spheres that it touches, at most twelve spheres.
-    pub(crate) spheres: Vec<String>,
-    /// Factor on the contact area of a part or sphere that represents more than itself; 1 if absent.
+    /// Names of the body parts or spheres that it touches, at most 20 spheres. Where they overlap they count once.
+    pub(crate) spheres: Option<Vec<String>>,
+    /// Factor on the contact area of a part or sphere that represents more than itself; of a part, on that of its first sphere, to
+    /// which its others add. 1 if absent.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) reach: IndexMap<String, Ratio<POSITIVE>>,
+    /// Mass of cover and fabric that it throws ahead of it as it unfolds: the blow to a body in its way. 0 if absent.
+    pub(crate) cover: Option<Mass<NOT_NEGATIVE>>,
     /// The air around it.
     pub(crate) ambient: Option<AmbientSection>,
 }
@@ -197,9 +203,12 @@ struct Parts<'a> {
 impl Parts<'_> {
     fn bag(&self, b: &mut Builder, name: &str, s: &BagSection, body: &Body) -> Option<Bag> {
         let path = with_key("bags", name);
-        let shape = shape(s)?;
+        let shape = said(b, &path, "`dome`, `sphere` or `capsule`", shape(s))?;
+        let deploy_s = said(b, &path, "`deploy`", s.deploy.as_ref())?.si();
+        let inflators = said(b, &path, "`inflators`", s.inflators.as_ref())?;
+        let names = said(b, &path, "`spheres`", s.spheres.as_ref())?;
         let fires_s = self.due_s(b, &path, &s.trigger, &s.delay);
-        let inflators = s.inflators.iter().enumerate();
+        let inflators = inflators.iter().enumerate();
         let inflators = inflators.map(|(i, one)| self.inflator(b, &format!("{path}.inflators[{i}]"), one, s)).collect();
         let vents = s.vents.iter().flatten().enumerate();
         let vents = vents.map(|(i, vent)| self.vent(b, &format!("{path}.vents[{i}]"), vent)).collect();
@@ -215,15 +224,16 @@ impl Parts<'_> {
             shape,
             volume_m3: si_or(&s.volume, shape.volume_m3()),
             fires_s,
-            deploy_s: s.deploy.si(),
+            deploy_s,
             ambient,
             inflators,
             vents,
             leakage: leakage(b, &path, s),
+            cover_kg: si_or(&s.cover, 0.0),
             heat_w_m2_k: si_or(&s.heat_transfer, 0.0),
             friction: si_or(&s.friction, 0.0),
             friction_speed_m_s: si_or(&s.friction_speed, DEFAULT_FRICTION_SPEED_M_S),
-            spheres: spheres(b, &path, s, body),
+            spheres: spheres(b, &path, (s, names), body),
         })
     }
 
@@ -299,7 +309,15 @@ fn gas(s: &GasSection) -> Gas {
     Gas { r_j_kg_k: GAS_CONSTANT_J_MOL_K / s.molar_mass.si(), a_j_kg_k: s.cp.si(), b_j_kg_k2: si_or(&s.cp_slope, 0.0) }
 }
 
-/// The one shape that a checked section has.
+/// What a bag says itself or has of the library.
+fn said<T>(b: &mut Builder, path: &str, key: &str, value: Option<T>) -> Option<T> {
+    if value.is_none() {
+        b.error(path, format!("a bag without {key}"), format!("{key}, or `library` with a bag that has it"));
+    }
+    value
+}
+
+/// The one shape of a section; where the library has a dome, the one that is said beside it.
 fn shape(s: &BagSection) -> Option<Shape> {
     let dome = s.dome.as_ref().map(|dome| Shape::Dome {
         axis: Vector3::from(all_si(&dome.axis)),
@@ -313,7 +331,7 @@ fn shape(s: &BagSection) -> Option<Shape> {
     let capsule = s.capsule.as_ref();
     let capsule =
         capsule.map(|one| Shape::Capsule { ends_m: one.ends.each_ref().map(point), radius_m: one.radius.si() });
-    dome.or(sphere).or(capsule)
+    capsule.or(sphere).or(dome)
 }
 
 fn leakage(b: &mut Builder, path: &str, s: &BagSection) -> Leakage {
@@ -326,16 +344,41 @@ fn leakage(b: &mut Builder, path: &str, s: &BagSection) -> Leakage {
 }
 
 /// Its spheres, each with the reach of its own name or of that of its part.
-fn spheres(b: &mut Builder, path: &str, s: &BagSection, body: &Body) -> Vec<(usize, f64)> {
-    let list = b.spheres(&format!("{path}.spheres"), &s.spheres, body);
-    let names: Vec<String> = s.reach.keys().cloned().collect();
+fn spheres(b: &mut Builder, path: &str, (s, names): (&BagSection, &[String]), body: &Body) -> Vec<(usize, f64)> {
+    let list = b.spheres(&format!("{path}.spheres"), names, body);
     let reach = format!("{path}.reach");
-    for name in names.iter().filter(|name| !body.spheres_called(name).iter().any(|sphere| list.contains(sphere))) {
+    for name in s.reach.keys().filter(|name| !body.spheres_called(name).iter().any(|sphere| list.contains(sphere))) {
         b.error(&with_key(&reach, name), format!("\"{name}\", which is not one of its spheres"), "a name of `spheres`");
     }
     let reach_of = |sphere: usize| {
-        let mut called = s.reach.iter().filter(|(name, _)| body.spheres_called(name).contains(&sphere));
-        called.next_back().map_or(1.0, |(_, reach)| reach.si())
+        let mut called = s.reach.iter().map(|(name, reach)| (body.spheres_called(name), reach.si()));
+        let called = called.rfind(|(part, _)| part.contains(&sphere));
+        called.map_or(1.0, |(part, reach)| if reach > 1.0 { (reach / widening(body, &part)).max(1.0) } else { reach })
     };
     list.into_iter().map(|sphere| (sphere, reach_of(sphere))).collect()
+}
+
+/// Points in the width of a sphere when areas are counted.
+const POINTS: i32 = 100;
+
+/// By how much the spheres of a part, seen from ahead, cover more together than the first of them alone.
+fn widening(body: &Body, part: &[usize]) -> f64 {
+    let Some(first) = part.first().map(|first| &body.spheres[*first]) else { return 1.0 };
+    let own = part.iter().map(|sphere| &body.spheres[*sphere]).filter(|sphere| sphere.segment == first.segment);
+    let discs: Vec<[f64; 3]> =
+        own.map(|s| [s.centre_from_lower_end_m.y, s.centre_from_lower_end_m.z, s.radius_m]).collect();
+    let ends = |i: usize| {
+        let low = discs.iter().map(|disc| disc[i] - disc[2]).fold(f64::INFINITY, f64::min);
+        let high = discs.iter().map(|disc| disc[i] + disc[2]).fold(f64::NEG_INFINITY, f64::max);
+        [low, high]
+    };
+    let step = 2.0 * first.radius_m / f64::from(POINTS);
+    let line = |[low, high]: [f64; 2]| {
+        let count = ((high - low) / step).ceil().min(4e3) as usize;
+        (0..count).map(move |i| low + (i as f64 + 0.5) * step)
+    };
+    let is_within =
+        |y: f64, z: f64| discs.iter().any(|disc| (y - disc[0]).powi(2) + (z - disc[1]).powi(2) < disc[2].powi(2));
+    let count: usize = line(ends(0)).map(|y| line(ends(1)).filter(|z| is_within(y, *z)).count()).sum();
+    (count as f64 * step * step / (std::f64::consts::PI * first.radius_m.powi(2))).max(1.0)
 }

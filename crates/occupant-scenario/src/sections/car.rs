@@ -107,10 +107,47 @@ pub(crate) struct CarBagsSection {
     pub(crate) driver: Option<bool>,
     /// True: an air bag in the panel for a front passenger. True if absent.
     pub(crate) passenger: Option<bool>,
-    /// Time from the crash sensor to firing; 9 ms if absent.
+    /// Curtain air bags in front of the side windows; "none" if absent. An impact on their side fires them.
+    pub(crate) curtain: Option<CarSides>,
+    /// Side air bags in the outer bolsters of occupied seats beside a door; "none" if absent. An impact on their side fires them.
+    pub(crate) side: Option<CarSides>,
+    /// Time from the crash sensor to firing; 9 ms for front bags and 4 ms for curtains and side bags if absent.
     pub(crate) delay: Option<Time<NOT_NEGATIVE>>,
     /// Factor on the area of the vents; 1 if absent.
     pub(crate) vent: Option<Ratio<POSITIVE>>,
+}
+
+/// Sides of a car.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum CarSides {
+    /// Neither.
+    #[default]
+    None,
+    /// The left one.
+    Left,
+    /// The right one.
+    Right,
+    /// Both.
+    Both,
+}
+
+impl CarSides {
+    /// Those of either.
+    pub(crate) fn with(self, other: CarSides) -> CarSides {
+        match (self, other) {
+            (CarSides::None, one) | (one, CarSides::None) => one,
+            (one, other) if one == other => one,
+            _ => CarSides::Both,
+        }
+    }
+
+    /// Their names and directions.
+    pub(crate) fn each(self) -> impl Iterator<Item = (&'static str, f64)> {
+        let left = matches!(self, CarSides::Left | CarSides::Both).then_some(("left", -1.0));
+        let right = matches!(self, CarSides::Right | CarSides::Both).then_some(("right", 1.0));
+        left.into_iter().chain(right)
+    }
 }
 
 /// Intrusion of the compartment by the collision partner. Pillars and roof stay in place.

@@ -22,7 +22,7 @@ use placed_text::with_key;
 pub(crate) struct MaterialSection {
     /// Name of a material of the library. Other keys override its values.
     #[schemars(extend("enum" = [
-        "seat_cushion_s10", "dash_s10", "padding_s10", "hard_s10", "glass_s10", "body_s10", "stiff_atb", "segment_atb", "column_1969",
+        "seat_cushion_s10", "dash_s10", "padding_s10", "hard_s10", "glass_s10", "glass_laminated", "glass_tempered", "body_s10", "stiff_atb", "segment_atb", "column_1969",
         "head_dummy", "head_dummy_1973"
     ]))]
     pub(crate) library: Option<String>,

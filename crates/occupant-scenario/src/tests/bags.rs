@@ -64,9 +64,9 @@ fn what_is_wrong_with_bags_is_said_at_its_place() {
             &["bags.driver.leakage=null", "bags.driver.permeability={ pressure = [0, 1e4], speed = [0.1, 1] }"],
             "from pressure 0",
         ),
-        (&["bags.driver.spheres=[]", "bags.driver.reach=null"], "1 to 12 spheres"),
+        (&["bags.driver.spheres=[]", "bags.driver.reach=null"], "1 to 20 spheres"),
         (&["bags.driver.reach={ pelvis = 2 }"], "which is not one of its spheres"),
-        (&["bags.driver.reach={ chest = 9 }"], "they count twice"),
+        (&["bags.driver.reach={ chest = 9 }"], "less wide than the bag"),
         (&["bags.driver.ambient={ temperature = \"20 deg\" }"], "a temperature above absolute zero"),
         (&["bags.driver.mount=[0, -0.35, -0.5]"], "within the full bag at the start"),
     ] {

@@ -149,6 +149,23 @@ fn what_is_wrong_with_a_car_is_said_at_its_place() {
     }
 }
 
+#[test]
+fn bags_beside_stand_on_the_side_that_is_asked() {
+    let names = |car: &str| build(&of(car)).bags.iter().map(|bag| bag.name.clone()).collect::<Vec<_>>();
+    assert_eq!(
+        names("bags = { driver = false, curtain = \"both\", side = \"left\" }"),
+        ["left_curtain", "right_curtain", "driver_side"]
+    );
+    // right-hand drive: nobody sits on the left
+    assert_eq!(
+        names("drive = \"right\"\nbags = { driver = false, curtain = \"left\", side = \"left\" }"),
+        ["left_curtain"]
+    );
+    assert_eq!(names("bags = { driver = false, side = \"none\" }"), [""; 0]);
+    let setup = build(&of("bags = { curtain = \"left\" }"));
+    assert!(setup.bags[1].mount_m.y < -0.5 && setup.bags[1].cover_kg > 0.0, "{:?}", setup.bags[1]);
+}
+
 /// A scenario of two vehicles, each with a car and a driver.
 fn of_two() -> String {
     of("class = \"small\"")

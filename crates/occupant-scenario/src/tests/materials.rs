@@ -68,9 +68,12 @@ fn listed(section: &str) -> Vec<String> {
 #[test]
 fn every_entry_of_the_library_is_listed_sound_and_tells_its_source() {
     let library = crate::presets::library().unwrap();
-    for (section, of) in
-        [("MaterialSection", "materials"), ("WebbingSection", "webbings"), ("LimiterSection", "limiters")]
-    {
+    for (section, of) in [
+        ("MaterialSection", "materials"),
+        ("WebbingSection", "webbings"),
+        ("LimiterSection", "limiters"),
+        ("BagSection", "bags"),
+    ] {
         let entries = library.root.get(of).unwrap().as_table().unwrap();
         let names: Vec<&String> = entries.keys().collect();
         assert_eq!(names, listed(section).iter().collect::<Vec<_>>(), "{of}");

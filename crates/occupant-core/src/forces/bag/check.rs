@@ -28,6 +28,7 @@ pub(super) fn data(bag: &Bag, body: &Body, problems: &mut Problems) {
     }
     problems.check_positive(&at("ambient.pressure"), bag.ambient[0], "Pa");
     problems.check_positive(&at("ambient.temperature"), bag.ambient[1], "K");
+    problems.check_at_least_zero(&at("cover"), bag.cover_kg, "kg");
     problems.check_at_least_zero(&at("heat_transfer"), bag.heat_w_m2_k, "W/(m^2*K)");
     problems.check_at_least_zero(&at("friction"), bag.friction, "1");
     problems.check_positive(&at("friction_speed"), bag.friction_speed_m_s, "m/s");
@@ -180,13 +181,14 @@ fn spheres(bag: &Bag, body: &Body, path: &str, problems: &mut Problems) {
         }
         problems.check_positive(&format!("{path}.{name}.reach"), *reach, "1");
     }
-    let area: f64 = { bag.spheres.iter() }
-        .filter_map(|(sphere, reach)| Some(body.spheres.get(*sphere)?.radius_m.powi(2) * std::f64::consts::PI * reach))
-        .sum();
     let across = bag.shape.cross_section_m2();
-    if area > across {
-        let found = format!("spheres of {area:.2} m² together on a bag of {across:.2} m² across");
-        problems.warning(path, found, "less: where they overlap they count twice");
+    for (sphere, reach) in &bag.spheres {
+        let Some(sphere) = body.spheres.get(*sphere) else { continue };
+        let area = sphere.radius_m.powi(2) * std::f64::consts::PI * reach;
+        if area > across {
+            let found = format!("{} with {area:.2} m² on a bag of {across:.2} m² across", sphere.name);
+            problems.warning(path, found, "a sphere that is less wide than the bag");
+        }
     }
 }
 
@@ -197,7 +199,11 @@ pub(super) fn laid(law: &BagLaw<f64>, bag: &Bag, body: &Body, at: &Instant<'_, f
     let names: Vec<&str> = within.map(|(_, (sphere, _))| body.spheres[*sphere].name.as_str()).collect();
     if !names.is_empty() {
         let found = format!("within the full bag at the start: {}", names.join(", "));
-        let expected = "a body in front of it: out of position the model has no punch-out";
+        let expected = if bag.cover_kg > 0.0 {
+            "a body in front of it: out of position the blow is that of `cover` alone"
+        } else {
+            "a body in front of it: out of position there is no blow without `cover`"
+        };
         problems.warning(with_key("bags", &bag.name), found, expected);
     }
 }

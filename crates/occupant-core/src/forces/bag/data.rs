@@ -90,6 +90,8 @@ pub struct Bag {
     pub vents: Vec<Vent>,
     /// What the fabric lets through.
     pub leakage: Leakage,
+    /// Mass of cover and fabric that it throws ahead of it while it unfolds, kg.
+    pub cover_kg: f64,
     /// Heat that the fabric passes to the air around it, W/(m²·K).
     pub heat_w_m2_k: f64,
     /// Friction of bodies on it, and the speed of slip at which it is 71 % of its full size, m/s.

@@ -1,19 +1,24 @@
 //! The envelope of a bag and the spheres of the body in it.
 //!
-//! The envelope holds V_e, of which the spheres displace ΣV_k. With X = ΣV_k/V_e the gas has V_free = V_e φ(X), φ = 1 − X as far
-//! as X = 0.8 and 0.2 e^((0.8 − X)/0.2) beyond: a body in a bag that has hardly unfolded would leave it less than nothing.
-//! With κ = −φ′
+//! The envelope holds V_e, of which the spheres displace V together, the volume of `union`. With X = V/V_e the gas has
+//! V_free = V_e φ(X), φ = 1 − X as far as X = 0.8 and 0.2 e^((0.8 − X)/0.2) beyond: a body in a bag that has hardly unfolded
+//! would leave it less than nothing. With κ = −φ′
 //!
 //! ```text
-//! V̇_free = V̇_e (φ + κX) − κ Σ A_k δ̇_k,   force on a sphere = κ (p − p_a) A_k ∇s
+//! V̇_free = V̇_e (φ + κX) − κV̇,   force on a sphere = −κ (p − p_a) ∂V/∂x
 //! ```
 //!
 //! so that the work of the gas is that of the forces exactly.
+//!
+//! While it unfolds it throws cover and fabric ahead of it, of the mass m, which lie evenly along the way from the mount:
+//! m/(3V_f λ²(1 − λ_folded)) of each volume that it takes next. What meets a sphere stays there and leaves it its momentum,
+//! the force m/(3V_f λ²(1 − λ_folded)) A_k δ̇_k².
 
 use super::MOST_SPHERES;
-use super::data::Bag;
-use super::shape::{ShapeLaw, displaced, size};
+use super::data::{Bag, FOLDED};
+use super::shape::{ShapeLaw, displaced, full_depth, section, size};
 use super::unfold::Unfolded;
+use super::union::{Cap, unite};
 use crate::forces::decay::decay;
 use crate::forces::element::Instant;
 use crate::forces::sphere::Use;
@@ -37,6 +42,8 @@ pub(super) struct EnvelopeLaw<S> {
     pub(super) volume: S,
     /// Of the full envelope, m².
     pub(super) area: S,
+    /// Mass of cover and fabric over 3V_f(1 − λ_folded), kg/m³.
+    thrown: S,
     /// Indices of the spheres, and their reach.
     pub(super) spheres: Vec<(usize, S)>,
 }
@@ -51,7 +58,7 @@ pub(super) struct Envelope<S> {
     pub(super) growth: S,
     /// κ.
     pub(super) crowd: S,
-    /// Σ V_k, m³, and Σ A_k, m².
+    /// V, m³, and the area of the union, m².
     pub(super) taken: S,
     pub(super) covered: S,
     /// The spheres that have reached the mount plane or the middle: the sum of 2^i of their places i.
@@ -61,15 +68,15 @@ pub(super) struct Envelope<S> {
 /// What a sphere does to an envelope.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pressed<S> {
-    /// A and V, m² and m³.
+    /// −∂V/∂x, space axes, m²: what a pressure pushes it with.
+    pub(super) push: V3<S>,
+    /// Its part of the area, m², and ∇s, space axes.
     pub(super) area: S,
-    volume: S,
-    /// δ̇, m/s.
-    closing: S,
-    /// ∇s, space axes.
     pub(super) gradient: V3<S>,
-    /// 1 where it has reached the mount plane or the middle.
-    bottoms: S,
+    /// Force of cover and fabric that are thrown at it, over |∇s|, N.
+    pub(super) blow: S,
+    /// 1 where it touches and is not held.
+    pub(super) touches: S,
     /// Depth at which it is held, m.
     pub(super) held: S,
 }
@@ -77,8 +84,29 @@ pub(super) struct Pressed<S> {
 impl<S: Scalar> Pressed<S> {
     #[inline(always)]
     fn none() -> Self {
-        let o = S::zero();
-        Pressed { area: o, volume: o, closing: o, gradient: V3::zero(), bottoms: o, held: o }
+        let (o, none) = (S::zero(), V3::zero());
+        Pressed { push: none, area: o, gradient: none, blow: o, touches: o, held: o }
+    }
+}
+
+/// A sphere that presses nothing.
+#[inline(always)]
+fn no_cap<S: Scalar>() -> Cap<S> {
+    let (o, none) = (S::zero(), V3::zero());
+    Cap {
+        on: o,
+        depth: o,
+        closing: o,
+        full: o,
+        radius: o,
+        reach: o,
+        area: o,
+        slope: o,
+        volume: o,
+        distance: o,
+        gradient: none,
+        seen: none,
+        velocity: none,
     }
 }
 
@@ -90,6 +118,7 @@ impl EnvelopeLaw<f64> {
             shape: ShapeLaw::new(bag),
             volume: bag.volume_m3,
             area: size(&bag.shape)[1],
+            thrown: bag.cover_kg / (3.0 * bag.volume_m3 * (1.0 - FOLDED.cbrt())),
             spheres: bag.spheres.iter().take(MOST_SPHERES).copied().collect(),
         }
     }
@@ -109,6 +138,7 @@ impl<S: Copy> EnvelopeLaw<S> {
             shape: self.shape.zip(&other.shape, f)?,
             volume: f(self.volume, other.volume),
             area: f(self.area, other.area),
+            thrown: f(self.thrown, other.thrown),
             spheres: spheres.map(|((sphere, a), (_, b))| (*sphere, f(*a, *b))).collect(),
         })
     }
@@ -118,55 +148,84 @@ impl<S: Scalar> EnvelopeLaw<S> {
     /// The envelope, with the depths at which spheres are held.
     #[inline(always)]
     pub(super) fn at(&self, at: &Instant<'_, S>, unfolded: &Unfolded<S>, held: &[S; MOST_SPHERES]) -> Envelope<S> {
-        let o = S::zero();
-        let (mut taken, mut closing, mut covered, mut bottoms) = (o, o, o, o);
+        let (mut bottoms, mut touched) = (S::zero(), false);
         let mut pressed = [Pressed::none(); MOST_SPHERES];
+        let mut caps = [no_cap(); MOST_SPHERES];
         for (i, (sphere, reach)) in self.spheres.iter().enumerate() {
-            let one = self.press(at, unfolded, (*sphere, *reach), held[i]);
-            taken += one.volume;
-            closing += one.area * one.closing;
-            covered += one.area;
-            bottoms += one.bottoms * flag(i);
-            pressed[i] = one;
+            let [has_bottomed, holds] = self.press(at, unfolded, (*sphere, *reach), held[i], &mut caps[i]);
+            bottoms += has_bottomed * flag(i);
+            pressed[i].held = holds;
+            touched |= S::any(caps[i].volume.gt(S::zero()));
         }
         let whole = self.volume * unfolded.share;
-        let part = taken / whole;
+        if !touched {
+            let growth = self.volume * unfolded.growth;
+            let (one, o) = (S::one(), S::zero());
+            return Envelope { pressed, free: whole, growth, crowd: one, taken: o, covered: o, bottoms };
+        }
+        let union = unite(&caps[..self.spheres.len()], self.shape.face());
+        let axes = &at.frames[self.frame].axes;
+        let is_thrown = unfolded.growth.gt(S::zero());
+        let thrown = S::select(is_thrown, self.thrown / (unfolded.scale * unfolded.scale), S::zero());
+        for ((pressed, cap), (area, aside)) in pressed.iter_mut().zip(&caps).zip(&union.slopes) {
+            let push = axes.out(cap.gradient * *area - *aside);
+            let speed = cap.closing.max(S::zero());
+            let blow = thrown * area.max(S::zero()) * speed * speed;
+            let gradient = axes.out(cap.gradient);
+            *pressed = Pressed { push, area: *area, gradient, blow, touches: cap.on, ..*pressed };
+        }
+        let part = union.volume / whole;
         let (share, crowd) = free(part);
-        let growth = self.volume * unfolded.growth * (share + crowd * part) - crowd * closing;
-        Envelope { pressed, free: whole * share, growth, crowd, taken, covered, bottoms }
+        let growth = self.volume * unfolded.growth * (share + crowd * part) - crowd * union.rate;
+        Envelope { pressed, free: whole * share, growth, crowd, taken: union.volume, covered: union.area, bottoms }
     }
 
-    /// What a sphere displaces, with its reach.
+    /// Writes down what a sphere displaces alone, with its reach; 1 where it has reached the mount plane or the middle, and the
+    /// depth at which it is held.
     #[inline(always)]
-    fn press(&self, at: &Instant<'_, S>, unfolded: &Unfolded<S>, (sphere, reach): (usize, S), held: S) -> Pressed<S> {
-        let (o, frame, site) = (S::zero(), &at.frames[self.frame], &at.spheres[sphere]);
+    fn press(
+        &self,
+        at: &Instant<'_, S>,
+        unfolded: &Unfolded<S>,
+        (sphere, reach): (usize, S),
+        held: S,
+        cap: &mut Cap<S>,
+    ) -> [S; 2] {
+        let (o, frame, site, face) = (S::zero(), &at.frames[self.frame], &at.spheres[sphere], self.shape.face());
         let seen = self.seen(at, sphere);
         let near = self.shape.near(seen, unfolded.scale);
         let depth = site.radius - near.distance;
         let (is_held, touches) = (held.gt(o), depth.gt(o));
         if !S::any(touches | is_held) {
-            return Pressed::none();
+            return [o; 2];
         }
         let (_, centre, velocity) = site.place(at.k, Use::Bag);
-        let [area, volume] = displaced(S::select(is_held, held, depth).max(o), site.radius, self.shape.face());
+        let depth_alone = S::select(is_held, held, depth).max(o);
+        let [area, volume] = displaced(depth_alone, site.radius, face);
+        let [_, slope] = section(depth_alone, site.radius, face);
         let relative = frame.axes.into_frame(velocity - frame.velocity_at(centre));
         let spread = unfolded.growth / (S::of(3.0) * unfolded.share) * (near.distance - near.gradient.dot(seen));
-        let (mut reaches, mut is_lost) = (S::truth(false), S::truth(false));
-        if let Some(left) = near.left {
-            reaches = !depth.lt(left);
-        }
-        if let Some(part) = near.from_middle {
-            is_lost = part.lt(S::of(LOST));
-        }
+        let reaches = near.left.map_or(S::truth(false), |left| !depth.lt(left));
+        let is_lost = near.from_middle.map_or(S::truth(false), |part| part.lt(S::of(LOST)));
         let holds = S::select(is_held, held, S::select(is_lost, depth, o));
-        Pressed {
-            area: S::select(touches & !is_held, area.max(o) * reach, o),
-            volume: S::select(touches | is_held, volume * reach, o),
+        let presses = touches & !is_held;
+        *cap = Cap {
+            on: S::select(presses, S::one(), o),
+            depth,
             closing: -near.gradient.dot(relative) - spread,
-            gradient: frame.axes.out(near.gradient),
-            bottoms: S::select(reaches | is_lost | is_held, S::one(), o),
-            held: S::select(touches, holds, o),
-        }
+            full: full_depth(site.radius, face),
+            radius: site.radius,
+            reach,
+            area: S::select(presses, area.max(o) * reach, o),
+            slope: S::select(presses, slope * reach, o),
+            volume: S::select(touches | is_held, volume * reach, o),
+            distance: near.distance,
+            gradient: near.gradient,
+            seen,
+            velocity: relative,
+        };
+        let bottoms = reaches | is_lost | is_held;
+        [S::select(bottoms, S::one(), o), S::select(touches, holds, o)]
     }
 
     /// The spheres whose centres are within the full envelope: the sum of 2^i of their places i.

@@ -15,6 +15,7 @@ mod past;
 mod results;
 mod shape;
 mod unfold;
+mod union;
 
 use crate::body::Body;
 use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkSum};
@@ -32,7 +33,7 @@ use placed_text::Problems;
 pub use results::BagAction;
 
 /// Most spheres of the body that a bag touches.
-pub(crate) const MOST_SPHERES: usize = 12;
+pub(crate) const MOST_SPHERES: usize = 20;
 /// Most vents of a bag.
 pub(crate) const MOST_VENTS: usize = 4;
 
@@ -180,7 +181,7 @@ struct Pushes<S> {
     power: S,
 }
 
-/// Loads of the bag on the body, and their powers: κ(p − p_a)A∇s at the centre of a sphere, friction where it touches.
+/// Loads of the bag on the body, and their powers: −κ(p − p_a)∂V/∂x at the centre of a sphere, friction where it touches.
 #[inline(always)]
 fn bear<S: Scalar>(law: &BagLaw<S>, at: &Instant<'_, S>, now: &Now<S>, load: &mut Load<S>) -> Pushes<S> {
     let (o, envelope) = (S::zero(), &now.envelope);
@@ -189,12 +190,12 @@ fn bear<S: Scalar>(law: &BagLaw<S>, at: &Instant<'_, S>, now: &Now<S>, load: &mu
     let pressure = envelope.crowd * now.gas.gauge;
     for (i, (sphere, _)) in law.envelope.spheres.iter().enumerate() {
         let pressed = &envelope.pressed[i];
-        if !S::any(pressed.area.gt(o)) {
+        if !S::any(pressed.touches.gt(o)) {
             continue;
         }
         let site = &at.spheres[*sphere];
         let (arm, centre, velocity) = site.place(at.k, Use::Bag);
-        let normal = pressed.gradient * (pressure * pressed.area);
+        let normal = pressed.push * pressure + pressed.gradient * pressed.blow;
         let size = (pressed.gradient.norm_squared() + S::of(1e-24)).sqrt();
         let lever = pressed.gradient * -(site.radius / size);
         let (omega, carried) = (at.k.omega[site.segment], frame.velocity_at(centre));
@@ -202,7 +203,7 @@ fn bear<S: Scalar>(law: &BagLaw<S>, at: &Instant<'_, S>, now: &Now<S>, load: &mu
         let relative = velocity + omega.cross(lever) - place;
         let slip = relative - pressed.gradient * (pressed.gradient.dot(relative) / (size * size));
         let speed = (slip.norm_squared() + law.friction_speed_squared).sqrt();
-        let friction = slip * -(law.friction * pressure * pressed.area * size / speed);
+        let friction = slip * -(law.friction * pressure * pressed.area.max(o) * size / speed);
         let wrench = &mut load.wrench[site.segment];
         wrench.force += normal + friction;
         wrench.moment += arm.cross(normal) + (arm + lever).cross(friction);

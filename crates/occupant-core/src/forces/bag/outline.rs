@@ -1,4 +1,4 @@
-//! Sections of a bag that pictures draw.
+//! Sections of a bag that pictures draw, pressed in where the body is.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -12,29 +12,65 @@ use crate::forces::shown::Section;
 /// Steps of a quarter of a circle.
 const QUARTER: usize = 6;
 
-/// Sections of a bag all of whose lengths are `scale` times the full ones, axes of its frame.
-pub(super) fn sections(bag: &Bag, scale: f64) -> Vec<Section> {
+/// Straight pieces of each long side of a capsule.
+const PIECES: usize = 12;
+
+/// A corner of a section, behind the point within the bag from which it is pressed out.
+type Ray = [Point3<f64>; 2];
+
+/// Sections of a bag all of whose lengths are `scale` times the full ones; `place` gives points of its frame, `spheres` what presses
+/// it in, middles and radii, in the axes that are asked.
+pub(super) fn sections(
+    bag: &Bag,
+    scale: f64,
+    place: impl Fn(Point3<f64>) -> Point3<f64>,
+    spheres: &[(Point3<f64>, f64)],
+) -> Vec<Section> {
     let mount = bag.mount_m;
-    let place = |point: Point3<f64>| mount + (point - mount) * scale;
-    let section = |corners: Vec<Point3<f64>>| Section {
-        name: bag.name.clone(),
-        corners_m: corners.into_iter().map(place).collect(),
+    let place = |point: Point3<f64>| place(mount + (point - mount) * scale);
+    let corner = |ray: Ray| {
+        let [from, to] = ray.map(place);
+        from + (to - from) * spheres.iter().map(|sphere| free(from, to, sphere)).fold(1.0, f64::min)
     };
-    let polygons = match bag.shape {
+    let section =
+        |rays: Vec<Ray>| Section { name: bag.name.clone(), corners_m: rays.into_iter().map(corner).collect() };
+    shape(bag).into_iter().map(section).collect()
+}
+
+/// The part of the way from one point to another that is clear of a sphere.
+fn free(from: Point3<f64>, to: Point3<f64>, (centre, radius): &(Point3<f64>, f64)) -> f64 {
+    let (way, seen) = (to - from, from - centre);
+    let (a, b, c) = (way.norm_squared(), way.dot(&seen), seen.norm_squared() - radius * radius);
+    if c <= 0.0 {
+        return 0.0;
+    }
+    let root = b * b - a * c;
+    if root < 0.0 || b >= 0.0 { 1.0 } else { (c / (root.sqrt() - b)).min(1.0) }
+}
+
+/// Sections of a full bag that nothing presses, axes of its frame.
+fn shape(bag: &Bag) -> Vec<Vec<Ray>> {
+    let mount = bag.mount_m;
+    match bag.shape {
         Shape::Dome { axis, .. } => {
             let axis = axis.normalize();
             let profile = dome_profile(&bag.shape);
             let rim = profile.iter().map(|p| p[0]).fold(0.0, f64::max);
             let [u, v] = beside(axis);
-            let through = |side: Vector3<f64>| profile.iter().map(|p| mount + side * p[0] + axis * p[1]).collect();
+            let through = |side: Vector3<f64>| {
+                let at = |p: &[f64; 2]| [mount + side * p[0], mount + side * p[0] + axis * p[1]];
+                profile.iter().map(at).collect()
+            };
             let halves = [u, v, (u + v).normalize(), (u - v).normalize()].map(through);
             let high = profile.iter().filter(|p| p[0] >= rim).map(|p| p[1]).fold(0.0, f64::max);
-            let circles = [0.0, high].map(|height| circle(mount + axis * height, [u, v], rim));
+            let circles = [0.0, high].map(|height| circle(mount, axis * height, [u, v], rim));
             [halves.to_vec(), circles.to_vec()].concat()
         }
         Shape::Sphere { centre_m, radius_m } => {
             let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
-            (0..3).map(|i| circle(centre_m, [axes[i], axes[(i + 1) % 3]], radius_m)).collect()
+            let round = |i: usize| circle(centre_m, Vector3::zeros(), [axes[i], axes[(i + 1) % 3]], radius_m);
+            let from_middle = |rays: Vec<Ray>| rays.into_iter().map(|[_, to]| [centre_m, to]).collect();
+            (0..3).map(round).map(from_middle).collect()
         }
         Shape::Capsule { ends_m: [from, to], radius_m } => {
             let along = (to - from).try_normalize(0.0).unwrap_or_else(Vector3::x);
@@ -43,16 +79,23 @@ pub(super) fn sections(bag: &Bag, scale: f64) -> Vec<Section> {
                 let turn = |end: Point3<f64>, begin: f64| {
                     (0..=2 * QUARTER).map(move |i| {
                         let (sine, cosine) = sin_cos(begin + PI * i as f64 / (2 * QUARTER) as f64);
-                        end + (along * cosine + side * sine) * radius_m
+                        [end, end + (along * cosine + side * sine) * radius_m]
                     })
                 };
-                turn(to, -FRAC_PI_2).chain(turn(from, FRAC_PI_2)).collect::<Vec<_>>()
+                let straight = |from: Point3<f64>, to: Point3<f64>, side: Vector3<f64>| {
+                    (1..PIECES).map(move |i| {
+                        let on = from + (to - from) * (i as f64 / PIECES as f64);
+                        [on, on + side * radius_m]
+                    })
+                };
+                let there = turn(to, -FRAC_PI_2).chain(straight(to, from, side));
+                there.chain(turn(from, FRAC_PI_2)).chain(straight(from, to, -side)).collect::<Vec<Ray>>()
             };
             let middle = from + (to - from) * 0.5;
-            vec![stadium(u), stadium(v), circle(middle, [u, v], radius_m)]
+            let round = circle(middle, Vector3::zeros(), [u, v], radius_m).into_iter().map(|[_, to]| [middle, to]);
+            vec![stadium(u), stadium(v), round.collect()]
         }
-    };
-    polygons.into_iter().map(section).collect()
+    }
 }
 
 /// Distance from the axis and height of the corners of a dome's section, from its base round its face.
@@ -74,10 +117,12 @@ fn beside(axis: Vector3<f64>) -> [Vector3<f64>; 2] {
     [u, axis.cross(&u)]
 }
 
-fn circle(centre: Point3<f64>, [u, v]: [Vector3<f64>; 2], radius: f64) -> Vec<Point3<f64>> {
+/// A circle, each corner above the one of a circle lower by `above`.
+fn circle(centre: Point3<f64>, above: Vector3<f64>, [u, v]: [Vector3<f64>; 2], radius: f64) -> Vec<Ray> {
     let corner = |i: usize| {
         let (sine, cosine) = sin_cos(TAU * i as f64 / (4 * QUARTER) as f64);
-        centre + (u * cosine + v * sine) * radius
+        let low = centre + (u * cosine + v * sine) * radius;
+        [low, low + above]
     };
     (0..4 * QUARTER).map(corner).collect()
 }

@@ -181,7 +181,7 @@ impl Reported for Bags {
 
     fn keep(past: &mut Vec<BagPast<f64>>, like: Option<&[BagPast<f64>]>, file: &mut dyn Archive) {
         let number = if like.is_some() { 54 } else { 53 };
-        let meaning = "what each bag remembers: whether it has fired, its gas's book, of 4 vents, of 12 spheres";
+        let meaning = "what each bag remembers: whether it has fired, its gas's book, of 4 vents, of 20 spheres";
         let mut list = Vec::new();
         for bag in &*past {
             bag.map(&mut |x| list.push(x));
@@ -224,11 +224,11 @@ impl Reported for Bags {
     fn sections(shown: &Shown<'_, Self>) -> Vec<Section> {
         let both = shown.data.iter().zip(shown.actions);
         let sections = both.flat_map(|(bag, action)| {
-            let own = outline::sections(bag, action.scale).into_iter();
-            own.map(|section| Section {
-                corners_m: section.corners_m.iter().map(|corner| (shown.place_m)(bag.frame, *corner)).collect(),
-                ..section
-            })
+            let pressing = |(sphere, _): &(usize, f64)| {
+                ((shown.centre_m)(*sphere, Use::Bag), shown.body.spheres[*sphere].radius_m)
+            };
+            let spheres: Vec<_> = bag.spheres.iter().filter(|_| action.fired > 0.0).map(pressing).collect();
+            outline::sections(bag, action.scale, |point| (shown.place_m)(bag.frame, point), &spheres)
         });
         sections.collect()
     }

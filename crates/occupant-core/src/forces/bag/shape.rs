@@ -170,19 +170,45 @@ fn length<S: Scalar>(v: V3<S>) -> S {
 #[inline(always)]
 pub(super) fn displaced<S: Scalar>(depth: S, r: S, face: Option<S>) -> [S; 2] {
     let (pi, third) = (S::of(std::f64::consts::PI), S::of(1.0 / 3.0));
+    let [area, _] = section(depth, r, face);
     let Some(big) = face else {
         let d = depth.min(r);
-        let area = pi * d * (r + r - d);
         return [area, pi * d * d * (r - d * third) + area * (depth - d)];
     };
-    let (rr, bb) = (r * r, big * big);
     let apart = big + r - depth;
-    let d = apart.max((bb - rr).abs().sqrt()).max(S::of(1e-6));
-    let (dd, cap) = (d * d, big + r - d);
-    let inner = dd - rr + bb;
-    let area = pi * (S::of(4.0) * dd * bb - inner * inner) / (S::of(4.0) * dd);
-    let lens = dd + S::of(2.0) * d * (r + big) - S::of(3.0) * (r - big) * (r - big);
+    let d = apart.max(least_apart(r, big));
+    let cap = big + r - d;
+    let lens = d * d + S::of(2.0) * d * (r + big) - S::of(3.0) * (r - big) * (r - big);
     [area, pi * cap * cap * lens / (S::of(12.0) * d) + area * (d - apart)]
+}
+
+/// A and A′ of [`displaced`], m² and m.
+#[inline(always)]
+pub(super) fn section<S: Scalar>(depth: S, r: S, face: Option<S>) -> [S; 2] {
+    let (o, pi) = (S::zero(), S::of(std::f64::consts::PI));
+    let Some(big) = face else {
+        let d = depth.min(r);
+        return [pi * d * (r + r - d), (pi + pi) * (r - d)];
+    };
+    let (rr, bb) = (r * r, big * big);
+    let (apart, least) = (big + r - depth, least_apart(r, big));
+    let d = apart.max(least);
+    let dd = d * d;
+    let inner = dd - rr + bb;
+    let slope = pi * inner * (dd + rr - bb) / (S::of(2.0) * dd * d);
+    [pi * (bb - inner * inner / (S::of(4.0) * dd)), S::select(apart.gt(least), slope, o)]
+}
+
+/// Depth from which on A stays, m.
+#[inline(always)]
+pub(super) fn full_depth<S: Scalar>(r: S, face: Option<S>) -> S {
+    face.map_or(r, |big| big + r - least_apart(r, big))
+}
+
+/// Distance of the middles of sphere and face at which A is greatest.
+#[inline(always)]
+fn least_apart<S: Scalar>(r: S, big: S) -> S {
+    (big * big - r * r).abs().sqrt().max(S::of(1e-6))
 }
 
 impl Shape {

@@ -332,7 +332,9 @@ impl Caveat {
     pub(super) fn of_bag(body: &Body, sphere: usize, sign: &str, bag: &str, time_s: f64) -> Self {
         let at = format!("at {:.1} ms", 1e3 * time_s);
         let seen = if sign == "caught" {
-            format!("was inside the space of the bag {bag} when it fired, {at}; the model has no forces of unfolding")
+            format!(
+                "was inside the space of the bag {bag} when it fired, {at}; of the forces of unfolding only a guess is known"
+            )
         } else {
             format!("pressed the bag {bag} in as far as its mount or its centre {at}")
         };

@@ -2,6 +2,7 @@
 
 mod pressed;
 mod shapes;
+mod together;
 mod vessel;
 
 use nalgebra::{Point3, Vector3};
@@ -36,6 +37,7 @@ fn closed() -> Bag {
         inflators: vec![Inflator { gas: IDEAL, due_s: NEVER, rows: vec![[0.0; 3], [1.0, 0.0, 1.0]], tank: None }],
         vents: Vec::new(),
         leakage: Leakage::Fraction(0.0),
+        cover_kg: 0.0,
         heat_w_m2_k: 0.0,
         friction: 0.0,
         friction_speed_m_s: 0.1,
@@ -54,6 +56,8 @@ struct Rig {
     /// Height and speed of the sphere, m and m/s.
     place: [f64; 2],
     radius: f64,
+    /// Further spheres on it: where, seen from the first, and radii, m.
+    others: Vec<(Vector3<f64>, f64)>,
     /// kg; none of one that nothing moves.
     mass: Option<f64>,
     gravity: f64,
@@ -66,7 +70,18 @@ impl Rig {
         Bags::own(&mut law, &mut own);
         let past = law.iter().map(|_| BagPast::none()).collect();
         let (place, radius) = ([10.0, 0.0], 0.12);
-        Rig { law, past, own, time: 0.0, place, radius, mass: None, gravity: 0.0, actions: Vec::new() }
+        Rig {
+            law,
+            past,
+            own,
+            time: 0.0,
+            place,
+            radius,
+            others: Vec::new(),
+            mass: None,
+            gravity: 0.0,
+            actions: Vec::new(),
+        }
     }
 
     /// A bag that holds as much ideal gas as has this pressure and temperature in `volume`, and no air.
@@ -87,7 +102,15 @@ impl Rig {
         k.joint[0] = V3::of(&Vector3::new(0.0, 0.0, place[0]));
         k.joint_velocity[0] = V3::of(&Vector3::new(0.0, 0.0, place[1]));
         k.axes[0] = crate::motion::vector::M3::identity();
-        let spheres = [Site { segment: 0, offset: V3::zero(), radius: self.radius, knee: None, ride: None }];
+        let site = |(place, radius): &(Vector3<f64>, f64)| Site {
+            segment: 0,
+            offset: V3::of(place),
+            radius: *radius,
+            knee: None,
+            ride: None,
+        };
+        let first = [(Vector3::zeros(), self.radius)];
+        let spheres: Vec<_> = first.iter().chain(&self.others).map(site).collect();
         let state = State::zero(StateShape::new(0, 0)).with_own(own);
         let frames = Frames::still(time);
         let at = Instant { k: &k, state: &state, frames: &frames, carried: &[], spheres: &spheres, accepted };
