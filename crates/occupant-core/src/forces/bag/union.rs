@@ -103,8 +103,12 @@ pub(super) fn unite<S: Scalar>(caps: &[Cap<S>], face: Option<S>) -> Union<S> {
     }
     for pair in &pairs[..count] {
         let [k, l] = pair.of;
-        let weight =
-            shares[k].by_common(pair.volume / caps[k].volume) + shares[l].by_common(pair.volume / caps[l].volume);
+        // beside it in lanes a sphere may displace nothing
+        let [one, two] = pair.of.map(|i| {
+            let part = S::select(caps[i].volume.gt(o), pair.volume / caps[i].volume, o);
+            shares[i].by_common(part)
+        });
+        let weight = one + two;
         union.bear(&caps[k], &caps[l], pair, weight);
     }
     for (cap, (own, _)) in caps.iter().zip(&union.slopes) {
