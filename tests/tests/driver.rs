@@ -88,7 +88,7 @@ fn people_of_every_size_sit_in_every_template_and_stay_in_the_car() {
 
 /// Where the left foot starts, x and z (down), and what is said of it.
 fn foot(body: &str) -> ([f64; 2], String) {
-    let text = TEMPLATES[2].1;
+    let text = include_str!("../../tests/data/hand/rear-bench.toml");
     let model = Model::new(setup(text, &[&format!("body.preset = {body:?}")])).unwrap();
     let foot = model.body().sphere("left_foot").unwrap();
     let k = Kinematics::new(&model.system().skeleton, &model.start().state);

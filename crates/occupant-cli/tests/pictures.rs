@@ -72,7 +72,7 @@ fn what_is_made_of_a_run_has_a_name_beside_it_and_is_told() {
         assert!(folder.path().join(name).exists(), "{name}");
         // nothing that is there is replaced, but an earlier report of the same
         let again = answer(folder.path(), words);
-        let replaced = err(&again).contains("run.html is an earlier report of the same and is replaced");
+        let replaced = err(&again).contains("run.html, an earlier report of the same run");
         assert_eq!((code(&again), replaced), if name == "run.html" { (0, true) } else { (2, false) }, "{name}");
     }
     fs::copy(folder.path().join("run.mcap"), folder.path().join("other.mcap")).expect("a copy");
@@ -145,7 +145,7 @@ fn a_film_has_a_frame_for_each_time() {
 fn wrong_words_for_a_view_are_answered() {
     let folder = folder_with_run();
     let cases: [(&[&str], &str); 10] = [
-        (&["view", "run.mcap", "-o", "v.pdf"], "ends with .svg, .png, .gif or .mp4"),
+        (&["view", "run.mcap", "-o", "v.pdf"], "use the extension .svg, .png, .gif or .mp4"),
         (&["view", "run.mcap", "-o", "v.svg", "--times", "9 s"], "outputs cover"),
         (&["view", "run.mcap", "-o", "v.svg", "--times", "soon"], "is not a time"),
         (&["view", "run.mcap", "-o", "v.svg", "--views", "back"], "possible values"),

@@ -401,7 +401,7 @@ fn files_that_cannot_be_printed_are_refused_in_words() {
     empty.finish().expect("finished");
     let bytes = empty.into_inner().into_inner();
     fs::write(folder.path().join("other.mcap"), bytes).expect("written");
-    refused(&["other.mcap"], "no result of `occupant run`");
+    refused(&["other.mcap"], "not a result of `occupant run`");
     refused(&["deck.dat", "--interval", "3 kg"], "not a time");
     refused(&["deck.dat", "--interval", "-1"], "--interval");
 }

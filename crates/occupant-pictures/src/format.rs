@@ -198,7 +198,7 @@ mod tests {
         let refused = |svg, pixels| png(svg, pixels).unwrap_err();
         assert!(refused(huge, 1.0).contains("100000 × 100000 pixels"));
         assert!(refused(huge, f64::NAN).contains("at least 1"));
-        assert!(refused("<svg", 1.0).contains("no SVG"));
+        assert!(refused("<svg", 1.0).contains("cannot be rendered"));
     }
 
     #[test]

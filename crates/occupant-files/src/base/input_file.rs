@@ -138,6 +138,6 @@ mod tests {
         fs::File::create(&long_deck).unwrap().set_len(4_000_001).unwrap();
         assert!(bytes(&long_deck).is_ok(), "a table may be as long");
         assert!(deck(&long_deck).unwrap_err().words().contains("4.0 MB"));
-        assert!(refused(&long).contains("2.0 MB, and such a text may have at most 2 MB"), "{}", refused(&long));
+        assert!(refused(&long).contains("2.0 MB; the limit for such a file is 2 MB"), "{}", refused(&long));
     }
 }

@@ -472,7 +472,7 @@ mod tests {
             values: vec![1.0; count],
             place: String::new(),
         };
-        for (ax, ay, words) in [(80, 100, "ay is told before or after ax"), (100, 80, "80 of 100 times")] {
+        for (ax, ay, words) in [(80, 100, "ay is given before or after ax"), (100, 80, "80 of 100 times")] {
             let signals = vec![signal("ax", ax), signal("ay", ay)];
             let recording = Recording { path: PathBuf::from("r"), sha256: String::new(), signals, notes: Vec::new() };
             let mut notes = Vec::new();
@@ -501,6 +501,6 @@ mod tests {
             notes
         };
         assert_eq!(notes(vec![signal("g", -1.0), signal("m/s^2", -9.81)]), Vec::<String>::new());
-        assert!(notes(vec![signal("g", -1.0), signal("g", -3.0)])[0].contains("2 columns are ax and differ"));
+        assert!(notes(vec![signal("g", -1.0), signal("g", -3.0)])[0].contains("2 different columns are ax"));
     }
 }

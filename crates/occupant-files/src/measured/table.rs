@@ -343,7 +343,7 @@ mod tests {
         assert_eq!(found.signals[0].name, "2");
         assert_eq!(found.signals[0].values, [5.0, 6.0]);
         assert_eq!(found.signals[0].scale, None);
-        assert!(found.notes[0].contains("taken as seconds"));
+        assert!(found.notes[0].contains("seconds are assumed"));
     }
 
     /// Any text is read or refused.
@@ -375,7 +375,7 @@ mod tests {
             ("t[s],a\n0,1\n0.1\n", "t.csv:3", "1 cells"),
             ("t[s],a\n0,1\n0,2\n", "t.csv:3", "time 0 s after 0 s"),
             ("t[kg],a\n0,1\n", "t.csv:1", "`kg`"),
-            ("t[s],a\n,1\n", "t.csv:2", "without its time"),
+            ("t[s],a\n,1\n", "t.csv:2", "without a time"),
             ("t[s],a\n", "t.csv", "without numbers"),
             ("", "t.csv", "empty"),
             ("t\n1\n2\n", "t.csv", "one column"),

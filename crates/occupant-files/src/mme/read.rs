@@ -230,7 +230,7 @@ mod tests {
         let text = "Channel code :X\nReference channel :explicit\nReference channel name :11TIRS0000__TI00\n5\n6\n7\n";
         let found = channel(text).unwrap();
         assert_eq!(found.times(&[times]).unwrap(), [0.001, 0.002, 0.004]);
-        assert!(found.times(&[]).unwrap_err().to_string().contains("does not hold"));
+        assert!(found.times(&[]).unwrap_err().to_string().contains("which is not in the test"));
     }
 
     #[test]

@@ -190,7 +190,7 @@ fn a_small_file_takes_little_memory_whatever_it_holds() {
     assert!(read(&attachment).attachments.contains_key("a"));
     let found = read(&chunk(&attachment));
     assert!(found.attachments.is_empty());
-    assert!(found.because().contains("a record that stands in no chunk"), "{}", found.because());
+    assert!(found.because().contains("a record that belongs outside chunks"), "{}", found.because());
 
     // an output of 40 bytes takes as much as another one
     let channel = [&[1, 0, 0, 0][..], &text(checkpoint::TOPIC), &text(""), &text("")].concat();
@@ -217,7 +217,7 @@ fn chunks_that_announce_too_much_are_not_unpacked() {
     };
     let said = |size| StoredRun::read(&chunk(size, &[1; 100])).unwrap().because();
     assert!(said(u64::MAX).contains("at byte 8: a chunk of more than 256 MiB"), "{}", said(u64::MAX));
-    assert!(said(1 << 20).contains("announces more bytes than it can hold"), "{}", said(1 << 20));
+    assert!(said(1 << 20).contains("announces more bytes than it can contain"), "{}", said(1 << 20));
     assert!(said(1 << 10).contains("cannot be unpacked"), "{}", said(1 << 10));
 }
 
@@ -233,7 +233,7 @@ fn chunks_of_a_small_file_make_a_quarter_of_a_gigabyte_at_most() {
     let body = [&body[..], &(packed.len() as u64).to_le_bytes(), &packed].concat();
     let chunk = [&[op::CHUNK][..], &(body.len() as u64).to_le_bytes(), &body].concat();
     let said = |chunks: usize| StoredRun::read(&[mcap::MAGIC, &chunk.repeat(chunks)].concat()).unwrap().because();
-    assert!(said(2).starts_with("; it breaks off at byte"), "{}", said(2));
+    assert!(said(2).starts_with("; it ends early, at byte"), "{}", said(2));
     let third = format!("damaged at byte {}: a chunk that makes more bytes", 8 + 2 * chunk.len());
     assert!(said(3).contains(&third), "{}", said(3));
 }

@@ -367,6 +367,9 @@ fn widening(body: &Body, part: &[usize]) -> f64 {
     let own = part.iter().map(|sphere| &body.spheres[*sphere]).filter(|sphere| sphere.segment == first.segment);
     let discs: Vec<[f64; 3]> =
         own.map(|s| [s.centre_from_lower_end_m.y, s.centre_from_lower_end_m.z, s.radius_m]).collect();
+    if discs.len() < 2 {
+        return 1.0;
+    }
     let ends = |i: usize| {
         let low = discs.iter().map(|disc| disc[i] - disc[2]).fold(f64::INFINITY, f64::min);
         let high = discs.iter().map(|disc| disc[i] + disc[2]).fold(f64::NEG_INFINITY, f64::max);

@@ -103,7 +103,7 @@ fn what_is_wrong_with_a_body_of_ones_own_is_said_at_its_place() {
         (
             "segments.stalk",
             "segments.tail = { length = 1 }\nsegments.stalk",
-            "neither `tail` nor `trunk` has a parent joint",
+            "neither `trunk` nor `tail` has a parent joint",
         ),
         ("head = \"skull\"", "head = \"skul\"", "no segment for the landmark `head`"),
         ("on_distal = [0, 0, 0] }\njoints.base", "}\njoints.base", "has no key `on_distal`"),

@@ -253,7 +253,7 @@ fn names_and_numbers_of_several_bodies_are_looked_at_where_they_stand() {
         assert!(found.contains(&format!("error: a body named {name:?}")) && found.contains("small letters"), "{found}");
     }
     let twice = refused(&(abreast.to_owned() + &ball.replace("ball", "driver").replace("0.1,", "0.01,")));
-    assert!(twice.contains("two bodys named \"driver\"") && twice.contains("in: loose.driver"), "{twice}");
+    assert!(twice.contains("a second body named \"driver\"") && twice.contains("in: loose.driver"), "{twice}");
     let heavy = refused(&(abreast.to_owned() + ball));
     assert!(heavy.contains("in: loose.ball.inertia"), "{heavy}");
     let fast = abreast.to_owned() + &ball.replace("0.1,", "0.01,") + "velocity = [-150, 0, 0]\n";
@@ -268,7 +268,7 @@ fn a_mistake_of_a_pair_is_reported_once() {
         "[joints]\npreset = \"male50\"\nelbows.stop = { begin = 1, full = 2, damping = 1 }",
     );
     let found = complaint(&text);
-    assert_eq!(found.matches("`stop` in a hinge").count(), 1, "{found}");
+    assert_eq!(found.matches("`stop` of a hinge").count(), 1, "{found}");
 }
 
 #[test]

@@ -96,7 +96,7 @@ fn of_a_person_no_limit_and_no_risk_of_a_dummy_is_told() {
         let own = of(&found, name);
         assert!(own.limits.is_empty() && own.risks.is_empty(), "{own:?}");
     }
-    assert!(of(&found, "cti").remark.as_deref().unwrap().contains("no more"));
+    assert!(of(&found, "cti").remark.as_deref().unwrap().contains("for a person, use it only to compare"));
     assert!(of(&found, "chest_compression").remark.as_deref().unwrap().contains("24 %, and more than six at 38 %"));
     // of a dummy the same numbers have them
     assert!(!of(&assess(&signals, &Options::default()), "chest_deflection").limits.is_empty());

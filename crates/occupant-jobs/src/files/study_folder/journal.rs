@@ -391,7 +391,7 @@ mod tests {
         assert!(read(&folder, &SHA.replace('0', "f")).unwrap_err().contains("another sweep's"));
         let text = fs::read_to_string(&piece).unwrap();
         fs::write(&piece, text.replacen("\"index\":1", "\"index\":9", 1)).unwrap();
-        assert!(read(&folder, SHA).unwrap_err().contains("none of this sweep, in line 3"));
+        assert!(read(&folder, SHA).unwrap_err().contains("of another sweep in line 3"));
         fs::write(&piece, text.replacen(":0.25", ":0.26", 1)).unwrap();
         assert!(read(&folder, SHA).unwrap_err().contains("in line 2"), "a digit that is another one is noticed");
         fs::write(&piece, "occupant rows 1\nhello\n").unwrap();

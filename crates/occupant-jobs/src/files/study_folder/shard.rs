@@ -141,7 +141,7 @@ mod tests {
         assert!(refused("0/8").contains("counted from 1"));
         assert!(refused("9/8").contains("the last is 8/8"));
         assert!(refused("3").contains("such as 3/8"));
-        assert!(refused("x/8").contains("no whole number"));
+        assert!(refused("x/8").contains("not a whole number"));
     }
 
     fn environment<'a>(pairs: &'a [(&str, &str)]) -> impl Fn(&str) -> Option<String> + 'a {
