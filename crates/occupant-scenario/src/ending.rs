@@ -97,7 +97,7 @@ mod tests {
         let of = |status: Status, balance| {
             let energy = EnergyCheck {
                 balance_error: 0.12,
-                reference: "greatest kinetic energy",
+                reference: "largest kinetic energy",
                 reference_j: 1.0,
                 greatest_kinetic_j: 1.0,
                 balance,

@@ -176,9 +176,9 @@ mod tests {
         let cut = said(&[("ax", "g", G, &|t| sound(t).max(-8.0))]);
         assert!(cut.contains("-8 g") && cut.contains("If the sensor was clipped"), "{cut}");
         let metric = said(&[("ax", "g", G, &|t| 9.81 * pulse(t))]);
-        assert!(metric.contains("is it in m/s^2? --columns"), "{metric}");
+        assert!(metric.contains("if it is in m/s^2, use --columns"), "{metric}");
         let upright = said(&[("az", "m/s^2", 1.0, &|t| -1.0 + 0.01 * noise(t))]);
-        assert!(upright.contains("az in m/s^2 begins at -1") && upright.contains("is it in g?"), "{upright}");
+        assert!(upright.contains("az in m/s^2 begins at -1") && upright.contains("if it is in g"), "{upright}");
         let spun = said(&[("wz", "rad/s", 1.0, &|_| 90.0)]);
         assert!(spun.contains("turns the vehicle") && spun.contains("deg/s"), "{spun}");
         let drifting = said(&[("az", "g", G, &|t| noise(t) + 0.3 * (t + 0.05).max(0.0))]);
@@ -244,7 +244,10 @@ mod tests {
         );
         let known = Known { smoothed_hz: Some(10.0), ..Known::default() };
         let [words] = &doubts(&places, known)[..] else { panic!("one note") };
-        assert!(words.contains("from 10 Hz on; from 15 Hz on, accelerations along x would be up to 0."), "{words}");
+        assert!(
+            words.contains("smoothed above 10 Hz; with 15 Hz, accelerations along x would differ by up to 0."),
+            "{words}"
+        );
         let fine = motion(MotionKind::Places, 0.01, &[("x", "m", 1.0, &|t| 22.0 * t - 3.000_123_4 * t * t)]);
         assert!(doubts(&fine, Known::default()).is_empty());
         let turn: [Given<'_>; 3] = [

@@ -395,6 +395,6 @@ mod tests {
         fs::write(&piece, text.replacen(":0.25", ":0.26", 1)).unwrap();
         assert!(read(&folder, SHA).unwrap_err().contains("in line 2"), "a digit that is another one is noticed");
         fs::write(&piece, "occupant rows 1\nhello\n").unwrap();
-        assert!(read(&folder, SHA).unwrap_err().contains("no piece of a journal"));
+        assert!(read(&folder, SHA).unwrap_err().contains("not a piece of a journal"));
     }
 }
