@@ -195,8 +195,8 @@ impl<S: Scalar> Union<S> {
         let [by_one, by_two] = pair.by_depth.map(|slope| slope * weight);
         self.slopes[k].0 += by_one;
         self.slopes[l].0 += by_two;
-        self.slopes[k].1 = self.slopes[k].1 + (beside - one.gradient * deeper) * aside;
-        self.slopes[l].1 = self.slopes[l].1 - (beside - two.gradient * deeper) * aside;
+        self.slopes[k].1 += (beside - one.gradient * deeper) * aside;
+        self.slopes[l].1 -= (beside - two.gradient * deeper) * aside;
         // s changes by −δ̇, as the envelope unfolds too
         let apart = beside.dot(one.velocity - two.velocity) + deeper * (one.closing - two.closing);
         self.rate += aside * apart;
