@@ -205,8 +205,8 @@ impl<S: Scalar> EnvelopeLaw<S> {
         let [_, slope] = section(depth_alone, site.radius, face);
         let relative = frame.axes.into_frame(velocity - frame.velocity_at(centre));
         let spread = unfolded.growth / (S::of(3.0) * unfolded.share) * (near.distance - near.gradient.dot(seen));
-        let reaches = near.left.map_or(S::truth(false), |left| !depth.lt(left));
-        let is_lost = near.from_middle.map_or(S::truth(false), |part| part.lt(S::of(LOST)));
+        let reaches = if let Some(left) = near.left { !depth.lt(left) } else { S::truth(false) };
+        let is_lost = if let Some(part) = near.from_middle { part.lt(S::of(LOST)) } else { S::truth(false) };
         let holds = S::select(is_held, held, S::select(is_lost, depth, o));
         let presses = touches & !is_held;
         *cap = Cap {

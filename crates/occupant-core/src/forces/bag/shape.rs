@@ -202,7 +202,10 @@ pub(super) fn section<S: Scalar>(depth: S, r: S, face: Option<S>) -> [S; 2] {
 /// Depth from which on A stays, m.
 #[inline(always)]
 pub(super) fn full_depth<S: Scalar>(r: S, face: Option<S>) -> S {
-    face.map_or(r, |big| big + r - least_apart(r, big))
+    match face {
+        Some(big) => big + r - least_apart(r, big),
+        None => r,
+    }
 }
 
 /// Distance of the middles of sphere and face at which A is greatest.

@@ -104,11 +104,11 @@ pub(super) fn unite<S: Scalar>(caps: &[Cap<S>], face: Option<S>) -> Union<S> {
     for pair in &pairs[..count] {
         let [k, l] = pair.of;
         // beside it in lanes a sphere may displace nothing
-        let [one, two] = pair.of.map(|i| {
+        let mut weight = o;
+        for i in pair.of {
             let part = S::select(caps[i].volume.gt(o), pair.volume / caps[i].volume, o);
-            shares[i].by_common(part)
-        });
-        let weight = one + two;
+            weight += shares[i].by_common(part);
+        }
         union.bear(&caps[k], &caps[l], pair, weight);
     }
     for (cap, (own, _)) in caps.iter().zip(&union.slopes) {
@@ -139,7 +139,9 @@ fn meet<S: Scalar>(
                 continue;
             }
             let d = d.sqrt();
-            let [volume, by_one, by_two, by_d] = common(one, two, face, d).map(|x| S::select(meets, x, o));
+            let [volume, by_one, by_two, by_d] = common(one, two, face, d);
+            let (volume, by_d) = (S::select(meets, volume, o), S::select(meets, by_d, o));
+            let (by_one, by_two) = (S::select(meets, by_one, o), S::select(meets, by_two, o));
             pairs[count] = Pair { of: [k, l], volume, by_depth: [by_one, by_two], by_distance: by_d / d };
             count += 1;
             for (i, cap) in [(k, one), (l, two)] {
@@ -162,7 +164,8 @@ impl<S: Scalar> Cap<S> {
     /// Area of its section at the depth z, and its slope by the depth that is left.
     #[inline(always)]
     fn below(&self, z: S, face: Option<S>) -> [S; 2] {
-        section((self.depth - z).max(S::zero()), self.radius, face).map(|x| x * self.reach)
+        let [area, slope] = section((self.depth - z).max(S::zero()), self.radius, face);
+        [area * self.reach, slope * self.reach]
     }
 }
 
@@ -192,9 +195,9 @@ impl<S: Scalar> Union<S> {
     fn bear(&mut self, one: &Cap<S>, two: &Cap<S>, pair: &Pair<S>, weight: S) {
         let (aside, [k, l]) = (weight * pair.by_distance, pair.of);
         let (beside, deeper) = (one.seen - two.seen, one.distance - two.distance);
-        let [by_one, by_two] = pair.by_depth.map(|slope| slope * weight);
-        self.slopes[k].0 += by_one;
-        self.slopes[l].0 += by_two;
+        let [by_one, by_two] = pair.by_depth;
+        self.slopes[k].0 += by_one * weight;
+        self.slopes[l].0 += by_two * weight;
         self.slopes[k].1 += (beside - one.gradient * deeper) * aside;
         self.slopes[l].1 -= (beside - two.gradient * deeper) * aside;
         // s changes by −δ̇, as the envelope unfolds too
@@ -223,7 +226,7 @@ fn common<S: Scalar>(one: &Cap<S>, two: &Cap<S>, face: Option<S>, d: S) -> [S; 4
     let by_least = upper_lens * sixth + lower_lens * four + by_middle;
     let ends = [lesser(one.depth, two.depth), lesser(straight[0], straight[1])];
     let by_one = above * part_one * one.slope + below * fall_one + ends[0] * by_least + ends[1] * by_from;
-    let [end_two, from_two] = ends.map(|end| S::one() - end);
+    let [end_two, from_two] = [S::one() - ends[0], S::one() - ends[1]];
     let by_two = above * part_two * two.slope + below * fall_two + end_two * by_least + from_two * by_from;
     [above * upper_lens + below * lower_lens, by_one, by_two, above * by_d + below * lower_by_d]
 }
@@ -245,7 +248,7 @@ fn wide<S: Scalar>(area: S) -> S {
 #[inline(always)]
 pub(super) fn lens<S: Scalar>(d: S, areas: [S; 2]) -> [S; 4] {
     let (one, pi) = (S::one(), S::of(std::f64::consts::FRAC_1_PI));
-    let [a, b] = areas.map(wide);
+    let [a, b] = [wide(areas[0]), wide(areas[1])];
     let (dd, aa, bb) = (d * d, a * a, b * b);
     let cosine = |square: S, radius: S| (square / ((d + d) * radius)).max(-one).min(one);
     let (near_a, near_b) = (cosine(dd + aa - bb, a), cosine(dd + bb - aa, b));
