@@ -153,7 +153,9 @@ impl Draft {
         let written = &mut self.document;
         let mut problems =
             if car::is_there(&written.root) { check_parts(written, schema(), &car::CAR) } else { Diagnostics::new() };
-        problems.extend(car::check(written));
+        if !problems.has_errors() {
+            problems.extend(car::check(written));
+        }
         if problems.has_errors() {
             return (written.clone(), problems);
         }

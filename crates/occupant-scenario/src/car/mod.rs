@@ -14,7 +14,7 @@ use crate::check::check_parts;
 use crate::dummies;
 use crate::expand::{over, written};
 use crate::presets;
-use crate::sections::{BodySection, CarClass, CarSeatSection, CarSection, Side, schema};
+use crate::sections::{BodySection, CAR_TITLE, CarClass, CarSeatSection, CarSection, Side, schema};
 use classes::Measures;
 use placed_text::{Diagnostics, Document, Node, Problem, Sources, Table, did_you_mean, one_of, with_key};
 
@@ -48,8 +48,27 @@ pub(super) fn check(document: &Document) -> Diagnostics {
             problems.add(problem.with_hint(did_you_mean(name, &names, '`')), |problem| document.place(problem));
         }
         bounded(document, Some(car), &path, &mut problems);
+        if let Some(vehicle) = vehicle {
+            own_seats(document, vehicle, &mut problems);
+        }
     }
     problems
+}
+
+/// Reports who sits in a car of another vehicle than the first, but on a seat of the first.
+fn own_seats(document: &Document, vehicle: &str, problems: &mut Diagnostics) {
+    let several = document.root.get("occupants").and_then(Node::as_table).into_iter().flatten();
+    for (name, entry) in several {
+        let own = |key: &str| entry.node.get(key);
+        let seat = own("posture").and_then(|posture| posture.get("seat")).and_then(Node::as_str);
+        if own("vehicle").and_then(Node::as_str) == Some(vehicle) && seat.is_some_and(is_seat) {
+            let seat = seat.unwrap_or_default();
+            let at = with_key("occupants", name) + ".posture.seat";
+            let found = format!("`{seat}`, a seat of the first vehicle");
+            let problem = Problem::error(at, found, format!("`{vehicle}_{seat}`, the seat of `{vehicle}`"));
+            problems.add(problem, |problem| document.place(problem));
+        }
+    }
 }
 
 /// What numbers of a car lie between: its key, the least and the greatest in SI units, and how a message says them.
@@ -95,16 +114,13 @@ pub(super) fn whole(sources: &mut Sources, root: &Node) -> Node {
     }
     // for their quantities: what they lack the car gives them
     check_parts(&mut read, schema(), &BODIES);
-    let texts = [dummies::words(&read.root), words(&read.root).unwrap_or_default()];
-    texts.iter().filter(|text| !text.is_empty()).fold(root.clone(), |root, text| {
-        let Some(document) = written(TITLE, text) else { return root };
-        let id = sources.add(TITLE, document.shared());
+    let texts = [("dummy", dummies::words(&read.root)), (CAR_TITLE, words(&read.root).unwrap_or_default())];
+    texts.iter().filter(|(_, text)| !text.is_empty()).fold(root.clone(), |root, (title, text)| {
+        let Some(document) = written(title, text) else { return root };
+        let id = sources.add(*title, document.shared());
         over(document.root.moved_to(id), &root)
     })
 }
-
-/// What messages call a car that was written out.
-pub(super) const TITLE: &str = "car";
 
 fn words(root: &Node) -> Option<String> {
     let riders: Vec<Rider> = cars(root).flat_map(|(vehicle, _)| riders(root, vehicle)).collect();
@@ -194,7 +210,7 @@ fn rider(own: &Node, prefix: &str, usual: &str, vehicle: Option<&str>) -> Option
     let says =
         |node: Option<&Node>, keys: &[&str]| node.is_some_and(|node| keys.iter().any(|key| node.get(key).is_some()));
     let preset = joints.and_then(|joints| joints.get("preset")).and_then(Node::as_str);
-    let is_person = joints.is_none() || preset.is_some_and(|preset| presets::OF_PEOPLE.contains(&preset));
+    let is_person = preset.is_none_or(|preset| presets::OF_PEOPLE.contains(&preset));
     let lacks = Lacks {
         body: !says(body, &["preset", "dummy", "sex", "stature", "mass", "segments", "joints"]),
         joints: !says(joints, &["preset"]) && !says(body, &["joints", "dummy"]),

@@ -8,6 +8,9 @@ use super::quantity::{NOT_NEGATIVE, POSITIVE};
 use super::three_point::Side;
 use super::{Angle, Force, Length, Moment, Ratio, Stiffness, Time};
 
+/// What messages call a car that was written out.
+pub(crate) const CAR_TITLE: &str = "car";
+
 /// A class of cars.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]

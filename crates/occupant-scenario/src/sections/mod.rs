@@ -61,7 +61,7 @@ pub(super) use setup::{occupant, setup};
 use self::bags::{BagSection, GasSection};
 use self::belts::BeltSection;
 pub(super) use self::body::{BodySection, DummyChoice};
-pub(super) use self::car::{AnchorSection, CarBelt, CarClass, CarSeatSection, CarSection, IntrusionSection};
+pub(super) use self::car::{AnchorSection, CAR_TITLE, CarBelt, CarClass, CarSeatSection, CarSection, IntrusionSection};
 use self::drive::DriveSection;
 use self::frames::{FrameSection, GroundSection, VehicleSection};
 use self::functions::{LimiterSection, WebbingSection};

@@ -177,7 +177,7 @@ pub(super) fn triggers<'s>(b: &mut Builder, scenario: &'s Scenario, paths: Paths
 fn is_of_car(b: &Builder, name: &str) -> bool {
     let document = b.document;
     let node = document.root.get("triggers").and_then(|all| all.get(name));
-    node.is_some_and(|node| document.sources.name(node.span.source) == crate::car::TITLE)
+    node.is_some_and(|node| document.sources.name(node.span.source) == super::CAR_TITLE)
 }
 
 /// Refuses more triggers, or more motion to look at for them, than a run needs.

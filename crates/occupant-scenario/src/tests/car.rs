@@ -187,6 +187,26 @@ fn each_vehicle_has_a_car_of_its_own() {
 }
 
 #[test]
+fn a_seat_of_another_vehicle_is_named_after_it() {
+    let sits = |seat: &str| of_two() + &format!("[occupants.b.posture]\nseat = \"{seat}\"\n");
+    let found = complaint(&sits("passenger"));
+    assert!(found.contains("a seat of the first vehicle") && found.contains("`other_passenger`"), "{found}");
+    assert_eq!(build(&sits("other_passenger")).members.len(), 2);
+}
+
+#[test]
+fn a_key_of_a_joint_leaves_the_body_as_it_is() {
+    let setup = build(&(of("") + "[joints.neck]\ndamping = 1\n"));
+    assert_eq!((setup.body.segments.len(), setup.body.plates.len()), (19, 5));
+}
+
+#[test]
+fn a_number_out_of_range_is_told_once() {
+    let found = complaint(&of("wheel.ahead = \"-1 cm\""));
+    assert_eq!(found.matches("error:").count(), 1, "{found}");
+}
+
+#[test]
 fn a_side_comes_in_as_far_and_as_fast_as_is_said() {
     let setup = build(&of("intrusion.left = { depth = \"30 cm\", begins = \"10 ms\", lasts = \"50 ms\" }"));
     let frame = setup.frames.iter().find(|frame| frame.name == "left_intrusion").unwrap();

@@ -27,8 +27,13 @@ use crate::motion::vector::V3;
 const CROWD: f64 = 0.6;
 /// Distance beside each other below which two middles have no direction, m.
 const NEAR_M: f64 = 1e-4;
-/// Most pairs of spheres.
-const MOST_PAIRS: usize = MOST_SPHERES * (MOST_SPHERES - 1) / 2;
+/// Spheres of most bags: room for the pairs of all that are possible would be filled with zeros each time.
+const FEW: usize = 6;
+
+/// Pairs of so many.
+const fn pairs_of(spheres: usize) -> usize {
+    spheres * (spheres - 1) / 2
+}
 
 /// What a sphere alone does to an envelope, and in the end what it does among all.
 #[derive(Clone, Copy, Debug)]
@@ -86,10 +91,20 @@ struct Share<S> {
 /// The union of what these displace behind a face of this radius, none of a flat one.
 #[inline(always)]
 pub(super) fn unite<S: Scalar>(caps: &[Cap<S>], face: Option<S>) -> Union<S> {
+    if caps.len() <= FEW {
+        unite_of::<S, FEW, { pairs_of(FEW) }>(caps, face)
+    } else {
+        unite_of::<S, MOST_SPHERES, { pairs_of(MOST_SPHERES) }>(caps, face)
+    }
+}
+
+/// The same with room for so many spheres and pairs.
+#[inline(always)]
+fn unite_of<S: Scalar, const SPHERES: usize, const PAIRS: usize>(caps: &[Cap<S>], face: Option<S>) -> Union<S> {
     let o = S::zero();
     let mut union = Union { slopes: [(o, V3::zero()); MOST_SPHERES], volume: o, rate: o, area: o };
-    let mut shares = [Share { sums: [o; 2], part: S::one(), slopes: [o; 2] }; MOST_SPHERES];
-    let mut pairs = [Pair { of: [0; 2], volume: o, by_depth: [o; 2], by_distance: o }; MOST_PAIRS];
+    let mut shares = [Share { sums: [o; 2], part: S::one(), slopes: [o; 2] }; SPHERES];
+    let mut pairs = [Pair { of: [0; 2], volume: o, by_depth: [o; 2], by_distance: o }; PAIRS];
     let count = meet(caps, face, &mut shares, &mut pairs);
     for (i, (cap, share)) in caps.iter().zip(&mut shares).enumerate() {
         let mut own = cap.area;
@@ -120,12 +135,7 @@ pub(super) fn unite<S: Scalar>(caps: &[Cap<S>], face: Option<S>) -> Union<S> {
 
 /// Writes down the pairs that have something in common, and what each sphere shares; how many there are.
 #[inline(always)]
-fn meet<S: Scalar>(
-    caps: &[Cap<S>],
-    face: Option<S>,
-    shares: &mut [Share<S>; MOST_SPHERES],
-    pairs: &mut [Pair<S>; MOST_PAIRS],
-) -> usize {
+fn meet<S: Scalar>(caps: &[Cap<S>], face: Option<S>, shares: &mut [Share<S>], pairs: &mut [Pair<S>]) -> usize {
     let (o, mut count) = (S::zero(), 0);
     for k in 0..caps.len() {
         for l in 0..k {

@@ -287,7 +287,11 @@ impl Caveat {
             at(most),
             not_to_be_quoted("its")
         );
-        Caveat::new(format!("{plate}_too_deep"), text, vec![format!("plates.{plate}.*")])
+        let own = plate.rsplit_once('.').map_or_else(String::new, |(body, _)| format!("{body}."));
+        let is_of_chest = matches!(known, Known::Depth(_));
+        let measures = OF_DEFLECTION.iter().filter(|_| is_of_chest).map(|name| format!("{own}{name}"));
+        let figures = [format!("plates.{plate}.*")].into_iter().chain(measures).collect();
+        Caveat::new(format!("{plate}_too_deep"), text, figures)
     }
 
     /// How far a chest that gives way may be believed. It is told of every run, so that it marks no figure by itself.
@@ -466,6 +470,10 @@ fn mm(length_m: f64) -> String {
 }
 
 /// The names of measures, in measures and in figures.
+/// Measures of how far and how fast a chest is pressed in.
+const OF_DEFLECTION: [&str; 6] =
+    ["chest_deflection", "chest_compression", "deflection_rate", "viscous_criterion", "cti", "pc_score"];
+
 fn names_of<'a>(measures: impl Iterator<Item = &'a Measure>) -> Vec<String> {
     measures.flat_map(|m| [Some(m.name), m.figure]).flatten().map(str::to_owned).collect()
 }
@@ -487,7 +495,7 @@ fn figures_of(body: &Body, segment: Segment) -> Vec<String> {
     let measured: &[&str] = if Some(segment) == marks.head {
         &["hic15", "hic36", "gsi", "bric", "damage", "head*", "nij", "neck_*"]
     } else if Some(segment) == marks.chest {
-        &["chest*", "csi"]
+        &["chest*", "csi", "deflection_rate", "viscous_criterion", "cti", "pc_score"]
     } else if Some(segment) == marks.pelvis {
         &["pelvis*"]
     } else if is_of(marks.legs.right) {

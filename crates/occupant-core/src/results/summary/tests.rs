@@ -268,3 +268,15 @@ fn a_balance_that_short_steps_would_keep_better_marks_every_figure() {
     let lost = EnergyCheck { balance: Balance::Doubtful, ..check(0.05) };
     assert_eq!(Caveat::of_rough_balance(&lost), None);
 }
+
+#[test]
+fn a_chest_pressed_in_too_far_marks_its_measures_and_no_other_ones() {
+    let most = Peak { value: 0.14, time_s: 0.1 };
+    let own = Caveat::pressed("driver.sternum", most, strokes::Known::Depth(0.24));
+    for (figure, is_touched) in
+        [("driver.cti", true), ("driver.chest_deflection", true), ("cti", false), ("driver.chest_peak", false)]
+    {
+        assert_eq!(own.touches(figure), is_touched, "{figure}");
+    }
+    assert!(!Caveat::pressed("flesh", most, strokes::Known::Last(0.1)).touches("chest_deflection"));
+}
