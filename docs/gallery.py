@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/gallery.md"
 PICTURES = ROOT / "docs/gallery"
 ENTRY = re.compile(r"^<!-- ([a-z0-9/-]+): (side|top|front), ([^;]+); ([^>]+) -->\n((?:[^\n]+\n)*)", re.M)
-LARGEST, LARGEST_TOGETHER, WIDTH, COLOURS = 40_000, 1_500_000, 700, 12
+LARGEST, LARGEST_TOGETHER, WIDTH, COLOURS = 40_000, 1_500_000, 700, 16
 G = 9.80665
 # figure: label, its unit, how many of it are one of SI
 FIGURES = {
@@ -93,7 +93,8 @@ def draw(occupant, result, view, times, picture):
     image = Image.open(large).convert("RGB")
     width = min(WIDTH, image.width)
     image = image.resize((width, round(image.height * width / image.width)), Image.Resampling.LANCZOS)
-    image.quantize(COLOURS).save(picture, optimize=True)
+    # the colours of body, belts and forces are few beside the greys of the car: the usual choice would lose them
+    image.quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE).save(picture, optimize=True)
 
 
 def make(occupant, wanted):
