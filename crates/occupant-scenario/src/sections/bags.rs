@@ -76,6 +76,8 @@ pub(crate) struct BagSection {
     pub(crate) friction_speed: Option<Speed<POSITIVE>>,
     /// Names of the body parts or spheres that it touches, at most 20 spheres. Where they overlap they count once.
     pub(crate) spheres: Option<Vec<String>>,
+    /// The one of several occupants whom it touches; all in the first vehicle if absent.
+    pub(crate) occupant: Option<String>,
     /// Factor on the contact area of a part or sphere that represents more than itself; of a part, on that of its first sphere, to
     /// which its others add. 1 if absent.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
