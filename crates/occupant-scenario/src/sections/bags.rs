@@ -347,6 +347,9 @@ fn leakage(b: &mut Builder, path: &str, s: &BagSection) -> Leakage {
 
 /// Its spheres, each with the reach of its own name or of that of its part.
 fn spheres(b: &mut Builder, path: &str, (s, names): (&BagSection, &[String]), body: &Body) -> Vec<(usize, f64)> {
+    if names.is_empty() {
+        b.error(&format!("{path}.spheres"), "0 spheres", "1 to 20 spheres that the bag can touch");
+    }
     let list = b.spheres(&format!("{path}.spheres"), names, body);
     let reach = format!("{path}.reach");
     for name in s.reach.keys().filter(|name| !body.spheres_called(name).iter().any(|sphere| list.contains(sphere))) {
