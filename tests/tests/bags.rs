@@ -272,7 +272,7 @@ fn a_bag_that_fires_late_holds_the_head_worse() {
 fn bags_of_the_library_are_filled_to_the_pressure_of_their_gas() {
     // name, length of its line, radius, greatest flow, when it is reached and how long it falls
     for (name, long, radius, flow, [rises, falls]) in
-        [("curtain", 1.63, 0.07, 5.0, [3e-3, 15e-3]), ("side", 0.3, 0.09, 3.4, [2e-3, 8e-3])]
+        [("curtain", 1.63, 0.07, 5.0, [3e-3, 15e-3]), ("side", 0.3, 0.09, 4.5, [2e-3, 8e-3])]
     {
         let one = format!(
             "bags.one={{ library = {name:?}, trigger = \"crash\", mount = [9, 9, -9], leakage = 0, vents = [], deploy = 1e-3, \
@@ -292,7 +292,7 @@ fn bags_of_the_library_are_filled_to_the_pressure_of_their_gas() {
         let energy = enthalpy - p_a * volume;
         let temperature = 2.0 * energy / (free + (free * free + 2.0 * c * energy).sqrt());
         let expected = (air * r_air + gas * r) * temperature / volume - p_a;
-        assert!((20e3..120e3).contains(&expected), "{name}: {expected}");
+        assert!((20e3..200e3).contains(&expected), "{name}: {expected}");
         assert!((found / expected - 1.0).abs() < 1e-5, "{name}: {found} {expected}");
     }
 }

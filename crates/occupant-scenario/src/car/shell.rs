@@ -273,14 +273,14 @@ impl Car<'_> {
         }
         for (side, y) in bags.curtain.unwrap_or_default().each() {
             let rear = seats.iter().filter(|seat| seat.is_taken()).map(|seat| seat.h[0]).fold(0.0, f64::min) - 0.55;
-            let at = |x: f64| [x, y * (w - 0.10), CURTAIN_UP_M - roof];
+            let at = |x: f64| [x, y * (w - 0.125), CURTAIN_UP_M - roof];
             let mount = [0.5 * (rear + 0.25), y * (w - 0.08), 0.05 - roof];
             text += &self.bag_beside(
                 [&format!("{side}_curtain"), ""],
                 ("curtain", side),
                 mount,
                 [at(0.25), at(rear)],
-                0.07,
+                0.08,
             );
         }
         for (side, y) in bags.side.unwrap_or_default().each() {
@@ -316,7 +316,7 @@ impl Car<'_> {
         let litres = 1e3 * std::f64::consts::PI * radius * radius * (long + 4.0 / 3.0 * radius);
         let (times, flow) = match of {
             "curtain" => ("[\"0 ms\", \"3 ms\", \"18 ms\"]", 5.0 / 26.5 * litres),
-            _ => ("[\"0 ms\", \"2 ms\", \"10 ms\"]", 3.4 / 10.7 * litres),
+            _ => ("[\"0 ms\", \"2 ms\", \"10 ms\"]", 4.5 / 10.7 * litres),
         };
         let delay = si_or(&self.section.bags.delay, 0.004);
         format!(
