@@ -2,8 +2,8 @@
 
 use super::draft::Draft;
 use super::ready::Ready;
-use super::surface_files;
 use super::sections::{Drives, People, Scenario, asks_for_people, setup, solve, together};
+use super::surface_files;
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
 use placed_text::{Diagnostics, Document, Format, Problem, Problems, table_text, with_key};

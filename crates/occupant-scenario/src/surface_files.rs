@@ -35,7 +35,11 @@ fn read(bytes: &[u8], name: &str) -> Result<(Document, SurfaceFile), Diagnostics
         problems.add(Problem::error(path, found, expected), |problem| document.place(problem));
     };
     for key in ["library", "file"].into_iter().filter(|key| has(key)) {
-        report(&format!("material.{key}"), "a surface that refers to another", "its own numbers: `depth` and `force`, or `k1`");
+        report(
+            &format!("material.{key}"),
+            "a surface that refers to another",
+            "its own numbers: `depth` and `force`, or `k1`",
+        );
     }
     if file.measured.loading == Basis::NotMeasured {
         report("measured.loading", "a surface without loading", "\"measured\", \"digitised\" or \"made_up\"");
@@ -51,7 +55,9 @@ fn read(bytes: &[u8], name: &str) -> Result<(Document, SurfaceFile), Diagnostics
             report(&format!("material.{key}"), "a way back that was not measured", NO_KEY);
         }
         (Basis::NotMeasured, None) | (_, Some(_)) => {}
-        (_, None) => report("measured.unloading", "no way back in `material`", "`returned`, or unloading = \"not_measured\""),
+        (_, None) => {
+            report("measured.unloading", "no way back in `material`", "`returned`, or unloading = \"not_measured\"")
+        }
     }
     if problems.has_errors() { Err(problems) } else { Ok((document, file)) }
 }
@@ -121,7 +127,12 @@ fn not_said(
     let says = |keys: &[&str]| keys.iter().any(|key| own.get(key).is_some());
     let parts = [
         ("friction", surface.measured.friction, &["friction"][..], "friction = your estimate, beside `file`"),
-        ("unloading", surface.measured.unloading, &BACK[..], "returned = your estimate of the share of work that comes back"),
+        (
+            "unloading",
+            surface.measured.unloading,
+            &BACK[..],
+            "returned = your estimate of the share of work that comes back",
+        ),
     ];
     for (part, basis, keys, expected) in parts {
         if basis == Basis::NotMeasured && !says(keys) {

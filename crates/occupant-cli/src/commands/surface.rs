@@ -106,7 +106,10 @@ const FLATTEST: f64 = 1.5;
 impl Args {
     fn impactor(&self) -> Result<Impactor, Failure> {
         if self.angle > FLATTEST {
-            return Err(Failure::with_help("--angle is almost 90 degrees", "give the angle from the normal of the surface"));
+            return Err(Failure::with_help(
+                "--angle is almost 90 degrees",
+                "give the angle from the normal of the surface",
+            ));
         }
         for (name, value) in [("--mass", self.mass), ("--speed", self.speed), ("--height", self.height)] {
             if value == Some(0.0) {

@@ -3,16 +3,16 @@
 
 use std::sync::Arc;
 
-use super::contact::Contact;
-use super::curve::{self, Shape};
+use super::Impactor;
+use super::contact::{self, Contact};
+use super::curve::{self, Choice, Shape};
 use super::law::{Back, Law};
 use super::record::Record;
-use super::Impactor;
 use occupant_study::misfit::unrelated_samples;
 use occupant_study::of_resample;
 
 /// Records that are made.
-const RECORDS: u64 = 200;
+const RECORDS: u64 = 100;
 /// Half a 95 % interval over the standard deviation.
 const WIDE: f64 = 1.96;
 
@@ -27,20 +27,26 @@ pub struct Certainty {
     pub friction: Option<[f64; 2]>,
 }
 
-/// Intervals of a law and the friction of a contact.
-pub(super) fn of(record: &Record, impactor: &Impactor, contact: &Contact, fitted: (&Shape, &Law)) -> Certainty {
-    let (shape, law) = fitted;
+/// Intervals of the law of the first choice, which are widened to what the others say, and of the friction.
+pub(super) fn of(record: &Record, impactor: &Impactor, choices: &[Choice], law: &Law) -> Certainty {
+    let Choice { shape, contact, .. } = &choices[0];
     let made: Vec<Made> = (0..RECORDS).filter_map(|i| again(record, impactor, contact, (shape, law), i)).collect();
-    let around = |value: f64, of: &dyn Fn(&Made) -> Option<f64>| {
+    let rivals: Vec<Law> = choices[1..].iter().map(|rival| curve::law(&rival.shape, &rival.contact)).collect();
+    let around = |value: f64, of: &dyn Fn(&Made) -> Option<f64>, others: &dyn Fn(&Law) -> Option<f64>| {
         let all: Vec<f64> = made.iter().filter_map(of).collect();
         let mean = all.iter().sum::<f64>() / all.len() as f64;
         let variance = all.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (all.len().max(2) - 1) as f64;
-        let half = WIDE * variance.sqrt();
+        let other = rivals.iter().filter_map(others).map(|x| (x - value).abs()).fold(0.0, f64::max);
+        let half = (WIDE * variance.sqrt()).hypot(other);
         [value - half, value + half]
     };
+    let hidden = hidden(law, contact);
     let force = |(i, point): (usize, &[f64; 2])| {
-        let [from, to] = around(point[1], &|made| made.force_n.get(i).copied());
-        [from.max(0.0), to]
+        let [from, to] = around(point[1], &|made| made.force_n.get(i).copied(), &|rival| Some(rival.loading(point[0])));
+        let shifted = [hidden, -hidden].map(|by| (law.loading((point[0] + by).max(0.0)) - point[1]).abs());
+        let hidden = if i == 0 { 0.0 } else { shifted[0].max(shifted[1]) };
+        let half = (0.5 * (to - from)).hypot(hidden);
+        [(point[1] - half).max(0.0), point[1] + half]
     };
     let value = |back: Back| match back {
         Back::Share(x) | Back::Slope(x) => x,
@@ -48,9 +54,17 @@ pub(super) fn of(record: &Record, impactor: &Impactor, contact: &Contact, fitted
     let friction = contact.friction(record, impactor).and_then(Result::ok);
     Certainty {
         force_n: law.points.iter().enumerate().map(force).collect(),
-        back: law.back.map(|back| around(value(back), &|made| made.back).map(|x| x.max(0.0))),
-        friction: friction.map(|f| around(f, &|made| made.friction).map(|x| x.max(0.0))),
+        back: law.back.map(|back| around(value(back), &|made| made.back, &|_| None).map(|x| x.max(0.0))),
+        friction: friction.map(|f| around(f, &|made| made.friction, &|_| None).map(|x| x.max(0.0))),
     }
+}
+
+/// Depth in which the force is no larger than the noise: by so much contact may have begun earlier or later, m.
+fn hidden(law: &Law, contact: &Contact) -> f64 {
+    let level = contact.series.floor_n / contact::FLOOR[0];
+    let steps = 1000;
+    let depths = (0..=steps).map(|i| contact.greatest_m() * f64::from(i) / f64::from(steps));
+    depths.into_iter().find(|depth| law.loading(*depth) >= level).unwrap_or(0.0)
 }
 
 /// What a record that was made again tells.
@@ -82,8 +96,8 @@ fn again(
     let speed = |speed: f64| speed + impactor.speed_error_m_s / WIDE * normal(number);
     let other = Impactor { speed_m_s: impactor.speed_m_s.map(speed), ..*impactor };
     let mut made = Contact::from(&Arc::new(series), &other, contact.time_s[0]);
-    let shape = curve::shape(&other, &mut made).ok()?;
-    let again = curve::law(&shape, &made);
+    curve::restart(&mut made, &other, shape);
+    let again = curve::law(shape, &made);
     let works = made.works();
     let back = law.back.map(|back| match back {
         Back::Share(_) => works[1] / works[0],

@@ -11,7 +11,7 @@ use occupant_core::forces::contact::material::DEFAULT_FRICTION_SPEED_M_S;
 /// A peak is so many times the noise.
 const ABOVE_NOISE: f64 = 8.0;
 /// Contact begins and ends at so many times the noise, or this part of the peak.
-const FLOOR: [f64; 2] = [4.0, 1e-3];
+pub(super) const FLOOR: [f64; 2] = [4.0, 1e-3];
 /// Later force that is told of, and force that has ended, as parts of the peak.
 const PART: f64 = 0.1;
 /// Samples before contact that tell the zero.
@@ -49,7 +49,7 @@ pub(super) struct Series {
     pub(super) depth_m: Option<Vec<f64>>,
     pub(super) begin: usize,
     /// Force above which there is contact, N.
-    floor_n: f64,
+    pub(super) floor_n: f64,
 }
 
 impl Contact {
@@ -114,9 +114,13 @@ impl Contact {
         let last = self.force_n.len() - 1;
         if self.turn == last {
             if self.force_n[last] < PART * self.peak_n() {
-                return Err(refuse("the impactor still goes in where the force has ended: the record does not stop it", HELP));
+                return Err(refuse(
+                    "the impactor still goes in where the force has ended: the record does not stop it",
+                    HELP,
+                ));
             }
-            self.caveats.push("the record ends before the impactor has stopped: the curve ends there as well".to_owned());
+            self.caveats
+                .push("the record ends before the impactor has stopped: the curve ends there as well".to_owned());
         } else if !self.rebounds {
             self.caveats.push("the record ends before contact does: the way back was not measured".to_owned());
         }
@@ -243,12 +247,13 @@ impl Series {
 /// Depths counted into the surface.
 fn upright(depth: &[f64], caveats: &mut Vec<String>) -> Vec<f64> {
     let first = depth[0];
-    let sign = if first - depth.iter().copied().fold(first, f64::min) > depth.iter().copied().fold(first, f64::max) - first {
-        caveats.push("the record counts depth as negative: its sign was turned".to_owned());
-        -1.0
-    } else {
-        1.0
-    };
+    let sign =
+        if first - depth.iter().copied().fold(first, f64::min) > depth.iter().copied().fold(first, f64::max) - first {
+            caveats.push("the record counts depth as negative: its sign was turned".to_owned());
+            -1.0
+        } else {
+            1.0
+        };
     depth.iter().map(|x| sign * x).collect()
 }
 

@@ -8,65 +8,109 @@ use crate::base::Failure;
 /// Lines that a curve has at most.
 const MOST: usize = 12;
 /// Places at which a line may end.
-const PLACES: usize = 48;
+const PLACES: usize = 32;
+/// The shortest line, as a part of the greatest depth.
+const NARROWEST: f64 = 0.02;
 /// Samples of each line at least.
 const EACH: usize = 3;
 /// Differences below this part of the peak are no differences.
 const FINEST: f64 = 2e-4;
-/// Starts within a sample.
-const STARTS: usize = 12;
+/// A start is found to this part of a sample.
+const FINE: f64 = 0.05;
+/// Shapes that are worth this much less are almost as good.
+const RIVAL: f64 = 14.0;
+/// Starts that are tried at once.
+const TRIED: usize = 12;
+/// A first line flatter than this part of the mean slope is a gap.
+const GAP: f64 = 0.05;
 /// A curve falls if it loses this part of the peak.
 const FALLS: f64 = 0.05;
 
 /// Ends of the lines, as parts of the greatest depth; the last is 1.
 pub(super) type Shape = Vec<f64>;
 
-/// The shape that the record bears, and the contact with the start that fits it best.
+/// A shape and the contact whose start fits it best.
+#[derive(Clone)]
+pub(super) struct Choice {
+    worth: f64,
+    pub(super) shape: Shape,
+    pub(super) contact: Contact,
+}
+
+/// The shape that the record bears, and others that it bears almost as well, each with its start.
 ///
 /// # Errors
 /// Too few samples while the depth grows.
-pub(super) fn shape(impactor: &Impactor, contact: &mut Contact) -> Result<Shape, Failure> {
-    if contact.turn < EACH {
-        return Err(refuse("too few samples while the depth grows", "give a record with a higher rate"));
+pub(super) fn choices(impactor: &Impactor, contact: &Contact) -> Result<Vec<Choice>, Failure> {
+    let (series, from) = (&contact.series, earliest(contact));
+    let times = &series.time_s;
+    let mut best: Vec<Option<Choice>> = vec![None; MOST + 1];
+    let [mut low, mut high] = [times[from], times[series.begin]];
+    while high > low && high - low > FINE * (times[series.begin] - times[from]) / (series.begin - from) as f64 {
+        let step = (high - low) / TRIED as f64;
+        for i in 0..TRIED {
+            let one = Contact::from(series, impactor, low + i as f64 * step);
+            if one.turn >= EACH {
+                grown(&one, from).into_iter().for_each(|choice| keep(&mut best, choice));
+            }
+        }
+        let middle = first_of(&best).map_or(high, |choice| choice.contact.time_s[0]);
+        (low, high) = ((middle - step).max(times[from]), (middle + step).min(times[series.begin]));
     }
-    let mut shape = vec![0.25, 0.5, 0.75, 1.0];
-    for _ in 0..3 {
-        restart(contact, impactor, &shape);
-        shape = grown(contact);
+    let Some(first) = first_of(&best).cloned() else {
+        return Err(refuse("no line fits the record while the depth grows", "give a record with a higher rate"));
+    };
+    let caveats = contact.caveats.clone();
+    let mut all: Vec<Choice> = best.into_iter().flatten().filter(|other| other.worth < first.worth + RIVAL).collect();
+    all.sort_by(|a, b| a.worth.total_cmp(&b.worth));
+    all.iter_mut().for_each(|choice| choice.contact.caveats.clone_from(&caveats));
+    Ok(all)
+}
+
+fn first_of(best: &[Option<Choice>]) -> Option<&Choice> {
+    best.iter().flatten().min_by(|a, b| a.worth.total_cmp(&b.worth))
+}
+
+/// Keeps the best of each number of lines; a first line without force would be a gap, and contact begins with force.
+fn keep(best: &mut [Option<Choice>], choice: Choice) {
+    let Choice { contact, shape, .. } = &choice;
+    let samples = rows(contact).take_while(|[depth, _]| *depth < shape[0] * contact.greatest_m()).count().max(1);
+    let sure = 2.0 * contact.series.floor_n / (samples as f64).sqrt();
+    let rises = forces(contact, shape)[0] > sure.max(GAP * shape[0] * contact.peak_n());
+    let own = &mut best[choice.shape.len()];
+    if rises && own.as_ref().is_none_or(|least| choice.worth < least.worth) {
+        *own = Some(choice);
     }
-    restart(contact, impactor, &shape);
-    Ok(shape)
 }
 
 /// Moves the start to where straight lines of this shape fit best: by whole samples as far back as contact lasts, then by parts
 /// of one.
 pub(super) fn restart(contact: &mut Contact, impactor: &Impactor, shape: &Shape) {
     let series = contact.series.clone();
-    let (times, begin) = (&series.time_s, series.begin);
-    let back = begin.saturating_sub(contact.turn + STARTS);
-    let better = |best: &mut Option<(f64, Contact)>, start: f64| {
-        let one = Contact::from(&series, impactor, start);
-        let cost = cost(&one, shape, back);
-        if one.turn >= EACH && best.as_ref().is_none_or(|(least, _)| cost < *least) {
-            *best = Some((cost, one));
-        }
-    };
-    let mut best = None;
-    times[back..begin.max(1)].iter().for_each(|start| better(&mut best, *start));
-    let Some(middle) = best.as_ref().map(|(_, one)| one.time_s[0]) else { return };
-    let step = (times[begin] - times[back]) / (begin - back).max(1) as f64 / STARTS as f64;
-    for i in 1..STARTS {
-        for way in [-1.0, 1.0] {
-            let start = middle + way * i as f64 * step;
-            if start >= times[0] && start < times[begin] {
-                better(&mut best, start);
+    let (times, from) = (&series.time_s, earliest(contact));
+    let mut best: Option<(f64, Contact)> = None;
+    let [mut low, mut high] = [times[from], times[series.begin]];
+    while high > low && high - low > FINE * (times[series.begin] - times[from]) / (series.begin - from) as f64 {
+        let step = (high - low) / TRIED as f64;
+        for i in 0..TRIED {
+            let one = Contact::from(&series, impactor, low + i as f64 * step);
+            let cost = cost(&one, shape, from);
+            if one.turn >= EACH && best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                best = Some((cost, one));
             }
         }
+        let middle = best.as_ref().map_or(high, |(_, one)| one.time_s[0]);
+        (low, high) = ((middle - step).max(times[from]), (middle + step).min(times[series.begin]));
     }
     if let Some((_, one)) = best {
         let caveats = std::mem::take(&mut contact.caveats);
         *contact = Contact { caveats, ..one };
     }
+}
+
+/// The first sample in which contact may begin.
+fn earliest(contact: &Contact) -> usize {
+    contact.series.begin.saturating_sub(contact.turn + 2)
 }
 
 /// Sum of squares about the lines of the samples from one on, those before contact included, in which there is no force.
@@ -125,22 +169,30 @@ fn squares(contact: &Contact, shape: &Shape) -> f64 {
     rows(contact).map(off).sum()
 }
 
-/// Lines are divided as long as that is worth it by the criterion of Schwarz.
-fn grown(contact: &Contact) -> Shape {
-    let n = contact.turn as f64;
+/// What the criterion of Schwarz gives a shape, the less the better; samples from one on count.
+fn worth(contact: &Contact, shape: &Shape, from: usize) -> f64 {
+    let before = contact.series.time_s[from..].iter().take_while(|t| **t <= contact.time_s[0]).count();
+    let n = (before + contact.turn) as f64;
     let finest = n * (FINEST * contact.peak_n()).powi(2);
-    let worth = |shape: &Shape| n * (squares(contact, shape).max(finest) / n).ln() + 2.0 * shape.len() as f64 * n.ln();
-    let mut best = vec![1.0];
-    while best.len() < MOST {
-        let tried = (1..PLACES).map(|i| with(&best, i as f64 / PLACES as f64)).filter(|shape| bears(contact, shape));
-        let Some(next) = least(tried, |shape| squares(contact, shape)) else { break };
-        let next = moved(contact, next);
-        if worth(&next) >= worth(&best) {
+    n * (cost(contact, shape, from).max(finest) / n).ln() + 2.0 * shape.len() as f64 * n.ln()
+}
+
+/// Lines are divided as long as that is worth it, and once more.
+fn grown(contact: &Contact, from: usize) -> Vec<Choice> {
+    let choice = |shape: Shape| Choice { worth: worth(contact, &shape, from), shape, contact: contact.clone() };
+    let mut all = vec![choice(vec![1.0])];
+    while all.len() < MOST {
+        let last = &all[all.len() - 1];
+        let tried = (1..PLACES).map(|i| with(&last.shape, i as f64 / PLACES as f64));
+        let next = least(tried.filter(|shape| bears(contact, shape)), |shape| squares(contact, shape));
+        let Some(next) = next.map(|shape| choice(moved(contact, shape))) else { break };
+        let ends = next.worth > last.worth;
+        all.push(next);
+        if ends {
             break;
         }
-        best = next;
     }
-    best
+    all
 }
 
 /// The shape with an end more.
@@ -150,8 +202,11 @@ fn with(shape: &Shape, end: f64) -> Shape {
     more
 }
 
-/// Whether every line has samples.
+/// Whether every line has a length and samples.
 fn bears(contact: &Contact, shape: &Shape) -> bool {
+    if shape[0] < NARROWEST || shape.windows(2).any(|ends| ends[1] - ends[0] < NARROWEST) {
+        return false;
+    }
     let mut counts = vec![0; shape.len()];
     rows(contact).for_each(|[depth, _]| counts[place(shape, depth / contact.greatest_m()).0] += 1);
     counts.iter().all(|count| *count >= EACH)
@@ -167,8 +222,7 @@ fn moved(contact: &Contact, mut shape: Shape) -> Shape {
                 other[i] += way * step;
                 other
             };
-            let rises = |shape: &Shape| shape[0] > 0.0 && shape.windows(2).all(|ends| ends[0] < ends[1]);
-            let tried = [0.0, -1.0, 1.0].map(by).into_iter().filter(|other| rises(other) && bears(contact, other));
+            let tried = [0.0, -1.0, 1.0].map(by).into_iter().filter(|other| bears(contact, other));
             shape = least(tried, |other| squares(contact, other)).unwrap_or_else(|| shape.clone());
         }
         step *= 0.5;

@@ -76,11 +76,11 @@ pub struct Agreement {
 /// than it went in; numbers of the impactor that are missing.
 pub fn fit(recording: &Recording, impactor: &Impactor, window_s: [Option<f64>; 2]) -> Result<Surface, Failure> {
     let record = record::Record::of(recording, impactor, window_s)?;
-    let mut contact = Contact::of(&record, impactor)?;
-    let shape = curve::shape(impactor, &mut contact)?;
-    let law = curve::law(&shape, &contact);
+    let choices = curve::choices(impactor, &Contact::of(&record, impactor)?)?;
+    let law = curve::law(&choices[0].shape, &choices[0].contact);
+    let contact = choices[0].contact.clone();
     let friction = contact.friction(&record, impactor);
-    let certainty = certainty::of(&record, impactor, &contact, (&shape, &law));
+    let certainty = certainty::of(&record, impactor, &choices, &law);
     let computed = law::computed(&law, &contact, impactor);
     let agreement = law::agreement(&law, &contact, &computed);
     let mut caveats = [recording.notes.clone(), contact.caveats.clone()].concat();

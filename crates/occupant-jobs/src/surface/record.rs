@@ -115,13 +115,17 @@ fn si(
     file: &str,
 ) -> Result<Vec<f64>, Failure> {
     if signal.time_s != times {
-        return Err(refuse(format!("{file}: `{}` has other times", signal.name), "give a table with one column of times"));
+        return Err(refuse(
+            format!("{file}: `{}` has other times", signal.name),
+            "give a table with one column of times",
+        ));
     }
     let scale = signal.scale.unwrap_or(Scale { dimension: Default::default(), factor: 1.0 });
     let is_acceleration = scale_of("m/s^2").is_some_and(|own| own.dimension == scale.dimension);
     let mass = match (is_acceleration, mass_kg) {
         (true, None) => {
-            let found = format!("{file}: `{}` is an acceleration, and the mass of the impactor is not known", signal.name);
+            let found =
+                format!("{file}: `{}` is an acceleration, and the mass of the impactor is not known", signal.name);
             return Err(refuse(found, "add --mass, such as --mass '4.54 kg'"));
         }
         (true, Some(mass)) => mass,

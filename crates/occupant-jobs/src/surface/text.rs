@@ -33,14 +33,19 @@ pub struct Origin {
 pub(super) fn cautions(law: &Law, contact: &Contact, agreement: &Agreement) -> Vec<String> {
     let mut words = vec![
         format!("deeper than {} mm nothing was measured: the last slope goes on", digits(1e3 * contact.greatest_m())),
-        "one impact at one speed: how force depends on speed, and what a second impact meets, were not measured".to_owned(),
+        "one impact at one speed: how force depends on speed, and what a second impact meets, were not measured"
+            .to_owned(),
     ];
     if agreement.residual > ROUGH {
         let part = digits(100.0 * agreement.residual);
-        words.push(format!("computed and measured force differ by {part} % of the peak: another law than lines and a way back"));
+        words.push(format!(
+            "computed and measured force differ by {part} % of the peak: another law than lines and a way back"
+        ));
     }
     if law.points.windows(2).any(|pair| pair[1][1] < pair[0][1]) {
-        words.push("the force falls: the surface breaks or buckles, and a table holds for this impactor alone".to_owned());
+        words.push(
+            "the force falls: the surface breaks or buckles, and a table holds for this impactor alone".to_owned(),
+        );
     }
     words
 }
