@@ -99,6 +99,7 @@ mod presets;
 mod ready;
 mod sections;
 
+pub use car::{Dimension, Size, Usual};
 pub use check::{check_words, schema::schema_of};
 pub use draft::{Draft, names_file};
 pub use expand::rival_path;
