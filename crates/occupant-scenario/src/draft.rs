@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::car;
+use super::car::{self, Usual};
 use super::check::{check_parts, check_words, references, units_of};
 use super::expand::{expand, written_out};
 use super::kind::UnitSystem;
@@ -135,6 +135,11 @@ impl Draft {
             _ => None,
         };
         FILES.iter().flat_map(|path| self.get(path).unwrap_or_default()).filter_map(named).collect()
+    }
+
+    /// How what stands at a path of a car or of who sits in it is usually spread; none where none is known.
+    pub fn usual(&self, path: &str) -> Option<Usual> {
+        car::usual(&self.document.sources, &self.document.root, path)
     }
 
     /// The units of its bare numbers.

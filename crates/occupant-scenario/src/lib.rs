@@ -100,6 +100,7 @@ mod ready;
 mod sections;
 mod surface_files;
 
+pub use car::{Dimension, Size, Usual};
 pub use check::{check_words, schema::schema_of};
 pub use draft::{Draft, names_file};
 pub use expand::rival_path;

@@ -1,12 +1,13 @@
 //! A scenario that has passed the check, with the tables beside it, ready to be built.
 
+use super::car::{self, Dimension};
 use super::draft::Draft;
 use super::ready::Ready;
 use super::sections::{Drives, People, Scenario, asks_for_people, setup, solve, together};
 use super::surface_files;
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
-use placed_text::{Diagnostics, Document, Format, Problem, Problems, table_text, with_key};
+use placed_text::{Diagnostics, Document, Format, Node, Problem, Problems, table_text, with_key};
 
 /// Gives the bytes of a file named in a scenario, or says why not. The core reads no files itself.
 pub type Resolver<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, String>;
@@ -19,6 +20,8 @@ pub struct Loaded {
     explicit: Scenario,
     /// The tree of the explicit scenario.
     document: Document,
+    /// The tree of the scenario as it was written.
+    root: Node,
 }
 
 impl Scenario {
@@ -44,10 +47,10 @@ impl Loaded {
     pub(super) fn from_draft(draft: Draft, resolver: Resolver) -> Result<Loaded, Diagnostics> {
         let ready = draft.into_ready()?;
         let mut document = ready.document();
-        let Ready { scenario, mut explicit, .. } = ready;
+        let Ready { scenario, mut explicit, root, .. } = ready;
         read_tables(&mut document, &scenario, resolver)?;
         surface_files::lay(&mut document, &mut explicit, resolver)?;
-        Ok(Loaded { scenario, explicit, document })
+        Ok(Loaded { scenario, explicit, document, root })
     }
 
     /// The plain data of the scenario, with warnings.
@@ -130,6 +133,11 @@ impl Loaded {
     /// The scenario with presets, pairs, `all` and joint sets written out.
     pub fn explicit(&self) -> &Scenario {
         &self.explicit
+    }
+
+    /// The distances of its cars in words: of class and years, and as it says itself.
+    pub fn dimensions(&self) -> Vec<Dimension> {
+        car::dimensions(&self.document.sources, &self.root)
     }
 
     /// Names and texts of the tables and surface files that the scenario names, each once.

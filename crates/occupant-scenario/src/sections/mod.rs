@@ -62,7 +62,9 @@ pub(super) use setup::{occupant, setup};
 use self::bags::{BagSection, GasSection};
 use self::belts::BeltSection;
 pub(super) use self::body::{BodySection, DummyChoice};
-pub(super) use self::car::{AnchorSection, CAR_TITLE, CarBelt, CarClass, CarSeatSection, CarSection, IntrusionSection};
+pub(super) use self::car::{
+    AnchorSection, CAR_TITLE, CarBelt, CarClass, CarSeatSection, CarSection, CarYears, IntrusionSection,
+};
 use self::drive::DriveSection;
 use self::frames::{FrameSection, GroundSection, VehicleSection};
 use self::functions::{LimiterSection, WebbingSection};
@@ -112,13 +114,13 @@ pub type Ratio<const RANGE: usize = ANY> = Quantity<{ kind::RATIO }, RANGE>;
 type Speed<const RANGE: usize = ANY> = Quantity<{ kind::SPEED }, RANGE>;
 type Acceleration<const RANGE: usize = ANY> = Quantity<{ kind::ACCELERATION }, RANGE>;
 type Mass<const RANGE: usize = ANY> = Quantity<{ kind::MASS }, RANGE>;
-type Force<const RANGE: usize = ANY> = Quantity<{ kind::FORCE }, RANGE>;
+pub(crate) type Force<const RANGE: usize = ANY> = Quantity<{ kind::FORCE }, RANGE>;
 type Inertia<const RANGE: usize = ANY> = Quantity<{ kind::INERTIA }, RANGE>;
 type Stiffness<const RANGE: usize = ANY> = Quantity<{ kind::STIFFNESS }, RANGE>;
 type RotationalStiffness<const RANGE: usize = ANY> = Quantity<{ kind::ROTATIONAL_STIFFNESS }, RANGE>;
 type RotationalDamping<const RANGE: usize = ANY> = Quantity<{ kind::ROTATIONAL_DAMPING }, RANGE>;
 type AngularVelocity<const RANGE: usize = ANY> = Quantity<{ kind::ANGULAR_VELOCITY }, RANGE>;
-type Moment<const RANGE: usize = ANY> = Quantity<{ kind::MOMENT }, RANGE>;
+pub(crate) type Moment<const RANGE: usize = ANY> = Quantity<{ kind::MOMENT }, RANGE>;
 type MomentPerAngle2<const RANGE: usize = ANY> = Quantity<{ kind::MOMENT_PER_ANGLE_2 }, RANGE>;
 type MomentPerAngle3<const RANGE: usize = ANY> = Quantity<{ kind::MOMENT_PER_ANGLE_3 }, RANGE>;
 type Area<const RANGE: usize = ANY> = Quantity<{ kind::AREA }, RANGE>;
