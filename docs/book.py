@@ -1,9 +1,9 @@
 """Preprocessor of the book (mdBook runs it, see book.toml).
 
-Pages lie beside what they tell of: in docs/, in crates, with the scenarios. The book gives each a place of its own and
-turns the links between them. A link to a file that is no page becomes the file's name, or a link into `repository` where
-book.toml names one. A comment `<!-- occupant channels -->` is replaced by what that command prints, where the command is
-built (or named in the environment as OCCUPANT); in the repository the comment is not seen.
+Pages are next to what they describe: in docs/, in crates, with the scenarios. The book gives each page its own path and
+changes the links between them. A link to a file that is not a page becomes the file's name, or a link into `repository` if
+book.toml names one. A comment `<!-- occupant channels -->` is replaced by the output of that command, if the command is
+built (or named in the environment as OCCUPANT); in the repository the comment is invisible.
 """
 
 import json
@@ -21,13 +21,13 @@ PRINTED = re.compile(r"^<!-- occupant ([^>]*?) -->$", re.M)
 
 
 def place(page):
-    """Where a page of the repository stands in the book: its path without the folders `crates` and `docs`."""
+    """Path of a page in the book: its path in the repository without the folders `crates` and `docs`."""
     parts = page.relative_to(ROOT).parts
     return Path(*(part for part in parts if part not in ("crates", "docs")))
 
 
 def without_code(text):
-    """The text with blanks in the place of code, so that all else stays where it is."""
+    """The text with code replaced by blanks, so that positions stay the same."""
     return CODE.sub(lambda code: re.sub(r"[^\n]", " ", code.group()), text)
 
 
@@ -41,7 +41,7 @@ def with_links(text, change):
 
 
 def turned(mark, text, target, source, pages, repository):
-    """A link of a page as it stands in the book."""
+    """A link of a page as it is in the book."""
     file, _, anchor = target.partition("#")
     if not file or re.match(r"[a-z]+:", target):
         return f"{mark}[{text}]({target})"
@@ -71,7 +71,7 @@ def command():
 
 
 def printed(match, occupant):
-    """What a command prints, as a block."""
+    """The output of a command, as a block."""
     if not occupant:
         return f"`occupant {match[1]}` prints this."
     run = subprocess.run([occupant, *match[1].split()], capture_output=True, text=True, cwd=ROOT, check=True)
@@ -79,7 +79,7 @@ def printed(match, occupant):
 
 
 def untold(occupant, pages):
-    """Commands of which no page has the help."""
+    """Commands whose help is on no page."""
     words = subprocess.run([occupant, "--help"], capture_output=True, text=True, check=True).stdout
     commands = re.findall(r"^  ([a-z]+) ", words.partition("Commands:")[2].partition("Options:")[0], re.M)
     told = {match[1] for page in pages for match in PRINTED.finditer(page)}

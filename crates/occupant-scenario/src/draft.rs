@@ -18,7 +18,7 @@ use placed_text::{
 };
 
 /// Where a scenario names files.
-const FILES: [&str; 3] = ["path.file", "vehicles.*.path.file", "frames.*.path.file"];
+const FILES: [&str; 4] = ["path.file", "vehicles.*.path.file", "frames.*.path.file", "materials.*.file"];
 
 /// Whether a path leads to where a scenario names a file.
 pub fn names_file(path: &str) -> bool {

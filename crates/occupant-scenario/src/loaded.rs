@@ -4,6 +4,7 @@ use super::car::{self, Dimension};
 use super::draft::Draft;
 use super::ready::Ready;
 use super::sections::{Drives, People, Scenario, asks_for_people, setup, solve, together};
+use super::surface_files;
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
 use placed_text::{Diagnostics, Document, Format, Node, Problem, Problems, table_text, with_key};
@@ -46,8 +47,9 @@ impl Loaded {
     pub(super) fn from_draft(draft: Draft, resolver: Resolver) -> Result<Loaded, Diagnostics> {
         let ready = draft.into_ready()?;
         let mut document = ready.document();
-        let Ready { scenario, explicit, root, .. } = ready;
+        let Ready { scenario, mut explicit, root, .. } = ready;
         read_tables(&mut document, &scenario, resolver)?;
+        surface_files::lay(&mut document, &mut explicit, resolver)?;
         Ok(Loaded { scenario, explicit, document, root })
     }
 
@@ -138,11 +140,12 @@ impl Loaded {
         car::dimensions(&self.document.sources, &self.root)
     }
 
-    /// Names and texts of the tables that the scenario names, each once.
+    /// Names and texts of the tables and surface files that the scenario names, each once.
     pub fn tables(&self) -> Vec<(&str, &str)> {
         let sources = &self.document.sources;
         let mut tables: Vec<(&str, &str)> = Vec::new();
-        for file in self.scenario.paths().into_iter().filter_map(|(_, path)| path.file()) {
+        let surfaces = self.scenario.materials.values().filter_map(|material| material.file.as_deref());
+        for file in self.scenario.paths().into_iter().filter_map(|(_, path)| path.file()).chain(surfaces) {
             if let (Some(id), true) = (sources.named(file), tables.iter().all(|(name, _)| *name != file)) {
                 tables.push((file, sources.text(id)));
             }

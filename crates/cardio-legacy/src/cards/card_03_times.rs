@@ -5,7 +5,7 @@ use super::field::{Field, ONE, SECOND, field};
 use crate::rule::Rule;
 
 pub(super) fn series() -> SeriesLayout {
-    let path = "0: the vehicle path stands on series 12; else the number of stations to read from disk";
+    let path = "0: the vehicle path is on series 12; otherwise the number of stations to read from disk";
     SeriesLayout::new(3, "times and switches").first(
         3,
         "7F10.0,I10",

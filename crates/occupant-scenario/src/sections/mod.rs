@@ -38,6 +38,7 @@ mod sensors;
 mod setup;
 mod solids;
 mod stance;
+mod surface_file;
 mod surfaces;
 mod three_point;
 mod triggers;
@@ -70,7 +71,7 @@ use self::functions::{LimiterSection, WebbingSection};
 use self::joints::{JointSection, JointsSection};
 use self::many::{LooseSection, OccupantSection};
 use self::markers::MarkerSection;
-use self::materials::MaterialSection;
+pub(super) use self::materials::MaterialSection;
 use self::mount::MountSection;
 use self::muscles::MusclesSection;
 use self::path::PathSection;
@@ -82,6 +83,7 @@ use self::run::{IntegratorSection, OutputSection, TimeSection};
 use self::self_contact::SelfContactSection;
 use self::solids::SolidSection;
 use self::stance::StanceSection;
+pub(super) use self::surface_file::{Basis, SurfaceFile};
 use self::surfaces::{ContactSection, SurfaceSection};
 pub(super) use self::three_point::Side;
 use self::triggers::TriggerSection;
@@ -93,6 +95,12 @@ use super::kind::{self, UnitSystem};
 pub fn schema() -> &'static serde_json::Value {
     static SCHEMA: OnceLock<serde_json::Value> = OnceLock::new();
     SCHEMA.get_or_init(|| schema_of::<Scenario>("occupant scenario"))
+}
+
+/// The JSON Schema of a surface file.
+pub fn surface_schema() -> &'static serde_json::Value {
+    static SCHEMA: OnceLock<serde_json::Value> = OnceLock::new();
+    SCHEMA.get_or_init(|| schema_of::<SurfaceFile>("occupant surface"))
 }
 
 /// Length.
