@@ -14,7 +14,7 @@
 //!
 //! L6 of the sedan is that of the mid-size package of M. P. Reed, S. M. Ebert, J. J. Hallman: Effects of Driver Characteristics on Seat Belt Fit,
 //! Stapp Car Crash J. 57 (2013): 550 mm with H30 = 270 mm. The driver's place is that of SAE J4004. L6 of the other classes, H17, A18, W9
-//! and what is said of panel and bolster are estimates: no table was found. Knees of 36 drivers were 200 mm from the bolster in the mean, in a
+//! and what is said of panel and bolster are estimates: no table was found. Knees of drivers were 200 mm from the bolster in the mean, in a
 //! sedan, a crossover and a pickup (P. Atkinson et al., SAE 2009-01-0390).
 
 use crate::sections::{CarClass, CarSection, si_or};
