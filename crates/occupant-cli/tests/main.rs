@@ -19,5 +19,6 @@ mod records;
 mod risk;
 mod sensitivity;
 mod study;
+mod surfaces;
 mod sweep;
 mod trust;

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::depth::{greatest, integrated, measured};
 use super::law::work;
 use super::record::Record;
 use super::{Impactor, refuse};
@@ -282,34 +283,4 @@ fn median(values: &[f64]) -> Option<f64> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     sorted.get(sorted.len() / 2).copied()
-}
-
-fn greatest(depth_m: &[f64]) -> usize {
-    (0..depth_m.len()).fold(0, |most, i| if depth_m[i] > depth_m[most] { i } else { most })
-}
-
-/// Measured depths from first contact on.
-fn measured(times: &[f64], depth: &[f64], from: usize, start_s: f64) -> Vec<f64> {
-    let before = from.saturating_sub(1);
-    let last = times.len() - 1;
-    let (a, b) = (before.min(last), from.min(last));
-    let span = times[b] - times[a];
-    let share = if span > 0.0 { (start_s - times[a]) / span } else { 0.0 };
-    let zero = depth[a] + share * (depth[b] - depth[a]);
-    std::iter::once(0.0).chain(depth[from.min(depth.len())..].iter().map(|x| x - zero)).collect()
-}
-
-/// Depths of m ẍ = m g − F with straight lines between samples.
-fn integrated(times: &[f64], force_n: &[f64], impactor: &Impactor, speed: f64) -> Vec<f64> {
-    let mass = impactor.mass_kg.unwrap_or(f64::NAN);
-    let acceleration = |i: usize| impactor.gravity_m_s2 - force_n[i] / mass;
-    let (mut x, mut v) = (0.0, speed);
-    let mut depth = vec![0.0];
-    for i in 1..times.len() {
-        let (dt, a, b) = (times[i] - times[i - 1], acceleration(i - 1), acceleration(i));
-        x += dt * v + dt * dt * (a / 3.0 + b / 6.0);
-        v += 0.5 * dt * (a + b);
-        depth.push(x);
-    }
-    depth
 }

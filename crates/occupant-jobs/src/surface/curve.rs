@@ -1,7 +1,7 @@
 //! The loading curve: straight lines through as many depths as the record bears.
 
 use super::contact::Contact;
-use super::law::{Back, Law};
+use super::law::{Law, back};
 use super::{Impactor, refuse};
 use crate::base::Failure;
 
@@ -15,6 +15,8 @@ const NARROWEST: f64 = 0.02;
 const EACH: usize = 3;
 /// Differences below this part of the peak are no differences.
 const FINEST: f64 = 2e-4;
+/// Samples before the force is sure in which it may have begun.
+const NEAR: usize = 4;
 /// A start is found to this part of a sample.
 const FINE: f64 = 0.05;
 /// Shapes that are worth this much less are almost as good.
@@ -43,19 +45,11 @@ pub(super) struct Choice {
 /// Too few samples while the depth grows.
 pub(super) fn choices(impactor: &Impactor, contact: &Contact) -> Result<Vec<Choice>, Failure> {
     let (series, from) = (&contact.series, earliest(contact));
-    let times = &series.time_s;
+    // far back, and close to where the force is sure
     let mut best: Vec<Option<Choice>> = vec![None; MOST + 1];
-    let [mut low, mut high] = [times[from], times[series.begin]];
-    while high > low && high - low > FINE * (times[series.begin] - times[from]) / (series.begin - from) as f64 {
-        let step = (high - low) / TRIED as f64;
-        for i in 0..TRIED {
-            let one = Contact::from(series, impactor, low + i as f64 * step);
-            if one.turn >= EACH {
-                grown(&one, from).into_iter().for_each(|choice| keep(&mut best, choice));
-            }
-        }
-        let middle = first_of(&best).map_or(high, |choice| choice.contact.time_s[0]);
-        (low, high) = ((middle - step).max(times[from]), (middle + step).min(times[series.begin]));
+    for from in [from, series.begin.saturating_sub(NEAR)] {
+        let found = searched(impactor, contact, from);
+        found.into_iter().flatten().for_each(|choice| keep(&mut best, choice));
     }
     let Some(first) = first_of(&best).cloned() else {
         return Err(refuse("no line fits the record while the depth grows", "give a record with a higher rate"));
@@ -65,6 +59,26 @@ pub(super) fn choices(impactor: &Impactor, contact: &Contact) -> Result<Vec<Choi
     all.sort_by(|a, b| a.worth.total_cmp(&b.worth));
     all.iter_mut().for_each(|choice| choice.contact.caveats.clone_from(&caveats));
     Ok(all)
+}
+
+/// The best choices of each number of lines that begin behind a sample, by ever smaller steps.
+fn searched(impactor: &Impactor, contact: &Contact, from: usize) -> Vec<Option<Choice>> {
+    let series = &contact.series;
+    let times = &series.time_s;
+    let mut best: Vec<Option<Choice>> = vec![None; MOST + 1];
+    let [mut low, mut high] = [times[from], times[series.begin]];
+    while high > low && high - low > FINE * (times[series.begin] - times[from]) / (series.begin - from) as f64 {
+        let step = (high - low) / TRIED as f64;
+        for i in 0..TRIED {
+            let one = Contact::from(series, impactor, low + i as f64 * step);
+            if one.turn >= EACH {
+                grown(&one, earliest(contact)).into_iter().for_each(|choice| keep(&mut best, choice));
+            }
+        }
+        let middle = first_of(&best).map_or(high, |choice| choice.contact.time_s[0]);
+        (low, high) = ((middle - step).max(times[from]), (middle + step).min(times[series.begin]));
+    }
+    best
 }
 
 fn first_of(best: &[Option<Choice>]) -> Option<&Choice> {
@@ -265,27 +279,4 @@ fn level(force: Vec<f64>) -> Vec<f64> {
         }
     }
     pools.into_iter().flat_map(|(f, n)| std::iter::repeat_n(f, n)).collect()
-}
-
-/// The way back that returns the work that came back: by a share or by a slope, whichever is nearer to the samples.
-fn back(law: &Law, contact: &Contact, falls: bool) -> Back {
-    let [taken, returned] = contact.works();
-    let share = Back::Share((returned / taken).clamp(0.01, 1.0));
-    let top = law.points.last().map_or(0.0, |point| point[1]);
-    let slope = 0.5 * top * top / returned.max(1e-3 * taken);
-    let steepest = law.steepest();
-    if falls {
-        return Back::Slope(slope.max(1.001 * steepest));
-    }
-    if slope < 1.001 * steepest {
-        return share;
-    }
-    let off = |back: Back| {
-        let law = Law { back: Some(back), ..law.clone() };
-        let own = law.along(&contact.depth_m);
-        let after = own.iter().zip(&contact.force_n).skip(contact.turn);
-        after.map(|(a, b)| (a - b).powi(2)).sum::<f64>()
-    };
-    // of equals the one that needs no second number
-    if off(Back::Slope(slope)) < 0.8 * off(share) { Back::Slope(slope) } else { share }
 }

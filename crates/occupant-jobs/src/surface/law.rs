@@ -112,3 +112,26 @@ pub(super) fn agreement(law: &Law, contact: &Contact, rows: &[[f64; 2]]) -> Agre
 pub(super) fn work(depth_m: &[f64], force_n: &[f64]) -> f64 {
     depth_m.windows(2).zip(force_n.windows(2)).map(|(x, f)| 0.5 * (f[0] + f[1]) * (x[1] - x[0])).sum()
 }
+
+/// The way back that returns the work that came back: by a share or by a slope, whichever is nearer to the samples.
+pub(super) fn back(law: &Law, contact: &Contact, falls: bool) -> Back {
+    let [taken, returned] = contact.works();
+    let share = Back::Share((returned / taken).clamp(0.01, 1.0));
+    let top = law.points.last().map_or(0.0, |point| point[1]);
+    let slope = 0.5 * top * top / returned.max(1e-3 * taken);
+    let steepest = law.steepest();
+    if falls {
+        return Back::Slope(slope.max(1.001 * steepest));
+    }
+    if slope < 1.001 * steepest {
+        return share;
+    }
+    let off = |back: Back| {
+        let law = Law { back: Some(back), ..law.clone() };
+        let own = law.along(&contact.depth_m);
+        let after = own.iter().zip(&contact.force_n).skip(contact.turn);
+        after.map(|(a, b)| (a - b).powi(2)).sum::<f64>()
+    };
+    // of equals the one that needs no second number
+    if off(Back::Slope(slope)) < 0.8 * off(share) { Back::Slope(slope) } else { share }
+}

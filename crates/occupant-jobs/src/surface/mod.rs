@@ -10,6 +10,7 @@
 mod certainty;
 mod contact;
 mod curve;
+mod depth;
 mod law;
 mod record;
 mod text;
