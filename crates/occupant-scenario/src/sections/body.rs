@@ -1,4 +1,4 @@
-//! `[body]`: its keys, and the [`Body`] they come to.
+//! `[body]`: its keys, converted to a [`Body`].
 
 use indexmap::IndexMap;
 use nalgebra::{Point3, UnitQuaternion, Vector2, Vector3};

@@ -5,7 +5,7 @@ use super::sensors::{COLUMNS, RECORDED};
 use occupant_core::vehicle::AccelerationRecord;
 use placed_text::{Diagnostic, Diagnostics, Problem, Separator, Sources, Span, table_text};
 
-/// Recorded accelerations and rates in SI, as the file's axes have them, with the places of its lines.
+/// Recorded accelerations and rates in SI, in the file's axes, with the positions of its lines.
 #[derive(Clone, Debug)]
 pub struct RecordFile {
     /// The record.
