@@ -1,7 +1,7 @@
-//! The occupant's body: rigid segments, the tree that their joints make of them, and the spheres that can touch things.
+//! The occupant's body: rigid segments, the tree of their joints, and their contact spheres.
 //!
-//! Report: "Body Geometry and Coordinate Systems", Figs 1 and 5. Segment axes are X ahead, Y to the
-//! occupant's left and Z up when the occupant stands upright with hanging arms; they are principal axes.
+//! Report: "Body Geometry and Coordinate Systems", Figs 1 and 5. Segment axes are X forward, Y to the occupant's left
+//! and Z up when the occupant stands upright with hanging arms; they are principal axes.
 
 mod mounted;
 pub mod named;

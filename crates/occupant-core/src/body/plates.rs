@@ -1,4 +1,4 @@
-//! Parts of the trunk that give way: point masses on slides, and what rides on them.
+//! Deformable parts of the trunk: point masses on slides, and what rides on them.
 
 use nalgebra::{Point3, Vector3};
 

@@ -1,8 +1,8 @@
-//! What a body is made of, as one table: segments, the joints that hold them together, and the spheres round them.
+//! The structure of a body as one table: segments, their joints, and their spheres.
 //!
-//! Everything that depends on the order or the topology of a body is derived from its [`Tree`]: what the kernel loops over
-//! ([`crate::motion::layout`]), the report's coordinates, names in scenarios and results. Nothing here knows a number of
-//! kilograms or metres; those are a [`super::Body`].
+//! Everything that depends on the order or the topology of a body is derived from its [`Tree`]: the loops of the kernel
+//! ([`crate::motion::layout`]), the report's coordinates, names in scenarios and results. It contains no masses or
+//! lengths; those are in [`super::Body`].
 
 use std::collections::BTreeSet;
 use std::ops::Index;

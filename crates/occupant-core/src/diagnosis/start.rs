@@ -1,4 +1,4 @@
-//! Where things stand at the start: seat, contacts, other force elements.
+//! The initial state: seat, contacts, other force elements.
 
 use crate::forces::table::InOrder;
 use serde::Serialize;

@@ -1,4 +1,4 @@
-//! What a kind of force element owes the rest of the simulator.
+//! The interface of a kind of force element.
 
 use std::fmt::Debug;
 

@@ -1,4 +1,4 @@
-//! What a kind of force element gives to results: its quantities, peaks, tables, events, and what pictures draw of it.
+//! Results of a kind of force element: quantities, peaks, tables, events, and drawing data.
 
 use std::marker::PhantomData;
 

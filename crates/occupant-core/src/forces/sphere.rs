@@ -1,4 +1,4 @@
-//! The spheres of the body as the kernel sees them: what surfaces press on and belts go round.
+//! The spheres of the body in the kernel: surfaces press on them, and belts go round them.
 
 use crate::body::{Body, ContactSphere, Shares};
 use crate::motion::kinematics::Kinematics;

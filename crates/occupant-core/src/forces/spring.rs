@@ -1,10 +1,10 @@
 //! The bilinear dissipative spring of contacts and webbing: data and law.
 //!
-//! Report: Fig. 16 is lost; the curve is our decision. With Δ_m the greatest deformation so far (the present one counts),
-//! a = min(Δ_m, Δ_b), b = max(Δ_m − Δ_b, 0) and e = Δ − Δ_m + μ₁a + μ₂b:
+//! Report: Fig. 16 is lost; the curve is our decision. With Δ_m the largest deformation so far (including the present
+//! one), a = min(Δ_m, Δ_b), b = max(Δ_m − Δ_b, 0) and e = Δ − Δ_m + μ₁a + μ₂b:
 //!
 //! - F = (K₁/μ₁) e for 0 < e ≤ μ₁a, then slope K₂/μ₂: the unloading line, which meets the loading curve at Δ_m;
-//! - U = ∫F de, the energy that unloading gives back: exactly μ₁ of what range 1 took and μ₂ of what range 2 took.
+//! - U = ∫F de, the energy that unloading returns: exactly μ₁ of the work of range 1 and μ₂ of that of range 2.
 //!
 //! Loading is the case Δ = Δ_m of the same formula. K₁ = 0 is a gap: no force up to Δ_b, whatever μ₁ is.
 

@@ -1,4 +1,4 @@
-//! How what a run carries on goes to a result file and comes back: said once for both ways.
+//! Conversion of a run's memory to and from a result file, defined once for both directions.
 
 use crate::quantity::{FieldWords, Value};
 

@@ -1,4 +1,4 @@
-//! What the instruments of a dummy read at an evaluation: of every accepted step, in lanes as alone.
+//! Readings of a dummy's instruments at an evaluation: at every accepted step, in lanes and alone.
 
 use crate::body::tree::{BodyRow, JointRow};
 use crate::body::{Body, Limb, Segment};

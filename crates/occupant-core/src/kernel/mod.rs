@@ -1,6 +1,6 @@
 //! The derivative kernel: from a state to its rate of change.
 //!
-//! One evaluation reads as the report's method: places and velocities of the segments, loads from force elements,
+//! One evaluation follows the report's method: positions and velocities of the segments, loads from force elements,
 //! then the accelerations of the tree. It allocates nothing, and is written once over `Scalar`.
 //!
 //! Results that are not integrated (which surface is touched, how strongly) go to an [`Observer`]; the unit observer `()`

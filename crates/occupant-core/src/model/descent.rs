@@ -1,8 +1,8 @@
-//! Going down in potential energy to where a body rests: Newton's method, shifted so that it goes downhill.
+//! Descent in potential energy to where a body rests: Newton's method, shifted so that it descends.
 //!
 //! (H + λ1) δ = −g,   g = ∂V/∂x, H its differences, made symmetric
 //!
-//! A step is taken where V falls, ½(g + g′)·δ < 0.
+//! A step is accepted if V falls, ½(g + g′)·δ < 0.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -1,10 +1,11 @@
-//! Settling: the seated body moves as one piece until contacts and belts carry it. What is `limp` gives way in
-//! its joints too.
+//! Settling: the seated body moves as one piece until contacts and belts carry it. With `limp` its joints are released
+//! too.
 //!
-//! Our decision (the report has none): joints locked, posture kept; the six freedoms of the rigid body are found by a
-//! damped quasi-Newton iteration on the resultant force and moment of contacts, belts and weight, every contact on its loading
-//! curve, at rest relative to the vehicle. Directions that nothing resists are left alone; what friction holds stays. Where that
-//! finds no rest, since the feet do not reach the floor yet, say, the body goes down in potential energy until something carries it.
+//! Our decision (the report has none): joints locked, posture kept; the six degrees of freedom of the rigid body are
+//! found by a damped quasi-Newton iteration on the resultant force and moment of contacts, belts and weight, every
+//! contact on its loading curve, at rest relative to the vehicle. Directions without resistance, and those that
+//! friction holds, stay unchanged. If this finds no rest, for example because the feet do not yet reach the floor, the
+//! body descends in potential energy until something carries it.
 
 use nalgebra::{DVector, Matrix3, Matrix6, Vector3, Vector6};
 use serde::{Serialize, Serializer};

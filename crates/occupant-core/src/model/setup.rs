@@ -1,4 +1,4 @@
-//! Everything a run needs, as plain SI data: what a scenario says once its words are numbers.
+//! Everything that a run needs, as plain SI data: the content of a scenario as numbers.
 //!
 //! [`SetupBuilder`] puts one together in code. A `Setup` may still be wrong; [`crate::model::Model::new`] checks it and reports every problem at once.
 

@@ -1,4 +1,5 @@
-//! Several bodies in one run: each begins as it would alone, then all are one model whose kernel goes from tree to tree.
+//! Several bodies in one run: each starts as it would alone, then all are one model whose kernel goes from tree to
+//! tree.
 
 use crate::body::{Body, called};
 use crate::forces::belt::Belt;

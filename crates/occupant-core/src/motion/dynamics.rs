@@ -1,8 +1,8 @@
 //! Equations of motion: D·u̇ = E + F_p + F_s + Q_f + R (Eq. 53) solved by one sweep in and one sweep out of the tree.
 //!
-//! Seen from its joint a subtree is a few small matrices and vectors: what force and moment it needs there for an
-//! acceleration of the joint. `articulated` finds them for any tree, `closed` for that of the report. Gravity
-//! is uniform: it only shifts every acceleration, and is added at the end. The result is the report's.
+//! At its joint a subtree is represented by a few small matrices and vectors: the force and moment that it requires
+//! there for an acceleration of the joint. `articulated` computes them for any tree, `closed` for that of the report.
+//! Gravity is uniform: it only shifts every acceleration, and is added at the end. The result is the report's.
 
 use crate::motion::frame::{Frames, Moving};
 use crate::motion::kinematics::Kinematics;

@@ -1,6 +1,6 @@
-//! What the kernel loops over: how the segments of a tree hang on each other, and where the numbers of each stand in a state.
+//! The loops of the kernel: parents of the segments of a tree, and the positions of their numbers in a state.
 //!
-//! Segments are indices here; a segment's joint is the one that carries it. A segment stands after the one that carries it.
+//! Segments are indices here; a segment's joint is the one that carries it. A segment comes after its parent.
 
 use crate::body::tree::{JointKind, JointRow, Tree};
 

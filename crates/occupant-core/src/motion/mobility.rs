@@ -1,7 +1,7 @@
-//! How easily the body gives way: accelerations for unit loads in the posture at the start.
+//! Mobility of the body: accelerations for unit loads in the initial posture.
 //!
 //! The equations of motion are linear in the loads, so the difference of two solutions is the exact response; at rest
-//! no velocity term is in the way. Ours; the report has no such estimate.
+//! there is no velocity term. Ours; the report has no such estimate.
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 

@@ -1,8 +1,8 @@
-//! What is integrated: place, orientations, hinge angles, their speeds, and the work sums of the energy ledger.
+//! The integrated state: position, orientations, hinge angles, their speeds, and the work sums of the energy ledger.
 //!
-//! Report: Eqs 8, 13–26 for the place of a segment; the state itself is ours, because Euler angles are singular for an
-//! upright torso. It is one row of numbers, of which a [`Shape`] says what stands where. A rate of change has the same
-//! shape, so that Runge–Kutta stages are sums of rows.
+//! Report: Eqs 8, 13–26 for the position of a segment; the state itself is ours, because Euler angles are singular for
+//! an upright torso. It is one row of numbers; a [`Shape`] describes its layout. A rate of change has the same shape,
+//! so that Runge–Kutta stages are sums of rows.
 
 use std::array::from_fn;
 

@@ -1,7 +1,7 @@
-//! All that a run carries from one output to the next, as plain data: a run that goes on from there gives the same bits as
-//! one that was never interrupted.
+//! The complete memory of a run at an output, as plain data: a run resumed from it gives the same bits as an
+//! uninterrupted one.
 //!
-//! What follows from the scenario alone (β₀, L₀, the body at the start) is not in it: the model has it.
+//! It omits what follows from the scenario alone (β₀, L₀, the initial body): the model has it.
 
 use crate::forces::stored::Archive;
 use crate::forces::{Forces, History, Memory, Misfit, STORED};

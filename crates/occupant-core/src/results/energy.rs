@@ -1,8 +1,8 @@
 //! The energy ledger: every joule of the occupant accounted for at each output.
 //!
 //! Kinetic, gravity and stored energies are functions of the state; work sums are integrated with the integrator's own
-//! weights. With W_v the work of the moving vehicle on the occupant, kinetic + gravity + what is stored without a work
-//! sum + Σ work sums − W_v stays what it was at the start.
+//! weights. With W_v the work of the moving vehicle on the occupant, kinetic + gravity + stored energy without a work
+//! sum + Σ work sums − W_v is constant.
 
 use std::ops::Range;
 

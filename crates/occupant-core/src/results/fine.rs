@@ -1,8 +1,8 @@
-//! Readings of the instruments at equal times, however seldom a run is recorded: what measures with windows are made of.
+//! Readings of the instruments at equal times, independent of the output interval; measures with windows use them.
 //!
-//! Steps are read at their ends, 10 to 20 thousand times a second where a body touches anything, and lie on straight lines
-//! between. Numbers of steps have the precision of an `f32`, in a run as in its file; those of outputs alone, from which
-//! derivatives are made, are whole.
+//! Instruments are read at the ends of steps, 10 to 20 thousand times a second during contact, and are linear in
+//! between. Values at steps have the precision of an `f32`, in a run as in its file; values at outputs, from which
+//! derivatives are made, have full precision.
 
 use crate::kernel::instruments::{CHEST, CHEST_POINTS, PLACE, REAR, Reading};
 use crate::model::Model;

@@ -1,4 +1,4 @@
-//! How a run ended: its outcome, first touches, and the errors that say when, where and why.
+//! How a run ended: its outcome, first contacts, and errors with time, place and reason.
 
 use crate::results::checkpoint::CheckpointError;
 use crate::results::energy::EnergyCheck;

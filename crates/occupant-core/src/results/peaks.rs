@@ -1,5 +1,5 @@
-//! Greatest values of a run with their times, at its accepted steps: they see what happens between its outputs, and how often a
-//! run is recorded makes no difference to them.
+//! Peak values of a run with their times, at its accepted steps: they include what happens between outputs and do not
+//! depend on the output interval.
 
 use crate::results::summary::Peak;
 

@@ -1,4 +1,4 @@
-//! Where the results of a run go.
+//! Receivers of the results of a run.
 
 use crate::model::Model;
 use crate::results::outcome::Outcome;

@@ -1,4 +1,4 @@
-//! What a run tells at one output time (report, "Output", items 1–7), computed when asked for.
+//! Results of a run at one output time (report, "Output", items 1–7), computed on request.
 
 use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
 

@@ -1,4 +1,4 @@
-//! What happened to force elements in a run, as plain numbers: words are told by their places.
+//! Events of force elements in a run, as plain numbers: texts are given by their indices.
 
 use super::sample::Switched;
 use crate::forces::{Forces, Listed, Visitor, visit_kinds};

@@ -1,4 +1,4 @@
-//! A run in one's own hands.
+//! A run that a program steps itself.
 
 use std::fmt;
 use std::ops::Deref;

@@ -1,4 +1,4 @@
-//! What can go wrong with a run that is stepped from outside.
+//! Errors of a run that a program steps itself.
 
 use crate::results::checkpoint::CheckpointError;
 use crate::results::outcome::{RecordingFailed, StepError};

@@ -1,7 +1,7 @@
 //! The integration under error control, which runs ahead of the outputs.
 //!
-//! It stands at the end of its latest step. Outputs within that step are read off its course and change nothing: how often
-//! a run is recorded, and when it ends, makes no difference to its motion.
+//! It is at the end of its latest step. Outputs within that step are interpolated and change nothing: neither the
+//! output interval nor the end of the run affects the motion.
 
 use std::mem::swap;
 

@@ -1,4 +1,4 @@
-//! What a run is changed by from outside: impulses, other states.
+//! External changes of a run: impulses, other states.
 
 use nalgebra::{Point3, Vector3};
 

@@ -1,4 +1,4 @@
-//! What a run watches in evaluations: what touches, what force elements do, what instruments read.
+//! Observers of evaluations: contacts, force elements, instruments.
 
 use crate::forces::Actions;
 use crate::forces::contact::{PairHistory, Touch};

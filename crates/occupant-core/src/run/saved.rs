@@ -1,4 +1,4 @@
-//! A run as bytes: to be put away and taken up again, in another process or on another machine.
+//! A run as bytes: to be saved and resumed, in another process or on another machine.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! A run from start to end: steps, exact output times, first touches.
+//! A run from start to end: steps, exact output times, first contacts.
 
 use crate::model::Model;
 use crate::results::checkpoint::Checkpoint;

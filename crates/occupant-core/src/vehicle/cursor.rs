@@ -1,4 +1,4 @@
-//! Where in a path's list of pieces the last question was answered.
+//! The piece of a path that answered the last query.
 
 use super::live::LiveFrames;
 

@@ -1,14 +1,14 @@
-//! A vehicle that is told how it moves while the run goes on, frame by frame: by a driving simulator, a game, a controller. Ours.
+//! A vehicle whose motion is given frame by frame during the run: by a driving simulator, a game, a controller. Ours.
 //!
-//! Within a frame of length T place and turn are cubics in the time τ since its start, the turn as a rotation vector φ away
-//! from the attitude there:
+//! Within a frame of length T, position and rotation are cubics in the time τ since its start, the rotation as a
+//! rotation vector φ from the attitude there:
 //!
 //! ```text
 //! R(τ) = exp([φ(τ)]) R(0)        ω = φ̇ + A φ×φ̇ + B φ×(φ×φ̇)        A = (1 − cos θ)/θ²    B = (θ − sin θ)/θ³    θ = |φ|
 //! ```
 //!
-//! so that place, attitude and both velocities are continuous from frame to frame, and every velocity is the derivative of
-//! its place. Accelerations jump where frames meet: error control ends a step there.
+//! so that position, attitude and both velocities are continuous from frame to frame, and every velocity is the
+//! derivative of its position. Accelerations jump between frames: error control ends a step there.
 
 use nalgebra::{Matrix3, Vector3};
 use occupant_units::trig;

@@ -1,8 +1,8 @@
 //! Where the vehicle is and how it moves (report, "The Path of the Vehicle in Space", Eqs 78 to 83).
 //!
-//! The occupant feels the vehicle only through the places and velocities of its surfaces and belt anchors, so the path
-//! is prescribed: the occupant never pushes the vehicle. A [`VehiclePath`] is built once, checked while it is
-//! built, and then asked at every stage of every integration step for a [`FrameMotion`] in space axes.
+//! The path is prescribed: the occupant never pushes the vehicle, which acts only through the positions and velocities
+//! of its surfaces and belt anchors. A [`VehiclePath`] is built and checked once. At every stage of every integration
+//! step it gives a [`FrameMotion`] in space axes.
 //!
 //! - [`TablePath`]: stations in time, read linearly ([`Interpolation::Linear`], the report's way) or by natural cubic
 //!   splines (ours);
@@ -12,10 +12,10 @@
 //! - [`FixedPath`]: a frame at rest, such as a vehicle in a free fall test (ours);
 //! - [`DrivenPath`]: a vehicle that was driven on a road and beside it, by `vehicle_motion` (ours);
 //! - [`OwnPath`]: a program's own vehicle model, any [`VehicleMotion`] (ours);
-//! - [`LivePath`]: a vehicle that a run is told of frame by frame, by [`VehicleInput`]s (ours).
+//! - [`LivePath`]: a vehicle whose motion is given frame by frame, by [`VehicleInput`]s (ours).
 //!
-//! Input is in the report's vehicle-space axes X′_v forward, Y′_v right, Z′_v down, with roll, pitch and yaw; output is in
-//! space axes X′ forward, Y′ left, Z′ up. F = diag(1, −1, −1) leads from one to the other (Eq. 81).
+//! Input is in the report's vehicle-space axes X′_v forward, Y′_v right, Z′_v down, with roll, pitch and yaw; output is
+//! in space axes X′ forward, Y′ left, Z′ up. F = diag(1, −1, −1) converts one to the other (Eq. 81).
 //!
 //! Departures from the report, all ours: velocities come from differentiating the interpolant; the path is evaluated at
 //! the integrator's stage times where the report moves the vehicle once a step; a linear table keeps the velocity of

@@ -1,9 +1,9 @@
 //! A vehicle that travels straight on with a fixed attitude and is slowed by a deceleration pulse. All of it is ours; the
 //! report knows only tables.
 //!
-//! Before the pulse the speed is the initial one, after it the last one. A pulse stronger than the initial speed brings the
-//! vehicle to rest, exactly, and there it stays, whatever the pulse would still do; where a rebound is given the
-//! speed goes on falling to minus the rebound and stays there.
+//! Before the pulse the speed is the initial one, after it the last one. A pulse stronger than the initial speed brings
+//! the vehicle to rest, exactly, and it stays there for the rest of the pulse. With a rebound the speed continues to
+//! fall to minus the rebound and stays there.
 
 mod crossing;
 mod profile;

@@ -2,15 +2,14 @@
 //! (strapdown integration), or the velocity change of an event data recorder. All of it is ours; the report knows
 //! only tables.
 //!
-//! The sensors stand at r from the c.g. Their own motion is integrated, and the c.g. follows from it without
-//! any derivative of the rates:
+//! The sensors are at r from the c.g. Their own motion is integrated, and the c.g. follows from it without any
+//! derivative of the rates:
 //!
 //! ```text
 //! X_cg = X_s − A r,   v_cg = v_s − ω × A r,   a_cg = a_s − ω̇ × A r − ω × (ω × A r)
 //! ```
 //!
-//! Between samples the rates are straight lines, and so are recorded accelerations; [`strapdown`] says how they are
-//! integrated.
+//! Between samples the rates are straight lines, and so are recorded accelerations; [`strapdown`] integrates them.
 
 mod baseline;
 mod delta_v;

@@ -1,4 +1,4 @@
-//! Stations of a table: the vehicle's place and attitude at given times, and what can be wrong with them.
+//! Stations of a table: the vehicle's position and attitude at given times, and their checks.
 
 use std::f64::consts::PI;
 

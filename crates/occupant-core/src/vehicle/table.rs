@@ -1,4 +1,4 @@
-//! A vehicle path given by stations in time: the report's tabular record (its POSVEH), and the smooth one.
+//! A vehicle path given by stations in time: the report's tabular record (its POSVEH), or a smooth one.
 
 use nalgebra::{Vector3, Vector6};
 use serde::{Deserialize, Serialize};

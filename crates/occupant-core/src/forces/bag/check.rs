@@ -1,4 +1,4 @@
-//! What is wrong with a bag: with its data, and with where the body is at the start.
+//! Checks of a bag: its data, and the initial position of the body.
 
 use super::data::{Bag, FOLDED, Gas, Inflator, Leakage, Shape};
 use super::{BagLaw, MOST_SPHERES, MOST_VENTS};

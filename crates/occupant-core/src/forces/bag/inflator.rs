@@ -1,4 +1,4 @@
-//! What blows gas into a bag and what lets it out: inflators, vents, fabric.
+//! Sources and outlets of a bag's gas: inflators, vents, fabric.
 
 use super::data::{Bag, Inflator, Leakage, Vent};
 use super::gas::{GasLaw, Mixture};

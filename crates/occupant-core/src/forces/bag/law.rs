@@ -1,6 +1,6 @@
 //! The gas of a bag at one instant, and its balance.
 //!
-//! It has one pressure and temperature. With E = U + p_aV of `gas` and V̇_free of `envelope`
+//! The gas has one pressure and temperature. With E = U + p_aV of `gas` and V̇_free of `envelope`
 //!
 //! ```text
 //! Ė = Σ ṁ_in h(T_in) − ṁ_out h(T) − q A_f (T − T_a) − (p − p_a) V̇_free

@@ -1,4 +1,4 @@
-//! What a bag remembers between steps: plain numbers that change only at accepted steps.
+//! Memory of a bag between steps: plain numbers that change only at accepted steps.
 
 use super::{MOST_SPHERES, MOST_VENTS};
 use crate::motion::scalar::Scalar;

@@ -1,4 +1,4 @@
-//! What is wrong with belts: with their data, and with how they lie at the start.
+//! Checks of belts: their data and their initial course.
 
 use crate::body::Body;
 use crate::forces::belt::law::BeltLaw;

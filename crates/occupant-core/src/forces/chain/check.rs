@@ -1,4 +1,4 @@
-//! What is wrong with belts over several nodes: with their data, and with how they lie at the start.
+//! Checks of belts over several nodes: their data and their initial course.
 
 use super::data::{Chain, Cue, NEVER, Node, Rest, Site, Stroke, Track};
 use super::law::Lies;

@@ -1,4 +1,4 @@
-//! What sets a device of a belt off: a time known before the run, or something that the belt watches at accepted steps.
+//! Conditions that fire a device of a belt: a time known before the run, or a quantity of the belt at accepted steps.
 
 use super::data::{Cue, NEVER, Watched};
 use crate::forces::element::passes;

@@ -1,8 +1,8 @@
-//! What holds the first node of a belt: an anchor, a limiter, or a spool with its phases.
+//! The device at the first node of a belt: an anchor, a limiter, or a spool with its phases.
 //!
-//! The march has one unknown x at the first node: its tension T₀ where the spool is held, the deformation δ of the limiter
-//! (T₀ = Q(δ), p = p_L + δ), or the webbing Δp that has left since the last commit where the tension is given. Webbing fed
-//! and tension never fall with x.
+//! The march has one unknown x at the first node: its tension T₀ if the spool is fixed, the deformation δ of the
+//! limiter (T₀ = Q(δ), p = p_L + δ), or the webbing Δp that has left since the last commit if the tension is given.
+//! Webbing fed and tension never fall with x.
 
 use std::array::from_fn;
 

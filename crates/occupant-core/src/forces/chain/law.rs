@@ -1,4 +1,4 @@
-//! A chain at one instant: its places, its tensions, and what it remembers of an accepted step.
+//! A chain at one instant: its positions, its tensions, and its memory of an accepted step.
 
 use super::MOST_NODES;
 use super::data::Chain;
@@ -31,7 +31,7 @@ pub(super) struct Lies<S> {
     pub(super) course: Course<S>,
 }
 
-/// A chain at one instant.
+/// A chain at one instant: its positions, its tensions, and its memory of an accepted step.
 pub(super) struct Now<'a, S: Scalar> {
     pub(super) lies: &'a Lies<S>,
     pub(super) taut: Taut<'a, S>,

@@ -1,4 +1,4 @@
-//! Tensions of a chain: one number at the first node gives all of them.
+//! Tensions of a chain: one number at the first node determines all of them.
 //!
 //! From x at the first node follow T₀ and Δs₀ = Δp ([`super::device`]); along the straps N_i = ℓ_i/(1 + ε_i(T_i)),
 //! Δs_{i+1} = Δs_i + N_iᶜ − N_i, and T_{i+1} = T_i exp(μθ z) with z = clamp(zᶜ + Δs/x_s, −1, 1): Coulomb friction with a play

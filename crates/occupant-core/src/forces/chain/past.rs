@@ -1,4 +1,4 @@
-//! What a chain remembers between steps: plain numbers that change only at accepted steps.
+//! Memory of a chain between steps: plain numbers that change only at accepted steps.
 
 use super::MOST_NODES;
 use super::data::NEVER;
@@ -136,7 +136,7 @@ numbers! {
     }
 }
 
-/// What a chain remembers. Nodes beyond its own are 0.
+/// Memory of a chain between steps: plain numbers that change only at accepted steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChainPast<S> {
     pub(super) device: DevicePast<S>,

@@ -1,4 +1,4 @@
-//! Nodes of a chain: where they are, how they slide or are pulled, and when the webbing comes out of them.
+//! Nodes of a chain: positions, sliding, pulling, and release of the webbing.
 
 use super::data::{NEVER, Next, Node, Site, Stroke, Track, Wing};
 use super::past::{DevicePast, NodePast, STALLED};

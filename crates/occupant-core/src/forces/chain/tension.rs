@@ -1,7 +1,7 @@
-//! Straps with given lengths: their tensions, and what they and the device at the first node remember.
+//! Straps with given lengths: their tensions, and the memory of straps and first node.
 //!
-//! A metre of unstretched webbing carries P = T(1 + ε) − w away from a strap, w its recoverable energy. What is lost where
-//! webbing passes is the difference of P on both sides times what passes.
+//! A metre of unstretched webbing carries P = T(1 + ε) − w away from a strap, w its recoverable energy. The loss where
+//! webbing passes is the difference of P on both sides times the webbing that passes.
 
 use super::MOST_NODES;
 use super::data::{Chain, NEVER, Rest};

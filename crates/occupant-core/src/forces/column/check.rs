@@ -1,4 +1,4 @@
-//! What is wrong with a column by itself.
+//! Checks of a column.
 
 use super::data::Column;
 use crate::forces::function::Goes;

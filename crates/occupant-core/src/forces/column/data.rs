@@ -1,4 +1,4 @@
-//! A frame that gives way along an axis or about one, as data.
+//! A frame that yields along an axis or about one, as data.
 
 use nalgebra::{Point3, Vector3};
 

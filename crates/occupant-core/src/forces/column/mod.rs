@@ -1,8 +1,8 @@
-//! Frames that give way: one with a mass, which bodies and bags push along an axis, a steering column, or about one, a hinge.
+//! Yielding frames with a mass, which bodies and bags push along an axis (a steering column) or about one (a hinge).
 //!
-//! The state owns place and speed of each (`law`), and the work that it takes up. A column carries its frame before anything
-//! acts on it; what pushes that frame is gathered by body (`Load::push`) and acts on the column after all others. What it
-//! remembers (`past`) is its greatest stroke, which stays.
+//! The state contains position and speed of each (`law`), and its absorbed work. A column moves its frame before any
+//! force is computed; forces on that frame are gathered by body (`Load::push`) and act on the column after all others.
+//! Its memory (`past`) is its largest stroke, which stays.
 
 mod check;
 mod data;

@@ -1,8 +1,8 @@
-//! What a column remembers between steps.
+//! Memory of a column between steps.
 
 use crate::motion::scalar::Scalar;
 
-/// What a column remembers.
+/// Memory of a column between steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ColumnPast<S> {
     /// x_m, the greatest stroke, m.

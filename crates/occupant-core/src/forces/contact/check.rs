@@ -1,4 +1,4 @@
-//! What is wrong with materials and surfaces by themselves.
+//! Checks of materials and surfaces.
 
 use std::collections::HashMap;
 

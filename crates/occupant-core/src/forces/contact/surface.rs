@@ -1,7 +1,7 @@
 //! Bounded plane surfaces of the compartment and of the surroundings, as data.
 //!
-//! Report: "The Idealized Passenger Compartment". The report's planes have no edges in print; bounded faces
-//! are our decision (see the theory manual).
+//! Report: "The Idealized Passenger Compartment". The report prints no edges of its planes; bounded faces are our
+//! decision (see the theory manual).
 
 use nalgebra::{Point3, Vector3};
 use occupant_units::trig;

@@ -1,4 +1,4 @@
-//! Cubics of which curves are made: c₀ + c₁s + c₂s² + c₃s³ in s = x − x₀.
+//! Cubic pieces of curves: c₀ + c₁s + c₂s² + c₃s³ in s = x − x₀.
 
 use crate::motion::scalar::Scalar;
 

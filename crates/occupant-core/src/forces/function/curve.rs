@@ -1,8 +1,8 @@
-//! A loading curve with its way back by stretch.
+//! A loading curve with unloading by stretch.
 //!
-//! Loading follows f. Unloading returns the share μ of what each interval took: with M(x) = ∫₀ˣ μ the force at x after a
-//! greatest x_m is f(x*), M(x*) = M(x_m) − (x_m − x), and 0 where the right side is negative; loading again goes back the same
-//! way. ∫₀^{x*} μ f is recoverable. With two intervals this is the spring of contacts ([`crate::forces::spring`]). What is lost,
+//! Loading follows f. Unloading returns the share μ of each interval's work: with M(x) = ∫₀ˣ μ the force at x after a
+//! maximum x_m is f(x*), M(x*) = M(x_m) − (x_m − x), and 0 where the right side is negative; reloading retraces it.
+//! ∫₀^{x*} μ f is recoverable. With two intervals this is the spring of contacts ([`crate::forces::spring`]). The loss,
 //! ∫(1 − μ) f up to x_m, never falls.
 
 use super::cubic::Cubic;

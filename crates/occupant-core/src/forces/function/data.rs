@@ -1,4 +1,4 @@
-//! Force functions as data, and what can be wrong with them by themselves.
+//! Force functions as data, and their checks.
 
 use serde::{Deserialize, Serialize};
 

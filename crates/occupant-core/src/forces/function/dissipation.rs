@@ -1,8 +1,8 @@
-//! What can be wrong with a force–deflection law: a curve that a way back cannot follow, or one that makes energy.
+//! Checks of a force–deflection law: a curve that unloading cannot follow, or one that creates energy.
 //!
-//! What is lost up to δ_m, D = ∫f + ∫s − U(δ_m), must not fall with δ_m; everything else is reversible. By stretch
-//! D′ = (1 − μ)f, by slope D′ = (K − f′)(δ_m − δ*) with δ* where the way back ends; both are sure by their conditions.
-//! For all, and so for the quadratic and for spikes, D is looked at in many places.
+//! The loss up to δ_m, D = ∫f + ∫s − U(δ_m), must not fall with δ_m; everything else is reversible. By stretch D′ = (1
+//! − μ)f, by slope D′ = (K − f′)(δ_m − δ*) where δ* is the end of unloading; both are safe by their conditions. D is
+//! evaluated at many points for all laws, and so for the quadratic and for spikes.
 
 use super::cubic::Cubic;
 use super::data::{ForceDeflection, Function, Goes, PLACES, Unloading, check_points};

@@ -1,4 +1,4 @@
-//! The kind of force element that a program brings itself.
+//! The kind of force element that a program defines itself.
 
 use std::any::Any;
 use std::fmt;

@@ -1,11 +1,10 @@
 //! A program's own forces: anything that acts on segments, spheres and frames, written in plain numbers. Ours.
 //!
-//! A [`Force`] sees a [`Scene`] and says what it does with [`Pushes`]. It is a part of the derivative like every force element:
-//! error control sees it, the energy balance counts what it takes from the bodies, stored or lost, and its channels stand
-//! among all others. What it remembers changes at accepted steps alone.
+//! A [`Force`] receives a [`Scene`] and returns its action as [`Pushes`]. It is a part of the derivative like every
+//! force element: error control includes it, the energy balance counts the energy that it takes from the bodies, stored
+//! or lost, and its channels are among all others. Its memory changes only at accepted steps.
 //!
-//! It knows no dual numbers and no lanes: there are no derivatives of a model that has one, and it is run alone where others
-//! run side by side.
+//! It supports neither dual numbers nor lanes: a model with one has no derivatives and always runs alone.
 
 mod element;
 mod scene;

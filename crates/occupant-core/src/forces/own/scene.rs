@@ -1,4 +1,4 @@
-//! What a force of a program's own sees, and what it does.
+//! Input and output of a program's own force.
 
 use nalgebra::{Point3, Vector3};
 

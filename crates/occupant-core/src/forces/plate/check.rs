@@ -1,4 +1,4 @@
-//! What is wrong with plates by themselves.
+//! Checks of plates.
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 

@@ -1,8 +1,8 @@
-//! What a band remembers between steps.
+//! Memory of a band between steps.
 
 use crate::motion::scalar::Scalar;
 
-/// What a band remembers.
+/// Memory of a band between steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BandPast<S> {
     /// x_m: the greatest x, and the greatest −x, of the present sign alone, m.

@@ -1,4 +1,4 @@
-//! Frames that columns carry and that bags are mounted on.
+//! Frames of columns and mounts of bags.
 
 use crate::forces::MOST_GIVING;
 use crate::forces::column::Column;

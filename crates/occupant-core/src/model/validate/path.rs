@@ -1,4 +1,4 @@
-//! Place and pace of the vehicle during the run.
+//! Position and speed of the vehicle during the run.
 
 use crate::forces::contact::surface::Frame;
 use crate::model::setup::{STANDARD_GRAVITY_M_S2, Setup, TimeSpan};

@@ -1,4 +1,4 @@
-//! Whether all that points at something else points at what there is: frames, segments, spheres, names.
+//! Whether all references exist: frames, segments, spheres, names.
 
 use crate::forces::chain::Site;
 use crate::forces::contact::surface::Frame;

@@ -1,4 +1,4 @@
-//! Chests that give way: deflections, their share of the depth, the viscous response.
+//! Deformable chests: deflections, their share of the depth, the viscous response.
 
 use occupant_units::unit::Unit;
 

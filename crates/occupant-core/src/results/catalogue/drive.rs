@@ -1,4 +1,4 @@
-//! Vehicles that were driven before the run: steering, crush, wheels.
+//! Vehicles of `drive`: steering, crush, wheels.
 
 use occupant_units::unit::Unit::{Metre, MetrePerSecond, Newton, NewtonMetre, One, Radian, RadianPerSecond};
 

@@ -1,4 +1,4 @@
-//! Caveats: which figures of a run are not to be quoted as they stand, and why. All their words stand here.
+//! Caveats: which figures of a run should not be quoted, and why. All their texts are here.
 
 use crash_measures::injury::Measure;
 use crash_measures::measure::Dummy;

@@ -1,4 +1,4 @@
-//! How far the head went.
+//! Excursion of the head.
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 

@@ -1,7 +1,7 @@
 //! A body that may be thrown, followed from output to output.
 //!
-//! What touches it is the ground, or what carries or strikes it: its own vehicle, another one, faces on another body. Its own parts
-//! and the parts of other bodies are neither: a hand on the head is no landing.
+//! Contacts are with the ground, or with what carries or strikes it: its own vehicle, another one, faces on another
+//! body. Its own parts and the parts of other bodies do not count: a hand on the head is not a landing.
 
 use nalgebra::Vector3;
 

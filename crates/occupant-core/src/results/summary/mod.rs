@@ -1,7 +1,7 @@
-//! What one run came to: peaks with their times, 3 ms levels, first contacts, energy balance, work of the integrator.
+//! Summary of one run: peaks with their times, 3 ms levels, first contacts, energy balance, work of the integrator.
 //!
-//! A [`Summarizer`] is a [`crate::results::recorder::Recorder`]; it keeps little. Peaks are those of the accepted steps; levels and measures
-//! with windows are those of readings at 10 kHz, straight lines between them. Nothing is filtered.
+//! A [`Summarizer`] is a [`crate::results::recorder::Recorder`]; it needs little memory. Peaks are taken at the
+//! accepted steps; levels and measures with windows from readings at 10 kHz, linear in between. Nothing is filtered.
 
 mod caveat;
 mod compartment;
@@ -37,7 +37,7 @@ pub use searle::Searle;
 pub use summarizer::Summarizer;
 pub use throw::{Landing, Launch, Throw, ThrowStart};
 
-/// What one run came to. Serialised, it is the answer of `occupant run --json`; every name carries its unit.
+/// Summary of one run: peaks with their times, 3 ms levels, first contacts, energy balance, work of the integrator.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
     /// The scenario's title.

@@ -1,6 +1,6 @@
-//! The greatest value so far and when it was.
+//! The maximum so far and its time.
 
-/// The greatest value so far and when it was; the first of equals.
+/// The maximum so far and its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peak {
     /// Greatest value; minus infinity before the first.

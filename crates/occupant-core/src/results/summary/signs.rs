@@ -1,4 +1,4 @@
-//! What the outputs of a run show that no body does: the signs from which caveats are made.
+//! Implausible signs in the outputs of a run, from which caveats are made.
 
 use super::caveat::{Caveat, Turned};
 use super::elements::Elements;

@@ -1,4 +1,4 @@
-//! Columns and plates that were pushed beyond the last points of their forces, and chests deeper than anything that is known.
+//! Columns and plates pushed beyond the last points of their forces, and chests deeper than any test.
 
 use super::caveat::Caveat;
 use super::peak::Peak;

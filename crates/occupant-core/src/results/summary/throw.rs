@@ -1,9 +1,10 @@
 //! How a body is thrown: from the blow, through the air, over the ground, to where it rests.
 //!
-//! The terms are those of accident reconstruction. The *throw distance* is the horizontal distance of the centre of gravity of
-//! the whole body from its place at the blow to its place at rest; the *launch* is when it leaves what struck or carried it; from
-//! there to the first touch of the ground it is *airborne*, from there on it *slides*, whether it slides, rolls or bounces.
-//! [`Flight`](super::flight::Flight) finds these moments in a run. Places and velocities are those of space.
+//! The terms are those of accident reconstruction. The *throw distance* is the horizontal distance of the centre of
+//! gravity of the whole body from its position at the blow to its position at rest. The *launch* is when it leaves what
+//! struck or carried it. From there to the first contact with the ground it is *airborne*; from then on it *slides*,
+//! whether it slides, rolls or bounces. [`Flight`](super::flight::Flight) finds these moments in a run. Positions and
+//! velocities are in space.
 
 use nalgebra::Vector3;
 use serde::Serialize;

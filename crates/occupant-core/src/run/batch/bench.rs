@@ -1,4 +1,4 @@
-//! What the runs side by side are computed from: a lane of numbers for each.
+//! Inputs of the runs in lanes: one lane of numbers for each.
 
 use super::place::Place;
 use crate::forces::{History, Memory};

@@ -1,5 +1,5 @@
-//! The runs side by side under error control. Each tries steps of its own, which are judged by what judges those of a run
-//! alone; only the evaluations of the trials are made together.
+//! The runs in lanes under error control. Each tries steps of its own, with the same acceptance as a single run; only
+//! the evaluations of the trials are shared.
 
 use std::ops::ControlFlow;
 

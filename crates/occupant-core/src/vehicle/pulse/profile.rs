@@ -1,7 +1,7 @@
 //! The deceleration of a pulse and its two integrals, in closed form.
 //!
-//! Time here is τ, counted from the beginning of the pulse. "Lost" speed and distance are ∫a dτ and ∫∫a dτ²: what the
-//! vehicle falls short of its undisturbed travel.
+//! Time here is τ, counted from the beginning of the pulse. "Lost" speed and distance are ∫a dτ and ∫∫a dτ²: the
+//! difference from undisturbed travel.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! From what a solid is said to be to its distance function, whole and without the faces that are far from each face.
+//! Builds the distance function of a solid, whole and without the faces that are far from each face.
 
 use nalgebra::{Point3, Vector3};
 

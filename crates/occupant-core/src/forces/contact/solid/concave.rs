@@ -1,7 +1,7 @@
-//! Groups of solids that a sphere does not meet as one body: concave corners and gaps between them.
+//! Groups of solids that do not act as one body: concave corners and gaps between them.
 //!
-//! Of a group only the nearest solid pushes. A sphere that touches two of them from different sides at once is held by one
-//! alone, and goes into the other until that one is the deeper.
+//! Only the nearest solid of a group pushes. If a sphere touches two of them from different sides at once, only one
+//! resists, and the sphere sinks into the other until that one is deeper.
 
 use nalgebra::{Point3, Vector3};
 

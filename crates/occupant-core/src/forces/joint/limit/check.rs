@@ -1,4 +1,4 @@
-//! What can be wrong with limits and friction of a joint, by themselves and where the body begins.
+//! Checks of limits and friction of a joint, alone and in the initial posture.
 
 use std::f64::consts::PI;
 

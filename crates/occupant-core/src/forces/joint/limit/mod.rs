@@ -1,4 +1,4 @@
-//! Elastic limits of joints, by direction, dry friction and locks: what joints have beyond those of the report.
+//! Elastic limits of joints by direction, dry friction and locks, which the report does not have.
 
 mod check;
 mod curve;

@@ -1,4 +1,4 @@
-//! What can be wrong with a muscle.
+//! Checks of a muscle.
 
 use super::{Joints, Muscle};
 use placed_text::Problems;
