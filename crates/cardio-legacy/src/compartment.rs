@@ -96,7 +96,7 @@ pub struct Face {
     pub number: u32,
     /// Name in scenarios.
     pub name: String,
-    /// Its corners; none where the deck's points leave it without area.
+    /// Its corners; none if the deck's points leave it without area.
     pub corners: Vec<Corner>,
 }
 

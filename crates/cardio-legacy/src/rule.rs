@@ -90,7 +90,7 @@ macro_rules! rules {
                 }
             }
 
-            /// What is expected, and how to mend what breaks the rule; none where that depends on the case.
+            /// What is expected, and how to mend what breaks the rule; none if that depends on the case.
             pub(crate) fn expected_and_remedy(self) -> [Option<&'static str>; 2] {
                 let [expected, remedy] = match self {
                     $(Self::$rule => [concat!($($expected)?), concat!($($remedy)?)],)*

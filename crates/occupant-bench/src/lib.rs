@@ -27,7 +27,7 @@ pub const BELTED: &str = include_str!("../../../tests/data/hand/three-point.toml
 /// A driver with belt and air bag, as shipped.
 pub const BAGGED: &str = include_str!("../../../tests/data/hand/airbag-driver.toml");
 
-/// The same on a column that gives way, as shipped.
+/// The same on a column that yields, as shipped.
 pub const STROKING: &str = include_str!("../../../tests/data/hand/column-driver.toml");
 
 /// A person of 19 segments on a sled, as shipped.
@@ -93,7 +93,7 @@ pub fn sled() -> Model {
     read(SLED).model().expect("the scene is valid").0
 }
 
-/// The same on a column that gives way.
+/// The same on a column that yields.
 pub fn stroking() -> Model {
     read(STROKING).model().expect("the scene is valid").0
 }

@@ -123,7 +123,7 @@ pub enum Value {
     Count(u64),
     /// Words.
     Text(String),
-    /// A vector; none where it does not exist.
+    /// A vector; none if it does not exist.
     Vector(Option<Vector3<f64>>),
     /// A rotation.
     Rotation(UnitQuaternion<f64>),

@@ -87,7 +87,7 @@ fn own_forces_are_kept_and_told() {
     let bytes = file(&model);
     let stored = StoredRun::read(&bytes).unwrap();
     assert_eq!(stored.checkpoints[3].memory.own[0][0], 1.5);
-    // the program itself goes on from there
+    // the program itself continues from there
     let mut again = Run::from_checkpoint(&model, &stored.checkpoints[3]).unwrap();
     let mut first = Run::new(&model);
     for run in [&mut again, &mut first] {

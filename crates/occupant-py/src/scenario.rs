@@ -70,7 +70,7 @@ impl Scenario {
         Ok(dict.into_any())
     }
 
-    /// Adds a force of one's own: `function(t, places, velocities)` gives a force for each of `places`, N. Places are spheres by name, or
+    /// Adds a force of your own: `function(t, places, velocities)` gives a force for each of `places`, N. Places are spheres by name, or
     /// points `("head", [x, y, z])` of a segment, of "vehicle" or of "space", m. The function sees and says all in space axes: x
     /// forward, y left, z up. It must follow from what it is given.
     fn add_force(&mut self, name: String, places: Vec<Bound<'_, PyAny>>, function: Py<PyAny>) -> PyResult<()> {

@@ -62,7 +62,7 @@ fn path_end(step: &Step) -> &str {
     }
 }
 
-/// An entry to be filled: a copy of the explicit list if the path goes on into a list, else an empty table.
+/// An entry to be filled: a copy of the explicit list if the path continues into a list, else an empty table.
 fn blank(span: Span, next: Option<&Step>, shadow: Option<&Node>) -> Entry {
     let copied = match (next, shadow.map(|s| &s.value)) {
         (Some(_), Some(Value::Array(items))) => Some(Value::Array(items.clone())),

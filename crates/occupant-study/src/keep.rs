@@ -44,7 +44,7 @@ pub enum Keep {
     None,
     /// Of these.
     Indices(Vec<u64>),
-    /// Of those with the greatest values of a measure.
+    /// Of those with the largest values of a measure.
     Worst {
         /// How many.
         count: u64,

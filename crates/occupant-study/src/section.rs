@@ -131,7 +131,7 @@ pub struct GridSection {
 pub struct RangeSection {
     /// Least value.
     pub from: Value,
-    /// Greatest value.
+    /// Largest value.
     pub to: Value,
     /// With "log" equal ratios are equally likely; "linear" if absent.
     pub scale: Option<ScaleChoice>,

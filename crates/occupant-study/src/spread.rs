@@ -24,7 +24,7 @@ pub struct Spread {
     pub q75: f64,
     /// 95 % lie below.
     pub q95: f64,
-    /// Greatest.
+    /// Largest.
     pub greatest: f64,
 }
 
@@ -189,7 +189,7 @@ impl Band {
         self.median.is_empty()
     }
 
-    /// Greatest size of the median: what a tolerance may be a part of.
+    /// Largest size of the median: what a tolerance may be a part of.
     pub fn peak(&self) -> f64 {
         let sizes = self.median.iter().map(|x| x.abs());
         sizes.filter(|x| x.is_finite()).fold(0.0, f64::max)

@@ -210,7 +210,7 @@ impl Case {
         self.setup_mut().bags.push(bag);
     }
 
-    /// Adds a steering column that gives way; it carries the frame that it names.
+    /// Adds a steering column that yields; it carries the frame that it names.
     pub fn column(&mut self, column: Column) {
         self.setup_mut().columns.push(column);
     }
@@ -238,7 +238,7 @@ impl Case {
         self.setup_mut().output.markers.push(marker);
     }
 
-    /// Adds a force of one's own; its channels are `own_force.NAME.*`.
+    /// Adds a force of your own; its channels are `own_force.NAME.*`.
     pub fn force(&mut self, name: &str, force: impl Force + 'static) {
         self.setup_mut().own_forces.push(OwnForce::new(name, force));
     }

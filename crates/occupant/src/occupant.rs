@@ -29,7 +29,7 @@ impl Occupant {
         Ok(Occupant { body: Body::person(sex, stature_m, mass_kg).ok_or_else(found)?, joints: Joints::male50() })
     }
 
-    /// A body of one's own with joints of its tree.
+    /// A body of your own with joints of its tree.
     pub fn custom(body: Body, joints: Joints) -> Self {
         Occupant { body, joints }
     }

@@ -8,7 +8,7 @@ use crate::shown::number;
 /// How bad a problem is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// The run goes on; the user should know.
+    /// The run continues; the user should know.
     Warning,
     /// The input cannot be used.
     Error,

@@ -47,7 +47,7 @@ pub(crate) struct Hull {
 /// What is remembered of it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct HullMemory {
-    /// Greatest depth of each sphere, then of the two edges of each wheel by face, m; and that before the last step.
+    /// Largest depth of each sphere, then of the two edges of each wheel by face, m; and that before the last step.
     most_m: Vec<f64>,
     before_m: Vec<f64>,
     /// Whether it may touch within the next step.

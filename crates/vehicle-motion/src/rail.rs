@@ -277,7 +277,7 @@ impl Beam {
         (sum, size)
     }
 
-    /// Remembers the greatest forces of a vehicle's nodes.
+    /// Remembers the largest forces of a vehicle's nodes.
     pub fn press(&self, y: &[f64], series: &[Series], most: &mut [f64], shape: &Shape, pose: &Pose) {
         self.each(y, shape, pose, &mut |i, _, depth_m, _, facing| {
             if facing > SQUARE {

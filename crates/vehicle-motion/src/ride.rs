@@ -80,7 +80,7 @@ impl Ride {
         &self.stations[self.stations.len() - 1]
     }
 
-    /// Error of the energy balance of all that was driven together, over the greatest kinetic energy.
+    /// Error of the energy balance of all that was driven together, over the largest kinetic energy.
     pub fn balance(&self) -> f64 {
         self.balance
     }

@@ -31,7 +31,7 @@ pub struct Tyre {
     pub cornering_per_rad: f64,
     /// Reference load, N.
     pub reference_load_n: f64,
-    /// Load of the greatest cornering stiffness over the reference load.
+    /// Load of the largest cornering stiffness over the reference load.
     pub greatest_at: f64,
     /// Longitudinal slip stiffness per load.
     pub slip_stiffness: f64,

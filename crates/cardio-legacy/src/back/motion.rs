@@ -148,7 +148,7 @@ fn read_belt(back: &mut Back<'_>, belt: &Belt, number: u32, exact: bool) {
     }
 }
 
-/// Where a run ended, as far as cards can say it. They carry no greatest deformation, so an extension by cards is approximate.
+/// Where a run ended, as far as cards can say it. They carry no largest deformation, so an extension by cards is approximate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunEnd {
     /// Time, s.

@@ -75,7 +75,7 @@ fn check_extents(c: &mut Check<'_>) {
     }
 }
 
-/// Springs of which the second slope is the softer; webbing that gives way under load is seldom meant.
+/// Springs of which the second slope is the softer; webbing that yields under load is seldom meant.
 fn check_stiffness(c: &mut Check<'_>, stem: &str, n: u32) {
     let [first, second] = [1, 2].map(|slope| format!("{stem}{slope}({n})"));
     let (soft, stiff) = (c.value(&first), c.value(&second));

@@ -115,7 +115,7 @@ pub struct ContactSphere {
     pub part: String,
     /// What its contact forces are multiplied by, for a material that was measured on the whole part; 1 by default.
     pub share: f64,
-    /// How it rides on parts of its segment that give way; not at all by default.
+    /// How it rides on parts of its segment that yield; not at all by default.
     pub ride: Ride,
 }
 
@@ -157,7 +157,7 @@ pub struct Body {
     pub condyles_m: Option<Vector3<f64>>,
     /// Contact spheres; the tree's standard ones unless a scenario says otherwise.
     pub spheres: Vec<ContactSphere>,
-    /// Parts that give way; none of a rigid trunk.
+    /// Parts that yield; none of a rigid trunk.
     pub plates: Vec<Plate>,
     /// What of them are chests that results tell of, one of each body at most.
     pub chests: Vec<Chest>,

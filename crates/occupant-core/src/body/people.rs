@@ -287,7 +287,7 @@ impl Body {
         Body { name: "male50".to_owned(), ..REFERENCE_PERSON.body(Division::default()).0 }
     }
 
-    /// A grown-up by sex, stature and mass, as a scenario's `body.sex`, `body.stature`, `body.mass`; none where the
+    /// A grown-up by sex, stature and mass, as a scenario's `body.sex`, `body.stature`, `body.mass`; none if the
     /// measurements behind it reach no such person.
     pub fn person(sex: Sex, stature_m: f64, mass_kg: f64) -> Option<Self> {
         let person = Person { sex, stature_m, mass_kg };

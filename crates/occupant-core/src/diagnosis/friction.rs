@@ -27,7 +27,7 @@ pub struct UnstableFriction {
     pub surface: String,
     /// Name of its material.
     pub material: String,
-    /// When the number was greatest.
+    /// When the number was largest.
     pub time_s: f64,
     /// Normal force then.
     pub normal_force_n: f64,

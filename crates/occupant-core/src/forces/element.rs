@@ -32,7 +32,7 @@ pub trait Element: Copy + Debug {
     const STORED: &'static [StoredEnergy];
     /// The work sums that they add to.
     const SUMS: &'static [WorkSum];
-    /// What messages call one of them, and many.
+    /// Name in messages of one of them, and many.
     const NAMES: [&'static str; 2];
 
     /// What a setup says of them.
@@ -120,7 +120,7 @@ pub trait Element: Copy + Debug {
         true
     }
 
-    /// What of them could not be worked out within the last step, in words; none where all was. What they remember may then
+    /// What of them could not be worked out within the last step, in words; none if all was. What they remember may then
     /// be no numbers.
     fn failure(_data: Self::Data<'_>, _law: &Self::Law<f64>, _past: &[Self::Past<f64>]) -> Option<String> {
         None
@@ -139,7 +139,7 @@ pub trait Element: Copy + Debug {
     }
 
     /// Where between `before` and `now`, of the times `times_s`, the first switch of the one of this number was due, as a part
-    /// of the way; none where it cannot be told. Up to 0 it was due before.
+    /// of the way; none if it cannot be told. Up to 0 it was due before.
     fn due<S: Scalar<Mask = bool>>(
         _law: &Self::Law<S>,
         _number: usize,
@@ -283,7 +283,7 @@ impl<'a, S: Scalar> Instant<'a, S> {
 
 /// Legs of all bodies.
 pub(crate) const MOST_LEGS: usize = 2 * MOST_BODIES;
-/// Most frames that give way.
+/// Most frames that yield.
 pub(crate) const MOST_GIVING: usize = 2;
 
 /// Loads on the segments but gravity, and their powers.
@@ -293,9 +293,9 @@ pub struct Load<S> {
     pub wrench: [Wrench<S>; MOST_SEGMENTS],
     /// By body, W.
     pub power: [Work<S>; MOST_BODIES],
-    /// Forces of each body on the frames that give way, and their moments about the origin of space, space axes, N and N·m.
+    /// Forces of each body on the frames that yield, and their moments about the origin of space, space axes, N and N·m.
     pub(crate) onto: [[Wrench<S>; MOST_GIVING]; MOST_BODIES],
-    /// Behind the place there of each frame that gives way; 0 of others.
+    /// Behind the place there of each frame that yields; 0 of others.
     giving: [u8; MOST_FRAMES],
     body_of: [u8; MOST_SEGMENTS],
     bodies: usize,
@@ -313,7 +313,7 @@ pub struct Load<S> {
 }
 
 impl<S: Scalar> Load<S> {
-    /// None yet, where these frames give way.
+    /// None yet, where these frames yield.
     #[inline(always)]
     pub(crate) fn zero(layout: &Layout, giving: impl IntoIterator<Item = usize>) -> Self {
         let mut body_of = [0; MOST_SEGMENTS];

@@ -149,7 +149,7 @@ macro_rules! kinds {
                 $(self.$kind.clear();)+
             }
 
-            /// Becomes what `other` is; allocates nothing where there is room.
+            /// Becomes what `other` is; allocates nothing if there is room.
             pub(crate) fn take_over(&mut self, other: &Self)
             where
                 S: Copy,

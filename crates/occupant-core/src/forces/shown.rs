@@ -78,7 +78,7 @@ pub trait Reported: Element + 'static {
     fn told(_before: &[f64], _now: &[f64], _show: &mut dyn FnMut(&'static str)) {}
 
     /// What has happened to one of them between two looks, in words that follow its name, and by how much its force jumps, N;
-    /// nothing where only a slope changes.
+    /// nothing if only a slope changes.
     fn event<S: Scalar>(_before: &Self::Action<S>, _now: &Self::Action<S>) -> Option<(&'static str, Option<S>)> {
         None
     }
@@ -154,7 +154,7 @@ pub struct Pull<'a> {
 
 /// Follows what force elements do from step to step.
 pub trait Tracker<S> {
-    /// A number whose greatest value is kept.
+    /// A number whose largest value is kept.
     fn number(&mut self, number: S);
     /// Several.
     #[inline(always)]
@@ -170,7 +170,7 @@ pub trait Tracker<S> {
     fn touch(&mut self, touch: &Touch<S>);
 }
 
-/// A number whose greatest value in a run is kept: [`Reported::track`] shows it.
+/// A number whose largest value in a run is kept: [`Reported::track`] shows it.
 #[derive(Clone, Copy, Debug)]
 pub struct Tracked {
     /// Column of the peak.

@@ -6,7 +6,7 @@ use crate::motion::layout::MOST_SLIDES;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
-/// What uses a sphere: each use may ride in its own way on parts of a segment that give way.
+/// What uses a sphere: each use may ride in its own way on parts of a segment that yield.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Use {
     /// Surfaces, solids and other spheres.

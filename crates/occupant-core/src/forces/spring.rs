@@ -131,7 +131,7 @@ impl<S: Scalar> Spring<S> {
         }
     }
 
-    /// Force (N) and recoverable energy (J) at deformation `depth` (m) after a greatest deformation `greatest` (m).
+    /// Force (N) and recoverable energy (J) at deformation `depth` (m) after a largest deformation `greatest` (m).
     #[inline(always)]
     pub fn respond(&self, depth: S, greatest: S) -> (S, S) {
         let o = S::zero();

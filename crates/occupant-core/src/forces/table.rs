@@ -150,7 +150,7 @@ pub struct Table {
 pub enum Cell {
     /// Words.
     Text(String),
-    /// A number; none where there is none, such as the time of a peak that was not reached.
+    /// A number; none if there is none, such as the time of a peak that was not reached.
     Number(Option<f64>),
 }
 

@@ -125,7 +125,7 @@ pub struct Scratch<S> {
     carried: Vec<Moving<S>>,
     load: Load<S>,
     sweep: Sweep<S>,
-    /// Where columns and hinges carry their frames; none where there are none.
+    /// Where columns and hinges carry their frames; none if there are none.
     frames: Option<Box<Frames<S>>>,
 }
 

@@ -67,7 +67,7 @@ pub(super) fn descend(body: &mut impl Movable, from: &State<f64>, weight_n: f64)
     (state, g)
 }
 
-/// −(H + λ1)⁻¹g, shortened where it is too long; none where H + λ1 is not positive definite.
+/// −(H + λ1)⁻¹g, shortened where it is too long; none if H + λ1 is not positive definite.
 fn downhill(hessian: &DMatrix<f64>, g: &DVector<f64>, shift: f64) -> Option<DVector<f64>> {
     let shifted = hessian + DMatrix::from_diagonal_element(g.len(), g.len(), shift + 1e-9);
     let step = -shifted.cholesky()?.solve(g);

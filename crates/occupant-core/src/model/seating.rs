@@ -129,7 +129,7 @@ pub enum InitialPosture {
     Together,
     /// Given in the report's generalized coordinates; their rates replace [`InitialVelocity`].
     Coordinates(Box<ReportCoordinates>),
-    /// Where an earlier run ended, as far as cards tell it (series 6 and 14). They carry no greatest deformation.
+    /// Where an earlier run ended, as far as cards tell it (series 6 and 14). They carry no largest deformation.
     Continued {
         /// As in [`InitialPosture::Coordinates`].
         coordinates: Box<ReportCoordinates>,

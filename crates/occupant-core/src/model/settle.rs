@@ -349,7 +349,7 @@ pub(crate) fn carry(system: &mut System<f64>, state: &State<f64>, still: &Frames
     }
 }
 
-/// The joint of a resting body that lacks most to hold its posture; none where all hold it.
+/// The joint of a resting body that lacks most to hold its posture; none if all hold it.
 pub(super) fn lack(
     system: &System<f64>,
     body: &Body,

@@ -281,7 +281,7 @@ pub struct Setup {
     pub surfaces: Vec<Surface>,
     /// Solids, vehicle's and space's. Where results and seats name a surface by its index, they stand behind all surfaces.
     pub solids: Vec<Solid>,
-    /// Surfaces, and solids behind all surfaces (indices), that the spine leans on, such as a seat's back: a chest that gives way
+    /// Surfaces, and solids behind all surfaces (indices), that the spine leans on, such as a seat's back: a chest that yields
     /// meets them as a rigid one.
     pub behind: Vec<usize>,
     /// Where the edge force acts.
@@ -294,7 +294,7 @@ pub struct Setup {
     pub chains: Vec<Chain>,
     /// Air bags.
     pub bags: Vec<Bag>,
-    /// Steering columns and hinges that give way, each of which carries one of `frames`.
+    /// Steering columns and hinges that yield, each of which carries one of `frames`.
     pub columns: Vec<Column>,
     /// What resists the deflections of the body's plates.
     pub bands: Vec<Band>,

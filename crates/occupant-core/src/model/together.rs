@@ -140,7 +140,7 @@ fn moved(node: &Node, segment: usize, sphere: usize, first: usize) -> Node {
     Node { site, ride, ..node.clone() }
 }
 
-/// The members as models of their own; none where there is one body.
+/// The members as models of their own; none if there is one body.
 pub(super) fn alone(setup: &Setup, problems: &mut Problems) -> Option<Vec<Model>> {
     let mut models = Vec::new();
     for member in &setup.members {

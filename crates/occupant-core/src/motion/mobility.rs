@@ -77,7 +77,7 @@ fn symmetric(column: impl Fn(V3<f64>) -> Vector3<f64>) -> Matrix3<f64> {
     (matrix + matrix.transpose()) * 0.5
 }
 
-/// Greatest eigenvalue of a symmetric matrix.
+/// Largest eigenvalue of a symmetric matrix.
 pub(crate) fn greatest(matrix: Matrix3<f64>) -> f64 {
     SymmetricEigen::new(matrix).eigenvalues.max()
 }

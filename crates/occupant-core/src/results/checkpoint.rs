@@ -26,7 +26,7 @@ pub struct Checkpoint {
     pub memory: Memory<f64>,
     /// First touches so far, in the order in which they happened.
     pub first_touches: Vec<FirstTouch>,
-    /// Greatest values at the accepted steps so far, as plain numbers: [`Peaks`](super::peaks::Peaks); none where nobody has looked.
+    /// Largest values at the accepted steps so far, as plain numbers: [`Peaks`](super::peaks::Peaks); none if nobody has looked.
     pub peaks: Vec<f64>,
     /// The step before, of which instruments were read: the number of the next sample, its time, its readings.
     pub readings_before: Vec<f64>,
@@ -36,7 +36,7 @@ pub struct Checkpoint {
     pub events: Vec<Switched>,
     /// Sums and extremes.
     pub progress: Progress,
-    /// The step of the error control in which the output lies, if it goes on beyond it.
+    /// The step of the error control in which the output lies, if it continues beyond it.
     pub under_way: Option<StepStart>,
 }
 
@@ -99,7 +99,7 @@ pub struct Progress {
     pub step_error: f64,
     /// Energies from which the balance counts.
     pub energy_start: EnergyStart,
-    /// Greatest energies so far.
+    /// Largest energies so far.
     pub greatest: Greatest,
     /// How still the bodies are of a run that ends when they rest.
     pub rest: Rest,
@@ -158,7 +158,7 @@ pub enum CheckpointError {
         /// Time of the output, s.
         time_s: f64,
     },
-    /// Readings, events and greatest values of other elements, instruments or parts than the model has.
+    /// Readings, events and largest values of other elements, instruments or parts than the model has.
     #[error("the checkpoint has greatest values, readings or events that are not those of the scenario")]
     Readings,
     /// A first touch of a sphere or surface that the model does not have.

@@ -15,7 +15,7 @@ use crate::results::sample::Sample;
 pub const READINGS_S: f64 = 1e-4;
 
 /// Numbers of the instruments of one body in a sample: those of a reading without the place of the head; behind them, where any
-/// body has a chest that gives way, its deflections; behind them, of a blow from behind, [`REAR_SIGNALS`].
+/// body has a chest that yields, its deflections; behind them, of a blow from behind, [`REAR_SIGNALS`].
 pub(crate) const SIGNALS: usize = PLACE;
 
 /// Of T1, of the head restraint, of the head's speed and of the pelvis' place.
@@ -134,7 +134,7 @@ impl Fine {
         self.samples.clear();
     }
 
-    /// Becomes what `other` is, of the same run; allocates nothing where there is room.
+    /// Becomes what `other` is, of the same run; allocates nothing if there is room.
     pub(crate) fn take_over(&mut self, other: &Fine) {
         (self.interval_s, self.next, self.before_s) = (other.interval_s, other.next, other.before_s);
         self.before.clone_from(&other.before);

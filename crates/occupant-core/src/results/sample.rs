@@ -80,7 +80,7 @@ pub struct Sample<'a> {
     pub first_touches: &'a [FirstTouch],
     /// What has switched since the output before, in the order in which it happened, unless that was within a step beyond.
     pub switched: &'a [Switched],
-    /// Greatest values at the accepted steps so far.
+    /// Largest values at the accepted steps so far.
     pub step_peaks: &'a Peaks,
     /// What there is to see at this output alone.
     pub now: &'a Peaks,
@@ -88,7 +88,7 @@ pub struct Sample<'a> {
     pub fine: &'a Fine,
     /// What they read at this output, by body.
     pub(crate) readings: &'a [Reading<f64>],
-    /// The step of the error control in which this output lies, if it goes on beyond it.
+    /// The step of the error control in which this output lies, if it continues beyond it.
     pub under_way: Option<StepUnderWay<'a>>,
 }
 
@@ -312,7 +312,7 @@ impl<'a> Sample<'a> {
         }
     }
 
-    /// Greatest Δ in a surface or solid, m; 0 without contact.
+    /// Largest Δ in a surface or solid, m; 0 without contact.
     pub(crate) fn surface_depth_m(&self, surface: usize) -> f64 {
         self.touches_of(surface).map(|t| t.depth).fold(0.0, f64::max)
     }
@@ -322,7 +322,7 @@ impl<'a> Sample<'a> {
         self.touches().filter(move |t| contacts.surface(t.pair, t.part as usize) == surface)
     }
 
-    /// Greatest Δ of a sphere, m; 0 without contact.
+    /// Largest Δ of a sphere, m; 0 without contact.
     pub(crate) fn penetration_m(&self, sphere: usize) -> f64 {
         self.touches().filter(|t| t.sphere == sphere).map(|t| t.depth).fold(0.0, f64::max)
     }

@@ -4,7 +4,7 @@ use std::fmt::Display;
 
 use placed_text::nearest;
 
-/// A name or an index that a model does not have.
+/// A name or an index that a model does not have, with a likely correction.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("no {what} `{asked}`{}", meant(self.nearest.as_deref()))]
 #[non_exhaustive]

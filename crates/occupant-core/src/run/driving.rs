@@ -18,7 +18,7 @@ use crate::vehicle::{FrameMotion, VehicleInput, VehiclePose};
 
 /// A run of a model that one steps oneself: to a time, from frame to frame, with looks, kicks and pauses between.
 ///
-/// It stands ready at the model's start. Looking at it changes nothing, however often; a clone goes on by itself; all of it
+/// It stands ready at the model's start. Looking at it changes nothing, however often; a clone continues by itself; all of it
 /// is the same to the bit in every process.
 ///
 /// ```
@@ -174,7 +174,7 @@ impl<'m> Run<'m> {
 
     /// Hands the run as it stands to a recorder as its next output. The first output tells the recorder that the run begins. From
     /// then on what instruments read is kept until the next output, half a megabyte a second or so: who no longer wants outputs
-    /// of a long run goes on with a [`Run::load`] of it, or looks.
+    /// of a long run continues with a [`Run::load`] of it, or looks.
     ///
     /// # Errors
     /// What the recorder reports.
@@ -268,7 +268,7 @@ impl<'m> Run<'m> {
         self.course.taken = Some(Vec::with_capacity(room));
     }
 
-    /// The accepted steps since they were last taken; none where nobody follows them. `spent` is a list to be used again.
+    /// The accepted steps since they were last taken; none if nobody follows them. `spent` is a list to be used again.
     pub fn take_steps(&mut self, mut spent: Vec<Step>) -> Vec<Step> {
         spent.clear();
         match &mut self.course.taken {

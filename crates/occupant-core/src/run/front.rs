@@ -255,7 +255,7 @@ impl Front {
         within([from, at_from], [to, at_to], h, (time_s - self.step.start_s) / h)
     }
 
-    /// The start of the step, if it goes on beyond `time_s`.
+    /// The start of the step, if it continues beyond `time_s`.
     pub(super) fn under_way(&self, time_s: f64) -> Option<StepUnderWay<'_>> {
         let at = if self.is_half_known { &self.ahead.to } else { &self.ahead.from };
         (time_s < self.step.end_s).then_some(StepUnderWay {

@@ -85,7 +85,7 @@ impl Tracker<f64> for Count<'_> {
     fn touch(&mut self, _touch: &Touch<f64>) {}
 }
 
-/// Remembers which sphere has touched which surface, the greatest values and the readings.
+/// Remembers which sphere has touched which surface, the largest values and the readings.
 #[derive(Clone)]
 pub(super) struct Seen {
     surfaces: usize,
@@ -99,7 +99,7 @@ pub(super) struct Seen {
     look: Look,
 }
 
-/// What greatest values are found with.
+/// What largest values are found with.
 #[derive(Clone)]
 struct Look {
     /// By sphere.

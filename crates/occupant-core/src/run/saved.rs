@@ -14,7 +14,7 @@ use crate::vehicle::live::LiveFrames;
 const MARK: &[u8; 16] = b"occupant run 1\r\n";
 
 impl Run<'_> {
-    /// All of the run as bytes, with what was told of the vehicle: [`Run::load`] goes on from there, to the bit.
+    /// All of the run as bytes, with what was told of the vehicle: [`Run::load`] continues from there, to the bit.
     ///
     /// # Errors
     /// As of [`Run::look`].

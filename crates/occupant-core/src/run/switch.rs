@@ -108,7 +108,7 @@ impl Search {
         self.trials > 0
     }
 
-    /// Where the step is to end instead of `step.end_s`, s; none where it may end there. `memory` is that of both ends of
+    /// Where the step is to end instead of `step.end_s`, s; none if it may end there. `memory` is that of both ends of
     /// the trial, `last_s` the length of the step before.
     pub(super) fn end_earlier(
         &mut self,

@@ -23,7 +23,7 @@ const MOST_M_S2: f64 = 1e5;
 /// Further than this nothing turns within one frame, rad.
 const MOST_RAD: f64 = 2.0;
 
-/// A path that is told frame by frame: [`Run::push`](crate::run::Run::push). It begins as given and goes on without
+/// A path that is told frame by frame: [`Run::push`](crate::run::Run::push). It begins as given and continues without
 /// acceleration until it is told otherwise.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LivePath {

@@ -135,7 +135,7 @@ impl PulsePath {
         (self.begin_s, self.begin_s + self.profile.duration_s())
     }
 
-    /// The deceleration of greatest size that the pulse prescribes, with its sign, m/s².
+    /// The deceleration of largest size that the pulse prescribes, with its sign, m/s².
     pub fn peak_deceleration_m_s2(&self) -> f64 {
         self.profile.peak_m_s2()
     }

@@ -31,10 +31,10 @@ pub enum Interpolation {
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(feature = "schema", schemars(rename = "After"))]
 pub enum AfterEnd {
-    /// A run that goes on is refused.
+    /// A run that continues is refused.
     #[default]
     Error,
-    /// It goes on with constant velocity.
+    /// It continues with constant velocity.
     Coast,
     /// It stands still; a spline comes to rest there.
     Hold,

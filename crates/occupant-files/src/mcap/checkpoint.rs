@@ -1,6 +1,6 @@
 //! The message of all that the run carries on from an output, so that it can resume there bit for bit.
 //!
-//! Pairs are numbered as the model numbers them; those in no list are open and have no greatest deformation.
+//! Pairs are numbered as the model numbers them; those in no list are open and have no largest deformation.
 
 use occupant_core::forces::stored::Archive;
 use occupant_core::quantity::{FieldWords, Kind, Value};

@@ -24,7 +24,7 @@ pub trait Bar: Send + Sync {
 pub struct Show {
     /// Nothing but what nobody should overlook.
     pub quiet: bool,
-    /// Makes a bar of so many of a thing, such as `samples`; none where nothing can show one.
+    /// Makes a bar of so many of a thing, such as `samples`; none if nothing can show one.
     pub bar: fn(u64, &str) -> Option<Box<dyn Bar>>,
 }
 

@@ -37,7 +37,7 @@ impl Units {
         Units { system, is_asked: false }
     }
 
-    /// What is shown for a unit of a table, and how many of that unit are one of it; none where it stays as it is.
+    /// What is shown for a unit of a table, and how many of that unit are one of it; none if it stays as it is.
     fn instead(self, unit: &str) -> Option<(f64, Shown)> {
         let (measured, si) = Unit::measuring(unit).filter(|_| self.system == UnitSystem::InchPound)?;
         let dimension = measured.dimension();

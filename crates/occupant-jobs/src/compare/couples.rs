@@ -11,7 +11,7 @@ use occupant_files::results::Results;
 use occupant_files::signals::Recording;
 use occupant_pictures::plot::standard;
 
-/// Greatest value of a history that counts as zero throughout.
+/// Largest value of a history that counts as zero throughout.
 const ZERO: f64 = 1e-100;
 
 /// A computed and a measured history of one channel, both filtered.

@@ -21,7 +21,7 @@ pub struct Collision {
     pub until_s: f64,
     /// Speed of the centres of gravity against each other at first touch, m/s.
     pub closing_m_s: f64,
-    /// Greatest change of velocity, and that change along the vehicle's axes at first touch, m/s.
+    /// Largest change of velocity, and that change along the vehicle's axes at first touch, m/s.
     pub delta_v_m_s: f64,
     /// Change of velocity along x, y, z of the vehicle, m/s.
     pub delta_v_axes_m_s: [f64; 3],
@@ -33,7 +33,7 @@ pub struct Collision {
     pub clock: u8,
     /// Speed of a barrier that absorbs as much as the vehicle did in it, m/s.
     pub ees_m_s: f64,
-    /// Greatest acceleration, m/s².
+    /// Largest acceleration, m/s².
     pub peak_m_s2: f64,
 }
 
@@ -113,7 +113,7 @@ pub(super) fn text(collisions: &[Collision], units: Units) -> String {
     table.text()
 }
 
-/// Damage of a vehicle as a table: greatest and residual crush, then residual depths C1 to C6 at equal distances over each damaged side.
+/// Damage of a vehicle as a table: largest and residual crush, then residual depths C1 to C6 at equal distances over each damaged side.
 pub(super) fn damage_text(damage: &Damage, units: Units) -> String {
     let m = |value: f64| units.say(value, "m", 3);
     let mut table = Table::new(&[

@@ -51,11 +51,11 @@ pub struct Figurable {
     pub distance_m: f64,
     /// Yaw of the whole drive, turns counted, rad.
     pub turned_rad: f64,
-    /// Greatest roll, pitch and slip angle with their times, rad and s.
+    /// Largest roll, pitch and slip angle with their times, rad and s.
     pub roll: (f64, f64),
-    /// Greatest pitch, rad, and when, s.
+    /// Largest pitch, rad, and when, s.
     pub pitch: (f64, f64),
-    /// Greatest slip angle, rad, and when, s.
+    /// Largest slip angle, rad, and when, s.
     pub slip: (f64, f64),
     /// Steepest ground under the centre of gravity, rise over run.
     pub slope: (f64, f64),

@@ -7,7 +7,7 @@ use vehicle_motion::run::Station;
 use super::Driven;
 use occupant_pictures::svg::{Anchor, Svg, Text};
 
-/// Greatest size of the plan without its words, user units, and greatest scale, user units to a metre.
+/// Largest size of the plan without its words, user units, and largest scale, user units to a metre.
 const SIZE: [f64; 2] = [1400.0, 700.0];
 const LARGEST: f64 = 60.0;
 const SIDE: f64 = 24.0;

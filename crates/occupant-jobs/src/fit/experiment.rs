@@ -223,7 +223,7 @@ impl Experiment {
         self.compared(series, corrections, |target, computed| Ok(Accord::of(&target.reference, computed)))
     }
 
-    /// Computed less measured of each target, over the greatest measured value.
+    /// Computed less measured of each target, over the largest measured value.
     ///
     /// # Errors
     /// Histories that cannot be compared.

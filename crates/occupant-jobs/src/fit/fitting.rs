@@ -59,7 +59,7 @@ pub struct Test {
 }
 
 impl Fitting {
-    /// Reads a study, the scenarios and the tests; `name` is what messages call it.
+    /// Reads a study, the scenarios and the tests; `name` is its name in messages.
     ///
     /// # Errors
     /// Everything that is wrong, in words.

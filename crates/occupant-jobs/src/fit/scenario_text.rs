@@ -109,7 +109,7 @@ fn edited(experiment: &Experiment, numbers: &[&Fitted], provenance: &[(String, S
     Some(document.to_string())
 }
 
-/// Puts a value at a place, with the blanks and comments of the old one; none where the text has no such place and none can
+/// Puts a value at a place, with the blanks and comments of the old one; none if the text has no such place and none can
 /// be made.
 fn put(item: &mut Item, steps: &[Step], mut new: Value) -> Option<()> {
     let Some((step, rest)) = steps.split_first() else {

@@ -206,7 +206,7 @@ fn mean_step_s(model: &Model, trajectory: &Trajectory) -> f64 {
     (trajectory.outcome.time_s - model.setup().time.start_s) / trajectory.outcome.effort.steps.max(1) as f64
 }
 
-/// Relative sensitivity: parts of the figure per part of the parameter; none where one of them is 0.
+/// Relative sensitivity: parts of the figure per part of the parameter; none if one of them is 0.
 pub fn relative(derivative: f64, value: f64, nominal: f64) -> Option<f64> {
     let relative = derivative * nominal / value;
     (value != 0.0 && nominal != 0.0 && relative.is_finite()).then_some(relative)

@@ -9,7 +9,7 @@ use crate::base::file_name;
 use crate::files::study_folder::{Manifest, NamedBy};
 use crate::sweep::Plan;
 
-/// The command that runs a run of the study again, given in the folder of the sweep. None where no shell can say it.
+/// The command that runs a run of the study again, given in the folder of the sweep. None if no shell can say it.
 pub fn command(plan: &Plan, manifest: &Manifest, run: u64) -> Option<String> {
     let (args, _) = plan.command(run);
     let base = manifest.texts.iter().find(|t| t.by == NamedBy::StudyAsBase)?;

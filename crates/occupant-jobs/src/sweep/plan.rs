@@ -43,7 +43,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Reads a study and all that it names; `name` is what messages call it.
+    /// Reads a study and all that it names; `name` is its name in messages.
     ///
     /// # Errors
     /// Everything that is wrong with it, in words.
@@ -232,7 +232,7 @@ impl Plan {
     }
 }
 
-/// The text of a study; `name` is what messages call it.
+/// The text of a study; `name` is its name in messages.
 ///
 /// # Errors
 /// One that cannot be read; everything that is wrong with its words.

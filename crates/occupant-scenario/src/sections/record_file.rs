@@ -17,7 +17,7 @@ pub struct RecordFile {
 
 /// Reads a CSV file whose first line names `t` and any of `ax`, `ay`, `az`, `wx`, `wy`, `wz` (or `roll_rate`,
 /// `pitch_rate`, `yaw_rate`) with their units, such as `t[s],ax[g],wz[deg/s]`, or as recorders do; or `columns` names them so, `-` for one
-/// that is left out, in place of the file's own headings. `name` is what messages call it.
+/// that is left out, in place of the file's own headings. `name` is its name in messages.
 ///
 /// # Errors
 /// Everything that is wrong with it: bytes that are no text, unknown, doubled and missing columns, wrong units, cells that

@@ -1,6 +1,6 @@
 //! Nodes of one body against the outline of another.
 //!
-//! A node keeps the face through which it came in. Its depth under that face, and the greatest force per width that it has felt,
+//! A node keeps the face through which it came in. Its depth under that face, and the largest force per width that it has felt,
 //! give its force, along the normal of the face. Both bodies feel it at the same place, so momenta stay.
 
 use crate::V3;
@@ -62,7 +62,7 @@ pub(crate) struct Pass {
     pub nodes_of: usize,
     /// Body whose outline counts.
     pub outline_of: usize,
-    /// Number of the list of greatest forces of the nodes.
+    /// Number of the list of largest forces of the nodes.
     pub memory: usize,
     /// ½ where both bodies' nodes count.
     pub weight: f64,
@@ -79,7 +79,7 @@ pub(crate) struct Pass {
 /// No face: the node never came in.
 pub(crate) const NO_FACE: u8 = u8::MAX;
 
-/// The nodes' memory: the face through which each came in, and its greatest force per width, N/m.
+/// The nodes' memory: the face through which each came in, and its largest force per width, N/m.
 pub(crate) struct Marks<'a> {
     pub faces: &'a [u8],
     pub most: &'a [f64],
@@ -185,7 +185,7 @@ impl Pass {
         size
     }
 
-    /// Remembers the faces through which nodes came in, and their greatest forces.
+    /// Remembers the faces through which nodes came in, and their largest forces.
     pub fn commit(&self, faces: &mut [u8], most: &mut [f64], shapes: &[Shape], poses: &[Pose], before: &[Pose]) {
         if self.is_apart(shapes, poses, 0.0) {
             return;

@@ -320,7 +320,7 @@ mod tests {
                     most = most.max(work.abs());
                 }
             }
-            // measured 7e-5, 3e-7, 2e-7 of the greatest with 4000 pieces of way; four times as many leave a quarter
+            // measured 7e-5, 3e-7, 2e-7 of the largest with 4000 pieces of way; four times as many leave a quarter
             assert!(work.abs() < 1e-4 * most, "{yaw}: {work} of {most}");
         }
     }

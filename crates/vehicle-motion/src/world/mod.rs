@@ -102,7 +102,7 @@ pub struct Impact {
     pub normal_rad: f64,
     /// Restitution.
     pub restitution: f64,
-    /// Greatest ratio of the impulse along the contact to that across it.
+    /// Largest ratio of the impulse along the contact to that across it.
     pub friction: f64,
     /// How long it takes, s; 0: at once.
     pub duration_s: f64,
@@ -125,14 +125,14 @@ pub struct Outcome {
     pub evaluations: u64,
     /// Steps that were tried and rejected.
     pub rejected: u64,
-    /// Error of the energy balance over the greatest kinetic energy.
+    /// Error of the energy balance over the largest kinetic energy.
     pub balance: f64,
 }
 
 /// How far a barrier slid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slid {
-    /// Greatest way, m.
+    /// Largest way, m.
     pub most_m: f64,
     /// Direction, clockwise from X, rad.
     pub direction_rad: f64,
@@ -145,9 +145,9 @@ pub struct Slid {
 pub struct Bent {
     /// Number of the barrier.
     pub barrier: usize,
-    /// Greatest deflection while it lasted, m.
+    /// Largest deflection while it lasted, m.
     pub deflection_m: f64,
-    /// Greatest tension, N.
+    /// Largest tension, N.
     pub tension_n: f64,
     /// Posts that let go.
     pub released: usize,

@@ -27,7 +27,7 @@ const NEAR_S: f64 = 0.002;
 struct Touch {
     gap_m: f64,
     has_touched: bool,
-    /// The contact that goes on.
+    /// The contact that continues.
     open: Option<usize>,
 }
 

@@ -244,7 +244,7 @@ impl Bag {
 }
 
 impl Shape {
-    /// Greatest area across the way in which it is pressed, m².
+    /// Largest area across the way in which it is pressed, m².
     fn cross_section_m2(&self) -> f64 {
         use std::f64::consts::PI;
         match *self {

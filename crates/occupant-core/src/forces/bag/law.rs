@@ -86,7 +86,7 @@ impl BagLaw<f64> {
 }
 
 impl<S: Scalar<Mask = bool>> BagLaw<S> {
-    /// Where between two times it was due to fire or its first vent to open; none where a sphere came to the middle or left.
+    /// Where between two times it was due to fire or its first vent to open; none if a sphere came to the middle or left.
     pub(super) fn due(&self, before: &BagPast<S>, now: &BagPast<S>, times_s: [S; 2]) -> Option<S> {
         let is_held = |depth: &S| depth.gt(S::zero());
         let held = before.held.iter().zip(&now.held).all(|(a, b)| is_held(a) == is_held(b));

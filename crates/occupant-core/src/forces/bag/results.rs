@@ -39,7 +39,7 @@ pub struct BagAction<S> {
     taken: S,
     /// Work of the body on it since the start, J.
     pub(super) work: S,
-    /// Greatest residual of the gas's book over its greatest energy.
+    /// Largest residual of the gas's book over its largest energy.
     pub(super) residual: S,
     /// 1 once it has fired, g, and λ.
     pub(crate) fired: S,

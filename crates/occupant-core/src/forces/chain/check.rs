@@ -15,7 +15,7 @@ use placed_text::{Problem, Problems, with_key};
 const TURNED: [f64; 2] = [std::f64::consts::FRAC_1_SQRT_2, 0.965_925_826_289_068_3];
 /// Shortest strap that is not warned of, m.
 const SHORT_M: f64 = 0.05;
-/// Greatest friction and tension at the start that are not warned of.
+/// Largest friction and tension at the start that are not warned of.
 const MOST_FRICTION: f64 = 0.6;
 const MOST_START_N: f64 = 100.0;
 

@@ -27,7 +27,7 @@ impl CueLaw<f64> {
 }
 
 impl<S: Scalar<Mask = bool>> CueLaw<S> {
-    /// Where between two commits its condition was due to begin to hold, or to have held for long enough; none where neither
+    /// Where between two commits its condition was due to begin to hold, or to have held for long enough; none if neither
     /// happened or where it cannot be told.
     pub(super) fn due(&self, before: &Cued<S>, now: &Cued<S>) -> Option<S> {
         let (of, [threshold, lasting, _]) = self.watch?;

@@ -123,7 +123,7 @@ impl<S: Scalar<Mask = bool>> DeviceLaw<S> {
 
 impl<S: Scalar<Mask = bool>> DeviceLaw<S> {
     /// Where between two commits the second limiter was due to begin or to end to take over; the step behind that, or behind a
-    /// lock, tells at once how the payout goes on.
+    /// lock, tells at once how the payout continues.
     fn takes_over(&self, before: &Moment<'_, S>, now: &Moment<'_, S>) -> Option<S> {
         match [before, now].map(|of| of.first.pays_anew()) {
             [true, false] => Some(S::zero()),

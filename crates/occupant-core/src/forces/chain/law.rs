@@ -31,7 +31,7 @@ pub(super) struct Lies<S> {
     pub(super) course: Course<S>,
 }
 
-/// A chain at one instant: its positions, its tensions, and its memory of an accepted step.
+/// A chain at one instant.
 pub(super) struct Now<'a, S: Scalar> {
     pub(super) lies: &'a Lies<S>,
     pub(super) taut: Taut<'a, S>,
@@ -145,7 +145,7 @@ impl ChainLaw<f64> {
 }
 
 impl<S: Scalar<Mask = bool>> ChainLaw<S> {
-    /// Where between two commits the first switch was due; none where what they remember does not tell.
+    /// Where between two commits the first switch was due; none if what they remember does not tell.
     pub(super) fn due(&self, before: &ChainPast<S>, now: &ChainPast<S>) -> Option<S> {
         let mut first = self.straps.due(before, now);
         for (k, node) in self.nodes.iter().enumerate() {

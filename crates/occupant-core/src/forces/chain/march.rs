@@ -23,7 +23,7 @@ pub(super) struct Run<S> {
     pub(super) length: S,
     /// Nᶜ.
     pub(super) before: S,
-    /// Greatest loading strain, and the strain that stays.
+    /// Largest loading strain, and the strain that stays.
     pub(super) greatest: S,
     pub(super) set: S,
     /// μθ and exp(−μθ).

@@ -294,7 +294,7 @@ fn bear<S: Scalar>(
     }
 }
 
-/// A force on a place of a segment, which may ride on parts of it that give way, and its power; space axes.
+/// A force on a place of a segment, which may ride on parts of it that yield, and its power; space axes.
 #[inline(always)]
 fn pull<S: Scalar>(
     at: &Instant<'_, S>,

@@ -19,7 +19,7 @@ use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 use crate::quantity::{Axes, FieldWords, Quantity};
 
-/// Greatest angle between two points of a drawn arc, rad.
+/// Largest angle between two points of a drawn arc, rad.
 const ARC_STEP_RAD: f64 = 0.15;
 
 /// What one strap does at one instant.

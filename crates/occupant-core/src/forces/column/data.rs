@@ -20,7 +20,7 @@ pub struct Column {
     pub hub_m: Point3<f64>,
     /// f over the stroke (N over m) or the angle (N·m over rad): where it yields. What it says of unloading does not count.
     pub force: Function,
-    /// K, slope of unloading, N/m or N·m/rad; the greatest slope of f if none.
+    /// K, slope of unloading, N/m or N·m/rad; the largest slope of f if none.
     pub unload_n_per_m: Option<f64>,
     /// Where it turns, if it does not go along the axis.
     pub hinge: Option<Hinge>,

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! m_h ẍ = Q·â − S(x) − m_h â·(a_P − g)
-//! S = f(x_m) − K (x_m − x),   x_m the greatest stroke, the present one included
+//! S = f(x_m) − K (x_m − x),   x_m the largest stroke, the present one included
 //! ```
 //!
 //! Q is the force of bodies and bags on the frame, a_P the acceleration of the parent's axes at the hub. S²/2K is
@@ -33,7 +33,7 @@ const UNITS: [f64; 3] = [1.0, 100.0, 1000.0];
 /// Constants of a column.
 #[derive(Clone, Debug)]
 pub struct ColumnLaw<S> {
-    /// Its place among all that give way.
+    /// Its place among all that yield.
     pub(super) place: usize,
     /// Where its numbers stand among those that force elements own.
     first: usize,

@@ -31,7 +31,7 @@ pub struct ColumnAction<S> {
     set: S,
     /// 1 from the end of its stroke on.
     bottoms: S,
-    /// Greatest residual of its book over the greatest work taken up.
+    /// Largest residual of its book over the largest work taken up.
     residual: S,
 }
 

@@ -52,7 +52,7 @@ impl<S: Scalar> Approach<S> {
     }
 }
 
-/// Forces of a material on a sphere: normal force, and friction at the point of contact.
+/// Forces of a material on a sphere.
 pub(super) struct Law<S> {
     /// wF, N.
     pub force: S,

@@ -103,7 +103,7 @@ pub struct Group {
 pub struct PairHistory<S> {
     /// [`OPEN`], [`TOUCHING`] or [`PASSED`], or the remembered face of a solid.
     pub phase: S,
-    /// Δ_m, greatest committed deformation, m.
+    /// Δ_m, largest committed deformation, m.
     pub greatest: S,
 }
 

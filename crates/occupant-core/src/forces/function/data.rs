@@ -79,9 +79,9 @@ pub enum Unloading {
     },
     /// By the quadratic of the ATB program.
     Quadratic {
-        /// R, the share that is to come back, over the greatest deformation; one row: everywhere.
+        /// R, the share that is to come back, over the largest deformation; one row: everywhere.
         returned: Vec<[f64; 2]>,
-        /// G, the deformation that stays, as a share of the greatest, over that.
+        /// G, the deformation that stays, as a share of the largest, over that.
         set: Vec<[f64; 2]>,
     },
 }
@@ -159,22 +159,22 @@ impl Function {
         self.points.last().map_or(0.0, |point| point[0])
     }
 
-    /// The greatest force within its points, N.
+    /// The largest force within its points, N.
     pub(crate) fn greatest_n(&self) -> f64 {
         self.points.iter().fold(0.0, |most, point| most.max(point[1]))
     }
 
-    /// The greatest slope between its points.
+    /// The largest slope between its points.
     pub(crate) fn steepest_loading(&self) -> f64 {
         self.slopes().fold(0.0, |most: f64, (slope, _)| most.max(slope))
     }
 
-    /// The greatest slope of loading and unloading.
+    /// The largest slope of loading and unloading.
     pub(crate) fn steepest(&self) -> f64 {
         self.slopes().fold(0.0, |most: f64, (slope, mu)| most.max(slope / mu.max(LEAST_FRACTION)))
     }
 
-    /// The greatest slope of each interval, and its μ.
+    /// The largest slope of each interval, and its μ.
     fn slopes(&self) -> impl Iterator<Item = (f64, f64)> {
         let ends = self.points.iter().skip(1);
         self.pieces().zip(ends).map(|((cubic, mu), end)| (cubic.slopes(end[0])[1], mu))

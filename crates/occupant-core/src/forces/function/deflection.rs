@@ -84,7 +84,7 @@ impl DeflectionLaw<f64> {
         self.loading.end()
     }
 
-    /// What ended a run, if the greatest depth is beyond the end of what is known.
+    /// What ended a run, if the largest depth is beyond the end of what is known.
     pub(crate) fn overrun(&self, of: &str, greatest: f64) -> Option<String> {
         self.loading.overrun(of, greatest, |depth| format!("{:.1} mm", 1e3 * depth))
     }
@@ -98,7 +98,7 @@ impl DeflectionLaw<f64> {
 }
 
 impl<S: Copy> DeflectionLaw<S> {
-    /// The same number by number with another; none where that has other parts or numbers of points.
+    /// The same number by number with another; none if that has other parts or numbers of points.
     pub(crate) fn zip<A: Copy, T>(&self, other: &DeflectionLaw<A>, f: &impl Fn(S, A) -> T) -> Option<DeflectionLaw<T>> {
         let unloading = match (&self.unloading, &other.unloading) {
             (Back::Stretch, Back::Stretch) => Back::Stretch,
@@ -124,7 +124,7 @@ impl<S: Copy> DeflectionLaw<S> {
 }
 
 impl<S: Scalar> DeflectionLaw<S> {
-    /// Force (N) and recoverable energy (J) at a depth (m) after a greatest depth, while the depth grows by `closing` (m/s).
+    /// Force (N) and recoverable energy (J) at a depth (m) after a largest depth, while the depth grows by `closing` (m/s).
     #[inline(always)]
     pub(crate) fn respond(&self, depth: S, greatest: S, closing: S) -> (S, S) {
         if S::IS_WIDE { self.within(depth, greatest, closing) } else { self.apart(depth, greatest, closing) }

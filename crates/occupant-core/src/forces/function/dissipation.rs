@@ -118,14 +118,14 @@ impl ForceDeflection {
         }
     }
 
-    /// The greatest damping that factors of speed and the damper make up to the last point, N·s/m.
+    /// The largest damping that factors of speed and the damper make up to the last point, N·s/m.
     pub(crate) fn damping(&self) -> f64 {
         let slope = |rows: &[[f64; 2]]| (rows[1][1] - rows[0][1]) / (rows[1][0] - rows[0][0]);
         let steepest = self.rate.windows(2).map(slope).fold(0.0, f64::max);
         self.loading.greatest_n() * steepest + self.viscous.map_or(0.0, |[damping, _]| damping)
     }
 
-    /// The greatest slope of loading and unloading up to its last point, N/m, by differences.
+    /// The largest slope of loading and unloading up to its last point, N/m, by differences.
     pub(crate) fn steepest(&self) -> f64 {
         let law = DeflectionLaw::new(self, 1.0);
         let (end, step) = (self.loading.end(), 1e-6 * self.loading.end());

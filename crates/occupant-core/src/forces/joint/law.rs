@@ -65,7 +65,7 @@ pub struct Ball<S> {
     pub joint: Joint,
     /// Proximal and distal segment.
     pub segments: (usize, usize),
-    /// Z of the triads in axes of these segments; none where they are theirs.
+    /// Z of the triads in axes of these segments; none if they are theirs.
     z: Option<[V3<S>; 2]>,
     damping: S,
     twist: S,

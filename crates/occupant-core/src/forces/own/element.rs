@@ -73,7 +73,7 @@ impl fmt::Debug for OwnPlain {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OwnAction {
     segment: usize,
-    /// The greatest of its forces, N.
+    /// The largest of its forces, N.
     force: f64,
     /// What it has taken from the bodies since the start, stored or lost, J; below 0 what it gave.
     taken: f64,

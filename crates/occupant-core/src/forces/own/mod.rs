@@ -60,7 +60,7 @@ pub trait Force: Debug + Send + Sync {
     }
 
     /// Takes over the place at an accepted step: what it remembers may change here, and nowhere else. One place may be taken over
-    /// more than once, at an output as well: the second time must change nothing. So it may keep a greatest value, not a count.
+    /// more than once, at an output as well: the second time must change nothing. So it may keep a largest value, not a count.
     fn accept(&self, _scene: &Scene<'_>, _memory: &mut [f64]) {}
 
     /// Numbers that it shows with [`Pushes::show`]: at most [`MOST_CHANNELS`].

@@ -73,7 +73,7 @@ impl Scene<'_> {
         }
     }
 
-    /// Velocity of a point of a segment, or of a sphere, which may ride on a part that gives way.
+    /// Velocity of a point of a segment, or of a sphere, which may ride on a part that yields.
     fn velocity(&self, place: &Place, segment: usize, arm: V3<f64>) -> V3<f64> {
         match place {
             Place::Sphere(sphere) => self.law.spheres[*sphere].place(self.k, Use::Contact).2,
@@ -128,7 +128,7 @@ pub struct Pushes<'s, 'l> {
 }
 
 impl Pushes<'_, '_> {
-    /// A force on a point, N. On a frame it moves nothing but one that gives way; its work is the vehicle's.
+    /// A force on a point, N. On a frame it moves nothing but one that yields; its work is the vehicle's.
     pub fn force(&mut self, on: &Place, force_n: Vector3<f64>) {
         let motion = self.scene.motion(on);
         let power_w = force_n.dot(&motion.velocity_m_s);

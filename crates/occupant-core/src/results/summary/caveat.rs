@@ -197,7 +197,7 @@ impl Caveat {
         Caveat::of_sphere(body, sphere, "passed", seen)
     }
 
-    /// A sphere that went deeper into a surface than anything gives way.
+    /// A sphere that went deeper into a surface than anything yields.
     pub(super) fn too_deep(body: &Body, sphere: usize, surface: &str, depth: Peak, most_m: f64) -> Self {
         let seen = format!(
             "{} deep in {surface} {}; {} is the most that is meaningful",
@@ -362,7 +362,7 @@ impl Caveat {
         Caveat::of_sphere(body, sphere, "left_compartment", seen)
     }
 
-    /// Measures whose greatest value stands in a window that ends with the run; none if there are none.
+    /// Measures whose largest value stands in a window that ends with the run; none if there are none.
     pub(super) fn cut_off(reached_s: f64, cut: &[&Measure]) -> Option<Self> {
         let worst = cut.first()?;
         let (label, of) = (worst.label, cut.len());

@@ -19,9 +19,9 @@ pub struct Searle {
     pub friction: f64,
     /// H: fall of the centre of gravity from the launch to rest, m.
     pub fall_m: f64,
-    /// Least and greatest speed that the throw distance gives back, m/s.
+    /// Least and largest speed that the throw distance gives back, m/s.
     pub speeds_m_s: [f64; 2],
-    /// Least and greatest distance from the launch to rest that the speed of the launch allows, m.
+    /// Least and largest distance from the launch to rest that the speed of the launch allows, m.
     pub distances_m: [f64; 2],
     /// The μ with which the formula gives the distance from the launch to rest: less than that of the ground where a body rolls;
     /// none if no μ does.

@@ -171,7 +171,7 @@ impl Signs {
         }
     }
 
-    /// The same with the greatest values of steps, which elements track.
+    /// The same with the largest values of steps, which elements track.
     pub(super) fn with_steps(&self, elements: &Elements, all: &Peaks, body: &Body) -> Self {
         let (mut signs, peaks) = (self.clone(), &all.elements);
         for (part, own) in body.parts().zip(&all.parts) {

@@ -39,7 +39,7 @@ pub struct Summarizer {
     compartments: Vec<Compartment>,
     elements: Elements,
     events: Events,
-    /// Greatest values at all accepted steps, of a run whose steps nobody has looked at those at its outputs; and those at the latest
+    /// Largest values at all accepted steps, of a run whose steps nobody has looked at those at its outputs; and those at the latest
     /// output.
     seen: Peaks,
     now: Peaks,
@@ -261,7 +261,7 @@ impl Summarizer {
     }
 }
 
-/// The greatest forces on the parts that touched anything.
+/// The largest forces on the parts that touched anything.
 fn sphere_forces(case: &Case, peaks: &Peaks) -> Vec<SpherePeak> {
     let named = case.body.parts().zip(&peaks.parts).filter(|(_, track)| track.force.value > 0.0);
     let one = |(part, track): (&str, &PartPeak)| SpherePeak {
@@ -355,7 +355,7 @@ fn has_ground(setup: &Setup) -> bool {
     frames.into_iter().any(|frame| setup.is_ground(setup.belongs_to(frame)))
 }
 
-/// Whether the window of a measure's greatest value ends after `last_s`, and that value is of any size beside its limits.
+/// Whether the window of a measure's largest value ends after `last_s`, and that value is of any size beside its limits.
 fn is_cut_off(measure: &Measure, last_s: f64) -> bool {
     let is_window = measure.from_s.zip(measure.to_s).is_some_and(|(from_s, to_s)| from_s < to_s && to_s > last_s);
     let value = measure.value.unwrap_or(0.0);

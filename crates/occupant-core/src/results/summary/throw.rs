@@ -36,7 +36,7 @@ pub struct Throw {
     pub distance_m: f64,
     /// Horizontal distance from the launch to the end.
     pub from_launch_m: Option<f64>,
-    /// Greatest height of its centre of gravity over that at the blow.
+    /// Largest height of its centre of gravity over that at the blow.
     pub height_m: f64,
     /// Its speed at the end.
     pub end_speed_m_s: f64,

@@ -141,7 +141,7 @@ impl<L: Machine> Group<L> {
         self.places[i].take()
     }
 
-    /// Brings the run of `place`, which was in lane `i`, to where it goes on alone.
+    /// Brings the run of `place`, which was in lane `i`, to where it continues alone.
     pub(super) fn fetch_ahead(&mut self, i: usize, place: &mut Place) {
         let Some(Bench { ahead: Some(ahead), .. }) = self.bench.as_deref_mut() else { return };
         place.fetch_step(i, ahead);

@@ -178,7 +178,7 @@ pub struct Journal {
 #[derive(Clone, Debug)]
 struct Piece {
     path: PathBuf,
-    /// From the least to after the greatest sample.
+    /// From the least to after the largest sample.
     samples: Range<u64>,
 }
 

@@ -17,7 +17,7 @@ pub(crate) const CONCAVE_WITHIN_M: f64 = 2.1 * AWAY_M;
 /// Normals of two solids that push in directions nearer to each other than this are one, rad: 30°.
 const ONE_RAD: f64 = std::f64::consts::FRAC_PI_6;
 
-/// The greatest angle between the normals of two solids at places that are equally near to both, rad; none if it is small.
+/// The largest angle between the normals of two solids at places that are equally near to both, rad; none if it is small.
 pub(crate) fn concave_rad(one: &Solid, other: &Solid) -> Option<f64> {
     let [Ok(a), Ok(b)] = [&one.shape, &other.shape].map(build) else { return None };
     let angles = one.outline().into_iter().flat_map(|polygon| angles(&polygon, &a, &b));

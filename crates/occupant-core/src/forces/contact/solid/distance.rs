@@ -122,7 +122,7 @@ impl<S: Scalar> Section<S> {
     }
 }
 
-/// Greatest distance from a side's line inside the polygon, distance from the nearest side outside.
+/// Largest distance from a side's line inside the polygon, distance from the nearest side outside.
 #[inline(always)]
 fn from_sides<S: Scalar>(sides: &[Side<S>], p: V2<S>) -> Distance2<S> {
     let o = S::zero();

@@ -167,7 +167,7 @@ impl<S: Scalar> Lock<S> {
         past.speed = S::select(stays, o, speed);
     }
 
-    /// Moment on the outer segment, space axes, and what is stored; nothing where the lock is open.
+    /// Moment on the outer segment, space axes, and what is stored; nothing if the lock is open.
     #[inline(always)]
     pub(super) fn respond(&self, pair: &Pair<'_, S>, past: &LockPast<S>) -> (V3<S>, S) {
         let (k, l) = pair.axes;

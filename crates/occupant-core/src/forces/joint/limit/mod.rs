@@ -260,7 +260,7 @@ fn law(body: &Body, limits: &Limits, layout: &Layout) -> LimitLaw<f64> {
     }
 }
 
-/// The stops' steepest torque up to [`ESTIMATE_RAD`], friction at its steepest and the lock, about the axes that give way
+/// The stops' steepest torque up to [`ESTIMATE_RAD`], friction at its steepest and the lock, about the axes that yield
 /// most.
 fn rates(data: &Joints, limits: &Limits, mobility: &Mobility<'_>) -> Vec<Rate> {
     let row = &data.tree()[limits.joint];
