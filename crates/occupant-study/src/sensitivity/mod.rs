@@ -33,5 +33,5 @@ pub use built::Built;
 pub use ladder::Slope;
 pub use of_scenario::parameter;
 pub use parameter::{ModelAt, Parameter, fine_interval_s, size_of};
-pub use trajectory::{Trajectory, follow};
+pub use trajectory::{Trajectory, follow, follow_watched};
 pub use trouble::Trouble;
