@@ -1,4 +1,4 @@
-//! The body of a vehicle as others and the ground meet it: outline, stiffness of its faces, spheres of its hull.
+//! The body of a vehicle in contacts: outline, stiffness of its faces, spheres of its hull.
 
 /// Speed of approach without residual crush, m/s: 8 km/h.
 pub const NO_CRUSH_M_S: f64 = 2.222;

@@ -1,4 +1,4 @@
-//! The hull on the ground: spheres of the body, and the edges of the wheels at faces that their treads do not meet.
+//! The hull on the ground: spheres of the body, and the edges of the wheels at faces that their treads do not touch.
 
 use crate::V3;
 use crate::body::Body;

@@ -1,4 +1,4 @@
-//! A rail on posts in plan: lateral masses along a line under one tension, with bending, posts that yield and let go.
+//! A rail on posts in plan: lateral masses along a line under one tension, with bending, posts that yield and release.
 
 use crate::V3;
 use crate::barrier::Rail;

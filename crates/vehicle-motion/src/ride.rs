@@ -1,4 +1,4 @@
-//! The motion of one vehicle: where it starts, and what a drive leaves at its accepted steps.
+//! The motion of one vehicle: its start, and the results at its accepted steps.
 
 use nalgebra::{Quaternion, UnitQuaternion};
 

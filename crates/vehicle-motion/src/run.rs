@@ -1,4 +1,4 @@
-//! A drive of one vehicle from its start to its end, and what it leaves: stations and the energy balance.
+//! A drive of one vehicle from its start to its end, and its results: stations and the energy balance.
 
 use crate::car::Car;
 use crate::chassis::Chassis;

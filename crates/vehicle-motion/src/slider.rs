@@ -1,4 +1,4 @@
-//! A mass on a straight way, held back by a force: cushions and breakaway bases.
+//! A mass on a straight slide with a resisting force: cushions and breakaway bases.
 
 use crate::barrier::{End, Slider};
 

@@ -1,5 +1,4 @@
-//! The units in which tables and pages tell people their numbers: those of the scenario, or as asked for. Answers in JSON and
-//! tables in files are SI.
+//! The units of tables and pages: those of the scenario, or as requested. Answers in JSON and tables in files are SI.
 
 use occupant_scenario::Draft;
 use occupant_scenario::kind::UnitSystem;

@@ -1,4 +1,4 @@
-//! Which computed history is held against which measured one: a run and a test, two runs, or two tables.
+//! Pairs of computed and measured histories: of a run and a test, two runs, or two tables.
 
 use crash_measures::signal::ChannelClass;
 use occupant_core::results::channel::{Channel, channels};

@@ -1,4 +1,4 @@
-//! How a vehicle met what stands beside the road.
+//! Collisions of a vehicle with obstacles beside the road.
 
 use occupant_scenario::Drives;
 use serde::Serialize;

@@ -1,4 +1,4 @@
-//! What a vehicle met, and what that did to it.
+//! Collisions of a vehicle and their effects.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! What a drive comes to: events, tyre marks, figures, tables.
+//! Results of a drive: events, tyre marks, figures, tables.
 
 mod barriers;
 mod collisions;

@@ -1,4 +1,4 @@
-//! The plan of a drive: road, barriers, tyre marks, vehicles at times, seen from above.
+//! The plan view of a drive: road, barriers, tyre marks, vehicles at chosen times.
 
 use occupant_scenario::Drives;
 use vehicle_motion::barrier::Barrier;

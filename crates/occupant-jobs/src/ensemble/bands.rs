@@ -1,4 +1,4 @@
-//! Bands over time: within which the middle 90 % of the members lie, and when they part.
+//! Bands over time: the range of the middle 90 % of the members, and the time at which they diverge.
 
 use crate::base::customary::BANDS;
 use occupant_core::model::Model;

@@ -1,4 +1,4 @@
-//! What an extension by cards costs: it is run, and compared with the run that continues.
+//! Accuracy of an extension by cards: it is run and compared with an uninterrupted run.
 
 use cardio_legacy::{ConvertOptions, Deck};
 use crash_measures::signal::STANDARD_GRAVITY_MPS2;

@@ -1,4 +1,4 @@
-//! Every candidate of a fit in the order in which the search asked for it, as a table: history.parquet and history.csv.
+//! All candidates of a fit in the order of the search, as a table: history.parquet and history.csv.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! A scenario that stands for one test or several, with the parameters of the study in it.
+//! A scenario that models one test or several, with the parameters of the study.
 
 use std::path::PathBuf;
 

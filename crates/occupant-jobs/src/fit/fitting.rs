@@ -1,4 +1,4 @@
-//! A fit as it stands before its search: a study, its tests, and the scenarios that stand for them.
+//! A fit before its search: a study, its tests, and their scenarios.
 
 use std::path::Path;
 

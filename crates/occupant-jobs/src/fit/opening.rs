@@ -1,4 +1,4 @@
-//! From the names of a study and of tests to everything that a fit needs. All problems are reported at once.
+//! Opens a study and its tests, with everything that a fit needs. All problems are reported at once.
 
 use std::collections::BTreeSet;
 use std::fs;

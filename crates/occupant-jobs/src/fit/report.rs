@@ -1,4 +1,4 @@
-//! What a fit says at its end.
+//! Report of a finished fit.
 
 use occupant_study::ApplyChoice;
 

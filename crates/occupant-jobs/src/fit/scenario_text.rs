@@ -1,7 +1,7 @@
 //! The scenario with the numbers of a fit, as its author would have written it: comments, order and units stay.
 //!
-//! The numbers are put into the text itself. The text counts only if it says the same scenario as the program's own
-//! changes do; where it cannot (a list that only a preset has, a text in JSON), the scenario is written anew.
+//! The numbers are inserted into the text. The text is used only if it gives the same scenario as the program's own
+//! changes; otherwise (a list that only a preset has, a text in JSON) the scenario is written anew.
 
 use occupant_scenario::{Draft, Format, Scenario};
 use occupant_study::{Assignment, Parameter};

@@ -1,13 +1,14 @@
-//! How the parts of a body ride down with the vehicle, and what belts and surfaces take from it.
+//! Ride-down of the parts of a body with the vehicle, and the energy that belts and surfaces absorb.
 //!
-//! A part (chest, pelvis) is slowed from the time at which its speed along the vehicle's first velocity has fallen by [`SLOWED`] of
-//! that velocity, to the time of its largest excursion ahead in the vehicle, when it has the vehicle's speed. Its stopping distance
-//! between the two is the *ride-down distance*, which the vehicle goes in that time, and the way that it goes ahead in the vehicle.
+//! A part (chest, pelvis) is slowed from the time at which its speed along the vehicle's first velocity has fallen by
+//! [`SLOWED`] of that velocity, to the time of its largest excursion ahead in the vehicle, when it has the vehicle's
+//! speed. Its stopping distance between the two is the *ride-down distance*, which the vehicle travels in that time,
+//! plus its own forward travel in the vehicle.
 //!
-//! The work that a surface takes up is ∫F dΔ of the normal force and ∫|friction| v dt of the slip, pair by pair; that of a loop is ∫F dL
-//! over its length; straps tell what they store and have lost. Each is told at its largest; what comes back later is not taken
-//! off. Integrals are sums of trapezoids over the outputs. What rides down in energy is exact: the work of the moving
-//! vehicle on the body, of the ledger, over the kinetic energy at the start.
+//! The work absorbed by a surface is ∫F dΔ of the normal force and ∫|friction| v dt of the slip, pair by pair; that of
+//! a loop is ∫F dL over its length; straps give their stored and lost energy. Each is the maximum over time; energy
+//! returned later is not subtracted. Integrals are sums of trapezoids over the outputs. The energy ride-down is exact:
+//! the work of the moving vehicle on the body, of the ledger, over the kinetic energy at the start.
 
 use std::collections::BTreeMap;
 

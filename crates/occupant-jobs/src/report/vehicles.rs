@@ -1,4 +1,4 @@
-//! What the motion of the vehicles alone says of the risk, folded on the page of a run: the sections of `occupant risk`.
+//! Occupant risk from the motion of the vehicles alone, folded on the page of a run: the sections of `occupant risk`.
 
 use super::data::Run;
 use crate::base::Units;

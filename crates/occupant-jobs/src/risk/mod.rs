@@ -1,4 +1,4 @@
-//! What a vehicle's motion alone says of the risk to its occupants: measures, limits, their table and JSON. Reads no file.
+//! Occupant risk from a vehicle's motion alone: measures, limits, their table and JSON. Reads no file.
 
 mod columns;
 mod figures;

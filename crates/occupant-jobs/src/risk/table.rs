@@ -1,4 +1,4 @@
-//! The report as text, in the manner of a test report: measures in SI and US units, limits, what was left out.
+//! The report as text, in the style of a test report: measures in SI and US units, limits, omissions.
 
 use crash_measures::measure::limits::{Basis, Quantity};
 use occupant_scenario::kind::UnitSystem;

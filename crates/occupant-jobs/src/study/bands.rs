@@ -1,8 +1,8 @@
 //! Bands over time of every sample of a study with an ensemble: a file for each sample.
 //!
 //! A sweep keeps no histories, so the members of a sample are run once more, one sample at a time: memory grows with
-//! members, channels and outputs, not with samples. A file carries its name only when it is complete and says of what it
-//! is, so that a process that was killed is resumed at the first sample that has none.
+//! members, channels and outputs, not with samples. A file gets its name only when it is complete, so a killed process
+//! is resumed at the first sample without one.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};

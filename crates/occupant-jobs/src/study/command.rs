@@ -1,7 +1,7 @@
 //! The shell command that runs one sample again.
 //!
-//! It names the copies in the folder of the sweep, so that it gives the same figures wherever the folder is moved, and says
-//! the values themselves: factors and offsets stand as what they come to, in digits that give the same bits back.
+//! It names the copies in the folder of the sweep, so it gives the same figures wherever the folder is moved. It
+//! contains the resulting values instead of factors and offsets, with enough digits for the same bits.
 
 use std::path::Path;
 

@@ -1,7 +1,8 @@
 //! Nodes of one body against the outline of another.
 //!
-//! A node keeps the face through which it came in. Its depth under that face, and the largest force per width that it has felt,
-//! give its force, along the normal of the face. Both bodies feel it at the same place, so momenta stay.
+//! A node remembers the face through which it entered. Its depth under that face, and its largest force per width so
+//! far, give its force, along the normal of the face. The force acts on both bodies at the same point, so momenta are
+//! conserved.
 
 use crate::V3;
 use crate::crush::law::Series;

@@ -1,9 +1,9 @@
-//! Where and how a wheel meets the ground.
+//! Contact of a wheel with the ground.
 //!
-//! The plane of the wheel cuts the ground in a polyline. Its overlap with the wheel's disc gives the depth that level ground
-//! would have, and the direction in which the stored energy ½k_tΔ² grows fastest: a plane gives back its own depth and
-//! normal, a curb pushes back and aside. A crown across the tread lets a leaning wheel touch where a real one does; on planes the
-//! depth is exact.
+//! The plane of the wheel cuts the ground in a polyline. Its overlap with the wheel's disc gives the depth that level
+//! ground would have, and the direction in which the stored energy ½k_tΔ² grows fastest: for a plane these are its own
+//! depth and normal; a curb pushes back and sideways. A crown across the tread makes a leaning wheel touch where a real
+//! one does; on planes the depth is exact.
 
 use super::Ground;
 use super::disc::{Overlap, level_depth, overlap};

@@ -1,4 +1,4 @@
-//! A contact between two bodies from its first touch to its end, and what it did to each vehicle.
+//! A contact between two bodies from its start to its end, and its effect on each vehicle.
 
 use crate::V3;
 use crate::ride::Station;

@@ -1,4 +1,4 @@
-//! All that is driven together: vehicles, ground, barriers, impacts. One integrator takes all of it.
+//! Everything in one simulation: vehicles, ground, barriers, impacts, with one integrator.
 
 mod contact;
 mod damage;

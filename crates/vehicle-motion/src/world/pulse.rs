@@ -1,4 +1,4 @@
-//! An impact of a run: an impulse at once, or spread over a time.
+//! An impact of a run: an instantaneous impulse, or one spread over a time.
 
 use crate::V3;
 use crate::crush::touch::{Pose, Push};

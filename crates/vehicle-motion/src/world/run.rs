@@ -1,4 +1,4 @@
-//! The run of a world: steps, first touches, what is remembered.
+//! The run of a world: steps, first contacts, memory.
 
 use crate::chassis::Report;
 use crate::crush::touch::Pose;

@@ -1,4 +1,4 @@
-//! A world made ready: vehicles, bodies in contact and what is remembered of them.
+//! A world ready to run: vehicles, bodies in contact and their memory.
 
 use crate::V3;
 use crate::barrier::Barrier;

@@ -1,7 +1,7 @@
-//! What the files of a folder were when they were complete: `SHA256SUMS`, as `sha256sum -c` reads it.
+//! Hashes of the complete files of a folder: `SHA256SUMS`, as `sha256sum -c` reads it.
 //!
-//! A line is appended as soon as a file has its name; of two lines for one file the later holds. A file without a line was
-//! not complete when its process was killed, and is made again; one that is not what its line says is damaged.
+//! A line is appended as soon as a file has its name; of two lines for one file the later counts. A file without a line
+//! was incomplete when its process was killed, and is made again; a file that differs from its line is damaged.
 
 use std::collections::BTreeMap;
 use std::fs::{self, OpenOptions};

@@ -1,4 +1,4 @@
-//! The folder of a sweep: manifest, copies of what it was made from, journal, table, kept runs, and who is at work in it.
+//! The folder of a sweep: manifest, copies of its inputs, journal, table, kept runs, and locks of working processes.
 //!
 //! ```text
 //! sweep.json               what the folder is the sweep of

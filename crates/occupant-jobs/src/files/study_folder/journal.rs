@@ -1,8 +1,8 @@
-//! The journal: every finished sample, in pieces that are only ever appended to.
+//! The journal: every finished sample, in files that are only appended to.
 //!
-//! A piece holds rows of one process in the order in which they were finished, as JSON Lines with checksums: the first line
-//! says of which sweep, each other line holds a [`Row`]. What a killed process or a full disk has left of its last row has no
-//! line end and is not read; the sample is computed again.
+//! A file contains rows of one process in the order in which they were finished, as JSON Lines with checksums: the
+//! first line names the sweep, each other line is a [`Row`]. An incomplete last row, left by a killed process or a full
+//! disk, has no line end and is not read; the sample is computed again.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};

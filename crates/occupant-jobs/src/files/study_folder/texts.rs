@@ -1,4 +1,4 @@
-//! Everything that a sweep reads, read once and remembered, from where it was named or from the copies in a folder.
+//! Inputs of a sweep, read once, from their original files or from the copies in a folder.
 
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
