@@ -159,7 +159,7 @@ pub struct Body {
     pub spheres: Vec<ContactSphere>,
     /// Parts that yield; none of a rigid trunk.
     pub plates: Vec<Plate>,
-    /// What of them are chests that results tell of, one of each body at most.
+    /// Chests that results report, at most one per body.
     pub chests: Vec<Chest>,
 }
 
@@ -261,8 +261,8 @@ impl Body {
         Some(self.socket_m(next).z - self.segment(segment).length_m)
     }
 
-    /// Where the joint is that carries a segment, seen from the joint of the segment that it hangs from, along that one's
-    /// axes, m; zero for the first segment.
+    /// Position of the joint that carries a segment, from the joint of its parent, in the parent's axes, m; zero for
+    /// the first segment.
     pub(crate) fn offset_m(&self, segment: Segment) -> Vector3<f64> {
         let Some(joint) = self.tree.bearer(segment) else { return Vector3::zeros() };
         self.sites(joint)[0].point_m - self.joint_m(self.tree[joint].carrying()[0])

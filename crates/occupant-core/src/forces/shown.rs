@@ -23,19 +23,19 @@ pub trait Reported: Element + 'static {
     const MESSAGE: &'static str = "";
     /// Fields of that message and time histories of one of them.
     const QUANTITIES: &'static [Quantity<OneOf<Self>>] = &[];
-    /// The numbers of one of them whose peaks a run's summary tells.
+    /// Numbers of an element whose peaks a run's summary reports.
     const PEAKS: &'static [Tracked] = &[];
 
     /// Whether a run's summary has a table of their peaks.
     const SHOWS_PEAKS: bool = true;
-    /// Whether a run's summary tells what happens to them: [`Reported::event`].
+    /// Whether a run's summary reports their events: [`Reported::event`].
     const TELLS: bool = false;
 
     /// Shows what one of them does to who follows it: the numbers of [`Reported::PEAKS`] in their order.
     #[inline(always)]
     fn track<S: Scalar>(_action: &Self::Action<S>, _tracker: &mut impl Tracker<S>) {}
 
-    /// Exchanges what they remember with a result file; at the start of a step `like` is what they remember at the output.
+    /// Exchanges their memory with a result file; at the start of a step `like` is their memory at the output.
     fn keep(_past: &mut Vec<Self::Past<f64>>, _like: Option<&[Self::Past<f64>]>, _file: &mut dyn Archive) {}
 
     /// Names of the elements and the spheres that they act on.
@@ -71,7 +71,8 @@ pub trait Reported: Element + 'static {
     ) {
     }
 
-    /// What happens at accepted steps, in words as of [`Reported::event`]: all that [`Reported::switched`] and [`Reported::told`] say.
+    /// Events at accepted steps, as text of [`Reported::event`]: all that [`Reported::switched`] and [`Reported::told`]
+    /// report.
     const BY_STEPS: &'static [&'static str] = &[];
 
     /// Shows what has happened to one of them between two accepted steps, by the numbers that it tracks there.

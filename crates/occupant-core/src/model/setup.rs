@@ -196,7 +196,7 @@ impl OtherFrame {
     }
 }
 
-/// What was driven, told at the stations of the drive; clones share it.
+/// The drive, given at its stations; clones share it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DriveLog {
     /// Name of the vehicle.
@@ -238,7 +238,7 @@ pub struct Scenery {
 pub struct Member {
     /// Its name: small letters, digits and `_`; none of a first one that stands at the top of a scenario.
     pub name: String,
-    /// The frame in whose axes it begins and its places are told.
+    /// The frame in whose axes it begins and its positions are reported.
     pub home: Frame,
     /// The spheres (indices) that can touch each surface, then each solid; all of them where there is no list.
     pub meets: Vec<Option<Vec<usize>>>,
@@ -252,13 +252,13 @@ impl Member {
         self.alone.body.name == LOOSE
     }
 
-    /// Where a scenario tells of it.
+    /// Its path in a scenario.
     pub(crate) fn path(&self) -> String {
         with_key(if self.is_loose() { "loose" } else { "occupants" }, &self.name)
     }
 }
 
-/// What the frame is called that stands still.
+/// Name of the frame at rest.
 pub const GROUND: &str = "ground";
 
 /// What the body is called of which a loose one consists.

@@ -12,7 +12,7 @@ use crate::model::seating::InitialPosture;
 use crate::model::setup::{Member, OtherFrame, Setup};
 use placed_text::{Problem, Problems};
 
-/// What stands first in the paths of problems that are a member's own.
+/// Prefix of the paths of problems of a member.
 const OWN: [&str; 9] =
     ["body", "joints", "posture", "seat", "mount", "velocity", "belts", "self_contact", "initial_state"];
 
@@ -56,9 +56,7 @@ impl Setup {
         self
     }
 
-    /// The bodies `members` in the world of this setup, of which the body and what belongs to it count nothing. `pairs` are
-    /// spheres of two of them that meet, by member and index, `skins` the materials of members that say no other; the first where
-    /// there are too few.
+    /// Puts `members` into this setup's world. The setup's own body, joints, belts and posture are ignored.
     #[must_use]
     pub fn together(self, members: Vec<Member>, pairs: &[[(usize, usize); 2]], skins: &[usize]) -> Setup {
         let mut all = Setup { body: bodies(&members), members, posture: InitialPosture::Together, ..self };

@@ -62,7 +62,7 @@ pub struct Sample<'a> {
     pub ledgers: &'a [EnergyLedger],
     /// The body (index) whose instruments and summary are asked for: [`Sample::of_body`].
     pub of: usize,
-    /// In whose axes places are told; those of each body's home if none: [`Sample::seen_by_vehicle`].
+    /// The frame of reported positions; by default each body's home: [`Sample::seen_by_vehicle`].
     pub watcher: Option<&'a FrameMotion>,
     /// Place and attitude of the vehicle in vehicle-space, as the path gives them.
     pub vehicle_pose: VehiclePose,
@@ -132,10 +132,10 @@ pub struct Contact {
     pub slip_m_s: f64,
 }
 
-/// Where nothing is: what is told of a segment or sphere that the body has not.
+/// Value for a segment or sphere that the body does not have.
 const NOWHERE: Point3<f64> = Point3::new(f64::NAN, f64::NAN, f64::NAN);
 
-/// All that is told of a segment, sphere, joint or frame which the model has not is not a number.
+/// For a segment, sphere, joint or frame that the model does not have, every value is NaN.
 impl<'a> Sample<'a> {
     /// Whether a segment is one of the model's.
     fn has(&self, segment: Segment) -> bool {
@@ -170,7 +170,7 @@ impl<'a> Sample<'a> {
         }
     }
 
-    /// In whose axes places and forces on a segment are told.
+    /// The frame of positions and forces on a segment.
     pub(crate) fn seen_from(&self, segment: usize) -> &'a FrameMotion {
         let of = |segment| self.model.body().tree.body_of(self.model.body().tree.segment(segment));
         self.watcher.unwrap_or_else(|| &self.homes[of(segment)])
@@ -287,7 +287,7 @@ impl<'a> Sample<'a> {
         self.touches().map(move |t| sample.contact(&t))
     }
 
-    /// What each sphere feels, one by one: of two spheres of the body that touch each other both do.
+    /// Forces on each sphere; if two spheres of the body touch each other, both are listed.
     fn touches(&self) -> impl Iterator<Item = Touch<f64>> + use<'a> {
         let contacts = &self.model.system().forces.contacts;
         self.actions.contacts.iter().flat_map(move |touch| contacts.sides(touch))
@@ -436,7 +436,7 @@ impl<'a> Sample<'a> {
         }
     }
 
-    /// The frame in whose axes what touches a segment is told.
+    /// The frame in which contacts of a segment are given.
     fn seen_frame(&self, segment: usize) -> usize {
         let tree = self.model.body().tree;
         let member = self.model.setup().members.get(tree.body_of(tree.segment(segment)));

@@ -10,7 +10,7 @@ pub enum RunError {
     /// A time that the run cannot go to.
     #[error("the run stands at t = {now_s} s and ends at {end_s} s: it cannot go to {target_s} s")]
     Time {
-        /// Where it stands, s.
+        /// Its present time, s.
         now_s: f64,
         /// The end of its model, s.
         end_s: f64,
@@ -25,7 +25,7 @@ pub enum RunError {
         /// What was expected.
         expected: String,
     },
-    /// The integration cannot go on; the run stands where it came to.
+    /// The integration cannot continue; the run stays at its present state.
     #[error(transparent)]
     Step(#[from] StepError),
     /// The recorder failed.

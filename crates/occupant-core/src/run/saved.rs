@@ -14,7 +14,7 @@ use crate::vehicle::live::LiveFrames;
 const MARK: &[u8; 16] = b"occupant run 1\r\n";
 
 impl Run<'_> {
-    /// All of the run as bytes, with what was told of the vehicle: [`Run::load`] continues from there, to the bit.
+    /// The whole run as bytes, including the motion of a live vehicle: [`Run::load`] continues from it, to the bit.
     ///
     /// # Errors
     /// As of [`Run::look`].

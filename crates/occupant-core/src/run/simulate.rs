@@ -6,10 +6,10 @@ use crate::results::outcome::{Outcome, RecordingFailed, ResumeError, SimulationE
 use crate::results::recorder::{Flow, Recorder};
 use crate::run::Course;
 
-/// Runs `model` from its start to its end time, or to where the recorder stops it.
+/// Runs `model` from its start to its end time, or until the recorder stops it.
 ///
 /// # Errors
-/// A step that fails, with the outcome so far: what was recorded before stands. What the recorder reports.
+/// A step that fails, with the outcome so far; recorded outputs stay valid. An error of the recorder.
 pub fn simulate(model: &Model, recorder: impl Recorder) -> Result<Outcome, SimulationError> {
     attempt(model, recorder)?.succeeded()
 }

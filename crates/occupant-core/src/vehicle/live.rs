@@ -32,7 +32,7 @@ pub struct LivePath {
 }
 
 impl LivePath {
-    /// Before any frame was told.
+    /// Before the first frame.
     pub(super) fn motion(&self, t_s: f64) -> FrameMotion {
         self.start.motion().coasted(t_s)
     }
@@ -65,7 +65,7 @@ impl VehicleInput {
     }
 }
 
-/// A frame that was told.
+/// A given frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LiveFrame {
     pub from_s: f64,
@@ -242,7 +242,7 @@ fn rotation_vector(turn: &Matrix3<f64>) -> Vector3<f64> {
     if sine < 1e-5 && angle < 1.0 { by_sine * (1.0 + sine * sine / 6.0) } else { by_sine * (angle / sine) }
 }
 
-/// The latest frames that were told: a step that ends in the present one may have to be taken again from the one before.
+/// The latest given frames: a step that ends in the present one may have to be repeated from the previous one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LiveFrames {
     before: Option<LiveFrame>,
@@ -339,7 +339,7 @@ mod tests {
         }
     }
 
-    /// A state that is told is reached, and where the next frame begins.
+    /// A given state is reached, also where the next frame begins.
     #[test]
     fn a_state_is_reached() {
         let (reached, told) = (frame(&VehicleInput::State(end())).motion(1.25), end().motion());

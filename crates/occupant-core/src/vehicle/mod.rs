@@ -54,7 +54,7 @@ pub use sensors::{
 pub use station::{Station, unwrap_angles};
 pub use table::{AfterEnd, Interpolation, TablePath};
 
-/// Where the vehicle is, told as the input tells it.
+/// Position of the vehicle, in the convention of the input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VehiclePose {
     /// The vehicle's c.g. in vehicle-space axes (X′_v forward, Y′_v right, Z′_v down), m.
@@ -86,7 +86,7 @@ pub enum VehiclePath {
     Driven(DrivenPath),
     /// What a program computes itself.
     Own(OwnPath),
-    /// What a run is told on its way.
+    /// Motion given during a run.
     Live(Box<LivePath>),
 }
 
@@ -109,22 +109,22 @@ impl VehiclePath {
         VehiclePath::Own(OwnPath::new(motion))
     }
 
-    /// A vehicle that is `start` at 0 s and is told from then on, frame by frame, how it moves:
+    /// A vehicle with the state `start` at 0 s whose motion is then given frame by frame:
     /// [`Run::push`](crate::run::Run::push).
     pub fn live(start: VehicleState) -> Self {
         VehiclePath::Live(Box::new(LivePath { start }))
     }
 
-    /// Whether it is told on the way.
+    /// Whether its motion is given during the run.
     pub fn is_live(&self) -> bool {
         matches!(self, VehiclePath::Live(_))
     }
 
     /// Pose and motion at `t_s`, in space axes.
     ///
-    /// `step_middle_s` is the middle of the present integration step; it decides which interval of a linear table gives the
-    /// velocities, and whether a held table already stands still. For output at an instant give `t_s` itself. The
-    /// answer depends on the two times alone, never on `cursor`, but of a path that is told on the way. Outside the path's span (see
+    /// `step_middle_s` is the middle of the present integration step; it decides which interval of a linear table gives
+    /// the velocities, and whether a held table already stands still. For output at an instant give `t_s` itself. The
+    /// answer depends only on the two times, never on `cursor`, except for a live path. Outside the path's span (see
     /// `VehiclePath::check_span`) the vehicle coasts.
     pub fn motion(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> FrameMotion {
         match self {

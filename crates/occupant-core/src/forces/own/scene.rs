@@ -35,7 +35,7 @@ pub struct PointMotion {
 }
 
 impl PointMotion {
-    /// Of what there is not.
+    /// For something that does not exist.
     fn nowhere() -> Self {
         PointMotion { place_m: Vector3::repeat(f64::NAN), velocity_m_s: Vector3::repeat(f64::NAN) }
     }
@@ -118,7 +118,7 @@ impl Scene<'_> {
 pub struct Pushes<'s, 'l> {
     pub(super) scene: Scene<'s>,
     pub(super) load: &'l mut Load<f64>,
-    /// The first segment that was pushed, in whose body's books all stands.
+    /// The first pushed segment, whose body's ledger contains everything.
     pub(super) home: Option<usize>,
     /// Power that goes into the force, W.
     pub(super) taken_w: f64,
@@ -184,7 +184,7 @@ impl Pushes<'_, '_> {
         }
     }
 
-    /// Energy that the force could give back, J, of what it has taken.
+    /// Energy that the force has absorbed and could return, J.
     pub fn stored_j(&mut self, energy_j: f64) {
         self.stored_j += energy_j;
     }

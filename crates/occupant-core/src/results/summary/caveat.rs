@@ -19,14 +19,14 @@ const APART_S: f64 = 2e-3 + 1e-9;
 /// The figures that are such peaks.
 const PEAKS: [&str; 6] = ["belts.*", "straps.*", "joints.*", "muscles.*", "contacts.*", "head_excursion.*"];
 
-/// Why some figures of a run are not to be quoted as they stand.
+/// Why some figures of a run should not be quoted.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Caveat {
     /// A word for tables of many runs, such as `neck_beyond_stop`.
     pub name: String,
     /// What was seen, and which figures it spoils.
     pub text: String,
-    /// Their names, of figures and of measures; one that ends with `*` stands for all that begin like it.
+    /// Names of the figures and measures; a name that ends with `*` matches all that begin like it.
     pub figures: Vec<String>,
 }
 
@@ -35,7 +35,7 @@ impl Caveat {
     pub const BALANCE_LOST: &str = "energy_balance_lost";
     /// Name of the one on figures of a part of a run.
     pub const PART: &str = "part_of_a_run";
-    /// Name of the one on ejections of which one run alone tells.
+    /// Name of the caveat on ejections, which applies to a single run.
     pub const CHANCE: &str = "ejection_by_chance";
 
     fn new(name: impl Into<String>, text: String, figures: Vec<String>) -> Self {
@@ -47,7 +47,7 @@ impl Caveat {
         self.figures.iter().any(|of| of.strip_suffix('*').map_or(of == figure, |stem| figure.starts_with(stem)))
     }
 
-    /// The same of one of several occupants, whose name stands before those of its figures.
+    /// The same for one of several occupants, whose name precedes those of its figures.
     pub(super) fn of_occupant(self, name: &str) -> Self {
         let figures =
             self.figures.iter().map(|figure| if name.is_empty() { figure.clone() } else { format!("{name}.{figure}") });
@@ -294,7 +294,7 @@ impl Caveat {
         Caveat::new(format!("{plate}_too_deep"), text, figures)
     }
 
-    /// How far a chest that gives way may be believed. It is told of every run, so that it marks no figure by itself.
+    /// How far results of a deformable chest can be trusted. It appears in every such run, so it marks no figure.
     pub(super) fn of_chest(chest: &Chest) -> Self {
         let of = match chest.preset.as_str() {
             "own" => return Caveat::own_chest(chest),
@@ -345,7 +345,7 @@ impl Caveat {
         Caveat::of_sphere(body, sphere, sign, seen)
     }
 
-    /// A sphere that touched what stands behind a bag, while that was between.
+    /// A sphere that touched a part behind a bag while the bag was between them.
     pub(super) fn touched_through(body: &Body, sphere: usize, bag: &str, what: &str, time_s: f64) -> Self {
         let seen = format!("touched {what} through the bag {bag} at {:.1} ms", 1e3 * time_s);
         Caveat::of_sphere(body, sphere, "through_bag", seen)

@@ -38,7 +38,7 @@ use crate::run::simulate::attempt;
 /// A run to be done.
 #[derive(Clone, Debug)]
 pub struct Job<T, R> {
-    /// Whatever tells the caller which run this is.
+    /// The caller's tag of this run.
     pub tag: T,
     /// What is run.
     pub model: Model,
@@ -46,7 +46,7 @@ pub struct Job<T, R> {
     pub recorder: R,
 }
 
-/// A run that has ended, with all that its [`Job`] brought.
+/// A finished run, with everything of its [`Job`].
 #[derive(Debug)]
 pub struct Ended<T, R> {
     /// The tag of its job.
