@@ -179,7 +179,7 @@ rules! {
         remedy "remove one of the two; in lenient reading the later one counts, as it did in the program";
     /// A series stands elsewhere than in the report's order.
     OutOfOrder: Doubtful, "out-of-order", expects "the series in the order of their numbers",
-        remedy "sort the deck; the card number says which series it is, and so it was read";
+        remedy "sort the deck; it was read by its card numbers";
     /// A series that the deck needs is not there.
     SeriesMissing: Fatal, "series-missing", remedy "add the cards, or punch the card number if they are there";
     /// A series that the deck does not need is there.

@@ -112,7 +112,7 @@ fn a_vehicle_that_was_told_is_told() {
     }
     run.end(Status::Completed, &mut recorder).unwrap();
     let refused = opened(&recorder.into_inner().unwrap().into_inner()).err().unwrap();
-    assert!(refused.contains("a vehicle that was told on its way"), "{refused}");
+    assert!(refused.contains("a vehicle whose motion is given during the run"), "{refused}");
 }
 
 /// A run of its scenario as it was read opens without a resolved one; cut off or damaged it is read as far as it goes.

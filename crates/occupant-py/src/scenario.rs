@@ -208,7 +208,7 @@ impl Scenario {
             let ahead = loaded.triggers_of_path();
             if !ahead.is_empty() {
                 let names: Vec<String> = ahead.iter().map(|name| format!("triggers.{name}")).collect();
-                let found = "triggers that look ahead along the path, which is to be told on the way";
+                let found = "triggers that need the path in advance, but it is given during the run";
                 let expected = "triggers by time or by what a belt does";
                 return Err(plain(format!("{}: {found}; expected {expected}", names.join(", "))));
             }

@@ -71,7 +71,7 @@ impl Scenario {
             (Some((_, value)), true) => written(&value).ok_or_else(|| {
                 Error::new(ErrorKind::Name, format!("`{path}` is {}; expected a single value", value.kind()))
             }),
-            _ => Err(Error::new(ErrorKind::Name, format!("`{path}` leads to several places; expected one"))),
+            _ => Err(Error::new(ErrorKind::Name, format!("`{path}` matches several values; expected one"))),
         }
     }
 

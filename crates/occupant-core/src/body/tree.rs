@@ -299,7 +299,7 @@ pub enum TreeProblem {
     #[error("no segment for the landmark `{0}`")]
     MissingLandmark(&'static str),
     /// A segment that no joint before has named.
-    #[error("the joint `{joint}` hangs on `{segment}`, which no joint before it carries{}", meant(.nearest.as_deref()))]
+    #[error("the joint `{joint}` is on `{segment}`, which no joint before it carries{}", meant(.nearest.as_deref()))]
     UnknownSegment {
         /// Name of the joint.
         joint: String,

@@ -71,7 +71,7 @@ impl BilinearSpring {
         if k2 > 0.0 && k2 < k1 && self.returned_2 > YIELDING {
             let found = format!("{k2} N/m, softer than k1 = {k1} N/m, of a spring that gives back {}", self.returned_2);
             let expected =
-                "the larger of the two, or of what yields mu2 of 0.5 at most: have k1 and k2 changed places?";
+                "the larger of the two, or mu2 of at most 0.5 for a part that yields: are k1 and k2 exchanged?";
             problems.warning(format!("{path}.k2"), found, expected);
         }
         for (key, value) in [("mu1", self.returned_1), ("mu2", self.returned_2)] {

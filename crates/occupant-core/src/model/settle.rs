@@ -84,7 +84,7 @@ impl Settled {
             problems.warning(
                 "posture.settle",
                 format!(
-                    "the body does not come to rest: {:.1} N and {:.1} N·m are left over of a weight of {:.1} N",
+                    "the body does not come to rest: {:.1} N and {:.1} N·m remain, for a weight of {:.1} N",
                     self.residual_force_n, self.residual_moment_n_m, self.weight_n
                 ),
                 "a posture that seat, floor and belts can carry with locked joints",

@@ -330,7 +330,7 @@ impl Setup {
         let forces = self.own_forces.iter().map(|own| format!("the program's own force `{}`", own.name));
         let path = match self.path {
             VehiclePath::Own(_) => Some("a vehicle that the program moves"),
-            VehiclePath::Live(_) => Some("a vehicle that was told on its way how it moves"),
+            VehiclePath::Live(_) => Some("a vehicle whose motion is given during the run"),
             _ => None,
         };
         path.map(str::to_owned).into_iter().chain(forces).collect()

@@ -117,7 +117,7 @@ impl Layout {
             turns += hinges(segment);
             match parent {
                 None if n > 0 => return error("carried by none", "one root, the first segment"),
-                Some(parent) if parent >= n => return error("carried by one that stands after it", "one before it"),
+                Some(parent) if parent >= n => return error("carried by one that comes after it", "one before it"),
                 _ => {}
             }
             match freedom {

@@ -120,12 +120,12 @@ impl Progress {
                 file.number(held.start, &mut start.stored_j[energy.at]);
             }
         }
-        file.number(words(23, "greatest_kinetic_j", "greatest kinetic energy relative to the vehicle so far"), &mut self.greatest.all.kinetic_j);
-        file.number(words(24, "greatest_imbalance_j", "greatest energy imbalance so far"), &mut self.greatest.all.imbalance_j);
-        file.number(words(46, "greatest_work_j", "greatest work of gravity and force elements so far"), &mut self.greatest.all.work_j);
-        let own = file.numbers(words(64, "body_energies_j", "of several bodies, one behind the other: greatest kinetic energy relative to the vehicle, greatest work of gravity and force elements, and greatest energy imbalance so far"), self.greatest.numbers());
+        file.number(words(23, "greatest_kinetic_j", "largest kinetic energy relative to the vehicle so far"), &mut self.greatest.all.kinetic_j);
+        file.number(words(24, "greatest_imbalance_j", "largest energy imbalance so far"), &mut self.greatest.all.imbalance_j);
+        file.number(words(46, "greatest_work_j", "largest work of gravity and force elements so far"), &mut self.greatest.all.work_j);
+        let own = file.numbers(words(64, "body_energies_j", "of several bodies, one behind the other: greatest kinetic energy relative to the vehicle, greatest work of gravity and force elements, and largest energy imbalance so far"), self.greatest.numbers());
         self.greatest.read(&own);
-        file.number(words(56, "most_kinetic_j", "greatest kinetic energy in space so far, of a run that ends at rest"), &mut self.rest.most_j);
+        file.number(words(56, "most_kinetic_j", "largest kinetic energy in space so far, of a run that ends at rest"), &mut self.rest.most_j);
         file.number(words(57, "still_since_s", "time since which the bodies are still, of a run that ends at rest; 1e30 while they are not"), &mut self.rest.since_s);
         file.number(words(25, "step_error", "error of the last accepted step in units of the tolerance"), &mut self.step_error);
     }

@@ -236,7 +236,7 @@ impl<'m> Run<'m> {
         }
         if self.time_s() < from_s {
             let found = format!("a frame from {from_s} s on in a run at {} s", self.time_s());
-            return Err(RunError::input(found, "a run that has come to the end of the frame before"));
+            return Err(RunError::input(found, "a run that has reached the end of the previous frame"));
         }
         let (start, pose) = self.vehicle_at(from_s);
         let frame = LiveFrame::new([from_s, until_s], start, pose.attitude, input);

@@ -8,7 +8,7 @@ use crate::results::outcome::{RecordingFailed, StepError};
 #[non_exhaustive]
 pub enum RunError {
     /// A time that the run cannot go to.
-    #[error("the run stands at t = {now_s} s and ends at {end_s} s: it cannot go to {target_s} s")]
+    #[error("the run is at t = {now_s} s and ends at {end_s} s: it cannot go to {target_s} s")]
     Time {
         /// Its present time, s.
         now_s: f64,

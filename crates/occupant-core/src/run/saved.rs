@@ -67,7 +67,7 @@ impl<'m> Run<'m> {
             *list = (&mut file as &mut dyn Archive).numbers(EXTRA, Vec::new());
         }
         if !file.is_sound || !file.rest.is_empty() {
-            return Err(wrong("a saved run that breaks off or goes on"));
+            return Err(wrong("a saved run that is cut off or too long"));
         }
         let [energies, breaks_s, frames, is_recorded] = lists;
         let mut course = Course::from_checkpoint(model, &checkpoint, false)?;

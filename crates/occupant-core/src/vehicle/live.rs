@@ -113,7 +113,7 @@ impl LiveFrame {
             |cubic: &[Vector3<f64>; 3]| (cubic[1] * 2.0).norm().max((cubic[1] * 2.0 + cubic[2] * 6.0 * t).norm());
         if fastest(&frame.place) > MOST_M_S2 {
             let found = format!("an acceleration of {:.1e} m/s² within a frame of {t} s", fastest(&frame.place));
-            return Err((found, "a place that changes as the velocity says"));
+            return Err((found, "a position that changes as the velocity requires"));
         }
         let angle = at(&frame.turn, t)[0].norm();
         if angle > MOST_RAD {

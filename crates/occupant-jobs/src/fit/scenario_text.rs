@@ -45,7 +45,7 @@ pub fn numbers(experiment: &Experiment, values: &[f64]) -> Result<Vec<Fitted>, S
             return Err(format!("`{path}` is not a number"));
         };
         let text = study.base.written(&path, si, DIGITS);
-        let text = text.ok_or_else(|| format!("no number can stand at `{path}`"))?;
+        let text = text.ok_or_else(|| format!("`{path}` cannot be a number"))?;
         Ok(Fitted { fitted: experiment.fitted.clone(), parameter: of(&path), path, text })
     };
     study.assignments_of(values).into_iter().map(number).collect()

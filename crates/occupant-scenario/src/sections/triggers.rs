@@ -267,7 +267,7 @@ impl<'s> Search<'s> {
             }
             _ => None,
         }
-        .ok_or(["a trigger by the motion of what is no vehicle", "\"vehicle\" or a name under `vehicles`"])
+        .ok_or(["a trigger by the motion of something that is not a vehicle", "\"vehicle\" or a name under `vehicles`"])
     }
 
     /// When other triggers fire, s; none for one that does not.

@@ -36,7 +36,7 @@ fn tell(binder: &mut Binder, at: &str, parameter: &Parameter, wrong: Diagnostics
     let found = format!("`{name}` makes the scenario invalid: {}", words.found);
     let problem = Problem::error(at, found, words.expected.clone());
     binder.report(if rare {
-        let hint = "a \"truncated_normal\" distribution stays within what is possible";
+        let hint = "a \"truncated_normal\" distribution stays within the possible range";
         Problem { severity: Severity::Warning, ..problem }.with_hint(Some(hint))
     } else {
         problem.with_hint(words.hint.clone())

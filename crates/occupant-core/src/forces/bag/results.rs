@@ -301,7 +301,7 @@ impl Reported for Bags {
 
 const FIRES: &str = "fires";
 const OPENS: &str = "opens a vent";
-const BOTTOMS: &str = "is pressed in as far as its mount or its middle";
+const BOTTOMS: &str = "bottoms out at its mount or its middle";
 const TOUCHED: &str = "is touched";
 const UNFOLDED: &str = "is unfolded";
 const LEFT: &str = "is left";

@@ -422,7 +422,7 @@ impl Reported for Chains {
 
 const LEAVES_LEFT: &str = "leaves the left iliac wing";
 const LEAVES_RIGHT: &str = "leaves the right iliac wing";
-const LOSES: &str = "loses the node where it begins";
+const LOSES: &str = "comes off its first node";
 const COMES_ONTO: &str = "comes onto a sphere of the body";
 const LEAVES: &str = "leaves a sphere of the body";
 const TIGHTENS: &str = "tightens";

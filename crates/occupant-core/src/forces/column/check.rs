@@ -37,7 +37,7 @@ pub(super) fn data(column: &Column, problems: &mut Problems) {
         problems.error(at(law), format!("a {what} that never rises"), expected);
     } else if slope < steepest * (1.0 - 1e-9) {
         let found = format!("{} {unit}, the {what} rises by {} {unit}", number(slope), number(steepest));
-        let expected = format!("no less than the greatest slope of the {what}: unloading would make energy");
+        let expected = format!("no less than the largest slope of the {what}: otherwise unloading would create energy");
         problems.error(at(slope_key), found, expected);
     }
 }

@@ -137,7 +137,7 @@ fn warn_of_concave(solids: &[Solid], problems: &mut Problems) {
     for ([other, solid], angle_rad) in pairs.filter_map(|pair| Some((pair, concave_rad(pair[0], pair[1])?))) {
         let turn = angle_rad.to_degrees();
         let found = format!(
-            "a concave corner or a gap to {} of the same group, of which the sides differ by {turn:.0}°",
+            "a concave corner or a gap to {} of the same group; the sides differ by {turn:.0}°",
             other.name
         );
         let expected =
@@ -215,7 +215,7 @@ pub(super) fn beneath(
         let more = if count > 1 { format!(", and {} more are behind it", count - 1) } else { String::new() };
         let found = format!("the centre of {name} is {:.1} mm behind it at the start{more}", 1e3 * behind_m);
         let (path, most) = (with_key("surfaces", &data.surfaces[surface].name), 2 * count > all.len());
-        let expected = "a body in front of a plane, which does not hold what begins behind it";
+        let expected = "a body in front of the plane, which does not push a body that begins behind it";
         let problem =
             if most { Problem::error(path, found, expected) } else { Problem::warning(path, found, expected) };
         problems.push(problem.with_hint(Some("move the body or the plane; of `space` z is up, of all else down")));

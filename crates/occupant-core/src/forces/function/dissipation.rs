@@ -68,7 +68,7 @@ impl ForceDeflection {
         let (found, place) = (format!("{slope:.6} N/m"), format!("{path}.unload_slope"));
         let own = self.loading.steepest_loading();
         if slope.is_nan() || slope < own {
-            problems.error(place, found, format!("at least the greatest slope of loading, {own:.6} N/m"));
+            problems.error(place, found, format!("at least the largest slope of loading, {own:.6} N/m"));
             return;
         }
         if least.is_empty() {
@@ -113,7 +113,7 @@ impl ForceDeflection {
             problems.warning(
                 format!("{path}.atb.r"),
                 found,
-                "an r that it can meet, or `returned`, which is met exactly",
+                "an r within its range, or `returned`, which is exact",
             );
         }
     }

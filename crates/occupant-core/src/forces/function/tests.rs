@@ -252,7 +252,7 @@ fn laws_that_make_energy_or_cannot_be_followed_are_refused() {
     let steep = vec![[0.0, 0.0], [1e-3, 0.0], [2e-3, 5000.0], [0.01, 0.0]];
     for (law, expected) in [
         (ForceDeflection::lines(falling.clone(), 0.5), "needs `unload_slope`"),
-        (ForceDeflection { unloading: slope(30e3, &[]), ..plain.clone() }, "at least the greatest slope of loading"),
+        (ForceDeflection { unloading: slope(30e3, &[]), ..plain.clone() }, "at least the largest slope of loading"),
         (
             ForceDeflection { unloading: slope(60e3, &[[0.0, 0.0], [0.01, 400.0]]), ..plain.clone() },
             "below that of loading",

@@ -133,7 +133,7 @@ impl Element for OwnForces {
             20,
             "own_forces",
             "taken by the program's own forces",
-            "taken from the bodies by a program's own forces since the start, stored or lost; below 0 what they gave",
+            "taken from the bodies by a program's own forces since the start, stored or lost; negative if they gave energy",
         ),
         held_by: None,
     }];
@@ -258,7 +258,7 @@ impl Reported for OwnForces {
 
     const QUANTITIES: &'static [Of] =
         &[
-            Of::number(Newton, |own| own.force).channel("force", "greatest of the forces of the {}").field(
+            Of::number(Newton, |own| own.force).channel("force", "largest of the forces of the {}").field(
                 2,
                 "force",
                 "greatest of its forces",
@@ -268,11 +268,11 @@ impl Reported for OwnForces {
                 .field(
                     3,
                     "taken",
-                    "energy that it has taken from the bodies since the start, stored or lost; below 0 what it gave",
+                    "energy taken from the bodies since the start, stored or lost; negative if it gave energy",
                 ),
             Of::number(Joule, |own| own.stored)
-                .channel("stored", "energy that the {} could give back, as it says")
-                .field(4, "stored", "energy that it could give back, as it says"),
+                .channel("stored", "recoverable energy of the {}, as it reports")
+                .field(4, "stored", "recoverable energy, as it reports"),
         ];
 
     fn keep(past: &mut Vec<[f64; MOST_MEMORY]>, like: Option<&[[f64; MOST_MEMORY]]>, file: &mut dyn Archive) {

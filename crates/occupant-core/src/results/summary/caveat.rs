@@ -302,13 +302,13 @@ impl Caveat {
             _ => "of a dummy, fitted to one hub test",
         };
         let text = format!(
-            "chest {of}. Under belts and bags, a constant share of their force (0.2 to 0.5 is plausible) bears on the breastbone, and the deflection depends on it. Not valid for loads from the side or from behind, or for broken ribs"
+            "chest {of}. Under belts and bags, a constant share of their force (0.2 to 0.5 is plausible) bears on the sternum, and the deflection depends on it. Not valid for loads from the side or from behind, or for broken ribs"
         );
         Caveat::new("chest_of_one_share", text, Vec::new()).with_subject(&chest.of)
     }
 
     fn own_chest(chest: &Chest) -> Self {
-        let text = "chest with the scenario's own values; under belts and bags, a constant share of their force bears on the breastbone";
+        let text = "chest with the scenario's own values; under belts and bags, a constant share of their force bears on the sternum";
         Caveat::new("chest_of_one_share", text.to_owned(), Vec::new()).with_subject(&chest.of)
     }
 

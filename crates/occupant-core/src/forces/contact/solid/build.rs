@@ -77,7 +77,7 @@ fn along(centre: Point3<f64>, axis: V, section: Section<f64>, ends: [f64; 2]) ->
         return Err(("an axis of length zero".to_owned(), "a direction"));
     };
     if !centre.iter().all(|c| c.abs() < FAR_M) {
-        return Err(("a place that is not finite".to_owned(), "finite coordinates"));
+        return Err(("a position that is not finite".to_owned(), "finite coordinates"));
     }
     let (u, v) = plane_axes(&axis);
     let axes = M3 { x: V3::of(&u), y: V3::of(&v), z: V3::of(&axis) };
