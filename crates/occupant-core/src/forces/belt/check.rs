@@ -41,7 +41,8 @@ pub(super) fn laid(law: &BeltLaw<f64>, belt: &Belt, body: &Body, centres: &[V3<f
             );
             let problem = if index == belt.sphere {
                 let problem = Problem::error(&path, found, "an anchor outside the sphere that the belt goes round");
-                problem.with_hint(Some("move the anchor, or check the seat's lateral position and the anchor's sign of y"))
+                problem
+                    .with_hint(Some("move the anchor, or check the seat's lateral position and the anchor's sign of y"))
             } else {
                 let hint = "check the anchor's height and its sign of y";
                 Problem::warning(&path, found, "an anchor outside the body").with_hint(Some(hint))

@@ -136,10 +136,8 @@ fn warn_of_concave(solids: &[Solid], problems: &mut Problems) {
     let pairs = near.pairs.iter().map(|pair| pair.map(|i| &solids[i]));
     for ([other, solid], angle_rad) in pairs.filter_map(|pair| Some((pair, concave_rad(pair[0], pair[1])?))) {
         let turn = angle_rad.to_degrees();
-        let found = format!(
-            "a concave corner or a gap to {} of the same group; the sides differ by {turn:.0}°",
-            other.name
-        );
+        let found =
+            format!("a concave corner or a gap to {} of the same group; the sides differ by {turn:.0}°", other.name);
         let expected =
             "solids of a group that bend inwards by 30° at most: the nearest alone pushes; without `group` all do";
         problems.warning(format!("solids.{}.group", solid.name), found, expected);

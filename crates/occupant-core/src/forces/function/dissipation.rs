@@ -110,11 +110,7 @@ impl ForceDeflection {
             && (share - returned).abs() > 0.01
         {
             let found = format!("r = {returned}, of which ATB's quadratic makes {share:.3} at the last point");
-            problems.warning(
-                format!("{path}.atb.r"),
-                found,
-                "an r within its range, or `returned`, which is exact",
-            );
+            problems.warning(format!("{path}.atb.r"), found, "an r within its range, or `returned`, which is exact");
         }
     }
 

@@ -256,24 +256,25 @@ type Of = Quantity<OneOf<OwnForces>>;
 impl Reported for OwnForces {
     const MESSAGE: &'static str = "OwnForceState";
 
-    const QUANTITIES: &'static [Of] =
-        &[
-            Of::number(Newton, |own| own.force).channel("force", "largest of the forces of the {}").field(
-                2,
-                "force",
-                "greatest of its forces",
+    const QUANTITIES: &'static [Of] = &[
+        Of::number(Newton, |own| own.force).channel("force", "largest of the forces of the {}").field(
+            2,
+            "force",
+            "greatest of its forces",
+        ),
+        Of::number(Joule, |own| own.taken)
+            .channel("taken", "energy that the {} has taken from the bodies, stored or lost")
+            .field(
+                3,
+                "taken",
+                "energy taken from the bodies since the start, stored or lost; negative if it gave energy",
             ),
-            Of::number(Joule, |own| own.taken)
-                .channel("taken", "energy that the {} has taken from the bodies, stored or lost")
-                .field(
-                    3,
-                    "taken",
-                    "energy taken from the bodies since the start, stored or lost; negative if it gave energy",
-                ),
-            Of::number(Joule, |own| own.stored)
-                .channel("stored", "recoverable energy of the {}, as it reports")
-                .field(4, "stored", "recoverable energy, as it reports"),
-        ];
+        Of::number(Joule, |own| own.stored).channel("stored", "recoverable energy of the {}, as it reports").field(
+            4,
+            "stored",
+            "recoverable energy, as it reports",
+        ),
+    ];
 
     fn keep(past: &mut Vec<[f64; MOST_MEMORY]>, like: Option<&[[f64; MOST_MEMORY]]>, file: &mut dyn Archive) {
         let number = if like.is_some() { 68 } else { 67 };
