@@ -22,9 +22,7 @@ use crate::quantity::{FieldWords, Quantity, energy};
 use placed_text::Problems;
 
 /// Why a model with an own force has no place beside others and no derivatives.
-pub(crate) const PLAIN: Unlike = Unlike(
-    "a program's own forces are computed in plain numbers: side by side with other runs, or with derivatives, there are none",
-);
+pub(crate) const PLAIN: Unlike = Unlike("a program's own forces support neither lanes nor derivatives");
 
 /// The number of the state that says what a force has taken is so many J.
 const SCALE_J: f64 = 100.0;

@@ -56,7 +56,7 @@ fn check_frames(setup: &Setup, problems: &mut Problems) {
         };
         if !is_before {
             let found = if parent == Frame::Other(i) { "the frame itself".to_owned() } else { format!("{parent:?}") };
-            problems.error(&path, found, "space, the vehicle, or a frame that stands before it in the list");
+            problems.error(&path, found, "space, the vehicle, or a frame that precedes it in the list");
         }
         if !origin_m.coords.sum().is_finite() {
             problems.error(path, "a point that is not finite", "finite coordinates");

@@ -138,7 +138,7 @@ pub(super) fn ground(b: &mut Builder, section: Option<&RoadSection>) -> (Ground,
             Ok(own) => ground = own,
             Err(GroundError::Order { number, .. }) => {
                 let last = format!("{at}.right[{}]", number - 1);
-                let found = format!("corner {number} does not lie right of the one before it");
+                let found = format!("corner {number} is not to the right of the previous one");
                 b.error(&last, found, "distances that rise from left to right");
             }
             Err(error) => refused.push((at, error)),
