@@ -54,6 +54,7 @@ mod switches;
 mod symmetry;
 mod thin;
 mod throws;
+mod trends;
 mod validation;
 mod volunteers;
 mod wings;

@@ -49,9 +49,11 @@ const ROWS: [Row; 4] = [
 const SIDES: [&str; 2] = ["right", "left"];
 
 /// Spheres of a row are at most so far apart, in their mean radii: their envelope sags by 0.4 of one.
-const APART: f64 = 1.6;
+pub const APART: f64 = 1.6;
+/// The same where spheres share their force: HIC and chest of belted drivers change by less than 5 % from here to half of it.
+pub const APART_EVENLY: f64 = 1.2;
 /// Spheres of a row, at most.
-const MOST_IN_ROW: usize = 9;
+const MOST_IN_ROW: usize = 24;
 
 /// Height of the neck's middle between the line of the shoulders and the crown.
 const NECK: f64 = 0.32;
@@ -72,8 +74,9 @@ pub fn names(tree: &Tree) -> Vec<String> {
     standard.map(str::to_owned).chain(rows.flat_map(in_row)).collect()
 }
 
-/// The spheres without gaps of a body that has `report`, the report's spheres.
-pub fn full(body: &Body, report: Vec<ContactSphere>) -> Vec<ContactSphere> {
+/// The spheres without gaps of a body that has `report`, the report's spheres; those of a row at most `apart` mean radii from
+/// each other.
+pub fn full(body: &Body, report: Vec<ContactSphere>, apart: f64) -> Vec<ContactSphere> {
     let of = |name: &str| report.iter().find(|sphere| sphere.name == name);
     let beside = BESIDE.iter().filter_map(|b| {
         let of = of(b.of)?;
@@ -82,7 +85,7 @@ pub fn full(body: &Body, report: Vec<ContactSphere>) -> Vec<ContactSphere> {
         Some(ContactSphere { radius_m: b.radius * of.radius_m, ..sphere })
     });
     let trunk = [of("head").map(|head| neck(body, head)), of("pelvis").and_then(|pelvis| abdomen(body, pelvis))];
-    let rows = SIDES.iter().flat_map(|side| ROWS.iter().flat_map(move |r| in_row(body, side, r, &of)));
+    let rows = SIDES.iter().flat_map(|side| ROWS.iter().flat_map(move |r| in_row(body, side, r, apart, &of)));
     let is_replaced =
         |name: &str| ROWS.iter().any(|row| SIDES.iter().any(|side| name == format!("{side}_{}", row.part)));
     let kept = report.iter().filter(|sphere| !is_replaced(&sphere.name)).cloned();
@@ -116,6 +119,7 @@ fn in_row<'s>(
     body: &Body,
     side: &str,
     row: &Row,
+    apart: f64,
     of: &impl Fn(&str) -> Option<&'s ContactSphere>,
 ) -> Vec<ContactSphere> {
     let sided = |word: &str| format!("{side}_{word}");
@@ -126,18 +130,40 @@ fn in_row<'s>(
     let top = Vector3::new(0.0, 0.0, body.segment(segment).length_m);
     let end = of(&sided(row.end)).filter(|end| end.segment == segment);
     let down = end.map_or(Vector3::zeros(), |end| end.centre_from_lower_end_m.coords) - top;
-    let gaps =
-        (down.norm() / (APART * 0.5 * (from.radius_m + to.radius_m))).ceil().clamp(1.0, MOST_IN_ROW as f64 + 1.0);
+    let long = down.norm() / (0.5 * (from.radius_m + to.radius_m));
+    let gaps = (long / apart).ceil().clamp(1.0, MOST_IN_ROW as f64 + 1.0);
+    // one that is farther from its neighbours than usual exerts what is missing between them
+    let alone = (long / gaps / APART).max(1.0);
     let sphere = |i: usize| {
         let along = i as f64 / gaps;
         let part = sided(row.part);
         let radius_m = from.radius_m + along * (to.radius_m - from.radius_m);
-        let share = of(&part).map_or(1.0, |replaced| replaced.share);
+        let share = alone * of(&part).map_or(1.0, |replaced| replaced.share);
         let name = format!("{part}_{i}");
         let plain = ContactSphere::new(name, segment, (top + down * along).into(), radius_m);
         ContactSphere { part, share, ..plain }
     };
     (1..gaps as usize).map(sphere).collect()
+}
+
+/// Gives spheres of one segment that overlap a share each of what one of them alone would exert, so that forces depend on the area
+/// of the body and not on the number of its spheres.
+///
+/// Two of radii r_k and r_l whose centres are d apart count for each other as o_kl = 1 − (d + |r_k − r_l|)/(1.6 min(r_k, r_l)), if that is
+/// positive; the share of k is 1/Σ o_kl. A row has the same force however dense it is: n spheres in one place have 1/n each,
+/// spheres 1.6 radii apart have all of theirs.
+pub fn share_evenly(spheres: &mut [ContactSphere]) {
+    let common = |one: &ContactSphere, other: &ContactSphere| {
+        if one.segment != other.segment {
+            return 0.0;
+        }
+        let apart_m = (one.centre_from_lower_end_m - other.centre_from_lower_end_m).norm();
+        let other_size_m = (one.radius_m - other.radius_m).abs();
+        (1.0 - (apart_m + other_size_m) / (APART * one.radius_m.min(other.radius_m))).max(0.0)
+    };
+    let crowd = |one: &ContactSphere| spheres.iter().map(|other| common(one, other)).sum::<f64>();
+    let crowds: Vec<f64> = spheres.iter().map(crowd).collect();
+    spheres.iter_mut().zip(crowds).for_each(|(sphere, crowd)| sphere.share /= crowd.max(1.0));
 }
 
 #[cfg(test)]
@@ -149,7 +175,7 @@ mod tests {
 
     fn body() -> Body {
         let body = Body::male50();
-        Body { spheres: full(&body, body.spheres.clone()), ..body }
+        Body { spheres: full(&body, body.spheres.clone(), APART), ..body }
     }
 
     fn of_part<'b>(body: &'b Body, part: &str) -> Vec<&'b ContactSphere> {
@@ -176,7 +202,7 @@ mod tests {
         for name in ["male50", "female05", "male95", "child06"] {
             let grown = Person::named(name).map(|person| person.body(Division::Twelve).0);
             let report = grown.or_else(|| child(name, Division::Twelve)).expect("a preset");
-            let body = Body { spheres: full(&report, report.spheres.clone()), ..report };
+            let body = Body { spheres: full(&report, report.spheres.clone(), APART), ..report };
             let places = body.standing_m();
             for (part, ends) in
                 [("upper_arm", ["shoulder", "elbow"]), ("forearm", ["elbow", "hand"]), ("shin", ["knee", "foot"])]
@@ -197,6 +223,33 @@ mod tests {
                 }
             }
         }
+    }
+
+    fn shared(places: &[(f64, f64)]) -> Vec<f64> {
+        let chest = body().tree.landmarks().chest.expect("a chest");
+        let sphere = |(z_m, r_m): &(f64, f64)| ContactSphere::new("s", chest, [0.0, 0.0, *z_m].into(), *r_m);
+        let mut spheres: Vec<_> = places.iter().map(sphere).collect();
+        share_evenly(&mut spheres);
+        spheres.iter().map(|sphere| sphere.share).collect()
+    }
+
+    /// Per length a row exerts the same, however dense it is: exactly at whole fractions of 1.6 radii, and almost between.
+    #[test]
+    fn a_row_exerts_the_same_however_dense_it_is() {
+        for (apart, within) in [(1.6, 1e-12), (0.8, 1e-12), (0.4, 1e-12), (1.2, 0.12), (1.0, 0.09), (0.6, 0.04)] {
+            let row: Vec<_> = (0..41).map(|i| (0.05 * apart * f64::from(i), 0.05)).collect();
+            let per_length = shared(&row)[20] / apart;
+            assert_relative_eq!(per_length * 1.6, 1.0, max_relative = within);
+        }
+        assert_eq!(shared(&[(0.0, 0.1); 5]), [0.2; 5]);
+        assert_eq!(shared(&[(0.0, 0.1), (0.161, 0.1), (0.0, 0.02)]), [1.0; 3]);
+    }
+
+    #[test]
+    fn the_reports_spheres_exert_all_of_theirs() {
+        let mut body = Body::male50();
+        share_evenly(&mut body.spheres);
+        assert!(body.spheres.iter().all(|sphere| sphere.share == 1.0));
     }
 
     #[test]

@@ -151,6 +151,13 @@ pub(super) struct Rider {
     lacks: Lacks,
 }
 
+impl Rider {
+    /// The occupant's name; empty of one alone.
+    fn name(&self) -> &str {
+        self.prefix.strip_prefix("occupants.").and_then(|name| name.strip_suffix('.')).unwrap_or_default()
+    }
+}
+
 /// What a scenario does not say of a body, and a car's rider therefore gets.
 #[derive(Clone, Copy, Default)]
 struct Lacks {
@@ -160,6 +167,8 @@ struct Lacks {
     joints: bool,
     /// It is a grown-up with the joints of a person, of whom nothing is said that gives way.
     flesh: bool,
+    /// Which spheres it has: a body whose segments are not its own.
+    spheres: bool,
     /// Nothing else says how it begins.
     posture: bool,
     /// Nothing says where its arms are.
@@ -217,6 +226,7 @@ fn rider(own: &Node, prefix: &str, usual: &str, vehicle: Option<&str>) -> Option
         flesh: is_person
             && person.is_some()
             && !says(body, &["dummy", "chest", "pelvis", "abdomen", "segments", "segment_count"]),
+        spheres: !says(body, &["sphere_set", "segments"]),
         arms: !says(own.get("posture"), &["upper_arms", "elbows", "left_upper_arm", "right_upper_arm"]),
         posture: !says(Some(own), &["initial_state", "mount", "stance"]),
     };

@@ -128,6 +128,9 @@ impl Car<'_> {
             text += &format!("[{own}]\nvehicle = \"{}\"\n\n", self.frame());
         }
         text += &format!("[{prefix}body]\n");
+        if lacks.spheres {
+            text += "sphere_set = \"even\"\n";
+        }
         if lacks.body {
             text += "preset = \"male50\"\n";
         }

@@ -17,8 +17,8 @@ pub(super) struct Seat {
     /// Left or right half, m.
     half_width: f64,
     pub(super) own: CarSeatSection,
-    /// Somebody sits in it.
-    taken: bool,
+    /// Its rider's name: empty where there is one occupant without a name, none of an empty seat.
+    rider: Option<String>,
 }
 
 /// How far the face of a seat's back lies behind the H-point, across its lean, m; ours: a body's back with its flesh.
@@ -66,14 +66,20 @@ impl Car<'_> {
             recline_deg,
             half_width,
             own,
-            taken: rider.is_some(),
+            rider: rider.map(|rider| rider.name().to_owned()),
         }
     }
 }
 
 impl Seat {
     pub(super) fn is_taken(&self) -> bool {
-        self.taken
+        self.rider.is_some()
+    }
+
+    /// Whom a bag before it or beside it touches.
+    pub(super) fn met(&self) -> String {
+        let rider = self.rider.as_deref().filter(|rider| !rider.is_empty());
+        rider.map_or_else(String::new, |rider| format!("occupant = \"{rider}\"\n"))
     }
 
     /// A point of the cushion, ahead of and below the H-point, in vehicle axes.
@@ -102,7 +108,7 @@ impl Seat {
         let cover = along(&[[-0.14, b], [0.56, b], [0.56, b - 0.17], [-0.14, b - 0.17]]);
         let mut text = prism(&format!("{id}_foam"), &self.foam(), &foam, across, &rounded(&still, "foam", 0.02));
         text += &prism(&format!("{id}_back"), &self.foam(), &cover, across, &rounded(&back, "back", 0.02));
-        if self.taken {
+        if self.is_taken() {
             let pan = all(&[[-0.09, 0.17], [0.33, 0.133], [0.33, 0.27], [-0.09, 0.31]]);
             let ramp = all(&[[0.13, 0.16], [0.28, 0.12], [0.33, 0.12], [0.33, 0.26], [0.13, 0.28]]);
             let of_pan = format!("{still}group = \"{id}_pan\"\nrounding = \"0.01 m\"\n");

@@ -126,7 +126,7 @@ impl Car<'_> {
         let ([a, above], b, w) = (self.measures.panel, self.measures.bolster, self.half_width());
         let sides = [0.0, w];
         let top = -above;
-        let bolster = [[b - 0.02, -0.19], [b + 0.05, 0.13], [b + 0.20, 0.13], [b + 0.18, -0.19]];
+        let bolster = [[b - 0.02, -0.19], [b + 0.03, 0.05], [b + 0.19, 0.05], [b + 0.18, -0.19]];
         let panel = [[a + 0.03, top + 0.03], [a, -0.18], [a + 0.45, -0.18], [a + 0.45, top + 0.08], [a + 0.10, top]];
         let (base, head) = ([a + 0.46, top + 0.10], [0.45, -self.measures.roof]);
         let screen = [base, head, [head[0] + 0.04, head[1] - 0.04], [base[0] + 0.04, base[1] - 0.04]];
@@ -235,25 +235,22 @@ impl Car<'_> {
         if self.vehicle.is_some() {
             return String::new();
         }
-        let taken = |name: &str| seats.iter().any(|seat| seat.name == name && seat.is_taken());
+        let taken = |name: &str| seats.iter().find(|seat| seat.name == name && seat.is_taken());
         let mut text = String::new();
-        if taken("driver") && bags.driver != Some(false) {
+        if let Some(seat) = taken("driver")
+            && bags.driver != Some(false)
+        {
             let (centre, along) = self.rim();
             let mount = [0, 1, 2].map(|i| centre[i] - 0.01 * along[i]);
-            text += &self.bag(
-                "driver",
-                "frame = \"column\"\n",
-                mount,
-                [-along[0], 0.0, -along[2]],
-                [80.0, 0.30, 0.33, 0.55],
-            );
+            text +=
+                &self.bag(seat, "frame = \"column\"\n", mount, [-along[0], 0.0, -along[2]], [80.0, 0.30, 0.33, 0.55]);
         }
-        if let Some(seat) = seats.iter().find(|seat| seat.name == "passenger" && seat.is_taken())
+        if let Some(seat) = taken("passenger")
             && bags.passenger != Some(false)
         {
             let [a, above] = self.measures.panel;
             let mount = [a + 0.08, seat.h[1], -above];
-            text += &self.bag("passenger", "", mount, [-0.94, 0.0, -0.342], [120.0, 0.45, 0.33, 0.60]);
+            text += &self.bag(seat, "", mount, [-0.94, 0.0, -0.342], [120.0, 0.45, 0.33, 0.60]);
         }
         if !text.is_empty() {
             text.insert_str(0, "[gases.generator]\nmolar_mass = \"33 kg/kmol\"\ncp = \"1070 J/(kg K)\"\n\n");
@@ -276,9 +273,15 @@ impl Car<'_> {
         }
         for (side, y) in bags.curtain.unwrap_or_default().each() {
             let rear = seats.iter().filter(|seat| seat.is_taken()).map(|seat| seat.h[0]).fold(0.0, f64::min) - 0.55;
-            let at = |x: f64| [x, y * (w - 0.10), CURTAIN_UP_M - roof];
+            let at = |x: f64| [x, y * (w - 0.125), CURTAIN_UP_M - roof];
             let mount = [0.5 * (rear + 0.25), y * (w - 0.08), 0.05 - roof];
-            text += &self.bag_beside(&format!("{side}_curtain"), ("curtain", side), mount, [at(0.25), at(rear)], 0.07);
+            text += &self.bag_beside(
+                [&format!("{side}_curtain"), ""],
+                ("curtain", side),
+                mount,
+                [at(0.25), at(rear)],
+                0.08,
+            );
         }
         for (side, y) in bags.side.unwrap_or_default().each() {
             for seat in seats.iter().filter(|seat| seat.is_taken() && seat.h[1] * y > 0.1) {
@@ -287,16 +290,23 @@ impl Car<'_> {
                     [x, y * (w - 0.085), z]
                 };
                 let ends = [at(0.12, 0.02), at(0.42, 0.06)];
-                text += &self.bag_beside(&format!("{}_side", seat.name), ("side", side), at(0.30, -0.10), ends, 0.075);
+                let names = [format!("{}_side", seat.name), seat.met()];
+                text += &self.bag_beside(
+                    names.each_ref().map(String::as_str),
+                    ("side", side),
+                    at(0.30, -0.10),
+                    ends,
+                    0.075,
+                );
             }
         }
         text
     }
 
-    /// A bag of the library round a line, with as much more gas as it is larger than that.
+    /// A bag of the library round a line, with as much more gas as it is larger than that; `more` are further lines.
     fn bag_beside(
         &self,
-        name: &str,
+        [name, more]: [&str; 2],
         (of, side): (&str, &str),
         mount: [f64; 3],
         ends: [[f64; 3]; 2],
@@ -306,11 +316,11 @@ impl Car<'_> {
         let litres = 1e3 * std::f64::consts::PI * radius * radius * (long + 4.0 / 3.0 * radius);
         let (times, flow) = match of {
             "curtain" => ("[\"0 ms\", \"3 ms\", \"18 ms\"]", 5.0 / 26.5 * litres),
-            _ => ("[\"0 ms\", \"2 ms\", \"10 ms\"]", 3.4 / 10.7 * litres),
+            _ => ("[\"0 ms\", \"2 ms\", \"10 ms\"]", 4.5 / 10.7 * litres),
         };
         let delay = si_or(&self.section.bags.delay, 0.004);
         format!(
-            "[bags.{name}]\nlibrary = \"{of}\"\ntrigger = \"{side}_side\"\ndelay = \"{delay} s\"\nmount = {}\n\
+            "[bags.{name}]\n{more}library = \"{of}\"\ntrigger = \"{side}_side\"\ndelay = \"{delay} s\"\nmount = {}\n\
              capsule = {{ ends = {}, radius = {} }}\ninflators = [{{ gas = {{ argon = 0.95, helium = 0.05 }}, times = {times}, \
              flow = [\"0 kg/s\", \"{flow} kg/s\", \"0 kg/s\"], temperature = [\"330 K\", \"330 K\", \"300 K\"] }}]\n\n",
             list(&mount),
@@ -319,10 +329,10 @@ impl Car<'_> {
         )
     }
 
-    /// A bag of so many litres, of this depth, radius and radius of its face, m.
+    /// A bag before a seat, of so many litres, of this depth, radius and radius of its face, m.
     fn bag(
         &self,
-        name: &str,
+        seat: &Seat,
         frame: &str,
         mount: [f64; 3],
         axis: [f64; 3],
@@ -331,11 +341,12 @@ impl Car<'_> {
         let bags = &self.section.bags;
         let (delay, vent) = (si_or(&bags.delay, 0.009), 1800.0 * litres / 80.0 * si_or(&bags.vent, 1.0));
         let flow = [4.0, 2.5].map(|flow| flow * litres / 80.0);
+        let name = seat.name;
         format!(
             "[bags.{name}]\n{frame}trigger = \"front\"\ndelay = \"{delay} s\"\ndeploy = \"25 ms\"\nmount = {}\n\
              dome = {{ axis = [{}, {}, {}], depth = {}, radius = {}, face_radius = {}, edge = \"0.08 m\" }}\nvolume = \"{litres} l\"\n\
              vents = [{{ area = \"{vent} mm^2\", discharge = 0.7, opens_at = \"20 kPa\" }}]\nleakage = 0.001\nfriction = 0.3\ncover = \"0.3 kg\"\n\
-             spheres = [\"head\", \"chest\", \"left_shoulder\", \"right_shoulder\"]\n\
+             {}spheres = [\"head\", \"chest\", \"left_shoulder\", \"right_shoulder\"]\n\
              reach = {{ chest = 1.6 }}\n\n[[bags.{name}.inflators]]\ngas = {{ generator = 1 }}\n\
              times = [\"0 ms\", \"4 ms\", \"20 ms\", \"45 ms\"]\nflow = [\"0 kg/s\", \"{} kg/s\", \"{} kg/s\", \"0 kg/s\"]\n\
              temperature = [\"700 K\", \"700 K\", \"600 K\", \"500 K\"]\n\n",
@@ -346,6 +357,7 @@ impl Car<'_> {
             m(depth),
             m(radius),
             m(face),
+            seat.met(),
             flow[0],
             flow[1],
         )

@@ -76,6 +76,8 @@ pub(crate) struct BagSection {
     pub(crate) friction_speed: Option<Speed<POSITIVE>>,
     /// Names of the body parts or spheres that it touches, at most 20 spheres. Overlapping volume counts once.
     pub(crate) spheres: Option<Vec<String>>,
+    /// With several occupants, the one that it touches; all in the first vehicle if absent.
+    pub(crate) occupant: Option<String>,
     /// Factor on the contact area of a part or sphere that represents a larger body region; for a part, it applies to
     /// the first sphere, to which the others add. 1 if absent.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
@@ -345,6 +347,9 @@ fn leakage(b: &mut Builder, path: &str, s: &BagSection) -> Leakage {
 
 /// Its spheres, each with the `reach` of its own name or of its part.
 fn spheres(b: &mut Builder, path: &str, (s, names): (&BagSection, &[String]), body: &Body) -> Vec<(usize, f64)> {
+    if names.is_empty() {
+        b.error(&format!("{path}.spheres"), "0 spheres", "1 to 20 spheres that the bag can touch");
+    }
     let list = b.spheres(&format!("{path}.spheres"), names, body);
     let reach = format!("{path}.reach");
     for name in s.reach.keys().filter(|name| !body.spheres_called(name).iter().any(|sphere| list.contains(sphere))) {

@@ -65,9 +65,12 @@ pub(crate) struct BodySection {
     /// joint; its upper end is the reference point T1.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) joints: IndexMap<String, BodyJointSection>,
-    /// Set of contact spheres, to which `spheres` adds your own; "report" if absent. Each sphere has its own force: a
-    /// limb that lies flat on four spheres is four times as stiff, whatever the area.
+    /// Set of contact spheres, to which `spheres` adds your own; "even" in a car, else "report" if absent. With "report" and "full"
+    /// each sphere has its own force: a limb that lies flat on four spheres is four times as stiff, whatever the area.
     pub(crate) sphere_set: Option<SphereSet>,
+    /// Greatest distance between neighbouring spheres along a limb, in radii, from 0.4 to 3. If absent, 1.2 with "even" and 1.6 with
+    /// "full". Half of it is twice as many spheres.
+    pub(crate) sphere_spacing: Option<Ratio<POSITIVE>>,
     /// Compliance of the chest: "person", fitted to hub tests of cadavers and scaled by size; "dummy50", "dummy05f",
     /// those of the Hybrid III dummies; or "rigid". "rigid" if absent. A seat back bears on the spine, where the chest
     /// is always rigid.
@@ -117,6 +120,8 @@ pub(crate) enum SphereSet {
     /// Without gaps: a face, a chin and a neck, sides of chest and pelvis, an abdomen, rows along the limbs, forefeet. Sizes
     /// follow from the radii of the 17, of which thighs and shins become rows.
     Full,
+    /// The same spheres, but those that overlap share their force: it depends on the body's area and not on the number of spheres.
+    Even,
 }
 
 /// Segments that carry instruments.
@@ -274,6 +279,13 @@ pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection,
     }
     check_person(b, preset, section);
     check_division(b, preset, section);
+    let spacing = section.sphere_spacing.as_ref().map(Ratio::si);
+    if let Some(spacing) = spacing.filter(|spacing| !(0.4..=3.0).contains(spacing)) {
+        b.error("body.sphere_spacing", format!("{spacing}"), "0.4 to 3");
+    } else if spacing.is_some() && section.sphere_set.is_none_or(|set| set == SphereSet::Report) {
+        let found = "`sphere_spacing` without rows of spheres";
+        b.error("body.sphere_spacing", found, "sphere_set = \"even\" or \"full\"");
+    }
     let weighed_at_m_s2 = si_or(&section.weighed_at, STANDARD_GRAVITY_M_S2);
     let (tree, places) = if section.joints.is_empty() { (&TTI12, Vec::new()) } else { own_tree(b, section, is_part)? };
     for name in section.segments.keys().filter(|name| tree.segment_named(name).is_none()) {
@@ -366,8 +378,10 @@ fn spheres(b: &mut Builder, body_section: &BodySection, body: &Body) -> Vec<Cont
             spheres.push(changed(b, body, sphere, section));
         }
     }
-    if body_section.sphere_set == Some(SphereSet::Full) {
-        spheres = shape::full(body, spheres);
+    let set = body_section.sphere_set.unwrap_or(SphereSet::Report);
+    let usual_apart = if set == SphereSet::Even { shape::APART_EVENLY } else { shape::APART };
+    if set != SphereSet::Report {
+        spheres = shape::full(body, spheres, si_or(&body_section.sphere_spacing, usual_apart));
     }
     for (name, section) in sections.iter().filter(|(name, _)| standard.iter().all(|row| row.name != *name)) {
         let known = spheres.iter().position(|sphere| sphere.name == *name);
@@ -377,6 +391,9 @@ fn spheres(b: &mut Builder, body_section: &BodySection, body: &Body) -> Vec<Cont
             (None, Some(true)) => {}
             (None, _) => spheres.extend(own_sphere(b, body, name, section)),
         }
+    }
+    if set == SphereSet::Even {
+        shape::share_evenly(&mut spheres);
     }
     spheres
 }

@@ -218,6 +218,7 @@ fn loose(b: &mut Builder, name: &str, section: &LooseSection, world: &Setup) -> 
     for list in lists.chain(setup.solids.iter_mut().map(|own| &mut own.spheres)).flatten() {
         list.clear();
     }
+    setup.bags.iter_mut().for_each(|bag| bag.spheres.clear());
     setup
 }
 
@@ -233,6 +234,12 @@ fn joined(b: &mut Builder, s: &Scenario, mut world: Setup, members: Vec<(String,
     world.surfaces.iter_mut().for_each(|surface| surface.frame = settled(surface.frame));
     world.solids.iter_mut().for_each(|solid| solid.frame = settled(solid.frame));
     warn_of_unmet(b, s, &world, &members);
+    let names: Vec<&str> = s.occupants.keys().map(String::as_str).collect();
+    for (bag, section) in &s.bags {
+        if let Some(name) = section.occupant.as_deref().filter(|name| !names.contains(name)) {
+            b.unknown(&(with_key("bags", bag) + ".occupant"), "occupant", name, &names);
+        }
+    }
     let meets = s.surfaces.values().map(|own| own.meets.unwrap_or(Meets::Own));
     let meets = meets.chain(s.ground.iter().map(|_| Meets::All));
     let meets: Vec<Meets> = meets.chain(s.solids.values().map(SolidSection::meets)).collect();
@@ -243,6 +250,11 @@ fn joined(b: &mut Builder, s: &Scenario, mut world: Setup, members: Vec<(String,
         for ((spheres, frame), meets) in lists.zip(frames).zip(&meets) {
             if !s.is_met(*meets, frame, home) {
                 *spheres = Some(Vec::new());
+            }
+        }
+        for (bag, section) in setup.bags.iter_mut().zip(s.bags.values()) {
+            if section.occupant.as_ref().is_some_and(|of| *of != name) {
+                bag.spheres.clear();
             }
         }
         for (own, all) in setup.surfaces.iter_mut().zip(&world.surfaces) {

@@ -69,6 +69,12 @@ pub(crate) fn setup(
         chains = chains::chains(b, explicit, &body, &triggers);
         bags = bags::bags(b, explicit, &body, &triggers);
     }
+    if written.occupants.is_empty() {
+        for (name, bag) in explicit.bags.iter().filter(|(_, bag)| bag.occupant.is_some()) {
+            let found = format!("`{}` in a scenario without `occupants`", bag.occupant.as_deref().unwrap_or_default());
+            b.error(&(with_key("bags", name) + ".occupant"), found, "no `occupant`: the bag touches the one there is");
+        }
+    }
     check_provenance(b, written);
     let (Some(path), Some(posture), false) = (path, posture, b.problems.has_errors()) else {
         return Err(std::mem::take(&mut b.problems));

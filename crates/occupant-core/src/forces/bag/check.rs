@@ -171,8 +171,12 @@ fn outlets(bag: &Bag, path: &str, problems: &mut Problems) {
 
 fn spheres(bag: &Bag, body: &Body, path: &str, problems: &mut Problems) {
     let count = bag.spheres.len();
-    if !(1..=MOST_SPHERES).contains(&count) {
-        problems.error(path, format!("{count} spheres"), format!("1 to {MOST_SPHERES} spheres that the bag can touch"));
+    if count > MOST_SPHERES {
+        problems.error(
+            path,
+            format!("{count} spheres"),
+            format!("at most {MOST_SPHERES} spheres that the bag can touch"),
+        );
     }
     for (sphere, reach) in &bag.spheres {
         let name = body.spheres.get(*sphere).map_or("a sphere", |sphere| sphere.name.as_str());

@@ -28,7 +28,7 @@ const CROWD: f64 = 0.6;
 /// Distance beside each other below which two middles have no direction, m.
 const NEAR_M: f64 = 1e-4;
 /// Spheres of most bags: room for the pairs of all that are possible would be filled with zeros each time.
-const FEW: usize = 6;
+const FEW: usize = 8;
 
 /// Pairs of so many.
 const fn pairs_of(spheres: usize) -> usize {

@@ -5,8 +5,8 @@ use crash_measures::measure::Dummy;
 use serde::Serialize;
 
 use super::strokes::{Beyond, Known};
-use super::{Ejection, Exit, Peak, RunStatus, Summary, Throw, word};
-use crate::body::{Body, Chest, Joint, Limb, Segment};
+use super::{Ejection, Exit, Peak, RunStatus, SpherePeak, Summary, Throw, word};
+use crate::body::{Body, Chest, ContactSphere, Joint, Limb, Segment};
 use crate::forces::chain::{Chain, Site};
 use crate::forces::rate::Rate;
 use crate::model::settle::Settled;
@@ -16,6 +16,9 @@ use crate::results::energy::{Balance, EnergyCheck};
 const ROUGH: f64 = 1e-3;
 /// Peaks of forces, depths and places are known of outputs this far apart, s, and a rounding error more.
 const APART_S: f64 = 2e-3 + 1e-9;
+/// A blow to the head, N, and a stiffness that no head has: a dummy's on a steel plate has 3.7 MN/m in 49 CFR 572.32.
+const HEAD_STRUCK_N: f64 = 2000.0;
+const RIGID_N_M: f64 = 5e6;
 /// The figures that are such peaks.
 const PEAKS: [&str; 6] = ["belts.*", "straps.*", "joints.*", "muscles.*", "contacts.*", "head_excursion.*"];
 
@@ -378,6 +381,21 @@ impl Caveat {
     pub(super) fn through(body: &Body, sphere: usize, solid: &str, depth: Peak) -> Self {
         let seen = format!("went through {solid} {} and was pushed out beyond", at(depth));
         Caveat::of_sphere(body, sphere, "through", seen)
+    }
+
+    /// A head that struck something stiffer than a head is: at the greatest force on `struck` it was pressed in so little that only a rigid
+    /// skull on a rigid block would do the same. None of any other part.
+    pub(super) fn on_rigid(body: &Body, struck: &SpherePeak) -> Option<Self> {
+        let is_head = |sphere: &ContactSphere| Some(sphere.segment) == body.tree.landmarks_at(sphere.segment).head;
+        let sphere = body.spheres.iter().position(|sphere| sphere.part == struck.sphere && is_head(sphere))?;
+        let is_rigid = struck.force_n > HEAD_STRUCK_N && struck.force_n > RIGID_N_M * struck.penetration_m;
+        let seen = format!(
+            "struck {} with {:.1} kN and pressed it in by only {:.1} mm, less than a dummy's head on a steel plate: it is as good as rigid",
+            struck.surface,
+            1e-3 * struck.force_n,
+            1e3 * struck.penetration_m
+        );
+        is_rigid.then(|| Caveat::of_sphere(body, sphere, "on_rigid", seen))
     }
 
     /// Someone who left the compartment, and his figures from there on: a little at the start is much by then, and no energy balance shows it.

@@ -117,6 +117,7 @@ impl Summarizer {
         let caveats = self.caveats(case, &signs, &people, outcome.time_s);
         let sphere_forces = sphere_forces(case, &peaks);
         let unbalanced = case.caveats_of_start(&people, &sphere_forces);
+        let on_rigid: Vec<_> = sphere_forces.iter().filter_map(|one| Caveat::on_rigid(&case.body, one)).collect();
         let ejections = self.ejections(case);
         let by_chance = Self::by_chance(&people, &ejections);
         let mut people = people.into_iter().map(|(name, person, _)| (name, person));
@@ -150,6 +151,7 @@ impl Summarizer {
                 .chain(Caveat::of_rough_balance(&outcome.energy))
                 .chain(caveats)
                 .chain(unbalanced)
+                .chain(on_rigid)
                 .chain(Self::unmet(case, &ejections))
                 .chain(by_chance)
                 .chain(on_the_way)

@@ -280,3 +280,23 @@ fn a_chest_pressed_in_too_far_marks_its_measures_and_no_other_ones() {
     }
     assert!(!Caveat::pressed("flesh", most, strokes::Known::Last(0.1)).touches("chest_deflection"));
 }
+
+#[test]
+fn a_head_on_something_rigid_marks_its_figures() {
+    let struck = |sphere: &str, force_n: f64, penetration_m: f64| SpherePeak {
+        sphere: sphere.to_owned(),
+        force_n,
+        time_s: 0.0,
+        surface: "post".to_owned(),
+        penetration_m,
+        penetration_time_s: 0.0,
+        thickness_used: 0.0,
+    };
+    let body = Body::male50();
+    let found = Caveat::on_rigid(&body, &struck("head", 9e3, 1e-3)).unwrap();
+    assert!(found.name == "head_on_rigid" && found.touches("hic15") && found.touches("nij"), "{found:?}");
+    // a dummy's head on a steel plate, a light touch, another part
+    for (sphere, force_n, penetration_m) in [("head", 11e3, 3e-3), ("head", 1e3, 1e-5), ("chest", 9e3, 1e-3)] {
+        assert_eq!(Caveat::on_rigid(&body, &struck(sphere, force_n, penetration_m)), None);
+    }
+}

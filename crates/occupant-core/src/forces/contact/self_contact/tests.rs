@@ -141,7 +141,7 @@ fn hands_elbows_knees_thighs_shins_and_feet_meet_what_they_reach() {
 #[test]
 fn pairs_are_mirrored_and_never_neighbours() {
     let report = Body::male50();
-    let body = Body { spheres: shape::full(&report, report.spheres.clone()), ..report };
+    let body = Body { spheres: shape::full(&report, report.spheres.clone(), shape::APART), ..report };
     let pairs = names(&body);
     assert!(pairs.len() > 100, "{}", pairs.len());
     let other = |name: &str| match name.split_once('_') {
