@@ -1,4 +1,4 @@
-//! The 16 characters of a channel code, and which of our channels they are.
+//! The 16 characters of a channel code, and the corresponding channels.
 //!
 //! ```text
 //! 1 1 HEAD CG 00 H3 AC X A

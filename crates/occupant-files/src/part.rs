@@ -1,4 +1,4 @@
-//! What time a result file covers, and which figures of one that holds a part of a run are not those of the run.
+//! Time range of a result file, and the figures of a partial file that are not those of the whole run.
 
 use occupant_scenario::Draft;
 

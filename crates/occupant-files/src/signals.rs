@@ -1,4 +1,4 @@
-//! Measured signals as their files give them, and the units in which they stand.
+//! Measured signals with the units of their files.
 
 use std::path::PathBuf;
 

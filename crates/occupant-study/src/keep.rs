@@ -1,4 +1,4 @@
-//! `keep` of a study: of which runs the whole motion is kept.
+//! `keep` of a study: the runs whose time histories are kept.
 
 use std::borrow::Cow;
 

@@ -1,4 +1,4 @@
-//! How far a computed history is from a measured one, as one number: 0 where they are the same.
+//! Difference between a computed and a measured history, as one number: 0 if they are equal.
 
 use super::fit_section::Misfit;
 use crash_measures::correlation::iso18571;

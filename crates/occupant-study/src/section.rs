@@ -1,6 +1,6 @@
 //! A study as it is written: one field for each key of the text.
 //!
-//! The doc comments are the descriptions of the JSON Schema, so they speak to the person who writes a study.
+//! The doc comments are the descriptions of the JSON Schema, so they address the author of a study.
 
 use std::sync::OnceLock;
 

@@ -1,4 +1,4 @@
-//! What an ensemble says about its figures: medians, quantiles, bands over time, and which figures are stable.
+//! Statistics of an ensemble's figures: medians, quantiles, bands over time, and which figures are stable.
 //!
 //! All functions take plain slices, one number for each member, member 0 the unperturbed one; a member that failed or has
 //! no such figure is NaN and is counted as missing.

@@ -1,4 +1,4 @@
-//! Which filter class a channel gets.
+//! The filter class of a channel.
 
 use std::str::FromStr;
 

@@ -1,4 +1,4 @@
-//! The message of all that the run carries on from an output, so that it can resume there bit for bit.
+//! The message with the complete memory of a run at an output, from which it can resume bit for bit.
 //!
 //! Pairs are numbered as the model numbers them; those in no list are open and have no largest deformation.
 

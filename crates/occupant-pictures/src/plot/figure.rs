@@ -1,4 +1,4 @@
-//! What a plot shows, before it has a place.
+//! Content of a plot, before layout.
 
 /// One plot.
 #[derive(Clone, Debug)]

@@ -1,5 +1,5 @@
-//! Puts the ends of every parameter into the base scenario and looks whether it still stands, so that a stiffness below
-//! zero or two keys that exclude each other are reported once, before the first run.
+//! Sets every parameter of the base scenario to its bounds and checks the result, so that a negative stiffness or two
+//! exclusive keys are reported once, before the first run.
 
 use super::Binder;
 use crate::law::{Distribution, Law, Value};

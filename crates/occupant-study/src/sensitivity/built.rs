@@ -1,4 +1,4 @@
-//! What a model is built of and starts from, and how that changes with a parameter.
+//! The constants and the start of a model, and how they change with a parameter.
 //!
 //! Masses, planes, force laws, the seated body, unstretched belts, the vehicle's motion at an instant: all are smooth
 //! closed functions of the numbers of a scenario, so their slopes are taken by extrapolated differences of models

@@ -1,4 +1,5 @@
-//! Finite changes of a parameter, run in full and beside the run itself, at tolerances that leave no steps to be seen.
+//! Finite changes of a parameter, run in full and compared with the run itself, at tolerances for which step errors are
+//! negligible.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -1,4 +1,4 @@
-//! How far a derivative can be relied upon: it is held against the secants of finite changes.
+//! Range of a derivative: it is compared with the secants of finite changes.
 //!
 //! Of two secants of one change, to either side, the mean is free of curvature, and half their difference is nothing but
 //! curvature, in proportion to the change, unless the figure has a corner. So the derivative holds if it is the mean at all
