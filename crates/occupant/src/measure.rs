@@ -1,6 +1,6 @@
 //! Measures of a run by type.
 
-/// A measure that every run of an occupant has, or has where its body has the instrument.
+/// A measure of an occupant's run, if the body has the instrument.
 pub trait Measure: Copy {
     /// Its name among the figures of a run.
     const NAME: &'static str;
