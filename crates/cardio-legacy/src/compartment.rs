@@ -112,7 +112,7 @@ pub(crate) struct LeftOut {
 }
 
 impl WheelLayout {
-    /// Where it is, in words.
+    /// Where it is, as text.
     pub(crate) fn words(&self) -> String {
         let height = match self.below_in {
             0.0 => "level with it".to_owned(),

@@ -54,7 +54,7 @@ fn the_committed_scenarios_are_the_converted_decks() {
     }
 }
 
-/// What a run of each deck comes to, and what its first touches must tell: (deck, sphere, surface).
+/// What a run of each deck comes to, and what its first contacts must tell: (deck, sphere, surface).
 const STORIES: [(&str, &str, &str); 6] = [
     ("driver-exact-state-extended.dat", "pelvis", "front_cushion"),
     ("driver-lap-torso.dat", "left_hand", "steering_wheel"),

@@ -213,7 +213,7 @@ impl Instant {
         dynamics::solve(skeleton, &kinematics, self.state.hinge_rate(), loads)
     }
 
-    /// One step in a vehicle whose motion stands still: four evaluations and the sums of the integrator.
+    /// One step in a vehicle whose motion is at rest: four evaluations and the sums of the integrator.
     pub fn step(&mut self) -> &State<f64> {
         let Instant { system, state, frames, history, scratch, stages, .. } = self;
         stages.step(state, STEP_S, |stage, state, rate| match stage {

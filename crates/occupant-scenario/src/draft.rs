@@ -180,7 +180,7 @@ impl Draft {
     /// Checks the scenario and reads its tables.
     ///
     /// # Errors
-    /// Everything that is wrong with it.
+    /// All problems of it.
     pub fn load(self, resolver: Resolver) -> Result<Loaded, Diagnostics> {
         Loaded::from_draft(self, resolver)
     }

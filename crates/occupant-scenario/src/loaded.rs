@@ -24,7 +24,7 @@ impl Scenario {
     /// Reads and checks a scenario text. `name` is its name in messages; `resolver` returns its files.
     ///
     /// # Errors
-    /// Everything that is wrong with it.
+    /// All problems of it.
     pub fn from_text(text: &str, format: Format, name: &str, resolver: Resolver) -> Result<Loaded, Diagnostics> {
         Draft::read(text, format, name)?.load(resolver)
     }

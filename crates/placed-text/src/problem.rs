@@ -1,4 +1,4 @@
-//! What is wrong with an input: values that name the place, what was found, what was expected and how to mend it.
+//! Problems of an input: values that name the place, what was found, what was expected and how to mend it.
 
 use std::collections::HashSet;
 use std::fmt;

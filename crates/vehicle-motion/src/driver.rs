@@ -12,7 +12,7 @@ pub struct Table {
     values: Vec<f64>,
 }
 
-/// What is wrong with a table or a line.
+/// Problems of a table or a line.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TableError {
     /// Lists of unlike length, or empty.

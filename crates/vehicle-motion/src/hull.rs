@@ -44,7 +44,7 @@ pub(crate) struct Hull {
     reach_m: f64,
 }
 
-/// What is remembered of it.
+/// Memory of it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct HullMemory {
     /// Largest depth of each sphere, then of the two edges of each wheel by face, m; and that before the last step.
@@ -193,7 +193,7 @@ impl Hull {
         sum
     }
 
-    /// Remembers depths; a sphere that is apart forgets, but the roof.
+    /// Stores depths; a sphere that is apart forgets, but the roof.
     pub fn commit(
         &self,
         state: &State,

@@ -22,7 +22,7 @@ impl Drive {
     /// Of a vehicle.
     ///
     /// # Errors
-    /// What is wrong with the vehicle.
+    /// Problems of the vehicle.
     pub fn new(car: &Car, ground: Ground, driver: Driver) -> Result<Self, WorldError> {
         let chassis = Chassis::new(car).map_err(|what| WorldError::Car { car: 0, what })?;
         let entry = Entry::new(car.clone(), driver, Begin::At(Start::default()));

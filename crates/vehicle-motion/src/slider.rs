@@ -17,7 +17,7 @@ pub(crate) struct Slide {
     end: End,
 }
 
-/// What is remembered of it.
+/// Memory of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct SlideMemory {
     /// Largest way, m.

@@ -201,7 +201,7 @@ impl<'a> Back<'a> {
         let mut pairs = std::mem::take(&mut self.passed);
         for (name, value) in &self.kept {
             if let Some(place) = name.strip_prefix(notes::PAIR) {
-                // back to its place in the series
+                // back to its position in the series
                 let place = place.trim().parse().unwrap_or(usize::MAX);
                 if let Some((sphere, surface)) = value.split_once(' ') {
                     let at = place.saturating_sub(1).min(pairs.len());

@@ -107,7 +107,7 @@ fn character(byte: u8) -> String {
     }
 }
 
-/// What a field takes, in words.
+/// What a field takes, as text.
 fn expectation(field: &Field) -> String {
     let width = field.columns.width();
     match field.format {

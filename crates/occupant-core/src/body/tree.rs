@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::ops::Index;
 use std::sync::{Mutex, PoisonError};
 
-/// A segment of a tree: its place in the table.
+/// A segment of a tree: its position in the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Segment(pub(super) usize);
 
@@ -29,7 +29,7 @@ impl Segment {
     }
 }
 
-/// A joint of a tree: its place in the table.
+/// A joint of a tree: its position in the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Joint(pub(super) usize);
 

@@ -409,7 +409,7 @@ impl<S: Scalar> Load<S> {
     }
 }
 
-/// What keeps two systems from being computed side by side, in words.
+/// What keeps two systems from being computed side by side, as text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct Unlike(pub &'static str);

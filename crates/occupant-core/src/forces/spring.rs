@@ -58,7 +58,7 @@ impl BilinearSpring {
         Spring::<f64>::new(self).steepest()
     }
 
-    /// Reports what is wrong with it under `path`.
+    /// Reports problems of it under `path`.
     pub(crate) fn check(&self, path: &str, problems: &mut Problems) {
         problems.check_at_least_zero(&format!("{path}.k1"), self.k1_n_per_m, "N/m");
         problems.check_at_least_zero(&format!("{path}.k2"), self.k2_n_per_m, "N/m");

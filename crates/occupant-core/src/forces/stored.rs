@@ -10,7 +10,7 @@ pub trait Archive {
     /// What comes belongs to the start of the step that leads beyond the output.
     fn begin_step(&mut self) {}
 
-    /// The stored values cannot be, in words.
+    /// The stored values cannot be, as text.
     fn refuse(&mut self, _why: &str) {}
 }
 

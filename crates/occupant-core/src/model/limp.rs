@@ -26,7 +26,7 @@ use crate::motion::vector::V3;
 use crate::vehicle::FrameMotion;
 use occupant_units::trig;
 
-/// A limp body at rest in a vehicle that stands still.
+/// A limp body at rest in a vehicle that is at rest.
 struct Limp {
     system: System<f64>,
     still: Frames<f64>,

@@ -339,7 +339,7 @@ pub(super) fn standing(setup: &Setup, vehicle: &FrameMotion) -> Frames<f64> {
     still
 }
 
-/// Gives muscles at the start of a body that has settled what their joints carry there, at rest in frames that stand still.
+/// Gives muscles at the start of a body that has settled what their joints carry there, at rest in frames that are at rest.
 pub(crate) fn carry(system: &mut System<f64>, state: &State<f64>, still: &Frames<f64>, history: &History<f64>) {
     let mut scratch = Scratch::blank(system);
     let (k, loads) = system.loads(&mut scratch, Situation::within(state, still), &mut history.clone());

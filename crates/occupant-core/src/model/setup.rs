@@ -409,7 +409,7 @@ impl Setup {
         self.surfaces.iter().map(|s| s.name.as_str()).chain(solids).chain(spheres)
     }
 
-    /// Name of the surface, solid or sphere of this index; none for one that there is not.
+    /// Name of the surface, solid or sphere of this index; none for one that does not exist.
     pub fn surface_name(&self, index: usize) -> Option<&str> {
         self.surface_names().nth(index)
     }

@@ -110,7 +110,7 @@ impl Setup {
             firsts.push(sphere);
             (segment, sphere) = (segment + alone.body.segments.len(), sphere + count);
         }
-        // a member that there is not has no sphere: `Model::new` refuses it
+        // a member that does not exist has no sphere: `Model::new` refuses it
         let among_all = |(member, i): (usize, usize)| firsts.get(member).map_or(usize::MAX, |first| first + i);
         own.pairs.extend(pairs.iter().map(|pair| pair.map(among_all)));
         behind.sort_unstable();

@@ -49,7 +49,7 @@ pub struct Accelerations<S> {
     pub slides: [S; MOST_SLIDES],
 }
 
-/// Accelerations under the loads `wrench` (without gravity, which is added here): solves (53). A guided root stands still.
+/// Accelerations under the loads `wrench` (without gravity, which is added here): solves (53). A guided root is at rest.
 #[inline(always)]
 pub fn solve<S: Scalar>(
     body: &Skeleton<S>,
@@ -113,7 +113,7 @@ impl<S: Scalar> Sweep<S> {
                 let a = carrier.acceleration - gravity;
                 sweep.solve((bodies, body), k, hinge_rate, (wrench, drive), [a, carrier.alpha], out);
                 if let (Some(root), Some(power)) = (&root, &mut power) {
-                    // of a mount in space, which stands still, it is 0
+                    // of a mount in space, which is at rest, it is 0
                     let first = bodies.layout.trunks()[body].first;
                     let Wrench { force, moment } = sweep.at_root(first, a, root.alpha);
                     power[body].vehicle += force.dot(root.velocity) + moment.dot(root.omega);

@@ -89,7 +89,7 @@ impl Row {
 pub struct TreeError {
     /// Its place among the segments, from 0.
     pub segment: usize,
-    /// What is wrong with it.
+    /// Problems of it.
     pub found: &'static str,
     /// What could be there.
     pub expected: &'static str,

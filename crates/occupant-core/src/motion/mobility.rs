@@ -54,7 +54,7 @@ impl<'a> Mobility<'a> {
         symmetric(column)
     }
 
-    /// α̈ of a hinge, by its place in the state, for a unit moment in it, 1/(kg·m²).
+    /// α̈ of a hinge, by its position in the state, for a unit moment in it, 1/(kg·m²).
     pub(crate) fn of_hinge(&self, hinge: usize) -> f64 {
         let lower = self.skeleton.layout.hinged()[hinge];
         let upper = self.skeleton.layout.parent(lower).unwrap_or(lower);

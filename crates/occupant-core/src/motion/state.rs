@@ -227,7 +227,7 @@ impl<S: Copy> State<S> {
         self.set_vector(3 * body, place);
     }
 
-    /// Orientation of a segment by its place in [`Layout::free`].
+    /// Orientation of a segment by its position in [`Layout::free`].
     #[inline(always)]
     pub fn orientation(&self, slot: usize) -> Quat<S> {
         let at = self.shape.turn(slot);
@@ -278,7 +278,7 @@ impl<S: Copy> State<S> {
         self.set_vector(self.shape.places() + 3 * body, velocity);
     }
 
-    /// Absolute angular velocity of a segment by its place in [`Layout::free`], space axes, rad/s.
+    /// Absolute angular velocity of a segment by its position in [`Layout::free`], space axes, rad/s.
     #[inline(always)]
     pub fn omega(&self, slot: usize) -> V3<S> {
         self.vector(self.shape.spin(slot))

@@ -24,7 +24,7 @@ pub struct Checkpoint {
     pub state: Vec<f64>,
     /// What force elements remember, in the model's order.
     pub memory: Memory<f64>,
-    /// First touches so far, in the order in which they happened.
+    /// First contacts so far, in the order in which they happened.
     pub first_touches: Vec<FirstTouch>,
     /// Largest values at the accepted steps so far, as plain numbers: [`Peaks`](super::peaks::Peaks); none if nobody has looked.
     pub peaks: Vec<f64>,
@@ -161,7 +161,7 @@ pub enum CheckpointError {
     /// Readings, events and largest values of other elements, instruments or parts than the model has.
     #[error("the checkpoint has greatest values, readings or events that are not those of the scenario")]
     Readings,
-    /// A first touch of a sphere or surface that the model does not have.
+    /// A first contact of a sphere or surface that the model does not have.
     #[error("the checkpoint knows a touch of sphere {sphere} and surface {surface}, which the scenario does not have")]
     Touch {
         /// Index of the sphere.

@@ -259,7 +259,7 @@ pub struct EnergyCheck {
 }
 
 impl EnergyCheck {
-    /// What was found, in words.
+    /// What was found, as text.
     pub fn found(&self) -> String {
         let EnergyCheck { balance_error, reference, greatest_kinetic_j: kinetic_j, .. } = self;
         match Balance::of(*balance_error) {

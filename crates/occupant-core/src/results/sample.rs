@@ -76,7 +76,7 @@ pub struct Sample<'a> {
     pub effort: Effort,
     /// Sums and extremes so far, this output included.
     pub progress: Progress,
-    /// First touches so far, in the order in which they happened.
+    /// First contacts so far, in the order in which they happened.
     pub first_touches: &'a [FirstTouch],
     /// What has switched since the output before, in the order in which it happened, unless that was within a step beyond.
     pub switched: &'a [Switched],

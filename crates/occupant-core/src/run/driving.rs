@@ -177,7 +177,7 @@ impl<'m> Run<'m> {
     /// run needs no more outputs, continue with a [`Run::load`] of it, or use looks.
     ///
     /// # Errors
-    /// What the recorder reports.
+    /// An error of the recorder.
     pub fn record(&mut self, recorder: &mut dyn Recorder) -> Result<Flow, RecordingFailed> {
         if !self.is_recorded {
             self.course.begin(&self.model, recorder)?;
@@ -189,7 +189,7 @@ impl<'m> Run<'m> {
     /// Goes on to the model's end and records every output on the way, the present one first.
     ///
     /// # Errors
-    /// A step that fails, what the recorder reports.
+    /// A step that fails, an error of the recorder.
     pub fn finish(mut self, recorder: &mut dyn Recorder) -> Result<Outcome, SimulationError> {
         if !self.is_recorded {
             self.course.begin(&self.model, recorder)?;
@@ -201,7 +201,7 @@ impl<'m> Run<'m> {
     /// Ends the run here and informs `recorder`.
     ///
     /// # Errors
-    /// What the recorder reports.
+    /// An error of the recorder.
     pub fn end(self, status: Status, recorder: &mut dyn Recorder) -> Result<Outcome, RecordingFailed> {
         self.course.end(status, recorder)
     }

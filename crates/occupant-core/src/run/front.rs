@@ -215,7 +215,7 @@ impl Front {
         self.search.as_ref().is_some_and(Search::is_under_way)
     }
 
-    /// What could not be worked out within the last trial, in words.
+    /// What could not be worked out within the last trial, as text.
     pub(super) fn failure(&self, model: &Model) -> Option<String> {
         self.ahead.trial.memory.failure(&model.setup().forces(&[]), &model.system().forces)
     }

@@ -17,7 +17,7 @@ pub fn simulate(model: &Model, recorder: impl Recorder) -> Result<Outcome, Simul
 /// Runs `model` as far as it goes: a step that fails is an [`Outcome`] of [`Status::Failed`].
 ///
 /// # Errors
-/// What the recorder reports.
+/// An error of the recorder.
 pub fn attempt(model: &Model, mut recorder: impl Recorder) -> Result<Outcome, RecordingFailed> {
     go(model, Course::new(model), &mut recorder)
 }
@@ -27,7 +27,7 @@ pub fn attempt(model: &Model, mut recorder: impl Recorder) -> Result<Outcome, Re
 /// an outcome, as of [`attempt`].
 ///
 /// # Errors
-/// A checkpoint that does not fit the model; what the recorder reports.
+/// A checkpoint that does not fit the model; an error of the recorder.
 pub fn resume(model: &Model, checkpoint: &Checkpoint, mut recorder: impl Recorder) -> Result<Outcome, ResumeError> {
     let run = Course::from_checkpoint(model, checkpoint, true).map_err(ResumeError::Refused)?;
     go(model, run, &mut recorder).map_err(ResumeError::Recording)
@@ -36,7 +36,7 @@ pub fn resume(model: &Model, checkpoint: &Checkpoint, mut recorder: impl Recorde
 /// Records the output of a checkpoint once more, to the bit, without a step. The recorder neither begins nor ends here.
 ///
 /// # Errors
-/// A checkpoint that does not fit the model; what the recorder reports.
+/// A checkpoint that does not fit the model; an error of the recorder.
 pub fn replay(model: &Model, checkpoint: &Checkpoint, recorder: &mut impl Recorder) -> Result<(), ResumeError> {
     let mut run = Course::from_checkpoint(model, checkpoint, true).map_err(ResumeError::Refused)?;
     let recorded = run.record(model, recorder);

@@ -7,7 +7,7 @@
 //!
 //! with straight lines from station to station. It is of second order in the length of even intervals; rounding of the
 //! stations appears divided by the square of that length. Before the second station it is that of the second. After the
-//! last but one it stays constant if the table ends; if the vehicle then coasts or stands still, that counts as one
+//! last but one it stays constant if the table ends; if the vehicle then coasts or is at rest, that counts as one
 //! more interval.
 
 use nalgebra::Vector6;

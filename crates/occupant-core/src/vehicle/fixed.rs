@@ -1,4 +1,4 @@
-//! A vehicle (or any frame) that stands still.
+//! A vehicle (or any frame) that is at rest.
 
 use super::frame::FrameMotion;
 use super::problem::PathProblem;

@@ -81,7 +81,7 @@ impl LiveFrame {
     /// From `start` on.
     ///
     /// # Errors
-    /// What is wrong with the input, in words: what was found, and what was expected.
+    /// Problems of the input, in words: what was found, and what was expected.
     pub(crate) fn new(
         [from_s, until_s]: [f64; 2],
         start: FrameMotion,

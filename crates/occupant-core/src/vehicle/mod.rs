@@ -123,7 +123,7 @@ impl VehiclePath {
     /// Pose and motion at `t_s`, in space axes.
     ///
     /// `step_middle_s` is the middle of the present integration step; it decides which interval of a linear table gives
-    /// the velocities, and whether a held table already stands still. For output at an instant give `t_s` itself. The
+    /// the velocities, and whether a held table already is at rest. For output at an instant give `t_s` itself. The
     /// answer depends only on the two times, never on `cursor`, except for a live path. Outside the path's span (see
     /// `VehiclePath::check_span`) the vehicle coasts.
     pub fn motion(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> FrameMotion {

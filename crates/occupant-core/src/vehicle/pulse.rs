@@ -214,7 +214,7 @@ struct Travel {
     acceleration_m_s2: f64,
 }
 
-/// What is wrong with a definition, its shape apart.
+/// Problems of a definition, its shape apart.
 fn find_problems(definition: &PulseDefinition, problems: &mut Vec<PathProblem>) {
     expect_finite_pose(problems, &definition.initial);
     expect_not_negative(problems, "initial speed", definition.initial_speed_m_s);
@@ -224,7 +224,7 @@ fn find_problems(definition: &PulseDefinition, problems: &mut Vec<PathProblem>) 
     }
 }
 
-/// Whether a vehicle that starts at rest and stands still from τ = `since_s` on never got going: it has not moved, or
+/// Whether a vehicle that starts at rest and is at rest from τ = `since_s` on never got going: it has not moved, or
 /// was to be faster afterwards than ever before. Without this the noise before a measured thrust would stop the
 /// vehicle, and the thrust would be lost in silence.
 fn holds_back(profile: &Profile, since_s: f64, distance_m: f64) -> bool {

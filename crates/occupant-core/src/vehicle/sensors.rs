@@ -126,7 +126,7 @@ impl SensorPath {
 
     /// Pose and motion at `t_s`, in space axes.
     ///
-    /// Outside the record the vehicle coasts, or stands still if the path says so; it stands still in the steps whose
+    /// Outside the record the vehicle coasts, or is at rest if the path says so; it is at rest in the steps whose
     /// middle, `step_middle_s`, is past the last sample.
     pub(crate) fn motion(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> FrameMotion {
         let (first_s, last_s) = self.span_s();

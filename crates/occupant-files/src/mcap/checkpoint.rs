@@ -28,7 +28,7 @@ pub fn write(wire: &mut Wire, sample: &Sample<'_>) {
 /// Reads the message back. A field that the file does not have leaves what it would tell blank.
 ///
 /// # Errors
-/// Fields that cannot be, in words.
+/// Fields that cannot be, as text.
 pub fn read(bytes: &[u8]) -> Result<Checkpoint, String> {
     let mut reader = Reader { rest: Rest(bytes), trouble: None };
     let checkpoint = Checkpoint::stored(&mut reader);

@@ -19,7 +19,7 @@ pub const LINES_SCENE: &str = "/scene/belts";
 pub const FORCES_SCENE: &str = "/scene/forces";
 /// Names and open sides of the surfaces, written once.
 pub const LABELS_SCENE: &str = "/scene/labels";
-/// Warnings, first touches, the end.
+/// Warnings, first contacts, the end.
 pub const LOG: &str = "/log";
 
 /// The frame of a segment: its axes, at its centre of gravity.

@@ -53,7 +53,7 @@ pub struct Column {
 pub struct Motion {
     /// What kind it is.
     pub kind: MotionKind,
-    /// What it is, in words.
+    /// What it is, as text.
     pub words: String,
     /// Times, s.
     pub time_s: Vec<f64>,

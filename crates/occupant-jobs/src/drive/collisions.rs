@@ -19,9 +19,9 @@ pub struct Collision {
     pub from_s: f64,
     /// Its end, s.
     pub until_s: f64,
-    /// Speed of the centres of gravity against each other at first touch, m/s.
+    /// Speed of the centres of gravity against each other at first contact, m/s.
     pub closing_m_s: f64,
-    /// Largest change of velocity, and that change along the vehicle's axes at first touch, m/s.
+    /// Largest change of velocity, and that change along the vehicle's axes at first contact, m/s.
     pub delta_v_m_s: f64,
     /// Change of velocity along x, y, z of the vehicle, m/s.
     pub delta_v_axes_m_s: [f64; 3],
@@ -40,7 +40,7 @@ pub struct Collision {
 /// A touch that changes the speed by less, by itself or with the tyres, is none, m/s: cars that lean on each other.
 const LEAST_M_S: f64 = 0.5;
 
-/// Collisions of a vehicle in the order of first touches.
+/// Collisions of a vehicle in the order of first contacts.
 pub(super) fn of(drives: &Drives, number: usize) -> Vec<Collision> {
     let all = drives.outcome.contacts.iter().filter_map(|contact| one(drives, contact, number));
     all.filter(|own| own.delta_v_m_s.min(own.delta_v_contact_m_s) >= LEAST_M_S).collect()

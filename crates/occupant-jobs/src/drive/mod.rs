@@ -35,7 +35,7 @@ pub struct Driven {
     pub marks: Vec<Mark>,
     /// The motion, as channels.
     pub motion: Figurable,
-    /// What it met, in the order of first touches.
+    /// What it met, in the order of first contacts.
     pub collisions: Vec<Collision>,
     /// Barriers that it met.
     pub barriers: Vec<Met>,

@@ -30,7 +30,7 @@ pub struct Left {
 }
 
 impl Left {
-    /// The value of a figure by its place in the list; NaN if there is none.
+    /// The value of a figure by its position in the list; NaN if there is none.
     pub fn value(&self, figure: usize) -> f64 {
         self.figures.get(figure).and_then(|f| f.value).unwrap_or(f64::NAN)
     }

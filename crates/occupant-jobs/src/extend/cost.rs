@@ -51,7 +51,7 @@ pub(super) fn histories(model: &Model, from: Option<&Checkpoint>) -> Result<Seri
     ended.map(|_| series)
 }
 
-/// How far an extension is from the run that continues, in words.
+/// How far an extension is from the run that continues, as text.
 pub(super) fn words(goes_on: Result<Series, String>, extension: Result<Series, String>) -> String {
     const WHY: &str = "cards do not carry the largest deformations, so the extension is approximate";
     let (goes_on, extension) = match (goes_on, extension) {

@@ -55,7 +55,7 @@ impl Accord {
         }
     }
 
-    /// What is wrong with the test, as far as that can be seen.
+    /// Problems of the test, as far as that can be seen.
     pub fn caution(&self, test: &str, channel: &str) -> Option<String> {
         let of = format!("{channel} of {test}");
         let ratio = self.peak_ratio.unwrap_or(f64::INFINITY);

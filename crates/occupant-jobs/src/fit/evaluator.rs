@@ -56,7 +56,7 @@ impl<'a> Evaluator<'a> {
     /// Reads what the journal holds. The lock of the folder must be held.
     ///
     /// # Errors
-    /// The operating system refuses; a journal of something else.
+    /// An error of the operating system; a journal of something else.
     pub fn new(
         fitting: &'a Fitting,
         (folder, sums): (&Folder, &Checksums),
@@ -136,7 +136,7 @@ impl<'a> Evaluator<'a> {
     /// Makes everything safe against a loss of power, and gives the records.
     ///
     /// # Errors
-    /// The operating system refuses.
+    /// An error of the operating system.
     pub fn close(self) -> Result<Vec<Record>, Problem> {
         self.progress.end();
         self.journal.close()?;

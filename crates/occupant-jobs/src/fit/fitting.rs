@@ -62,7 +62,7 @@ impl Fitting {
     /// Reads a study, the scenarios and the tests; `name` is its name in messages.
     ///
     /// # Errors
-    /// Everything that is wrong, in words.
+    /// All problems, as text.
     pub fn open(name: &Path, given: &Given<'_>, program: String) -> Result<Fitting, Failure> {
         let (shown, texts) = (name.display().to_string(), Texts::of_files(name));
         let text = study_text(name, &texts)?;

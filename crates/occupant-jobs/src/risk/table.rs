@@ -95,7 +95,7 @@ pub fn filter_name(preparation: &Preparation) -> Option<String> {
     Some(format!("CFC {:.0}, {}", class.hertz(), family_name(family)))
 }
 
-/// Where the motion comes from, in words.
+/// Where the motion comes from, as text.
 pub fn source_name(report: &Report) -> &'static str {
     match report.subject.source {
         Source::Recorded => "recorded",
@@ -234,7 +234,7 @@ pub(super) fn unit_of(quantity: Quantity, units: Option<UnitSystem>) -> Unit {
     }
 }
 
-/// Where a limit was read, in words.
+/// Where a limit was read, as text.
 pub fn basis_name(basis: Basis) -> &'static str {
     match basis {
         Basis::SecondarySource => "a source that quotes the rule",

@@ -56,7 +56,7 @@ impl StudyBands<'_> {
     /// Writes the bands of all samples that have none yet.
     ///
     /// # Errors
-    /// Files of something else that may not be replaced; interrupted; the operating system refuses.
+    /// Files of something else that may not be replaced; interrupted; an error of the operating system.
     pub fn write_all(&self, existing: Existing) -> Result<(), Failure> {
         let samples = self.plan.study.samples();
         let mut all = 0..samples;

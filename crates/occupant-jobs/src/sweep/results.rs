@@ -28,7 +28,7 @@ pub struct Results {
 /// Writes the tables into `folder` and counts how samples ended.
 ///
 /// # Errors
-/// Samples that are missing or disagree; another process at the same work; the operating system refuses. A table that was
+/// Samples that are missing or disagree; another process at the same work; an error of the operating system. A table that was
 /// there stays until the new one is complete.
 pub fn write(
     (folder, sums): (&Folder, &Checksums),

@@ -121,7 +121,7 @@ impl Scenario {
         self.vehicles.iter().skip(usize::from(self.path.is_none()))
     }
 
-    /// The path of the first vehicle and its place in the text; none if nothing moves.
+    /// The path of the first vehicle and its position in the text; none if nothing moves.
     pub(super) fn first_path(&self) -> Option<(Vec<&str>, &PathSection)> {
         let named = || self.vehicles.first().map(|(name, vehicle)| (vec!["vehicles", name, "path"], &vehicle.path));
         self.path.as_ref().map(|path| (vec!["path"], path)).or_else(named)

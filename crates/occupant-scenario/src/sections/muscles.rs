@@ -139,7 +139,7 @@ pub(super) fn muscles(b: &mut Builder, scenario: &Scenario, body: &Body, trigger
 }
 
 impl MuscleSection {
-    /// The muscle of a joint on a side of the body; `at` is its place in the scenario.
+    /// The muscle of a joint on a side of the body; `at` is its position in the scenario.
     fn muscle(&self, b: &mut Builder, at: &str, joint: Joint, side: Option<Side>, triggers: &Triggers<'_>) -> Muscle {
         let trigger = self.trigger.as_deref();
         let fired_s = trigger.and_then(|trigger| triggers.time_s(b, &format!("{at}.trigger"), trigger));

@@ -23,7 +23,7 @@ use placed_text::{Diagnostic, Problem, SourceId, with_key};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub(crate) enum PathSection {
-    /// The vehicle stands still.
+    /// The vehicle is at rest.
     Fixed(Box<PoseSection>),
     /// Straight travel with a deceleration pulse.
     Pulse(Box<PulseSection>),

@@ -20,7 +20,7 @@ pub struct RecordFile {
 /// that is left out, in place of the file's own headings. `name` is its name in messages.
 ///
 /// # Errors
-/// Everything that is wrong with it: bytes that are no text, unknown, doubled and missing columns, wrong units, cells that
+/// All problems of it: bytes that are no text, unknown, doubled and missing columns, wrong units, cells that
 /// are no number, lines that are too long or too short, times that do not increase, fewer than two lines, no channel.
 pub fn read_record(bytes: &[u8], name: &str, columns: Option<&str>) -> Result<RecordFile, Diagnostics> {
     let mut sources = Sources::new();

@@ -263,7 +263,7 @@ fn next<const N: usize>(value: f64, at: &Cell<usize>, slope: impl Fn(usize, usiz
     Dual::new(value, from_fn(|k| slope(k, place)))
 }
 
-/// The system of `model` in duals; direction k is that of `built[k]`, directions beyond stand still.
+/// The system of `model` in duals; direction k is that of `built[k]`, directions beyond are at rest.
 pub(super) fn dual_system<const N: usize>(model: &Model, built: &[Built]) -> Result<System<Dual<N>>, Trouble> {
     let at = Cell::new(0);
     let slope = |k: usize, i: usize| built.get(k).map_or(0.0, |b| b.system[i]);

@@ -43,7 +43,7 @@ pub struct Seen {
     pub figures: Vec<f64>,
     /// When each was reached, s; not a number where that is not told.
     pub times_s: Vec<f64>,
-    /// Sphere and surface of first touches, in their order.
+    /// Sphere and surface of first contacts, in their order.
     pub touches: Vec<[usize; 2]>,
 }
 

@@ -17,7 +17,7 @@ use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_core::run::{Run, Step};
 
-/// Directions carried side by side; those beyond the last parameter stand still. One width is compiled, as each is a whole
+/// Directions carried side by side; those beyond the last parameter are at rest. One width is compiled, as each is a whole
 /// kernel in the build and in the binary. A product of duals is 4 floating-point operations in one direction; in four it is
 /// 13, 7 instructions with two slopes in a register, 4 with four: a parameter alone takes at most 1.75 times as long as in a
 /// kernel of its own.
@@ -173,13 +173,13 @@ impl Trajectory {
     }
 
     /// Derivatives of the state by parameter `k` at an output, in the order of [`State::numbers`]; none of a parameter or an
-    /// output that there is not.
+    /// output that does not exist.
     pub fn state_slopes(&self, k: usize, output: usize) -> &[f64] {
         self.slopes.get(k).and_then(|slopes| slopes.get(output)).map_or(&[], |slopes| &slopes.state)
     }
 
     /// How far the state goes with a unit of parameter `k`, at most: m, rad, and tenths of m/s and rad/s. Infinite where a
-    /// derivative is too large for a number, 0 of a parameter that there is not.
+    /// derivative is too large for a number, 0 of a parameter that does not exist.
     pub fn reach(&self, k: usize) -> f64 {
         // places, quaternions and hinges come first, then speeds, then work sums, which move nothing
         let (places, moving) = (self.shape.places(), self.shape.moving());

@@ -27,7 +27,7 @@ pub(crate) struct Pose {
 }
 
 impl Pose {
-    /// Of what stands still with its axes along those of space.
+    /// Of what is at rest with its axes along those of space.
     pub fn standing(at_m: V3) -> Self {
         Pose { at_m, axes: Matrix3::identity(), velocity_m_s: V3::zeros(), turning_rad_s: V3::zeros() }
     }
@@ -186,7 +186,7 @@ impl Pass {
         size
     }
 
-    /// Remembers the faces through which nodes came in, and their largest forces.
+    /// Stores the faces through which nodes came in, and their largest forces.
     pub fn commit(&self, faces: &mut [u8], most: &mut [f64], shapes: &[Shape], poses: &[Pose], before: &[Pose]) {
         if self.is_apart(shapes, poses, 0.0) {
             return;

@@ -47,7 +47,7 @@ pub struct Curb {
     pub face_rad: f64,
 }
 
-/// What is wrong with a ground.
+/// Problems of a ground.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum GroundError {
     /// Too few corners.

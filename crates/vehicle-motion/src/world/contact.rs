@@ -37,7 +37,7 @@ pub struct Contact {
 /// What a contact did to a vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Struck {
-    /// Largest change of velocity of the centre of gravity within the contact, in the vehicle's axes at first touch, m/s.
+    /// Largest change of velocity of the centre of gravity within the contact, in the vehicle's axes at first contact, m/s.
     /// Tyres and gravity have their share in it.
     pub delta_v_m_s: V3,
     /// Change of velocity by the contact's impulse alone, same axes, m/s.
@@ -50,7 +50,7 @@ pub struct Struck {
     pub ees_m_s: f64,
     /// Velocity at the end of the contact, vehicle-space, m/s.
     pub leaves_m_s: V3,
-    /// Yaw rate at first touch and at the end, rad/s.
+    /// Yaw rate at first contact and at the end, rad/s.
     pub yaw_rates_rad_s: [f64; 2],
     /// Largest acceleration within it, m/s².
     pub peak_m_s2: f64,

@@ -94,9 +94,9 @@ pub struct Wrench {
 pub struct Impact {
     /// The vehicle that is counted first, and its partner.
     pub between: (usize, Partner),
-    /// When, s; none: when their outlines first touch.
+    /// When, s; none: when their outlines first contact.
     pub time_s: Option<f64>,
-    /// Where, X and Y, m; none: where they first touch.
+    /// Where, X and Y, m; none: where they first contact.
     pub at_m: Option<[f64; 2]>,
     /// Direction of the line of contact's normal, clockwise from X, rad; either sense.
     pub normal_rad: f64,
@@ -113,7 +113,7 @@ pub struct Impact {
 pub struct Outcome {
     /// The motion of each vehicle.
     pub rides: Vec<Ride>,
-    /// Contacts in the order of their first touches.
+    /// Contacts in the order of their first contacts.
     pub contacts: Vec<Contact>,
     /// Damage of each vehicle.
     pub damage: Vec<Damage>,
@@ -158,7 +158,7 @@ pub struct Bent {
 /// Why a world could not be driven.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum WorldError {
-    /// What is wrong with a vehicle.
+    /// Problems of a vehicle.
     #[error("vehicle {}: {what}", car + 1)]
     Car {
         /// Its number.

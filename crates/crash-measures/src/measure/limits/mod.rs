@@ -52,7 +52,7 @@ pub enum Grade {
 }
 
 impl Grade {
-    /// What it is, in words.
+    /// What it is, as text.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

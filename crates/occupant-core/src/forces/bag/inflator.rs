@@ -129,7 +129,7 @@ impl<S: Copy> OutletLaw<S> {
 }
 
 impl<S: Scalar> OutletLaw<S> {
-    /// Remembers the vents that the gauge pressure opens.
+    /// Stores the vents that the gauge pressure opens.
     #[inline(always)]
     pub(super) fn commit(&self, fired: S::Mask, gauge: S, past: &mut BagPast<S>) {
         for (vent, open) in self.vents.iter().zip(&mut past.open) {

@@ -170,7 +170,7 @@ impl<S: Scalar> BagLaw<S> {
         Now { unfolded, envelope, gas }
     }
 
-    /// Remembers the spheres that have come to the middle, and the vents that open; where a sphere is held anew or let go.
+    /// Stores the spheres that have come to the middle, and the vents that open; where a sphere is held anew or let go.
     #[inline(always)]
     pub(super) fn commit(&self, now: &Now<S>, past: &mut BagPast<S>) -> S::Mask {
         let (mut changes, fired) = (S::truth(false), now.unfolded.fired);

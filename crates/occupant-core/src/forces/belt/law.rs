@@ -128,7 +128,7 @@ impl<S: Scalar> BeltLaw<S> {
         }
     }
 
-    /// Remembers an accepted step.
+    /// Stores an accepted step.
     #[inline(always)]
     pub fn commit(&self, action: &BeltAction<S>, history: &mut BeltHistory<S>) {
         history.normal = action.normal;

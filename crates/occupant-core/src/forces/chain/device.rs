@@ -58,7 +58,7 @@ impl DeviceLaw<f64> {
         }
     }
 
-    /// What has gone beyond the end of its curve, in words.
+    /// What has gone beyond the end of its curve, as text.
     pub(super) fn overrun(&self, of: &str, greatest: f64) -> Option<String> {
         let laws = self.limiter.iter().chain(self.second.iter().map(|second| &second.0));
         laws.filter_map(|law| law.overrun(of, greatest, |way| format!("{:.1} mm", 1e3 * way))).next()

@@ -68,7 +68,7 @@ impl ChainLaw<f64> {
         ChainLaw { straps: Straps::new(chain, starts), nodes, belt, frame: chain.frame.index(&[]) }
     }
 
-    /// Length of the webbing where the body is, m, and what is remembered of its way there.
+    /// Length of the webbing where the body is, m, and the memory of its way there.
     pub(super) fn lie(&self, at: &Instant<'_, f64>) -> (f64, ChainPast<f64>) {
         let mut past = ChainPast::none();
         past.device.time = at.frames.time;
@@ -92,7 +92,7 @@ impl ChainLaw<f64> {
         (bends.iter().fold(0.0, |sum, bend| sum + bend.span + bend.arc), past)
     }
 
-    /// What is remembered of a belt that lies so, `whole` long in all its parts, m.
+    /// Memory of a belt that lies so, `whole` long in all its parts, m.
     pub(super) fn start(&self, at: &Instant<'_, f64>, whole: f64, past: &ChainPast<f64>) -> ChainPast<f64> {
         let (mut lies, mut past) = (Lies::nowhere(), *past);
         self.lay(at, &past, &mut lies);
@@ -129,7 +129,7 @@ impl ChainLaw<f64> {
 }
 
 impl ChainLaw<f64> {
-    /// What has gone beyond the end of its curve, in words.
+    /// What has gone beyond the end of its curve, as text.
     pub(super) fn overrun(&self, belt: &str, past: &ChainPast<f64>) -> Option<String> {
         let strain = past.nodes.iter().fold(0.0, |most: f64, node| most.max(node.greatest));
         self.straps.overrun(belt, strain, past.device.greatest)
@@ -257,7 +257,7 @@ impl<S: Scalar> ChainLaw<S> {
         lies.bends[k].normal * (lies.places[k].radius * (straps[strap - 1].tension - straps[strap].tension))
     }
 
-    /// Remembers an accepted step.
+    /// Stores an accepted step.
     #[inline(always)]
     pub(super) fn commit(&self, at: &Instant<'_, S>, now: &Now<'_, S>, past: &mut ChainPast<S>) -> Committed<S> {
         let mut next = *past;

@@ -53,7 +53,7 @@ impl<S: Scalar> NodeLaw<S> {
         Mark { way, beyond: free - way }
     }
 
-    /// Remembers how the webbing lies on a sphere; the mark of one that it comes onto begins in the middle.
+    /// Stores how the webbing lies on a sphere; the mark of one that it comes onto begins in the middle.
     #[inline(always)]
     pub(super) fn remember(
         &self,

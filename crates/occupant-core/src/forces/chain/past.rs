@@ -51,7 +51,7 @@ macro_rules! numbers {
 }
 
 numbers! {
-    /// What is remembered of a node and of the strap that begins there.
+    /// Memory of a node and of the strap that begins there.
     NodePast {
         /// 1 while the webbing passes it, 2 once it has come off a track and lies where that says.
         on,
@@ -96,7 +96,7 @@ numbers! {
 }
 
 numbers! {
-    /// What is remembered of the belt's device.
+    /// Memory of the belt's device.
     DevicePast {
         /// Of the last accepted step, s.
         time,

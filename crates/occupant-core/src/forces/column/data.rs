@@ -10,7 +10,7 @@ use crate::forces::function::Function;
 pub struct Column {
     /// Its name, that of the frame.
     pub name: String,
-    /// The frame (index in [`Setup::frames`](crate::model::setup::Setup::frames)), whose own path stands still in its parent.
+    /// The frame (index in [`Setup::frames`](crate::model::setup::Setup::frames)), whose own path is at rest in its parent.
     pub frame: usize,
     /// â, the way that it gives or the axis about which it turns by the right hand, along the parent's axes; any length.
     pub axis: Vector3<f64>,

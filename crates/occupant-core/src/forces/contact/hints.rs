@@ -255,7 +255,7 @@ impl Nearing {
         }
     }
 
-    /// Remembers the near pairs of group `g`.
+    /// Stores the near pairs of group `g`.
     #[inline(always)]
     pub(super) fn end<S: Scalar>(self, g: usize, hints: &mut ContactHints<S>) {
         hints.looks[g].near = self.count;
@@ -297,7 +297,7 @@ impl<S: Scalar> Looking<S> {
         }
     }
 
-    /// Remembers the look at group `g` from `centre`, of spheres that go no farther than `reach` before it counts.
+    /// Stores the look at group `g` from `centre`, of spheres that go no farther than `reach` before it counts.
     #[inline(always)]
     pub(super) fn end(self, g: usize, centre: V3<S>, reach: S, hints: &mut ContactHints<S>) {
         let way = (self.least - reach - S::of(MARGIN_M)).max(S::zero());

@@ -20,7 +20,7 @@ pub enum Frame {
     Vehicle,
     /// Space: x forward, y left, z up.
     Space,
-    /// Another vehicle, the ground or a panel, by its place in [`crate::model::setup::Setup::frames`].
+    /// Another vehicle, the ground or a panel, by its position in [`crate::model::setup::Setup::frames`].
     #[serde(skip)]
     Other(usize),
     /// A segment (index), from its joint and in its own axes: the surface belongs to a body.

@@ -180,7 +180,7 @@ impl Function {
         self.pieces().zip(ends).map(|((cubic, mu), end)| (cubic.slopes(end[0])[1], mu))
     }
 
-    /// Reports what is wrong with it; `falls`: how to mend a force that falls.
+    /// Reports problems of it; `falls`: how to mend a force that falls.
     pub(crate) fn check(&self, path: &str, goes: Goes, falls: &str, problems: &mut Problems) {
         check_points(&self.points, path, goes, falls, problems);
         if let (Shape::Polynomial(_), Some((cubic, _))) = (self.shape, self.pieces().next()) {
@@ -202,7 +202,7 @@ impl Function {
 /// Places in which a curve is looked at.
 pub(super) const PLACES: u32 = 200;
 
-/// Reports what is wrong with points of a curve.
+/// Reports problems of points of a curve.
 pub(super) fn check_points(points: &[[f64; 2]], path: &str, goes: Goes, falls: &str, problems: &mut Problems) {
     if points.len() < 2 || points[0] != [0.0, 0.0] {
         problems.error(path, format!("{} points, the first not (0, 0)", points.len()), "(0, 0) and at least one more");

@@ -16,7 +16,7 @@ impl ForceDeflection {
         ForceDeflection { loading, unloading: Unloading::Stretch, spike: Vec::new(), rate: Vec::new(), viscous: None }
     }
 
-    /// Reports what is wrong with it.
+    /// Reports problems of it.
     pub(crate) fn check(&self, path: &str, all: &mut Problems) {
         let problems = &mut Problems::new();
         let by_slope = matches!(self.unloading, Unloading::Slope { .. });

@@ -189,7 +189,7 @@ impl Pushes<'_, '_> {
         self.stored_j += energy_j;
     }
 
-    /// The present value of one of its channels, by its place in [`Force::channels`](super::Force::channels).
+    /// The present value of one of its channels, by its position in [`Force::channels`](super::Force::channels).
     pub fn show(&mut self, channel: usize, value: f64) {
         if let Some(shown) = self.shown.get_mut(channel) {
             *shown = value;

@@ -49,7 +49,7 @@ fn check_gravity(setup: &Setup, problems: &mut Problems) {
     }
 }
 
-/// What is wrong with the force elements of several bodies together, each of which is right alone.
+/// Problems of the force elements of several bodies together, each of which is right alone.
 pub(super) fn check_whole(setup: &Setup, problems: &mut Problems) {
     let mut found = Problems::new();
     setup.forces(&[]).check(&setup.body, &mut found);

@@ -200,7 +200,7 @@ mod tests {
     use crate::motion::state::Quat;
     use crate::motion::vector::v3;
 
-    /// T1 swings about the origin with 1 rad/s; all else stands still.
+    /// T1 swings about the origin with 1 rad/s; all else is at rest.
     fn swing(state: &State<f64>) -> State<f64> {
         let mut rate = State::zero(state.shape());
         rate.set_t1(state.velocity());

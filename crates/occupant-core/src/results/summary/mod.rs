@@ -66,7 +66,7 @@ pub struct Summary {
     pub more_events: u64,
     /// First contacts of the parts of the body after the start.
     pub first_contacts: Vec<FirstContact>,
-    /// Every first touch of a part of the body with a surface, in the order in which they happened.
+    /// Every first contact of a part of the body with a surface, in the order in which they happened.
     pub contacts: Vec<ContactBegin>,
     /// Largest contact force on each part of the body that touched anything, in the body's order.
     pub sphere_forces: Vec<SpherePeak>,
@@ -224,7 +224,7 @@ pub struct FirstContact {
     pub contact: Option<ContactBegin>,
 }
 
-/// The first touch of a part of the body with a surface.
+/// The first contact of a part of the body with a surface.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ContactBegin {
     /// Name of the part of the body.

@@ -63,7 +63,7 @@ struct Case {
     meets_itself: bool,
     chains: Vec<Chain>,
     bags: Vec<Bag>,
-    /// Whether there is anything that stands still outside of vehicles.
+    /// Whether there is anything that is at rest outside of vehicles.
     has_ground: bool,
     /// Whether parts of the body may be left out, as on a rig.
     is_on_rig: bool,
@@ -351,7 +351,7 @@ fn touchable(setup: &Setup) -> Vec<String> {
     setup.surface_names().take(fixed).chain(parts).map(str::to_owned).collect()
 }
 
-/// Whether any surface or solid stands still.
+/// Whether any surface or solid is at rest.
 fn has_ground(setup: &Setup) -> bool {
     let frames = setup.surfaces.iter().map(|own| own.frame).chain(setup.solids.iter().map(|own| own.frame));
     frames.into_iter().any(|frame| setup.is_ground(setup.belongs_to(frame)))
@@ -364,7 +364,7 @@ fn is_cut_off(measure: &Measure, last_s: f64) -> bool {
     is_window && measure.limits.iter().any(|limit| value > COARSE * limit.most)
 }
 
-/// First touches part by part; two parts of the body touch each other.
+/// First contacts part by part; two parts of the body touch each other.
 fn contacts(outcome: &Outcome, case: &Case) -> Vec<ContactBegin> {
     let spheres = &case.body.spheres;
     let mut list: Vec<ContactBegin> = Vec::new();

@@ -28,7 +28,7 @@ pub struct Throw {
     pub airborne_s: Vec<[f64; 2]>,
     /// Horizontal distance from the launch to the landing.
     pub airborne_m: Option<f64>,
-    /// The first touch of the ground after the launch, of a body that flew between.
+    /// The first contact of the ground after the launch, of a body that flew between.
     pub landing: Option<Landing>,
     /// Horizontal distance from the landing to the end; from the launch of a body that was never in the air.
     pub slide_m: Option<f64>,
@@ -50,13 +50,13 @@ pub struct Throw {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ThrowStart {
-    /// The first touch of a vehicle that is not its own.
+    /// The first contact of a vehicle that is not its own.
     Struck,
     /// The blow on the vehicle that carried it.
     Blow,
     /// The launch: no blow on the vehicle that carried it was found.
     Launch,
-    /// The first touch of the ground: neither was found.
+    /// The first contact of the ground: neither was found.
     Ground,
 }
 
@@ -100,7 +100,7 @@ pub(super) struct Moment {
     pub velocity_m_s: Vector3<f64>,
 }
 
-/// The first touch of the ground at the end of a flight.
+/// The first contact of the ground at the end of a flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Touchdown {
     pub at: Moment,

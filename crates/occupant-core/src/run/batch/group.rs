@@ -105,7 +105,7 @@ impl<L: Machine> Group<L> {
         };
         let mut h = L::zero();
         for (i, place) in self.places.iter_mut().enumerate() {
-            // an idle lane stands still: h = 0
+            // an idle lane is at rest: h = 0
             let Some(place) = place else { continue };
             let Some(step) = place.next_step() else {
                 continue;

@@ -38,7 +38,7 @@ impl Checksums {
     /// Reads the list of a folder and looks at those of its files whose names `wanted` says.
     ///
     /// # Errors
-    /// The operating system refuses.
+    /// An error of the operating system.
     pub fn open(folder: &Path, wanted: impl Fn(&str) -> bool) -> Result<Checksums, Problem> {
         let path = folder.join(SUMS);
         let text = match fs::read(&path) {
@@ -84,7 +84,7 @@ impl Checksums {
     /// Lists a file that is complete.
     ///
     /// # Errors
-    /// The operating system refuses.
+    /// An error of the operating system.
     pub fn add(&self, path: &Path) -> Result<(), Problem> {
         let sum = sha256(&fs::read(path).map_err(Problem::io("read", path))?);
         let (name, list) = (self.name(path), self.folder.join(SUMS));
@@ -101,7 +101,7 @@ impl Checksums {
     /// Puts a damaged file aside, under a name that nobody reads: what it held is computed again.
     ///
     /// # Errors
-    /// The operating system refuses.
+    /// An error of the operating system.
     pub fn put_aside(&self, path: &Path) -> Result<(), Problem> {
         match fs::rename(path, path.with_extension("damaged")) {
             // another process was quicker
@@ -115,7 +115,7 @@ impl Checksums {
     /// Writes the list anew, a line for each file that is there.
     ///
     /// # Errors
-    /// Files that are damaged still; the operating system refuses.
+    /// Files that are damaged still; an error of the operating system.
     pub fn close(self) -> Result<(), Problem> {
         if let Some(path) = self.damaged().into_iter().next() {
             return Err(Problem::Unmended { path });

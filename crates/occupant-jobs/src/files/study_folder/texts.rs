@@ -103,7 +103,7 @@ impl Texts {
         }
     }
 
-    /// Remembers what was read, or what stands for something that is no single file.
+    /// Stores what was read, or what stands for something that is no single file.
     pub fn add(&self, by: NamedBy, name: &str, bytes: Vec<u8>) {
         let mut read = self.read.borrow_mut();
         let copy = format!("inputs/{}-{}", read.len(), file_name(Path::new(name)));

@@ -172,7 +172,7 @@ impl DriveSection {
 /// Drives all vehicles; `people` are the occupants of each. None if nothing is driven.
 ///
 /// # Errors
-/// What is wrong with vehicles, ground and drivers, with its place; warnings are among the others.
+/// Problems of vehicles, ground and drivers, with its place; warnings are among the others.
 pub(crate) fn solve(
     s: &Scenario,
     document: &Document,

@@ -19,7 +19,7 @@ const FLAT: f64 = 1e-6;
 /// Cosine of the angle beyond which the normals of two faces look away from each other: 120°.
 const AWAY: f64 = -0.5 - 1e-9;
 
-/// What is wrong with a shape, and what was expected.
+/// Problems of a shape, and what was expected.
 pub(crate) type Wrong = (String, &'static str);
 
 type V = Vector3<f64>;

@@ -90,7 +90,7 @@ impl LimitLaw<f64> {
         [self.bend.as_ref().map(|bend| &bend.stop), self.turn.as_ref().map(|turn| &turn.stop)]
     }
 
-    /// What has gone beyond the end of its curve, in words.
+    /// What has gone beyond the end of its curve, as text.
     pub(super) fn overrun(&self, joint: &str, past: &LimitHistory<f64>) -> Option<String> {
         let words = |x: f64| format!("{:.1}°", x.to_degrees());
         let of = format!("the joint {joint} beyond its limit");
