@@ -120,6 +120,7 @@ const ROOMS: [(&str, &[&str]); 10] = [
             "sensitivity",
             "sweep",
             "study",
+            "surface",
             "fit",
         ],
     ),

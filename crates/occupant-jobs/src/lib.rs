@@ -46,4 +46,5 @@ pub mod risk;
 pub mod run;
 pub mod sensitivity;
 pub mod study;
+pub mod surface;
 pub mod sweep;

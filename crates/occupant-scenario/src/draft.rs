@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::car;
+use super::car::{self, Usual};
 use super::check::{check_parts, check_words, references, units_of};
 use super::expand::{expand, written_out};
 use super::kind::UnitSystem;
@@ -18,7 +18,7 @@ use placed_text::{
 };
 
 /// Paths at which a scenario names files.
-const FILES: [&str; 3] = ["path.file", "vehicles.*.path.file", "frames.*.path.file"];
+const FILES: [&str; 4] = ["path.file", "vehicles.*.path.file", "frames.*.path.file", "materials.*.file"];
 
 /// Whether a scenario names a file at this path.
 pub fn names_file(path: &str) -> bool {
@@ -135,6 +135,11 @@ impl Draft {
             _ => None,
         };
         FILES.iter().flat_map(|path| self.get(path).unwrap_or_default()).filter_map(named).collect()
+    }
+
+    /// How what stands at a path of a car or of who sits in it is usually spread; none where none is known.
+    pub fn usual(&self, path: &str) -> Option<Usual> {
+        car::usual(&self.document.sources, &self.document.root, path)
     }
 
     /// The units of its bare numbers.

@@ -298,7 +298,7 @@ pub(super) fn over(under: Node, root: &Node) -> Node {
 }
 
 /// `over` merged over `under`: tables merge key by key, everything else is replaced.
-fn laid_over(under: Option<Entry>, over: Entry) -> Entry {
+pub(super) fn laid_over(under: Option<Entry>, over: Entry) -> Entry {
     let Some(mut under) = under else { return over };
     match (under.node.as_table_mut(), over.node.as_table()) {
         (Some(base), Some(table)) => {

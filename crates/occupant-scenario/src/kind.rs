@@ -58,7 +58,7 @@ pub const ACCELERATION: usize = 4;
 /// Angular velocity.
 pub const ANGULAR_VELOCITY: usize = 5;
 /// Mass.
-pub(crate) const MASS: usize = 6;
+pub const MASS: usize = 6;
 /// Force.
 pub(crate) const FORCE: usize = 7;
 /// Moment of inertia.

@@ -99,7 +99,9 @@ mod places;
 mod presets;
 mod ready;
 mod sections;
+mod surface_files;
 
+pub use car::{Dimension, Size, Usual};
 pub use check::{check_words, schema::schema_of};
 pub use draft::{Draft, names_file};
 pub use expand::rival_path;
@@ -109,8 +111,9 @@ pub use places::{Place, Wanted};
 pub use presets::preset_body;
 pub use sections::{
     Angle, DrivenVehicle, Drives, FRACTION, Length, NOT_NEGATIVE, POSITIVE, Quantity, Ratio, RecordFile, Scenario,
-    Solved, Time, column_in, column_named, read_record, schema, speed_named,
+    Solved, Time, column_in, column_named, read_record, schema, speed_named, surface_schema,
 };
+pub use surface_files::check_surface;
 
 #[cfg(test)]
 mod tests;

@@ -1,11 +1,13 @@
 //! A scenario that has passed the check, with the tables beside it, ready to be built.
 
+use super::car::{self, Dimension};
 use super::draft::Draft;
 use super::ready::Ready;
 use super::sections::{Drives, People, Scenario, asks_for_people, setup, solve, together};
+use super::surface_files;
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
-use placed_text::{Diagnostics, Document, Format, Problem, Problems, table_text, with_key};
+use placed_text::{Diagnostics, Document, Format, Node, Problem, Problems, table_text, with_key};
 
 /// Returns the bytes of a file named in a scenario, or the reason of the failure. The core reads no files itself.
 pub type Resolver<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, String>;
@@ -18,6 +20,8 @@ pub struct Loaded {
     explicit: Scenario,
     /// The tree of the explicit scenario.
     document: Document,
+    /// The tree of the scenario as it was written.
+    root: Node,
 }
 
 impl Scenario {
@@ -43,9 +47,10 @@ impl Loaded {
     pub(super) fn from_draft(draft: Draft, resolver: Resolver) -> Result<Loaded, Diagnostics> {
         let ready = draft.into_ready()?;
         let mut document = ready.document();
-        let Ready { scenario, explicit, .. } = ready;
+        let Ready { scenario, mut explicit, root, .. } = ready;
         read_tables(&mut document, &scenario, resolver)?;
-        Ok(Loaded { scenario, explicit, document })
+        surface_files::lay(&mut document, &mut explicit, resolver)?;
+        Ok(Loaded { scenario, explicit, document, root })
     }
 
     /// The plain data of the scenario, with warnings.
@@ -131,11 +136,17 @@ impl Loaded {
         &self.explicit
     }
 
-    /// Names and texts of the scenario's tables, each once.
+    /// The distances of its `[car]`s: those of class and years, and its own values.
+    pub fn dimensions(&self) -> Vec<Dimension> {
+        car::dimensions(&self.document.sources, &self.root)
+    }
+
+    /// Names and texts of the scenario's tables and surface files, each once.
     pub fn tables(&self) -> Vec<(&str, &str)> {
         let sources = &self.document.sources;
         let mut tables: Vec<(&str, &str)> = Vec::new();
-        for file in self.scenario.paths().into_iter().filter_map(|(_, path)| path.file()) {
+        let surfaces = self.scenario.materials.values().filter_map(|material| material.file.as_deref());
+        for file in self.scenario.paths().into_iter().filter_map(|(_, path)| path.file()).chain(surfaces) {
             if let (Some(id), true) = (sources.named(file), tables.iter().all(|(name, _)| *name != file)) {
                 tables.push((file, sources.text(id)));
             }

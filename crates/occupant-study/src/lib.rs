@@ -84,6 +84,7 @@ pub use fit_section::{FilterChoice, FitChannel, FitSection, FitTest, GainRange, 
 pub use keep::Keep;
 pub use law::{Bounds, Distribution, Law, Value};
 pub use parameter::{Assignment, Parameter, Target};
+pub use random::of_resample;
 pub use saltelli::Block;
 pub use section::{ApplyChoice, StudySection, schema_json};
 pub use text::StudyText;

@@ -42,6 +42,11 @@ pub(super) fn unit(seed: u64, purpose: Purpose, index: u64, dimension: u32) -> f
     open_unit(bits(seed, purpose, index, dimension, 0) >> 12)
 }
 
+/// A random number in (0, 1) of a resample: the same for the same address, whoever asks.
+pub fn of_resample(index: u64, dimension: u32) -> f64 {
+    unit(0, Purpose::Bootstrap, index, dimension)
+}
+
 /// (k + ½)/2⁵² of the lower 52 bits: exact, never 0 or 1.
 pub(super) fn open_unit(k: u64) -> f64 {
     const SCALE: f64 = 1.0 / (1_u64 << 52) as f64;

@@ -70,7 +70,7 @@ pub struct StudySection {
 #[schemars(extend(
     "x-exactly-one" = [["path", "paths", "segments"]],
     "x-at-most-one" = [
-        ["grid", "list", "range", "distribution", "segments"], ["name", "segments"], ["apply", "segments"],
+        ["grid", "list", "range", "distribution", "usual", "segments"], ["name", "segments"], ["apply", "segments"],
     ],
 ))]
 pub struct ParameterSection {
@@ -95,6 +95,10 @@ pub struct ParameterSection {
     pub range: Option<RangeSection>,
     /// Values as likely as a distribution says.
     pub distribution: Option<Distribution<Value>>,
+    /// True: as a car's seats, belts and wheel and a person's stature and mass are usually spread, about what the base scenario or its class
+    /// says. Of `track`, `recline`, `slack`, `lap_above`, `d_ring.behind` and `d_ring.above` of `car.seats.*`, `car.wheel.ahead` and `above`,
+    /// `body.stature` and `body.mass`.
+    pub usual: Option<bool>,
 }
 
 /// What is done with the number of a parameter.

@@ -38,6 +38,21 @@ impl Document {
         Ok(Document { sources, main, root })
     }
 
+    /// The same of bytes of a file that another text names, of which messages quote no line; [`Format::of_text`] says the format.
+    ///
+    /// # Errors
+    /// The place of the first byte that is not UTF-8; else everything that is wrong with its syntax.
+    pub fn read_named(bytes: &[u8], name: &str) -> Result<Document, Diagnostics> {
+        let text = text_of(bytes, name)?;
+        let mut sources = Sources::new();
+        let main = sources.add_named(name, text);
+        let root = match Format::of_text(text) {
+            Format::Toml => toml::parse(&sources, main)?,
+            Format::Json => json::parse(&sources, main)?,
+        };
+        Ok(Document { sources, main, root })
+    }
+
     /// Reads bytes that should be UTF-8 text; [`Format::of_text`] says the format unless it is given.
     ///
     /// # Errors

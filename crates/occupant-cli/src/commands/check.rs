@@ -1,10 +1,11 @@
 //! `occupant check`.
 
-use occupant_core::diagnosis::{Diagnosis, RK4_STABILITY_LIMIT, diagnose};
+use occupant_core::diagnosis::{Diagnosis, OnShoulder, RK4_STABILITY_LIMIT, ShoulderBelt, diagnose};
 
 use super::tables::check::check_text;
 use crate::base::{Done, Failure, UnitsArg, say, talk};
 use occupant_jobs::files::scenario::{self, ScenarioArgs, warn_of};
+use occupant_scenario::Dimension;
 
 /// Check a scenario and show what would be simulated
 ///
@@ -26,6 +27,15 @@ pub(crate) struct Args {
     quiet: bool,
 }
 
+/// All that is printed as JSON.
+#[derive(serde::Serialize)]
+struct Told<'a> {
+    #[serde(flatten)]
+    diagnosis: &'a Diagnosis,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    car: Vec<Dimension>,
+}
+
 pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
     let opened = scenario::open(&args.scenario)?;
     if args.quiet {
@@ -37,9 +47,9 @@ pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
     opened.loaded.compare_with_people(&mut diagnosis.body);
     let units = args.units.or(opened.loaded.scenario.units);
     if args.json {
-        talk::print(&crate::base::json(&diagnosis)?)?;
+        talk::print(&crate::base::json(&Told { diagnosis: &diagnosis, car: opened.loaded.dimensions() })?)?;
     } else if !args.quiet {
-        talk::print(&check_text(&diagnosis, units))?;
+        talk::print(&check_text(&diagnosis, &opened.loaded.dimensions(), units))?;
     }
     for behind in &diagnosis.behind {
         say(&format!(
@@ -65,6 +75,7 @@ pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
             lap.held_rad.to_degrees()
         ));
     }
+    diagnosis.shoulder_belts.iter().filter_map(off_shoulder).for_each(|message| say(&message));
     match too_long(&diagnosis) {
         Some(message) => {
             say(&format!("error: {message}"));
@@ -72,6 +83,21 @@ pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
         }
         None => Ok(Done::Well),
     }
+}
+
+/// What to warn of a belt that does not lie on the shoulder once it pulls.
+fn off_shoulder(own: &ShoulderBelt) -> Option<String> {
+    let seen = match own.lies {
+        OnShoulder::Bears => return None,
+        OnShoulder::LiftedOff => {
+            "pulls away from the shoulder as it tightens: it will bear on the chest alone\n = help: move the D-ring down or back"
+        }
+        OnShoulder::SlidOff => "slides off the shoulder towards the arm\n = help: move the D-ring or the buckle inward",
+        OnShoulder::AtNeck => {
+            "slides against the neck, which it does not load in the model\n = help: move the D-ring outward or down"
+        }
+    };
+    Some(format!("warning: belt {} over {} {seen}", own.belt, own.part))
 }
 
 /// What to say of a step that is too long for the fastest rate.

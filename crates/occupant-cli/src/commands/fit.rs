@@ -27,7 +27,7 @@ use occupant_jobs::sweep::words::{tell_damaged, warn_unlocked};
 ///
 /// Writes FOLDER/fit.json, fitted.toml (the scenario with the fitted values; fitted/TEST.toml for several tests),
 /// plots/*.svg (measured and computed, before and after) and history.parquet and .csv (all candidates). Run the same
-/// command again to resume an interrupted fit; the result is the same.
+/// command again to resume an interrupted fit; the result is the same. A surface from a drop test: `occupant surface`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The study, TOML or JSON

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 /// Jobs, and the commands for each.
 const GROUPS: [(&str, &[&str]); 7] = [
-    ("Set up a case", &["new", "check", "explain", "schema"]),
+    ("Set up a case", &["new", "check", "explain", "schema", "surface"]),
     ("Simulate", &["run", "drive"]),
     ("Look at a run", &["view", "report", "plot", "print", "channels"]),
     ("Judge a run or a test", &["measures", "compare", "risk", "sensitivity"]),

@@ -29,6 +29,7 @@ mod run;
 mod schema;
 mod sensitivity;
 mod study;
+mod surface;
 mod sweep;
 mod tables;
 mod view;
@@ -75,6 +76,7 @@ commands! {
     Sweep: sweep::sweep,
     Study: study::study,
     Fit: fit::fit,
+    Surface: surface::surface,
     Check: check::check,
     New: new::new,
     Explain: explain::explain,

@@ -1,6 +1,6 @@
 //! `occupant schema`.
 
-use occupant_scenario::schema;
+use occupant_scenario::{schema, surface_schema};
 use occupant_study::schema_json;
 use serde_json::Value as Json;
 
@@ -26,6 +26,8 @@ enum Of {
     Study,
     /// What `fit` reads: a study with a section `fit`
     Fit,
+    /// What `surface` writes and materials name by `file`
+    Surface,
     /// What `run --json` prints
     Run,
     /// What `check --json` prints
@@ -47,6 +49,8 @@ pub(crate) enum Document {
     Scenario,
     /// What `sweep` and `fit` read
     Study,
+    /// What `surface` writes and materials name by `file`
+    Surface,
 }
 
 impl Document {
@@ -55,6 +59,7 @@ impl Document {
         match self {
             Document::Scenario => schema(),
             Document::Study => schema_json(),
+            Document::Surface => surface_schema(),
         }
     }
 
@@ -63,6 +68,7 @@ impl Document {
         match self {
             Document::Scenario => "scenario",
             Document::Study => "study",
+            Document::Surface => "surface",
         }
     }
 }
@@ -72,6 +78,7 @@ pub(crate) fn print(args: &Args) -> Result<(), Failure> {
     let answer = match args.of {
         Of::Scenario => return talk::print(&crate::base::json(Document::Scenario.schema())?),
         Of::Study | Of::Fit => return talk::print(&crate::base::json(Document::Study.schema())?),
+        Of::Surface => return talk::print(&crate::base::json(Document::Surface.schema())?),
         Of::Run => "run",
         Of::Check => "check",
         Of::Measures => "measures",

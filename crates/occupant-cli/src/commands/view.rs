@@ -4,6 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
+use occupant_core::diagnosis::clearances;
+use occupant_core::model::Model;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::attempt;
@@ -17,7 +19,8 @@ use occupant_jobs::files::scenario::{self, ScenarioArgs, warn_of};
 use occupant_pictures::Format;
 use occupant_pictures::body::Snapshot;
 use occupant_pictures::film::{Draw, FRAMES_A_SECOND, Film};
-use occupant_pictures::view::{Strip, View, draw, frames};
+use occupant_pictures::view::{Measured, Strip, View, draw, frames};
+use occupant_scenario::{Loaded, Size};
 
 /// Pixels of a PNG for each unit of the drawing.
 const PIXELS: f64 = 2.0;
@@ -66,6 +69,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "VIEWS", value_enum, value_delimiter = ',')]
     views: Vec<View>,
 
+    /// Draw the main distances of the car with their SAE names, in mm: of a scenario, or of a run at its start
+    #[arg(long)]
+    dimensions: bool,
+
     /// How many times slower than real time a film plays
     #[arg(long, value_name = "TIMES", default_value = "20", value_parser = slow_motion)]
     slow_motion: f64,
@@ -94,7 +101,8 @@ pub(crate) fn view(args: &Args) -> Result<(), Failure> {
     };
     let moments = moments(&results, &outputs(&results, &wanted)?)?;
     let origin = origin(&results) + &pace(args, kind);
-    let strip = Strip { model: &results.model, moments, views: views(args, kind), origin };
+    let dimensions = if args.dimensions { lines(&results.loaded, &results.model) } else { Vec::new() };
+    let strip = Strip { model: &results.model, moments, views: views(args, kind), origin, dimensions };
     let (one, bar) = (frames(&strip), bar(Some(strip.moments.len() as u64), &counted("frames"), false));
     let one = |frame| {
         let drawing = one(frame);
@@ -169,6 +177,34 @@ fn views(args: &Args, kind: Kind) -> Vec<View> {
     views
 }
 
+/// The distances that are drawn: those of the first vehicle's car, and what is free before and over the body.
+fn lines(loaded: &Loaded, model: &Model) -> Vec<Measured> {
+    let of_car = loaded.dimensions().into_iter().filter(|own| own.vehicle.is_none()).filter_map(|own| {
+        let key = own.name.rsplit_once('.').map_or(own.name.as_str(), |(_, key)| key);
+        let is_drawn =
+            own.name.contains(".d_ring.") || own.name.ends_with(".recline") || !own.name.starts_with("seats.");
+        let title = if own.name.contains(".d_ring.") {
+            format!("D-ring {key}")
+        } else if own.code.is_empty() || own.code.contains(' ') {
+            own.name.replace('.', " ")
+        } else {
+            own.code.to_owned()
+        };
+        let label = match own.size {
+            Size::Distance(m) if m > 0.0 => format!("{title} {:.0}", m * 1e3),
+            Size::Distance(_) => return None,
+            Size::Angle(rad) => format!("{title} {:.0}°", rad.to_degrees()),
+        };
+        is_drawn.then_some(Measured { label, ends_m: own.ends_m, is_angle: matches!(own.size, Size::Angle(_)) })
+    });
+    let free = clearances(model).into_iter().map(|own| {
+        let part = own.sphere.replace('_', " ");
+        let label = format!("{part} to {} {:.0}", own.surface.replace('_', " "), own.distance_m * 1e3);
+        Measured { label, ends_m: own.ends_m, is_angle: false }
+    });
+    of_car.chain(free).collect()
+}
+
 /// Draws how the body of a scenario sits at its start.
 fn seated(args: &Args, output: &Path, kind: Kind) -> Result<(), Failure> {
     let Kind::Picture(format) = kind else {
@@ -191,7 +227,8 @@ fn seated(args: &Args, output: &Path, kind: Kind) -> Result<(), Failure> {
         return Err(Failure::BrokeOff(format!("error: {error}")));
     }
     let origin = format!("{}, before a run", file_name(&args.input));
-    let strip = Strip { model: &opened.model, moments, views: views(args, kind), origin };
+    let dimensions = if args.dimensions { lines(&opened.loaded, &opened.model) } else { Vec::new() };
+    let strip = Strip { model: &opened.model, moments, views: views(args, kind), origin, dimensions };
     deliver_and(args.open, output, args.force, &picture(&strip, format)?)
 }
 

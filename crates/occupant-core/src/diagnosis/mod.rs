@@ -3,21 +3,26 @@
 //! All figures are those of the start of the run. Ours; the report prints the seating only.
 
 mod ahead;
+mod clearance;
 mod friction;
 mod lap;
 mod rates;
+mod shoulder;
 mod start;
 
 use crate::forces::table::InOrder;
 use nalgebra::Vector3;
 use serde::Serialize;
 
+pub use crate::forces::chain::OnShoulder;
 pub use crate::forces::rate::Rate;
 use crate::forces::table::Tables;
 pub use ahead::OpenAhead;
+pub use clearance::{Clearance, Way, clearances};
 pub use friction::{FrictionWatch, UnstableFriction};
 pub use lap::LapBelt;
 pub use rates::{RK4_STABILITY_LIMIT, SphereRate};
+pub use shoulder::ShoulderBelt;
 pub use start::{ContactStart, FrictionFigures, SeatStart, SphereBehind};
 
 use crate::body::Segment;
@@ -53,6 +58,12 @@ pub struct Diagnosis {
     /// Lap belts that begin so that they slide up on the iliac wings.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub lap_belts: Vec<LapBelt>,
+    /// What stands before head, chest and knees, and over the head.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub clearances: Vec<Clearance>,
+    /// How belts lie on shoulders once they pull.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub shoulder_belts: Vec<ShoulderBelt>,
     /// Corners of two surfaces within reach that a sphere may come round without touching either.
     pub corners: Vec<[String; 2]>,
     /// Parts of the body with those that they can touch.
@@ -178,6 +189,8 @@ pub fn diagnose(model: &Model) -> Diagnosis {
         behind: start::behind(model, &mobility),
         open_ahead: ahead::open_ahead(model),
         lap_belts: lap::sliding(model),
+        clearances: clearances(model),
+        shoulder_belts: start.shoulders,
         corners: start::corners(model),
         self_contact: start::self_contact(model),
         elements: start.elements,

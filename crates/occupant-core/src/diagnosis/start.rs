@@ -4,6 +4,7 @@ use crate::forces::table::InOrder;
 use serde::Serialize;
 
 use super::rates::frame_at_start;
+use super::shoulder::{self, ShoulderBelt};
 use crate::forces::Instant;
 use crate::forces::contact::PASSED;
 use crate::forces::contact::flat_face::FlatFace;
@@ -110,6 +111,7 @@ pub struct SphereBehind {
 pub(super) struct Look {
     pub contacts: Vec<ContactStart>,
     pub elements: Tables,
+    pub shoulders: Vec<ShoulderBelt>,
     /// Of force elements.
     pub rates: Vec<Rate>,
 }
@@ -125,6 +127,7 @@ pub(super) fn look(model: &Model, mobility: &Mobility<'_>) -> Look {
         look = Look {
             contacts: sample.contacts().map(|c| contact(sample, &c)).collect(),
             elements: sample.start_tables(),
+            shoulders: shoulder::all(sample),
             rates: data.rates(model.body(), &at, sample.actions, mobility),
         };
     });

@@ -10,7 +10,7 @@ use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 
 use super::resume::Resumption;
-use crate::base::{Existing, Failure, PartialFile, file_name, input_file, partial_path, program, refuse_input};
+use crate::base::{Existing, Failure, PartialFile, ending, file_name, input_file, partial_path, program, refuse_input};
 use crate::files::scenario::{Opened, ScenarioArgs, inputs};
 use occupant_files::mcap::about::RESOLVED;
 use occupant_files::mcap::{About, Document, McapOptions, McapRecorder};
@@ -85,7 +85,8 @@ impl Recording {
             let short = |name: &str| file_name(Path::new(name));
             let is_only = tables.iter().filter(|(other, _)| short(other) == short(name)).count() == 1;
             let name = if is_only { short(name) } else { name.to_string() };
-            recorder.with_table(document(&name, "text/csv", text.as_bytes().to_vec()))
+            let kind = if ending(Path::new(&name)) == "toml" { "application/toml" } else { "text/csv" };
+            recorder.with_table(document(&name, kind, text.as_bytes().to_vec()))
         };
         let recorder = tables.iter().fold(recorder, attached);
         Ok(Recording(Some(Open { partial, recorder })))

@@ -11,6 +11,8 @@ const COLUMNS: usize = 6;
 pub const PANEL: f64 = 230.0;
 /// The same of a film.
 pub const FILM_PANEL: f64 = 660.0;
+/// The same of a strip with distances to read.
+pub const DIMENSIONS_PANEL: f64 = 760.0;
 /// Room on the left for the names of the views.
 pub const LEFT: f64 = 84.0;
 /// Room beside the title and the legend.

@@ -2,6 +2,7 @@
 //!
 //! All panels of a strip share one scale and one window. Everything is drawn in vehicle axes from the samples of the run.
 
+mod dimensions;
 mod hull;
 mod layout;
 mod legend;
@@ -27,4 +28,17 @@ pub struct Strip<'a> {
     pub views: Vec<View>,
     /// Small print: where the pictures come from.
     pub origin: String,
+    /// Distances drawn in the pictures of the first moment.
+    pub dimensions: Vec<Measured>,
+}
+
+/// A distance or an angle, drawn as a line between its ends with its label.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// What it is and how much, such as `H30 250`.
+    pub label: String,
+    /// Its ends, vehicle axes, m.
+    pub ends_m: [[f64; 3]; 2],
+    /// Whether it is an angle, of a line.
+    pub is_angle: bool,
 }

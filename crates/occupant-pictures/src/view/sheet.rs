@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use super::layout::{FILM_PANEL, HEADING, Layout, MARGIN, PANEL};
+use super::layout::{DIMENSIONS_PANEL, FILM_PANEL, HEADING, Layout, MARGIN, PANEL};
 use super::panel::Pen;
-use super::{Strip, legend, panel};
+use super::{Strip, dimensions, legend, panel};
 use crate::body::{Snapshot, parts};
 use crate::font::Weight;
 use crate::svg::{Anchor, Svg, Text};
@@ -16,7 +16,9 @@ const LONGEST_FORCE: f64 = 70.0;
 /// The strip as SVG.
 pub fn draw(strip: &Strip<'_>) -> String {
     let all = strip.moments.len();
-    sheet(strip, &Layout::of(strip, all, PANEL), 0..all)
+    // one panel alone, or one with distances to read, has room to be large
+    let panel = if strip.dimensions.is_empty() { PANEL } else { DIMENSIONS_PANEL };
+    sheet(strip, &Layout::of(strip, all, panel), 0..all)
 }
 
 /// The frames of a film as SVG, one for each moment, all with the same window and scales.
@@ -66,6 +68,10 @@ fn draw_moment(svg: &mut Svg, layout: &Layout, pen: &Pen<'_>, place: usize, mome
         svg.begin_clip(&name, x, y, width, height);
         let corner_m = layout.window.corner_m(view);
         panel::draw(svg, pen, moment, view, corner, corner_m);
+        let is_first = pen.strip.moments.first().is_some_and(|first| std::ptr::eq(first, moment));
+        if is_first {
+            dimensions::draw(svg, pen, view, corner, corner_m);
+        }
         svg.end();
         svg.rect(x, y, width, height, "fill=\"none\" stroke=\"#cccccc\"");
     }

@@ -1,5 +1,21 @@
-//! What the inside of a class of cars measures. Ours, of the size that published interior dimensions of 2000 to 2020 have (SAE J1100
-//! names); single models lie some centimetres beside them.
+//! What the inside of a class of cars measures (SAE J1100 names).
+//!
+//! H30, W3, W20, L50 and H61 are those of S. Macey, G. Wardle: H-Point, The Fundamentals of Car Design & Packaging (Design Studio Press),
+//! chapter 6, "approximate reference dimensions" of current production cars, which are rounded to 25 mm. A class here lies in the span of its
+//! types there:
+//!
+//! | class | its types | H30 | W20 | W3 | L50 | H61 |
+//! |---|---|---|---|---|---|---|
+//! | small | micro, small | 250–275 | 300–350 | 1200–1350 | 750 | 975–1000 |
+//! | sedan | medium, large, luxury | 250–275 | 350–400 | 1475–1550 | 850–975 | 975 |
+//! | suv | small, medium, large | 300–350 | 375–425 | 1425–1650 | 825–875 | 1010–1025 |
+//! | van | minivan, commercial | 350 | 425–525 | 1575–1675 | 850–900 | 1010 |
+//! | pickup | small, large 4x4 | 300–350 | 375–475 | 1475–1700 | 625–950 | 1010–1025 |
+//!
+//! L6 of the sedan is that of the mid-size package of M. P. Reed, S. M. Ebert, J. J. Hallman: Effects of Driver Characteristics on Seat Belt Fit,
+//! Stapp Car Crash J. 57 (2013): 550 mm with H30 = 270 mm. The driver's place is that of SAE J4004. L6 of the other classes, H17, A18, W9
+//! and what is said of panel and bolster are estimates: no table was found. Knees of 36 drivers were 200 mm from the bolster in the mean, in a
+//! sedan, a crossover and a pickup (P. Atkinson et al., SAE 2009-01-0390).
 
 use crate::sections::{CarClass, CarSection, si_or};
 
@@ -35,16 +51,20 @@ pub(super) struct Measures {
     pub(super) bolster: f64,
 }
 
-/// H30, L6, H17, A18, W9, W20, W3, L50, roof.
+/// H30, L6, H17, A18, W9, W20, W3, L50, H61.
 fn dimensions(class: CarClass) -> [f64; 9] {
     match class {
-        CarClass::Small => [0.255, 0.55, 0.635, 24.0, 0.37, 0.335, 1.36, 0.76, 0.88],
-        CarClass::Sedan | CarClass::Sled => [0.25, 0.55, 0.64, 24.0, 0.38, 0.36, 1.45, 0.83, 0.88],
-        CarClass::Suv => [0.32, 0.50, 0.70, 28.0, 0.38, 0.37, 1.50, 0.85, 0.91],
-        CarClass::Van => [0.35, 0.47, 0.74, 33.0, 0.385, 0.42, 1.60, 0.90, 0.95],
-        CarClass::Pickup => [0.33, 0.49, 0.72, 28.0, 0.385, 0.42, 1.65, 0.93, 0.93],
+        CarClass::Small => [0.255, 0.55, 0.635, 24.0, 0.37, 0.335, 1.35, 0.75, 0.975],
+        CarClass::Sedan | CarClass::Sled => [0.25, 0.55, 0.64, 24.0, 0.38, 0.36, 1.48, 0.85, 0.975],
+        CarClass::Suv => [0.32, 0.50, 0.70, 28.0, 0.38, 0.40, 1.50, 0.85, 1.015],
+        CarClass::Van => [0.35, 0.47, 0.74, 33.0, 0.385, 0.43, 1.60, 0.90, 1.010],
+        CarClass::Pickup => [0.33, 0.49, 0.72, 28.0, 0.385, 0.42, 1.65, 0.93, 1.015],
     }
 }
+
+/// Effective head room has this on top of the way from the H-point to the roof, m, along a line that leans back by 8°; SAE J1100.
+pub(super) const H61_ADDS_M: f64 = 0.102;
+pub(super) const H61_LEANS_RAD: f64 = 8.0 * std::f64::consts::PI / 180.0;
 
 /// From the heel of a shoe on the pedal to its ball, m; SAE J826.
 const HEEL_TO_BALL_M: f64 = 0.203;
@@ -56,7 +76,8 @@ const BOLSTER_BEFORE_PANEL_M: f64 = 0.06;
 impl Measures {
     /// Of a class, with what the scenario says.
     pub(super) fn of(car: &CarSection) -> Measures {
-        let [h30, l6, h17, a18, w9, w20, w3, l50, roof] = dimensions(car.class.unwrap_or_default());
+        let [h30, l6, h17, a18, w9, w20, w3, l50, h61] = dimensions(car.class.unwrap_or_default());
+        let (_, upright) = occupant_units::trig::sin_cos(H61_LEANS_RAD);
         let seat_height = si_or(&car.seat_height, h30);
         // ball of the foot ahead of the mean driver's H-point
         let ball = 0.718 - 0.24 * seat_height + 0.41 * l6;
@@ -67,7 +88,7 @@ impl Measures {
             seat_offset: si_or(&car.seat_offset, w20),
             couple: si_or(&car.couple, l50),
             shoulder_room: si_or(&car.shoulder_room, w3),
-            roof: si_or(&car.roof, roof),
+            roof: si_or(&car.roof, (h61 - H61_ADDS_M) * upright),
             heels: ball - HEEL_TO_BALL_M,
             wheel: [ahead, si_or(&car.wheel.above, h17 - h30)],
             wheel_angle_deg: car.wheel.angle.as_ref().map_or(a18, |angle| angle.si().to_degrees()),

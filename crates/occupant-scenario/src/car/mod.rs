@@ -2,9 +2,12 @@
 //! are written out with it.
 
 mod classes;
+mod dimensions;
 mod ride;
 mod seats;
 mod shell;
+mod usual;
+mod years;
 
 use std::fmt::Write as _;
 
@@ -16,7 +19,12 @@ use crate::expand::{over, written};
 use crate::presets;
 use crate::sections::{BodySection, CAR_TITLE, CarClass, CarSeatSection, CarSection, Side, schema};
 use classes::Measures;
+pub(super) use dimensions::dimensions;
+pub use dimensions::{Dimension, Size};
 use placed_text::{Diagnostics, Document, Node, Problem, Sources, Table, did_you_mean, one_of, with_key};
+pub use usual::Usual;
+pub(super) use usual::usual;
+use years::Years;
 
 /// Sections in which a car stands: they are checked before it is written out.
 pub(super) const CAR: [&str; 2] = ["car", "vehicles"];
@@ -73,7 +81,7 @@ fn own_seats(document: &Document, vehicle: &str, problems: &mut Diagnostics) {
 
 /// What numbers of a car lie between: its key, the least and the greatest in SI units, and how a message says them.
 #[rustfmt::skip]
-const BETWEEN: [(&str, f64, f64, &str); 29] = [
+const BETWEEN: [(&str, f64, f64, &str); 30] = [
     ("seat_height", 0.05, 0.8, "5 cm to 80 cm"), ("seat_offset", 0.05, 1.2, "5 cm to 1.2 m"), ("couple", 0.4, 2.0, "0.4 m to 2 m"),
     ("shoulder_room", 0.8, 2.5, "0.8 m to 2.5 m"), ("roof", 0.5, 2.0, "0.5 m to 2 m"), ("ahead", 0.1, 1.5, "10 cm to 1.5 m"),
     ("above", -1.0, 1.5, "-1 m to 1.5 m"), ("angle", 0.0, 1.4, "0 to 80 degrees"), ("diameter", 0.2, 0.6, "20 cm to 60 cm"),
@@ -84,6 +92,7 @@ const BETWEEN: [(&str, f64, f64, &str); 29] = [
     ("head_height", 0.3, 1.2, "0.3 m to 1.2 m"), ("limiter", 100.0, 1e6, "100 N to 1 MN"), ("film", 0.001, 0.4, "1 mm to 0.4 m"),
     ("depth", 0.001, 1.0, "1 mm to 1 m"), ("begins", 0.0, 10.0, "0 to 10 s"), ("lasts", 0.005, 1.0, "5 ms to 1 s"),
     ("booster", 0.02, 0.3, "2 cm to 30 cm"), ("back_moment", 50.0, 1e5, "50 N·m to 100 kN·m"),
+    ("lap_above", -0.1, 0.15, "-10 cm to 15 cm"),
 ];
 const OTHERS_M: [&str; 4] = ["slack", "pretensioner", "behind", "outboard"];
 
@@ -131,8 +140,7 @@ fn words(root: &Node) -> Option<String> {
     }
     for (vehicle, car) in cars(root) {
         let section = CarSection::deserialize(car).ok()?;
-        let car = Car { vehicle, measures: Measures::of(&section), section: &section };
-        text += &car.words(&riders);
+        text += &Car::of(vehicle, &section).words(&riders);
     }
     Some(text)
 }
@@ -240,7 +248,14 @@ pub(super) struct Car<'a> {
     /// The vehicle that it is the inside of, none for the first.
     vehicle: Option<&'a str>,
     measures: Measures,
+    years: Years,
     section: &'a CarSection,
+}
+
+impl<'a> Car<'a> {
+    fn of(vehicle: Option<&'a str>, section: &'a CarSection) -> Self {
+        Car { vehicle, measures: Measures::of(section), years: Years::of(section.years.unwrap_or_default()), section }
+    }
 }
 
 impl Car<'_> {
@@ -282,15 +297,16 @@ impl Car<'_> {
         prism(&self.name(name), material, profile, across, &(frame + more))
     }
 
-    fn seat(&self, name: &str) -> CarSeatSection {
-        self.section.seats.get(name).cloned().unwrap_or_default()
+    /// What is said of a seat of a row, and what its years give it.
+    fn seat(&self, name: &str, row: usize) -> CarSeatSection {
+        self.years.fill(self.section.seats.get(name).cloned().unwrap_or_default(), row)
     }
 }
 
 /// Where the numbers come from.
 const SOURCES: &str = r#"
 [provenance]
-car = "ours: distances of the size that SAE J1100 dimensions of a class have; no particular car; the driver's place by stature after SAE J4004"
+car = "no particular car: H30, W3, W20, L50 and H61 of a class after S. Macey, G. Wardle: H-Point, ch. 6; the driver's place after SAE J4004; D-ring after Shaw et al. 2009; all else ours"
 "car.materials" = "ours, of the size of seats, panels and floors of a car; not measured, not fitted"
 "car.bags" = "made up: no measured inflator may be shipped"
 "#;

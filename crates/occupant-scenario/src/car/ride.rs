@@ -4,10 +4,18 @@ use super::seats::Seat;
 use super::{Car, Rider, SEATS, list, m};
 use crate::sections::{AnchorSection, CarBelt, CarClass, si_or};
 
-/// Belt places from the H-point: behind, outboard, above, m. Ours, of a usual car.
-const D_RING_M: [f64; 3] = [0.27, 0.27, 0.66];
+/// Belt places from the H-point: behind, outboard, above, m. Ours, of a usual car, but for the D-ring's place behind and above: after that of a
+/// mid-size car, 416 and 616 mm, on the sled of G. Shaw et al.: Impact Response of Restrained PMHS in Frontal Sled Tests, Stapp Car Crash
+/// J. 53 (2009). It stands on the pillar: seats slide past it.
+const D_RING_M: [f64; 3] = [0.42, 0.27, 0.62];
+/// Stature for which the D-ring stands there, how far its height adjuster follows the trunk per stature, its notches and how far that goes
+/// down and up, m; ours.
+const ADJUSTED_FOR_M: f64 = 1.75;
+const ADJUSTS: f64 = 0.35;
+const NOTCH_M: f64 = 0.02;
+const ADJUSTS_M: [f64; 2] = [-0.06, 0.02];
 const BUCKLE_M: [f64; 3] = [0.10, -0.19, -0.12];
-const ANCHOR_M: [f64; 3] = [0.16, 0.25, -0.22];
+pub(super) const ANCHOR_M: [f64; 3] = [0.16, 0.25, -0.22];
 /// The inner anchor of a lap belt.
 const INNER_ANCHOR_M: [f64; 3] = [0.16, -0.23, -0.22];
 
@@ -77,12 +85,11 @@ impl Car<'_> {
         let out = if seat.h[1] < 0.0 { -1.0 } else { 1.0 };
         let at = |said: &AnchorSection, [behind, outboard, above]: [f64; 3]| {
             let [x, y, z] = seat.h;
-            let place = [si_or(&said.behind, behind), si_or(&said.outboard, outboard), si_or(&said.above, above)];
+            let place = placed_m(said, [behind, outboard, above]);
             [x - place[0], y + out * place[1], z - place[2]]
         };
         let kind = own.belt.unwrap_or_default();
-        let inner = if kind == CarBelt::Lap { INNER_ANCHOR_M } else { BUCKLE_M };
-        let (buckle, anchor) = (at(&own.buckle, inner), at(&own.anchor, ANCHOR_M));
+        let (buckle, anchor) = (at(&own.buckle, buckle_m(kind)), at(&own.anchor, ANCHOR_M));
         match kind {
             CarBelt::None => String::new(),
             CarBelt::Lap => format!(
@@ -93,14 +100,21 @@ impl Car<'_> {
             ),
             CarBelt::ThreePoint => {
                 let side = if out < 0.0 { "left" } else { "right" };
+                let d_ring = d_ring_m(rider.stature_m, seat);
                 let mut belt = format!(
                     "[{prefix}belts.{name}]\npreset = \"three_point\"\nside = \"{side}\"\nretractor = \"{name}\"\nd_ring = {}\nbuckle = {}\nanchor = {}\n",
-                    list(&at(&own.d_ring, D_RING_M)),
+                    list(&at(&own.d_ring, d_ring)),
                     list(&buckle),
                     list(&anchor),
                 );
                 if rider.lacks.flesh {
                     belt += "lap = \"wings\"\n";
+                }
+                if let Some(above) = &own.lap_above {
+                    belt += &format!("lap_above = {}\n", m(above.si()));
+                }
+                if own.locking_tongue == Some(true) {
+                    belt += "locking_tongue = true\n";
                 }
                 belt + "\n" + &self.retractor(prefix, seat)
             }
@@ -108,8 +122,35 @@ impl Car<'_> {
     }
 }
 
+/// Where a point of a belt is that a scenario may have said: behind, outboard, above, m.
+pub(super) fn placed_m(said: &AnchorSection, [behind, outboard, above]: [f64; 3]) -> [f64; 3] {
+    [si_or(&said.behind, behind), si_or(&said.outboard, outboard), si_or(&said.above, above)]
+}
+
+/// The buckle, of a lap belt its inner anchor.
+pub(super) fn buckle_m(kind: CarBelt) -> [f64; 3] {
+    if kind == CarBelt::Lap { INNER_ANCHOR_M } else { BUCKLE_M }
+}
+
+/// Where the D-ring of somebody's seat stands, whose design place is so far ahead of it: behind, outboard, above, m.
+pub(super) fn d_ring_m(stature_m: f64, seat: &Seat) -> [f64; 3] {
+    let [behind, outboard, above] = D_RING_M;
+    let [down, up] = ADJUSTS_M;
+    let notches = (ADJUSTS * (stature_m - ADJUSTED_FOR_M) / NOTCH_M).round();
+    // no adjuster behind the front
+    let adjusted = if seat.row == 0 { (NOTCH_M * notches).clamp(down, up) } else { 0.0 };
+    [behind - seat.track, outboard, above + adjusted]
+}
+
 /// Hands on the rim, seen from the side: their middles this far before its plane.
 const HANDS_BEFORE_RIM_M: f64 = 0.05;
+
+/// Webbing that a locked spool still gives, m; ours.
+pub(super) const FILM_M: f64 = 0.03;
+
+/// Force of a spool at the end of its film, and 5 cm of webbing later where no limiter turns it; ours.
+const FILM_N: f64 = 3000.0;
+const UNLIMITED_N: f64 = 15_000.0;
 
 /// Segments of each of so many riders: all together are at most 48.
 fn segment_count(riders: usize) -> usize {
@@ -150,8 +191,9 @@ impl Car<'_> {
         let own = &seat.own;
         let name = if prefix.is_empty() { seat.name } else { BELT };
         let (limiter, [sensor, crash]) = (&seat.id, ["sensor", "crash"].map(|trigger| self.name(trigger)));
-        let force = si_or(&own.limiter, 3000.0);
-        let film = si_or(&own.film, 0.03);
+        let limited = own.limiter.as_ref().map(|force| force.si());
+        let force = limited.unwrap_or(FILM_N);
+        let film = si_or(&own.film, FILM_M);
         let pulls = si_or(&own.pretensioner, if seat.row == 0 { 0.1 } else { 0.0 });
         // a pretensioner takes loose webbing up first; what it leaves comes before the film, at little more than the spool's tension
         let slack = si_or(&own.slack, 0.0);
@@ -173,12 +215,17 @@ impl Car<'_> {
         } else {
             String::new()
         };
+        let (held_m, held_n) = match limited {
+            Some(force) => ([0.47, 0.52], [force, 3.0 * force]),
+            None => ([0.05, 0.10], [UNLIMITED_N, 2.0 * UNLIMITED_N]),
+        };
         format!(
             "[{prefix}retractors.{name}]\non_spool = \"0.8 m\"\nspool_tension = \"6 N\"\nlock = {{ trigger = \"{sensor}\", payout = \"5 mm\" }}\nlimiter = \"{limiter}\"\n\
-             {pretensioner}\n[limiters.{limiter}]\npayout = [{starts}, \"{film} m\", \"{} m\", \"{} m\"]\nforce = [{held}, \"{force} N\", \"{force} N\", \"{} N\"]\n\n",
-            film + 0.47,
-            film + 0.52,
-            3.0 * force,
+             {pretensioner}\n[limiters.{limiter}]\npayout = [{starts}, \"{film} m\", \"{} m\", \"{} m\"]\nforce = [{held}, \"{force} N\", \"{} N\", \"{} N\"]\n\n",
+            film + held_m[0],
+            film + held_m[1],
+            held_n[0],
+            held_n[1],
         )
     }
 }

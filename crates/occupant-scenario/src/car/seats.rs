@@ -11,8 +11,9 @@ pub(super) struct Seat {
     /// What the vehicle is called as a frame; none for the first.
     vehicle: Option<String>,
     pub(super) row: usize,
-    /// Its H-point x, y, z, vehicle axes, m.
+    /// Its H-point x, y, z, vehicle axes, m, and how far that is behind its design place.
     pub(super) h: [f64; 3],
+    pub(super) track: f64,
     pub(super) recline_deg: f64,
     /// Left or right half, m.
     half_width: f64,
@@ -28,7 +29,7 @@ const HEAD_BACK_M: f64 = -0.02;
 /// Recliner and middle of the back's mass: up along the back's line through the H-point and ahead of it, m; ours.
 const RECLINER_M: [f64; 2] = [-0.08, -0.15];
 const BACK_MIDDLE_M: [f64; 2] = [0.32, -0.20];
-/// Lean of backs in the front and behind, degrees; ours.
+/// Lean of backs in the front and behind, degrees; ours. The backs of SAE's manikin lean by 20 to 24 and 19 to 27 (A40).
 const RECLINE_DEG: [f64; 3] = [20.0, 24.0, 24.0];
 /// Height of the H-points of the rows over that of the front, m; ours.
 const RISES_M: [f64; 3] = [0.0, 0.02, 0.04];
@@ -47,13 +48,14 @@ impl Car<'_> {
 
     /// The seat of this name.
     pub(super) fn placed(&self, name: &'static str, row: usize, side: f64, rider: Option<&Rider>) -> Seat {
-        let own = self.seat(name);
+        let own = self.seat(name, row);
         let by_stature = |rider: &Rider| classes::TRACK_PER_STATURE * (rider.stature_m - classes::MEAN_STATURE_M);
         let usual = rider.filter(|_| name == "driver").map_or(0.0, by_stature);
         let m = &self.measures;
         let lateral = if row == 0 { side * self.drivers_side() } else { side };
         let y = si_or(&own.y, lateral * m.seat_offset);
-        let x = -(row as f64) * m.couple - si_or(&own.track, usual);
+        let track = si_or(&own.track, usual);
+        let x = -(row as f64) * m.couple - track;
         let z = -RISES_M[row] - si_or(&own.height, 0.0);
         let recline_deg = own.recline.as_ref().map_or(RECLINE_DEG[row], |angle| angle.si().to_degrees());
         let half_width = if row == 0 { 0.25 } else { m.seat_offset / 2.0 };
@@ -63,6 +65,7 @@ impl Car<'_> {
             vehicle: self.vehicle.map(str::to_owned),
             row,
             h: [x, y, z],
+            track,
             recline_deg,
             half_width,
             own,

@@ -131,6 +131,7 @@ impl Car<'_> {
         let (base, head) = ([a + 0.46, top + 0.10], [0.45, -self.measures.roof]);
         let screen = [base, head, [head[0] + 0.04, head[1] - 0.04], [base[0] + 0.04, base[1] - 0.04]];
         let stiffness = self.section.panel.bolster_stiffness.as_ref().map(|stiffness| stiffness.si());
+        let stiffness = stiffness.or(self.years.bolster_n_m);
         let own = stiffness.map_or_else(String::new, |k| {
             format!(
                 "[materials.{}]\nk1 = \"{k} N/m\"\ndelta_b = \"50 mm\"\nk2 = \"{} N/m\"\nmu1 = 0.2\nfriction = 0.4\n\n",
@@ -195,7 +196,7 @@ impl Car<'_> {
     fn rim(&self) -> ([f64; 3], [f64; 3]) {
         let [ahead, above] = self.measures.wheel;
         let (sin, cos) = sin_cos(self.measures.wheel_angle_deg.to_radians());
-        let y = si_or(&self.seat("driver").y, self.drivers_side() * self.measures.seat_offset);
+        let y = si_or(&self.seat("driver", 0).y, self.drivers_side() * self.measures.seat_offset);
         ([ahead, y, -above], [cos, 0.0, sin])
     }
 
@@ -238,7 +239,7 @@ impl Car<'_> {
         let taken = |name: &str| seats.iter().find(|seat| seat.name == name && seat.is_taken());
         let mut text = String::new();
         if let Some(seat) = taken("driver")
-            && bags.driver != Some(false)
+            && bags.driver.unwrap_or(self.years.bags)
         {
             let (centre, along) = self.rim();
             let mount = [0, 1, 2].map(|i| centre[i] - 0.01 * along[i]);
@@ -246,7 +247,7 @@ impl Car<'_> {
                 &self.bag(seat, "frame = \"column\"\n", mount, [-along[0], 0.0, -along[2]], [80.0, 0.30, 0.33, 0.55]);
         }
         if let Some(seat) = taken("passenger")
-            && bags.passenger != Some(false)
+            && bags.passenger.unwrap_or(self.years.bags)
         {
             let [a, above] = self.measures.panel;
             let mount = [a + 0.08, seat.h[1], -above];

@@ -56,6 +56,10 @@ pub(crate) struct BeltSection {
     pub(crate) strength: Option<Force<POSITIVE>>,
     /// A belt whose anchors follow from the seat and the body.
     pub(crate) preset: Option<Preset>,
+    /// Of a preset: true if its tongue clamps the webbing, so that none passes from the shoulder to the lap; false if absent.
+    pub(crate) locking_tongue: Option<bool>,
+    /// Of a preset with `lap = "wings"`: how far above its usual place on the iliac wings the lap belt begins; 0 if absent.
+    pub(crate) lap_above: Option<Length>,
     /// Vehicle side of a preset's upper anchor: "left" for a driver on the left.
     pub(crate) side: Option<Side>,
     /// Upper anchor or D-ring of a preset, vehicle axes. It and the next two follow from the seat if absent.
@@ -106,7 +110,19 @@ fn belt(b: &mut Builder, body: &Body, name: &str, s: &BeltSection) -> Option<Bel
         );
         return None;
     };
-    let keys = ["webbing", "pretension", "limiter", "release", "strength", "side", "lap", "retractor", "pretensioner"];
+    let keys = [
+        "webbing",
+        "pretension",
+        "limiter",
+        "release",
+        "strength",
+        "side",
+        "lap",
+        "lap_above",
+        "locking_tongue",
+        "retractor",
+        "pretensioner",
+    ];
     b.refuse_keys(&path, &keys, |key| format!("`{key}` in a loop round one sphere"), "`nodes` instead of `anchors`");
     let sphere = b.sphere(&format!("{path}.sphere"), sphere, body);
     let webbing = spring(k1, &s.k2, &s.delta_b, si_or(&s.mu1, 1.0), &s.mu2);

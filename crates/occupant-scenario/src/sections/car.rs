@@ -30,6 +30,24 @@ pub(crate) enum CarClass {
     Sled,
 }
 
+/// When a car was built: what of belts, bags, seats and head restraints it has by default.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub(crate) enum CarYears {
+    /// Up to about 1985: belts without limiter and pretensioner, no air bags.
+    #[serde(rename = "1970s")]
+    Seventies,
+    /// Air bags in front, the same belts.
+    #[serde(rename = "1990s")]
+    Nineties,
+    /// Limiters and pretensioners in front, head restraints of before 2009.
+    #[serde(rename = "2000s")]
+    TwoThousands,
+    /// From about 2009 on.
+    #[default]
+    #[serde(rename = "present")]
+    Present,
+}
+
 /// The interior of a car: seats, belts, air bags, steering wheel, panel and body shell of a class, with your own measurements. It is
 /// expanded to solids, belts and other sections, which your own entries override. The origin is on the centreline at the design
 /// H-point of the front seats (SAE J1100): H30 above the driver's heel, x forward, y right, z down.
@@ -38,6 +56,9 @@ pub(crate) enum CarClass {
 pub(crate) struct CarSection {
     /// Vehicle class, which gives all dimensions that are absent; "sedan" if absent.
     pub(crate) class: Option<CarClass>,
+    /// When it was built: "1970s", "1990s", "2000s" or "present", which gives all belts, bags, seat backs and head restraints that
+    /// are absent; "present" if absent.
+    pub(crate) years: Option<CarYears>,
     /// The side of the steering wheel; "left" if absent.
     pub(crate) drive: Option<Side>,
     /// Height of the front H-point above the heels, H30.
@@ -98,7 +119,7 @@ pub(crate) struct PanelSection {
     pub(crate) above: Option<Length>,
     /// Distance of the knee bolster's face ahead of the H-point, at knee height.
     pub(crate) bolster: Option<Length<POSITIVE>>,
-    /// Stiffness of the bolster under one knee; 40 kN/m if absent.
+    /// Stiffness of the bolster under one knee; by years if absent, 40 kN/m at present.
     pub(crate) bolster_stiffness: Option<Stiffness<POSITIVE>>,
 }
 
@@ -106,9 +127,9 @@ pub(crate) struct PanelSection {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CarBagsSection {
-    /// True: an air bag in the steering wheel. True if absent.
+    /// True: an air bag in the steering wheel. By years if absent, true at present.
     pub(crate) driver: Option<bool>,
-    /// True: an air bag in the panel for a front passenger. True if absent.
+    /// True: an air bag in the panel for a front passenger. By years if absent, true at present.
     pub(crate) passenger: Option<bool>,
     /// Curtain air bags in front of the side windows; "none" if absent. An impact on their side fires them.
     pub(crate) curtain: Option<CarSides>,
@@ -199,31 +220,37 @@ pub(crate) struct CarSeatSection {
     pub(crate) track: Option<Length>,
     /// Height above its design position; 0 if absent.
     pub(crate) height: Option<Length>,
-    /// Angle of its back from the vertical; 20° in front and 24° in the rear if absent.
+    /// Angle of its back from the vertical, A40; 20° in front and 24° in the rear if absent.
     pub(crate) recline: Option<Angle<NOT_NEGATIVE>>,
     /// Lateral position of its centre; by class if absent.
     pub(crate) y: Option<Length>,
-    /// Moment at which its recliner yields, such as 1.5 kN·m. If absent, the back is fixed.
+    /// Moment at which its recliner yields, such as 1.5 kN·m. If absent, by years in front (1.07 kN·m in the 1970s, 1.5 kN·m in the 1990s);
+    /// at present and in the rear the back is then fixed.
     pub(crate) back_moment: Option<Moment<POSITIVE>>,
     /// Factor on the stiffness of its foam; 1 if absent.
     pub(crate) foam: Option<Ratio<POSITIVE>>,
     /// Height of a child's booster cushion; none if absent.
     pub(crate) booster: Option<Length<POSITIVE>>,
-    /// Backset: distance of the head restraint behind an average man's head; 50 mm if absent.
+    /// Backset: distance of the head restraint behind an average man's head; by years if absent, 50 mm at present.
     pub(crate) head_gap: Option<Length<NOT_NEGATIVE>>,
-    /// Height of the head restraint's top above the H-point, along the back; 0.80 m if absent.
+    /// Height of the head restraint's top above the H-point, along the back; by years if absent, 0.80 m at present.
     pub(crate) head_height: Option<Length<POSITIVE>>,
     /// Belt type; "three_point" if absent.
     pub(crate) belt: Option<CarBelt>,
-    /// Force of the belt's load limiter; 3 kN if absent.
+    /// Force of the belt's load limiter; by years if absent: 3 kN at present, none before 2000.
     pub(crate) limiter: Option<Force<POSITIVE>>,
-    /// Webbing that the pretensioner pulls in, 0 without one; 100 mm in front and 0 in the rear if absent.
+    /// Webbing that the pretensioner pulls in, 0 without one; by years if absent: 100 mm in front and 0 in the rear at present, none before
+    /// 2000.
     pub(crate) pretensioner: Option<Length<NOT_NEGATIVE>>,
     /// Film spool-out: webbing that a locked retractor still gives; 30 mm if absent.
     pub(crate) film: Option<Length<POSITIVE>>,
     /// Slack of the belt. A pretensioner takes it up first. 0 if absent.
     pub(crate) slack: Option<Length<NOT_NEGATIVE>>,
-    /// Upper anchor (D-ring) of the belt, from the H-point.
+    /// True: the tongue clamps the webbing, and none passes from the shoulder to the lap; false if absent.
+    pub(crate) locking_tongue: Option<bool>,
+    /// How far above its usual place the lap belt begins on the pelvis; negative is below; 0 if absent.
+    pub(crate) lap_above: Option<Length>,
+    /// Upper anchor (D-ring) of the belt, from the H-point. If absent it stands on the pillar, where the seat's design position has it.
     #[serde(default)]
     pub(crate) d_ring: AnchorSection,
     /// Buckle, from the H-point; `outboard` is negative, towards the inner side.

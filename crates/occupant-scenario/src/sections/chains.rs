@@ -28,12 +28,12 @@ pub(super) fn chains(b: &mut Builder, scenario: &Scenario, body: &Body, triggers
         let path = with_key("belts", name);
         let nodes = match (&section.nodes, &section.preset) {
             (Some(nodes), _) => {
-                let keys = ["side", "retractor", "pretensioner"];
+                let keys = ["side", "retractor", "pretensioner", "lap_above", "locking_tongue"];
                 b.refuse_keys(
                     &path,
                     &keys,
                     |key| format!("`{key}` in a belt with nodes"),
-                    "`retractor` and `pretensioner` in one of its nodes",
+                    "what it stands for in one of its nodes",
                 );
                 nodes.clone()
             }

@@ -13,10 +13,10 @@ use occupant_core::forces::spring::BilinearSpring;
 use placed_text::with_key;
 
 /// A contact material: a bilinear spring with hysteresis, or a force over depth, and friction.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend(
-    "x-at-most-one" = [["k1", "depth", "polynomial"], ["k1", "library"], ["polynomial", "shape"], ["polynomial", "returned_each"], ["returned", "returned_each", "unload_slope", "atb"]],
+    "x-at-most-one" = [["k1", "depth", "polynomial"], ["k1", "library"], ["library", "file"], ["k1", "file"], ["polynomial", "file"], ["polynomial", "shape"], ["polynomial", "returned_each"], ["returned", "returned_each", "unload_slope", "atb"]],
     "x-together" = [["k2", "delta_b"], ["unload_depth", "unload_force"]],
 ))]
 pub(crate) struct MaterialSection {
@@ -26,6 +26,9 @@ pub(crate) struct MaterialSection {
         "head_dummy", "head_dummy_1973"
     ]))]
     pub(crate) library: Option<String>,
+    /// Name of a surface file, relative to the scenario, as `occupant surface` writes it. Other keys override its values; what
+    /// it says was not measured must be given here.
+    pub(crate) file: Option<String>,
     /// K₁, stiffness up to `delta_b` against one sphere. Three spheres of a part that touch are three times as stiff (a
     /// sphere's `share` scales its force). 0 is a gap before the spring bears.
     pub(crate) k1: Option<Stiffness<NOT_NEGATIVE>>,
@@ -170,7 +173,7 @@ pub(super) fn materials(b: &mut Builder, scenario: &Scenario) -> Vec<Material> {
 fn material(b: &mut Builder, name: &str, s: &MaterialSection) -> Material {
     let path = with_key("materials", name);
     if s.k1.is_none() && s.depth.is_none() && s.polynomial.is_none() {
-        b.error(&path, format!("`{path}` has none of `k1`, `depth`, `polynomial`, `library`"), "one of them");
+        b.error(&path, format!("`{path}` has none of `k1`, `depth`, `polynomial`, `library`, `file`"), "one of them");
     }
     let friction = b.needed(&path, "friction", &s.friction);
     let plain = match &s.k1 {

@@ -38,6 +38,7 @@ mod sensors;
 mod setup;
 mod solids;
 mod stance;
+mod surface_file;
 mod surfaces;
 mod three_point;
 mod triggers;
@@ -61,14 +62,16 @@ pub(super) use setup::{occupant, setup};
 use self::bags::{BagSection, GasSection};
 use self::belts::BeltSection;
 pub(super) use self::body::{BodySection, DummyChoice};
-pub(super) use self::car::{AnchorSection, CAR_TITLE, CarBelt, CarClass, CarSeatSection, CarSection, IntrusionSection};
+pub(super) use self::car::{
+    AnchorSection, CAR_TITLE, CarBelt, CarClass, CarSeatSection, CarSection, CarYears, IntrusionSection,
+};
 use self::drive::DriveSection;
 use self::frames::{FrameSection, GroundSection, VehicleSection};
 use self::functions::{LimiterSection, WebbingSection};
 use self::joints::{JointSection, JointsSection};
 use self::many::{LooseSection, OccupantSection};
 use self::markers::MarkerSection;
-use self::materials::MaterialSection;
+pub(super) use self::materials::MaterialSection;
 use self::mount::MountSection;
 use self::muscles::MusclesSection;
 use self::path::PathSection;
@@ -80,6 +83,7 @@ use self::run::{IntegratorSection, OutputSection, TimeSection};
 use self::self_contact::SelfContactSection;
 use self::solids::SolidSection;
 use self::stance::StanceSection;
+pub(super) use self::surface_file::{Basis, SurfaceFile};
 use self::surfaces::{ContactSection, SurfaceSection};
 pub(super) use self::three_point::Side;
 use self::triggers::TriggerSection;
@@ -93,6 +97,12 @@ pub fn schema() -> &'static serde_json::Value {
     SCHEMA.get_or_init(|| schema_of::<Scenario>("occupant scenario"))
 }
 
+/// The JSON Schema of a surface file.
+pub fn surface_schema() -> &'static serde_json::Value {
+    static SCHEMA: OnceLock<serde_json::Value> = OnceLock::new();
+    SCHEMA.get_or_init(|| schema_of::<SurfaceFile>("occupant surface"))
+}
+
 /// Length.
 pub type Length<const RANGE: usize = ANY> = Quantity<{ kind::LENGTH }, RANGE>;
 /// Time.
@@ -104,13 +114,13 @@ pub type Ratio<const RANGE: usize = ANY> = Quantity<{ kind::RATIO }, RANGE>;
 type Speed<const RANGE: usize = ANY> = Quantity<{ kind::SPEED }, RANGE>;
 type Acceleration<const RANGE: usize = ANY> = Quantity<{ kind::ACCELERATION }, RANGE>;
 type Mass<const RANGE: usize = ANY> = Quantity<{ kind::MASS }, RANGE>;
-type Force<const RANGE: usize = ANY> = Quantity<{ kind::FORCE }, RANGE>;
+pub(crate) type Force<const RANGE: usize = ANY> = Quantity<{ kind::FORCE }, RANGE>;
 type Inertia<const RANGE: usize = ANY> = Quantity<{ kind::INERTIA }, RANGE>;
 type Stiffness<const RANGE: usize = ANY> = Quantity<{ kind::STIFFNESS }, RANGE>;
 type RotationalStiffness<const RANGE: usize = ANY> = Quantity<{ kind::ROTATIONAL_STIFFNESS }, RANGE>;
 type RotationalDamping<const RANGE: usize = ANY> = Quantity<{ kind::ROTATIONAL_DAMPING }, RANGE>;
 type AngularVelocity<const RANGE: usize = ANY> = Quantity<{ kind::ANGULAR_VELOCITY }, RANGE>;
-type Moment<const RANGE: usize = ANY> = Quantity<{ kind::MOMENT }, RANGE>;
+pub(crate) type Moment<const RANGE: usize = ANY> = Quantity<{ kind::MOMENT }, RANGE>;
 type MomentPerAngle2<const RANGE: usize = ANY> = Quantity<{ kind::MOMENT_PER_ANGLE_2 }, RANGE>;
 type MomentPerAngle3<const RANGE: usize = ANY> = Quantity<{ kind::MOMENT_PER_ANGLE_3 }, RANGE>;
 type Area<const RANGE: usize = ANY> = Quantity<{ kind::AREA }, RANGE>;

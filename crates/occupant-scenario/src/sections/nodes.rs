@@ -38,6 +38,8 @@ pub(crate) struct NodeSection {
     /// "left" or "right": the iliac wing of that side, a track on the pelvis for the lap belt, at an estimated
     /// position. Webbing that slides up off it lies on the abdomen.
     pub(crate) wing: Option<WingSide>,
+    /// For a wing: how far above its usual place on it the webbing begins; 0 if absent.
+    pub(crate) above: Option<Length>,
     /// For a track: the body point that takes over the webbing once it has come off. If absent, the webbing then
     /// touches nothing here.
     pub(crate) then: Option<NextSection>,
@@ -100,6 +102,7 @@ impl NodeSection {
             sphere: None,
             track: None,
             wing: None,
+            above: None,
             then: None,
             across: None,
             slide_speed: None,
@@ -128,6 +131,7 @@ impl Parts<'_> {
 
     fn site(&self, b: &mut Builder, path: &str, s: &NodeSection) -> Site {
         if let Some(sphere) = &s.sphere {
+            b.refuse_keys(path, &["above"], |key| format!("`{key}` in a node without `wing`"), "a node with `wing`");
             return Site::Sphere(b.sphere(&format!("{path}.sphere"), sphere, self.body));
         }
         let then = s.then.as_ref().and_then(|then| self.next(b, &format!("{path}.then"), then));
@@ -138,7 +142,7 @@ impl Parts<'_> {
                 |key| format!("`{key}` in a node with `wing`"),
                 "neither of them",
             );
-            let track = wings::track(b, path, self.body, side);
+            let track = wings::track(b, path, self.body, (side, si_or(&s.above, 0.0)));
             let across = si_or(&s.across, wings::ACROSS);
             let drag_n_s_m = 1e3 / si_or(&s.slide_speed, SLIDE_M_S);
             return track.map_or(Site::Vehicle(Point3::origin(), None), |(segment, track)| {
@@ -146,6 +150,7 @@ impl Parts<'_> {
                 Site::Track(segment, Track { friction: across, drag_n_s_m, then, ..track })
             });
         }
+        b.refuse_keys(path, &["above"], |key| format!("`{key}` in a node without `wing`"), "a node with `wing`");
         let at = s.at.as_ref().map_or(Point3::origin(), point);
         let Some(segment) = &s.on else {
             b.refuse_keys(

@@ -58,6 +58,9 @@ const TRUNK_M: f64 = 0.4617;
 const NOTCH_M: f64 = 0.02;
 const ADJUSTS_M: [f64; 2] = [-0.06, 0.04];
 
+/// Friction of a tongue that clamps the webbing: around its bend it holds a thousand times the tension.
+const CLAMPS: f64 = 3.0;
+
 /// Friction of webbing over a steel ring, a tongue and a clothed shoulder; our estimates, similar to ATB's.
 const FRICTION: [f64; 3] = [0.1, 0.15, 0.25];
 
@@ -103,13 +106,24 @@ pub(super) fn nodes(
     if section.retractor.is_none() {
         nodes = vec![placed("upper_anchor", said(&section.d_ring, ring_m))];
     }
+    let tongue = if section.locking_tongue == Some(true) { CLAMPS } else { tongue };
     let buckle =
         NodeSection { pretensioner: section.pretensioner.clone(), ..placed("buckle", said(&section.buckle, BUCKLE_M)) };
     nodes.extend([rubs(track(body, out), shoulder), sphere("chest"), rubs(buckle, tongue)]);
-    let wing = |name: &str, side| NodeSection { name: Some(name.to_owned()), wing: Some(side), ..NodeSection::none() };
+    let above = section.lap_above.clone();
+    let wing = |name: &str, side| NodeSection {
+        name: Some(name.to_owned()),
+        wing: Some(side),
+        above: above.clone(),
+        ..NodeSection::none()
+    };
     let mut wings = [wing("right_wing", WingSide::Right), wing("left_wing", WingSide::Left)];
     if out > 0.0 {
         wings.reverse();
+    }
+    if let (Some(_), None | Some(Lap::Pelvis)) = (&section.lap_above, section.lap) {
+        let expected = "`lap = \"wings\"`, on which webbing can lie higher or lower";
+        b.error(&format!("{path}.lap_above"), "`lap_above` of a belt round the sphere of the pelvis", expected);
     }
     match section.lap {
         Some(Lap::Wings) => nodes.extend(wings),

@@ -14,8 +14,16 @@ use occupant_core::forces::chain::{Next, Track, Wing};
 /// Distance of a wing from the middle, as a fraction of the sphere's radius.
 const BESIDE: f64 = 0.95;
 
+/// Minimum initial distance of webbing from a wing's ends, rad.
+const EDGE_RAD: f64 = 0.05;
+
 /// The segment of the pelvis and the wing of a side, whose webbing passes on to the abdomen.
-pub(super) fn track(b: &mut Builder, path: &str, body: &Body, side: WingSide) -> Option<(usize, Track)> {
+pub(super) fn track(
+    b: &mut Builder,
+    path: &str,
+    body: &Body,
+    (side, above_m): (WingSide, f64),
+) -> Option<(usize, Track)> {
     let pelvis = body.tree.landmarks().pelvis;
     let sphere = body.sphere("pelvis").map(|i| &body.spheres[i]).filter(|sphere| Some(sphere.segment) == pelvis);
     let (Some(sphere), Some(above)) = (sphere, pelvis.and_then(|pelvis| above(body, pelvis))) else {
@@ -32,10 +40,26 @@ pub(super) fn track(b: &mut Builder, path: &str, body: &Body, side: WingSide) ->
         let (sine, cosine) = occupant_units::trig::sin_cos(angle);
         sphere.centre_from_lower_end_m + Vector3::new(r * cosine, y, r * sine)
     };
+    let mut angles = ANGLES_RAD;
+    angles[1] += above_m / r;
+    let [low, high] = [ANGLES_RAD[0] + EDGE_RAD, ANGLES_RAD[2] - EDGE_RAD];
+    if !(low..=high).contains(&angles[1]) {
+        let mm = |angle: f64| 1e3 * r * (angle - ANGLES_RAD[1]);
+        // of two wings of a belt the one tells it
+        if side == WingSide::Right {
+            return None;
+        }
+        b.error(
+            &format!("{path}.above"),
+            format!("webbing that begins {:.0} mm above its usual place, which is no place on the wing", 1e3 * above_m),
+            format!("{:.0} mm to {:.0} mm on this pelvis", mm(low), mm(high)),
+        );
+        return None;
+    }
     let then = Some(abdomen(body, above, 0.5 * y, r));
     Some((
         sphere.segment.index(),
-        Track { points_m: ANGLES_RAD.map(point), friction: ACROSS, drag_n_s_m: DRAG_N_S_M, wing: Some(wing), then },
+        Track { points_m: angles.map(point), friction: ACROSS, drag_n_s_m: DRAG_N_S_M, wing: Some(wing), then },
     ))
 }
 

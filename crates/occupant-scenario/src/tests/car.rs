@@ -6,7 +6,7 @@ use occupant_core::forces::contact::surface::Frame;
 use occupant_core::model::setup::Setup;
 
 /// A scenario that says nothing but its car.
-fn of(car: &str) -> String {
+pub(super) fn of(car: &str) -> String {
     format!(
         "title = \"car\"\n[time]\nend = 0.1\n[path]\nkind = \"pulse\"\nshape = \"half_sine\"\nspeed = \"50 km/h\"\n\
          delta_v = \"50 km/h\"\nduration = \"0.1 s\"\n[car]\n{car}\n"

@@ -33,7 +33,7 @@ fn what_is_wrong_with_materials_is_said_at_its_place() {
         ("materials.foam={ k1 = 1e4, mu1 = 0.5, friction = 0.4, returned = 0.5 }".to_owned(), "`returned` beside `k1`"),
         ("materials.foam={ k1 = 1e4, friction = 0.4 }".to_owned(), "no key `mu1`"),
         ("materials.foam={ k1 = 1e4, mu1 = 0.5 }".to_owned(), "no key `friction`"),
-        ("materials.foam={ friction = 0.4 }".to_owned(), "none of `k1`, `depth`, `polynomial`, `library`"),
+        ("materials.foam={ friction = 0.4 }".to_owned(), "none of `k1`, `depth`, `polynomial`, `library`, `file`"),
         ("materials.foam={ library = \"dash_10\" }".to_owned(), "did you mean \"dash_s10\"?"),
         (foam("returned_each = [0.5]"), "one for each interval"),
         (foam("unload_slope = 1e4"), "at least the largest slope of loading"),

@@ -5,6 +5,7 @@ mod bags;
 mod belts;
 mod bodies;
 mod car;
+mod car_places;
 mod carts;
 mod caveats;
 mod collide;

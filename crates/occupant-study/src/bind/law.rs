@@ -3,9 +3,24 @@
 use super::Binder;
 use crate::law::{Distribution, Law, Value};
 use crate::section::{ApplyChoice, GridSection, ParameterSection, ScaleChoice};
-use occupant_scenario::Wanted;
 use occupant_scenario::kind::{KINDS, Kind, RATIO, UnitSystem};
+use occupant_scenario::{Usual, Wanted};
 use placed_text::{Value as Written, did_you_mean, one_of};
+
+/// The usual spread of what stands at a parameter's only path.
+fn usual(binder: &mut Binder, section: &ParameterSection, at: &str) -> Option<Distribution<f64>> {
+    let found = section.path.as_deref().and_then(|path| binder.base?.usual(path));
+    if found.is_none() || section.apply.unwrap_or_default() != ApplyChoice::Value {
+        let expected = "one `path` of a seat, belt, wheel or person that has one, such as `car.seats.driver.track`, `body.stature` beside \
+                        `body.sex`; else a `distribution`";
+        binder.error(at, "no usual spread is known of this", expected, None);
+        return None;
+    }
+    found.map(|usual| match usual {
+        Usual::Normal { mean_sd: [mean, sd], ends: [from, to] } => Distribution::TruncatedNormal { mean, sd, from, to },
+        Usual::Falling { mode, to } => Distribution::Triangular { from: mode, mode, to },
+    })
+}
 
 /// How the values of one parameter are to be read.
 pub(super) struct Quantities<'w> {
@@ -30,6 +45,9 @@ impl Quantities<'_> {
         }
         if let Some(grid) = &section.grid {
             return self.grid(binder, grid, &format!("{at}.grid"));
+        }
+        if section.usual == Some(true) {
+            return usual(binder, section, &format!("{at}.usual")).map(Law::Distribution);
         }
         let distribution = match (&section.range, &section.distribution) {
             (Some(range), _) => {

@@ -149,9 +149,10 @@ impl Binder<'_> {
         let given = section.grid.is_some()
             || section.list.is_some()
             || section.range.is_some()
-            || section.distribution.is_some();
+            || section.distribution.is_some()
+            || section.usual == Some(true);
         if by_table && given {
-            let expected = "no `grid`, `list`, `range` or `distribution`";
+            let expected = "no `grid`, `list`, `range`, `distribution` or `usual`";
             self.error(at, "values for a parameter that the table of samples varies", expected, None);
             return None;
         }

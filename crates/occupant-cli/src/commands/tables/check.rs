@@ -1,7 +1,8 @@
 //! The tables of `occupant check`.
 
-use occupant_core::diagnosis::{Diagnosis, Rate, SeatStart, SegmentFigures};
+use occupant_core::diagnosis::{Clearance, Diagnosis, OnShoulder, Rate, SeatStart, SegmentFigures, ShoulderBelt, Way};
 use occupant_core::model::settle::Settled;
+use occupant_scenario::{Dimension, Size};
 use placed_text::shown;
 
 use super::elements;
@@ -14,10 +15,19 @@ use crate::base::text_table::{NONE, facts, table, trimmed};
 const LEAST_LACK_N_M: f64 = 1.0;
 
 /// Everything that a user should see before a run.
-pub(crate) fn check_text(d: &Diagnosis, units: Units) -> String {
+pub(crate) fn check_text(d: &Diagnosis, car: &[Dimension], units: Units) -> String {
     let mut parts = vec![format!("{}\n", shown(&d.title)), overview(d, units), segments(d, units)];
     if let Some(seat) = &d.seat {
         parts.push(seating(seat, units));
+    }
+    if !car.is_empty() {
+        parts.push(dimensions(car, units));
+    }
+    if !d.clearances.is_empty() {
+        parts.push(clearances(d, units));
+    }
+    if !d.shoulder_belts.is_empty() {
+        parts.push(shoulders(d));
     }
     parts.push(contacts(d, units));
     if !d.friction.is_empty() {
@@ -141,6 +151,47 @@ fn seating(seat: &SeatStart, units: Units) -> String {
         ));
     }
     facts(&lines)
+}
+
+/// Every distance of a car in words.
+fn dimensions(car: &[Dimension], units: Units) -> String {
+    let row = |own: &Dimension| {
+        let vehicle = own.vehicle.as_ref().map_or(String::new(), |vehicle| format!("vehicles.{vehicle}."));
+        let size = match own.size {
+            Size::Distance(m) => units.say(m * 1e3, "mm", 0),
+            Size::Angle(rad) => format!("{:.1}°", rad.to_degrees()),
+        };
+        let code = if own.code.is_empty() { NONE } else { own.code };
+        [format!("{vehicle}car.{}", own.name), size, code.to_owned()]
+    };
+    table(&[(Left, &["distance of the car"]), (Right, &["size"]), (Left, &["SAE J1100"])], car.iter().map(row))
+}
+
+/// What is free before and over the body.
+fn clearances(d: &Diagnosis, units: Units) -> String {
+    let row = |own: &Clearance| {
+        let way = if own.way == Way::Up { "up" } else { "ahead" };
+        [own.sphere.clone(), way.to_owned(), own.surface.clone(), units.number(own.distance_m * 1e3, "mm", 0)]
+    };
+    let free = units.heading("free, mm");
+    let columns = [(Left, &["at the start", "way", "first meets"][..]), (Right, &[free.as_str()][..])];
+    table(&columns, d.clearances.iter().map(row))
+}
+
+/// How belts lie on shoulders.
+fn shoulders(d: &Diagnosis) -> String {
+    let row = |own: &ShoulderBelt| {
+        let lies = match own.lies {
+            OnShoulder::Bears => "bears",
+            OnShoulder::AtNeck => "rubs the neck",
+            OnShoulder::SlidOff => "slides off",
+            OnShoulder::LiftedOff => "leaves the shoulder",
+        };
+        [own.belt.clone(), own.part.clone(), format!("{:.0} %", 100.0 * own.share), lies.to_owned()]
+    };
+    let columns =
+        [(Left, &["shoulder belt", "over"][..]), (Right, &["from neck to arm"][..]), (Left, &["once it pulls"][..])];
+    table(&columns, d.shoulder_belts.iter().map(row))
 }
 
 fn contacts(d: &Diagnosis, units: Units) -> String {

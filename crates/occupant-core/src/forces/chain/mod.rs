@@ -17,6 +17,7 @@ mod past;
 mod path;
 mod reel;
 mod results;
+mod shoulder;
 mod site;
 mod tension;
 pub mod wing;
@@ -39,6 +40,7 @@ use occupant_units::unit::Unit;
 pub use past::ChainPast;
 use placed_text::Problems;
 pub use results::StrapAction;
+pub use shoulder::OnShoulder;
 
 /// Most nodes of a belt.
 pub(crate) const MOST_NODES: usize = 12;

@@ -51,9 +51,9 @@ pub(super) struct TrackLaw<S> {
     out: V3<S>,
     along: V3<S>,
     radius: S,
-    length: S,
+    pub(super) length: S,
     /// Where the webbing begins.
-    start: S,
+    pub(super) start: S,
     friction: S,
     drag: S,
     pub(super) wing: Option<Wing>,
@@ -140,7 +140,7 @@ impl<S: Copy> TrackLaw<S> {
 impl<S: Scalar> TrackLaw<S> {
     /// The point at a way along the arc, and the directions along it and away from its centre.
     #[inline(always)]
-    fn at(&self, way: S) -> (V3<S>, V3<S>, V3<S>) {
+    pub(super) fn at(&self, way: S) -> (V3<S>, V3<S>, V3<S>) {
         let (sine, cosine) = (way / self.radius).sin_cos();
         let out = self.out * cosine + self.along * sine;
         (self.centre + out * self.radius, self.along * cosine - self.out * sine, out)
@@ -280,7 +280,7 @@ impl<S: Scalar> NextLaw<S> {
 impl<S: Scalar> TrackLaw<S> {
     /// Force along it and across that, N, of a force in axes of its segment at a way.
     #[inline(always)]
-    fn parted(&self, way: S, force: V3<S>) -> [S; 2] {
+    pub(super) fn parted(&self, way: S, force: V3<S>) -> [S; 2] {
         let (_, along, _) = self.at(way);
         let across = force.dot(along);
         [across, (force - along * across).norm_squared().max(S::of(1e-60)).sqrt()]

@@ -7,7 +7,7 @@ pub const ACROSS: f64 = 0.25;
 /// Drag of webbing across a wing, N·s/m.
 pub const DRAG_N_S_M: f64 = 100.0;
 /// Webbing that pulls with less stays where it lies, N: a lighter pull is that of a drive, not of a crash. Ours.
-const LEAST_N: f64 = 1000.0;
+pub(crate) const LEAST_N: f64 = 1000.0;
 /// Angles of the wing's ends and of where the webbing begins on it, above ahead, rad: the notch, below the spine, on the crest.
 pub const ANGLES_RAD: [f64; 3] = [0.0, 0.44, 1.13];
 

@@ -264,6 +264,31 @@ impl Caveat {
         Some(Caveat::new(format!("submarining_{side}"), text, figures))
     }
 
+    /// A shoulder belt under load that is off the shoulder since a time, s.
+    pub(super) fn off_shoulder(body: &Body, chain: &Chain, time_s: f64) -> Self {
+        let seen = format!("was off the shoulder at {:.1} ms, under load", 1e3 * time_s);
+        Caveat::of_shoulder(body, chain, "off_shoulder", &format!("{seen}: it bears on the chest alone"))
+    }
+
+    /// A shoulder belt under load beside the neck since a time, s.
+    pub(super) fn at_neck(body: &Body, chain: &Chain, time_s: f64) -> Self {
+        let seen = format!("slid to the neck at {:.1} ms, under load", 1e3 * time_s);
+        Caveat::of_shoulder(body, chain, "on_neck", &format!("{seen}: what it does to the neck is not modelled"))
+    }
+
+    fn of_shoulder(body: &Body, chain: &Chain, sign: &str, seen: &str) -> Self {
+        let belt = &chain.belt;
+        let on = chain.nodes.iter().find_map(|node| match &node.site {
+            Site::Track(segment, track) if track.wing.is_none() => Some(body.tree.segment(*segment)),
+            _ => None,
+        });
+        let chest = on.and_then(|on| body.tree.landmarks_at(on).chest);
+        let text = format!("the belt {belt} {seen}; {}", not_to_be_quoted("the belt's and the chest's"));
+        let spoiled = chest.into_iter().flat_map(|chest| figures_of(body, chest));
+        let figures = [format!("straps.{}_*", word(belt))].into_iter().chain(spoiled).collect();
+        Caveat::new(format!("{belt}_{sign}"), text, figures)
+    }
+
     /// Belts round the sphere of a pelvis whose pull would have drawn them off its wings at a time, s.
     pub(super) fn would_submarine(body: &Body, sphere: usize, belts: &str, own: Vec<String>, time_s: f64) -> Self {
         let part = &body.spheres[sphere];

@@ -7,7 +7,8 @@ use super::slide::Slides;
 use super::strokes::Strokes;
 use crate::body::{Body, Segment};
 use crate::forces::bag::Bag;
-use crate::forces::chain::Chain;
+use crate::forces::chain::wing::LEAST_N;
+use crate::forces::chain::{Chain, OnShoulder};
 use crate::forces::contact::{ContactSystem, Group, PASSED, Part, Plane, Touch};
 use crate::forces::joint::{JointLaw, Stop};
 use crate::model::Model;
@@ -55,6 +56,8 @@ pub(super) struct Signs {
     run_out: Vec<Peak>,
     /// By strap: when it came off the wing of the pelvis where it begins, s, and what is on which side: 1 left, 2 right.
     slipped: Vec<Option<(f64, f64)>>,
+    /// By belt over several nodes: when it first was off the shoulder under load, and when beside the neck, s.
+    shoulders: Vec<[Option<f64>; 2]>,
     /// By bag and by its spheres: when it fired with the sphere in its way, and when the sphere pressed it in as far as its mount, s.
     bags: Vec<Vec<[Option<f64>; 2]>>,
     /// By bag and by its spheres: when the sphere first touched what stands behind the bag, s, and what that was.
@@ -117,6 +120,7 @@ impl Signs {
             stretched: vec![Peak::NONE; model.setup().chains.iter().map(|chain| chain.straps.len()).sum()],
             run_out: vec![Peak::NONE; model.setup().chains.len()],
             slipped: vec![None; model.setup().chains.iter().map(|chain| chain.straps.len()).sum()],
+            shoulders: vec![[None; 2]; model.setup().chains.len()],
             bags: model.setup().bags.iter().map(|bag| vec![[None; 2]; bag.spheres.len()]).collect(),
             behind: model.setup().bags.iter().map(|bag| vec![None; bag.spheres.len()]).collect(),
             strokes: Strokes::new(model),
@@ -224,10 +228,26 @@ impl Signs {
                 *slipped = Some((sample.time_s, strap.wing));
             }
         }
+        self.see_shoulders(sample);
         for ((peak, chain), past) in self.run_out.iter_mut().zip(chains).zip(&sample.history.memory.chains) {
             if let Some(end_m) = chain.device.end_m() {
                 peak.see(past.limiter_m() - end_m, sample.time_s);
             }
+        }
+    }
+
+    /// Belts under load that are off the shoulder, or beside the neck.
+    fn see_shoulders(&mut self, sample: &Sample<'_>) {
+        let (laws, mut first) = (&sample.model.system().forces.chains, 0);
+        for ((law, past), seen) in laws.iter().zip(&sample.history.memory.chains).zip(&mut self.shoulders) {
+            let straps = sample.actions.chains.get(first..).unwrap_or_default();
+            first += law.strap_count();
+            let Some((strap, lies)) = law.on_shoulder(past) else { continue };
+            if straps.get(strap).is_none_or(|strap| strap.force < LEAST_N) || lies == OnShoulder::Bears {
+                continue;
+            }
+            let seen = &mut seen[usize::from(lies == OnShoulder::AtNeck)];
+            *seen = seen.or(Some(sample.time_s));
         }
     }
 
@@ -320,7 +340,7 @@ impl Signs {
     }
 
     /// What to know of belts over several nodes.
-    fn of_chains(&self, body: &Body, chains: &[Chain]) -> impl Iterator<Item = Caveat> {
+    fn of_chains<'s>(&'s self, body: &'s Body, chains: &'s [Chain]) -> impl Iterator<Item = Caveat> + use<'s> {
         let belts = chains.iter().flat_map(|chain| chain.straps.iter().map(move |_| chain));
         let slipped = belts.zip(&self.slipped).filter_map(|(chain, seen)| Some((chain, (*seen)?)));
         let slipped: Vec<Caveat> = slipped.filter_map(|(chain, seen)| Caveat::submarined(body, chain, seen)).collect();
@@ -330,7 +350,11 @@ impl Signs {
         let run_out = chains.iter().zip(&self.run_out).filter(|(_, peak)| peak.value > 0.0);
         let run_out =
             run_out.filter_map(|(chain, peak)| Some(Caveat::run_out(&chain.belt, *peak, chain.device.end_m()?)));
-        stretched.chain(run_out).chain(slipped)
+        let shoulders = chains.iter().zip(&self.shoulders);
+        let shoulders = shoulders.flat_map(move |(chain, [off, neck])| {
+            [off.map(|s| Caveat::off_shoulder(body, chain, s)), neck.map(|s| Caveat::at_neck(body, chain, s))]
+        });
+        stretched.chain(run_out).chain(slipped).chain(shoulders.flatten())
     }
 }
 

@@ -1,0 +1,291 @@
+//! The loading curve: straight lines through as many depths as the record bears.
+
+use super::contact::Contact;
+use super::law::{Back, Law};
+use super::{Impactor, refuse};
+use crate::base::Failure;
+
+/// Lines that a curve has at most.
+const MOST: usize = 12;
+/// Places at which a line may end.
+const PLACES: usize = 32;
+/// The shortest line, as a part of the greatest depth.
+const NARROWEST: f64 = 0.02;
+/// Samples of each line at least.
+const EACH: usize = 3;
+/// Differences below this part of the peak are no differences.
+const FINEST: f64 = 2e-4;
+/// A start is found to this part of a sample.
+const FINE: f64 = 0.05;
+/// Shapes that are worth this much less are almost as good.
+const RIVAL: f64 = 14.0;
+/// Starts that are tried at once.
+const TRIED: usize = 12;
+/// A first line flatter than this part of the mean slope is a gap.
+const GAP: f64 = 0.05;
+/// A curve falls if it loses this part of the peak.
+const FALLS: f64 = 0.05;
+
+/// Ends of the lines, as parts of the greatest depth; the last is 1.
+pub(super) type Shape = Vec<f64>;
+
+/// A shape and the contact whose start fits it best.
+#[derive(Clone)]
+pub(super) struct Choice {
+    worth: f64,
+    pub(super) shape: Shape,
+    pub(super) contact: Contact,
+}
+
+/// The shape that the record bears, and others that it bears almost as well, each with its start.
+///
+/// # Errors
+/// Too few samples while the depth grows.
+pub(super) fn choices(impactor: &Impactor, contact: &Contact) -> Result<Vec<Choice>, Failure> {
+    let (series, from) = (&contact.series, earliest(contact));
+    let times = &series.time_s;
+    let mut best: Vec<Option<Choice>> = vec![None; MOST + 1];
+    let [mut low, mut high] = [times[from], times[series.begin]];
+    while high > low && high - low > FINE * (times[series.begin] - times[from]) / (series.begin - from) as f64 {
+        let step = (high - low) / TRIED as f64;
+        for i in 0..TRIED {
+            let one = Contact::from(series, impactor, low + i as f64 * step);
+            if one.turn >= EACH {
+                grown(&one, from).into_iter().for_each(|choice| keep(&mut best, choice));
+            }
+        }
+        let middle = first_of(&best).map_or(high, |choice| choice.contact.time_s[0]);
+        (low, high) = ((middle - step).max(times[from]), (middle + step).min(times[series.begin]));
+    }
+    let Some(first) = first_of(&best).cloned() else {
+        return Err(refuse("no line fits the record while the depth grows", "give a record with a higher rate"));
+    };
+    let caveats = contact.caveats.clone();
+    let mut all: Vec<Choice> = best.into_iter().flatten().filter(|other| other.worth < first.worth + RIVAL).collect();
+    all.sort_by(|a, b| a.worth.total_cmp(&b.worth));
+    all.iter_mut().for_each(|choice| choice.contact.caveats.clone_from(&caveats));
+    Ok(all)
+}
+
+fn first_of(best: &[Option<Choice>]) -> Option<&Choice> {
+    best.iter().flatten().min_by(|a, b| a.worth.total_cmp(&b.worth))
+}
+
+/// Keeps the best of each number of lines; a first line without force would be a gap, and contact begins with force.
+fn keep(best: &mut [Option<Choice>], choice: Choice) {
+    let Choice { contact, shape, .. } = &choice;
+    let samples = rows(contact).take_while(|[depth, _]| *depth < shape[0] * contact.greatest_m()).count().max(1);
+    let sure = 2.0 * contact.series.floor_n / (samples as f64).sqrt();
+    let rises = forces(contact, shape)[0] > sure.max(GAP * shape[0] * contact.peak_n());
+    let own = &mut best[choice.shape.len()];
+    if rises && own.as_ref().is_none_or(|least| choice.worth < least.worth) {
+        *own = Some(choice);
+    }
+}
+
+/// Moves the start to where straight lines of this shape fit best: by whole samples as far back as contact lasts, then by parts
+/// of one.
+pub(super) fn restart(contact: &mut Contact, impactor: &Impactor, shape: &Shape) {
+    let series = contact.series.clone();
+    let (times, from) = (&series.time_s, earliest(contact));
+    let mut best: Option<(f64, Contact)> = None;
+    let [mut low, mut high] = [times[from], times[series.begin]];
+    while high > low && high - low > FINE * (times[series.begin] - times[from]) / (series.begin - from) as f64 {
+        let step = (high - low) / TRIED as f64;
+        for i in 0..TRIED {
+            let one = Contact::from(&series, impactor, low + i as f64 * step);
+            let cost = cost(&one, shape, from);
+            if one.turn >= EACH && best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                best = Some((cost, one));
+            }
+        }
+        let middle = best.as_ref().map_or(high, |(_, one)| one.time_s[0]);
+        (low, high) = ((middle - step).max(times[from]), (middle + step).min(times[series.begin]));
+    }
+    if let Some((_, one)) = best {
+        let caveats = std::mem::take(&mut contact.caveats);
+        *contact = Contact { caveats, ..one };
+    }
+}
+
+/// The first sample in which contact may begin.
+fn earliest(contact: &Contact) -> usize {
+    contact.series.begin.saturating_sub(contact.turn + 2)
+}
+
+/// Sum of squares about the lines of the samples from one on, those before contact included, in which there is no force.
+fn cost(contact: &Contact, shape: &Shape, from: usize) -> f64 {
+    let series = &contact.series;
+    let early = series.time_s[from..].iter().zip(&series.force_n[from..]).take_while(|(t, _)| **t <= contact.time_s[0]);
+    early.map(|(_, force)| force * force).sum::<f64>() + squares(contact, shape)
+}
+
+/// Samples while the depth grows, without the start.
+fn rows(contact: &Contact) -> impl Iterator<Item = [f64; 2]> + '_ {
+    (1..=contact.turn).map(|i| [contact.depth_m[i], contact.force_n[i]])
+}
+
+/// Forces at the ends of the lines, by least squares: every sample lies between two of them.
+pub(super) fn forces(contact: &Contact, shape: &Shape) -> Vec<f64> {
+    let n = shape.len();
+    let (mut diagonal, mut beside, mut right) = (vec![1e-12; n], vec![0.0; n], vec![0.0; n]);
+    for [depth, force] in rows(contact) {
+        let (at, share) = place(shape, depth / contact.greatest_m());
+        diagonal[at] += share * share;
+        right[at] += share * force;
+        if at > 0 {
+            diagonal[at - 1] += (1.0 - share).powi(2);
+            beside[at] += share * (1.0 - share);
+            right[at - 1] += (1.0 - share) * force;
+        }
+    }
+    for i in 1..n {
+        let factor = beside[i] / diagonal[i - 1];
+        diagonal[i] -= factor * beside[i];
+        right[i] -= factor * right[i - 1];
+    }
+    for i in (0..n).rev() {
+        let above = if i + 1 < n { beside[i + 1] * right[i + 1] } else { 0.0 };
+        right[i] = (right[i] - above) / diagonal[i];
+    }
+    right
+}
+
+/// The line in which a part of the depth lies, and how far along it.
+fn place(shape: &Shape, part: f64) -> (usize, f64) {
+    let at = shape.partition_point(|end| *end < part).min(shape.len() - 1);
+    let from = if at == 0 { 0.0 } else { shape[at - 1] };
+    (at, (part - from) / (shape[at] - from))
+}
+
+/// Sum of squares about the best lines.
+fn squares(contact: &Contact, shape: &Shape) -> f64 {
+    let force = forces(contact, shape);
+    let off = |[depth, measured]: [f64; 2]| {
+        let (at, share) = place(shape, depth / contact.greatest_m());
+        let from = if at == 0 { 0.0 } else { force[at - 1] };
+        (from + share * (force[at] - from) - measured).powi(2)
+    };
+    rows(contact).map(off).sum()
+}
+
+/// What the criterion of Schwarz gives a shape, the less the better; samples from one on count.
+fn worth(contact: &Contact, shape: &Shape, from: usize) -> f64 {
+    let before = contact.series.time_s[from..].iter().take_while(|t| **t <= contact.time_s[0]).count();
+    let n = (before + contact.turn) as f64;
+    let finest = n * (FINEST * contact.peak_n()).powi(2);
+    n * (cost(contact, shape, from).max(finest) / n).ln() + 2.0 * shape.len() as f64 * n.ln()
+}
+
+/// Lines are divided as long as that is worth it, and once more.
+fn grown(contact: &Contact, from: usize) -> Vec<Choice> {
+    let choice = |shape: Shape| Choice { worth: worth(contact, &shape, from), shape, contact: contact.clone() };
+    let mut all = vec![choice(vec![1.0])];
+    while all.len() < MOST {
+        let last = &all[all.len() - 1];
+        let tried = (1..PLACES).map(|i| with(&last.shape, i as f64 / PLACES as f64));
+        let next = least(tried.filter(|shape| bears(contact, shape)), |shape| squares(contact, shape));
+        let Some(next) = next.map(|shape| choice(moved(contact, shape))) else { break };
+        let ends = next.worth > last.worth;
+        all.push(next);
+        if ends {
+            break;
+        }
+    }
+    all
+}
+
+/// The shape with an end more.
+fn with(shape: &Shape, end: f64) -> Shape {
+    let mut more = shape.clone();
+    more.insert(shape.partition_point(|own| *own < end), end);
+    more
+}
+
+/// Whether every line has a length and samples.
+fn bears(contact: &Contact, shape: &Shape) -> bool {
+    if shape[0] < NARROWEST || shape.windows(2).any(|ends| ends[1] - ends[0] < NARROWEST) {
+        return false;
+    }
+    let mut counts = vec![0; shape.len()];
+    rows(contact).for_each(|[depth, _]| counts[place(shape, depth / contact.greatest_m()).0] += 1);
+    counts.iter().all(|count| *count >= EACH)
+}
+
+/// The shape with each end moved to where it fits best.
+fn moved(contact: &Contact, mut shape: Shape) -> Shape {
+    let mut step = 0.5 / PLACES as f64;
+    for _ in 0..4 {
+        for i in 0..shape.len() - 1 {
+            let by = |way: f64| {
+                let mut other = shape.clone();
+                other[i] += way * step;
+                other
+            };
+            let tried = [0.0, -1.0, 1.0].map(by).into_iter().filter(|other| bears(contact, other));
+            shape = least(tried, |other| squares(contact, other)).unwrap_or_else(|| shape.clone());
+        }
+        step *= 0.5;
+    }
+    shape
+}
+
+fn least(shapes: impl Iterator<Item = Shape>, cost: impl Fn(&Shape) -> f64) -> Option<Shape> {
+    let all = shapes.map(|shape| (cost(&shape), shape));
+    all.fold(None, |best: Option<(f64, Shape)>, (cost, shape)| match best {
+        Some((least, _)) if least <= cost => best,
+        _ => Some((cost, shape)),
+    })
+    .map(|(_, shape)| shape)
+}
+
+/// The law of this shape that fits best.
+pub(super) fn law(shape: &Shape, contact: &Contact) -> Law {
+    let force = forces(contact, shape);
+    let peak = contact.peak_n();
+    let falls = force.windows(2).any(|pair| pair[0] - pair[1] > FALLS * peak);
+    let force = if falls { force.iter().map(|f| f.max(0.0)).collect() } else { level(force) };
+    let points = shape.iter().zip(force).map(|(part, force)| [part * contact.greatest_m(), force]);
+    let mut law = Law { points: std::iter::once([0.0, 0.0]).chain(points).collect(), back: None };
+    law.back = contact.rebounds.then(|| back(&law, contact, falls));
+    law
+}
+
+/// Forces that do not fall: those that do are drawn together to their mean.
+fn level(force: Vec<f64>) -> Vec<f64> {
+    let mut pools: Vec<(f64, usize)> = Vec::new();
+    for f in force {
+        pools.push((f.max(0.0), 1));
+        while let [.., (a, m), (b, n)] = pools[..] {
+            if a <= b {
+                break;
+            }
+            pools.truncate(pools.len() - 2);
+            pools.push(((a * m as f64 + b * n as f64) / (m + n) as f64, m + n));
+        }
+    }
+    pools.into_iter().flat_map(|(f, n)| std::iter::repeat_n(f, n)).collect()
+}
+
+/// The way back that returns the work that came back: by a share or by a slope, whichever is nearer to the samples.
+fn back(law: &Law, contact: &Contact, falls: bool) -> Back {
+    let [taken, returned] = contact.works();
+    let share = Back::Share((returned / taken).clamp(0.01, 1.0));
+    let top = law.points.last().map_or(0.0, |point| point[1]);
+    let slope = 0.5 * top * top / returned.max(1e-3 * taken);
+    let steepest = law.steepest();
+    if falls {
+        return Back::Slope(slope.max(1.001 * steepest));
+    }
+    if slope < 1.001 * steepest {
+        return share;
+    }
+    let off = |back: Back| {
+        let law = Law { back: Some(back), ..law.clone() };
+        let own = law.along(&contact.depth_m);
+        let after = own.iter().zip(&contact.force_n).skip(contact.turn);
+        after.map(|(a, b)| (a - b).powi(2)).sum::<f64>()
+    };
+    // of equals the one that needs no second number
+    if off(Back::Slope(slope)) < 0.8 * off(share) { Back::Slope(slope) } else { share }
+}

@@ -1,0 +1,94 @@
+//! A surface from the record of one impact: force over depth, the way back and friction, each with its certainty.
+//!
+//! ```text
+//! record ─ columns ─ contact (when, how deep) ─ curve (as many points as it bears) ─ certainty ─ surface file, plot, words
+//! ```
+//!
+//! The impactor is a mass that meets the surface at a known speed: m ẍ = m g − F, twice integrated, is its depth, unless that
+//! was measured. The law is one of those that materials have: straight lines, and on the way back a share of the work or a slope.
+
+mod certainty;
+mod contact;
+mod curve;
+mod law;
+mod record;
+mod text;
+
+use crate::base::Failure;
+use occupant_files::signals::Recording;
+
+pub use certainty::Certainty;
+pub use contact::Contact;
+pub use law::{Back, Law};
+pub use text::Origin;
+
+/// What is known of the impactor.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Impactor {
+    /// Mass, kg; needed unless force and depth were measured.
+    pub mass_kg: Option<f64>,
+    /// Speed at first contact, m/s; needed unless the depth was measured.
+    pub speed_m_s: Option<f64>,
+    /// Half the 95 % interval of that speed, m/s.
+    pub speed_error_m_s: f64,
+    /// Gravity along the way into the surface, m/s²: 0 of an impactor on a level way.
+    pub gravity_m_s2: f64,
+    /// Angle between velocity and normal, rad.
+    pub angle_rad: f64,
+}
+
+/// A surface with what is known of it.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// Force over depth and the way back.
+    pub law: Law,
+    /// Coefficient of friction; none where it was not measured.
+    pub friction: Option<f64>,
+    /// 95 % intervals.
+    pub certainty: Certainty,
+    /// What the record says.
+    pub contact: Contact,
+    /// Depth, m, and force, N, of the impactor against this surface, computed, at the times of the contact.
+    pub computed: Vec<[f64; 2]>,
+    /// How that compares with the record.
+    pub agreement: Agreement,
+    /// What is to be known before it is used.
+    pub caveats: Vec<String>,
+}
+
+/// The impactor against the fitted surface and the record; ratios are computed over measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Agreement {
+    /// Of the peak forces.
+    pub peak_ratio: f64,
+    /// Of the greatest depths.
+    pub depth_ratio: f64,
+    /// Of the work that is lost; none where the way back was not seen.
+    pub lost_ratio: Option<f64>,
+    /// Root mean square difference of the forces over the peak.
+    pub residual: f64,
+}
+
+/// The surface that a record tells of, between two times, s.
+///
+/// # Errors
+/// Columns without units or that cannot be told apart; no contact; an impactor that is not stopped, or comes back faster
+/// than it went in; numbers of the impactor that are missing.
+pub fn fit(recording: &Recording, impactor: &Impactor, window_s: [Option<f64>; 2]) -> Result<Surface, Failure> {
+    let record = record::Record::of(recording, impactor, window_s)?;
+    let choices = curve::choices(impactor, &Contact::of(&record, impactor)?)?;
+    let law = curve::law(&choices[0].shape, &choices[0].contact);
+    let contact = choices[0].contact.clone();
+    let friction = contact.friction(&record, impactor);
+    let certainty = certainty::of(&record, impactor, &choices, &law);
+    let computed = law::computed(&law, &contact, impactor);
+    let agreement = law::agreement(&law, &contact, &computed);
+    let mut caveats = [recording.notes.clone(), contact.caveats.clone()].concat();
+    caveats.extend(friction.as_ref().and_then(|found| found.clone().err()));
+    caveats.extend(text::cautions(&law, &contact, &agreement));
+    Ok(Surface { law, friction: friction.and_then(Result::ok), certainty, contact, computed, agreement, caveats })
+}
+
+fn refuse(found: impl Into<String>, help: &str) -> Failure {
+    Failure::with_help(found, help)
+}
