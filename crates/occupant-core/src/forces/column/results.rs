@@ -211,7 +211,7 @@ impl<const TURNS: bool> Reported for Giving<TURNS> {
         if begins(|c| c.bottoms, 0.5) {
             return Some((BOTTOMS, None));
         }
-        begins(|c| c.set, GIVEN_M).then_some(("gives way", None))
+        begins(|c| c.set, GIVEN_M).then_some(("yields", None))
     }
 }
 

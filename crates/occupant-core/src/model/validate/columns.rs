@@ -10,7 +10,7 @@ use placed_text::{Problems, with_key};
 pub(super) fn check(setup: &Setup, problems: &mut Problems) {
     let Setup { columns, frames, bags, .. } = setup;
     if columns.len() > MOST_GIVING {
-        problems.error("frames", format!("{} columns", columns.len()), format!("at most {MOST_GIVING} that give way"));
+        problems.error("frames", format!("{} columns", columns.len()), format!("at most {MOST_GIVING} that yield"));
     }
     for (i, column) in columns.iter().enumerate() {
         let path = with_key("frames", &column.name);
