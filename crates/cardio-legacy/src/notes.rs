@@ -1,7 +1,7 @@
 //! Card values that a scenario has no place for, kept in its notes for the way back to cards.
 //!
-//! They stand as lines `NAME = value` behind [`MARKER`], the last thing in the notes. A person may change or remove them;
-//! what is not there is chosen, and said in the report.
+//! They stand as lines `NAME = value` behind [`MARKER`], the last thing in the notes. A person may change or remove
+//! them; missing values are chosen and listed in the report.
 
 use std::collections::BTreeMap;
 

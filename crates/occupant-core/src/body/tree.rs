@@ -233,7 +233,7 @@ impl Landmarks {
         legs: Pair { left: None, right: None },
     };
 
-    /// The same among other segments and joints, where they are there.
+    /// The same with other indices of segments and joints, if they exist.
     pub(crate) fn map(
         &self,
         segment: impl Fn(Segment) -> Option<Segment>,

@@ -79,7 +79,7 @@ impl<'m> Run<'m> {
         Run { model: Held::Lent(model), course: Course::looked_at(model), is_recorded: false }
     }
 
-    /// The same of a model that it shares, and so keeps: it may go anywhere.
+    /// The same for a shared model, which it keeps alive: it has no borrowed lifetime.
     pub fn shared(model: Arc<Model>) -> Run<'static> {
         Run { course: Course::looked_at(&model), model: Held::Shared(model), is_recorded: false }
     }

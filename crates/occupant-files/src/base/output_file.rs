@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 
-/// What happens to files that stand where ours goes.
+/// Treatment of existing files with the same name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Existing {
     /// They are left alone and ours is refused.
@@ -253,7 +253,7 @@ fn taken_over(name: &Path) -> io::Result<File> {
 /// Makes a provisional file or folder for `place`; where others may be replaced under the first name that is free.
 ///
 /// # Errors
-/// It is there and may not be replaced; an error of the operating system.
+/// It exists and may not be replaced; an error of the operating system.
 pub fn begun<T>(
     place: &Path,
     existing: Existing,

@@ -117,7 +117,7 @@ pub struct Next {
 }
 
 impl Track {
-    /// The same among several bodies, whose segments and plates begin at these.
+    /// The same among several bodies; segments and plates of this body begin at these indices.
     pub(crate) fn of_member(&self, segment: usize, plate: usize) -> Self {
         let moved = |shares: &Shares| shares.iter().map(|(on, share)| (plate + on, *share)).collect();
         let then = self.then.as_ref().map(|next| Next {

@@ -87,8 +87,8 @@ numbers! {
         /// Way of a node along its track or its stroke, or of the mark on a sphere, m, and its speed, m/s.
         way,
         speed,
-        /// Force of the webbing along a track, N; of other nodes what decides on a switch: W of a sphere, rad, the pull away
-        /// from the body or against a stroke, N.
+        /// Force of the webbing along a track, N; for other nodes the quantity that decides a switch: W of a sphere,
+        /// rad, the pull away from the body or against a stroke, N.
         across,
         /// Lost here since the start, J: friction along and across, limiter and spool, and the webbing of the strap.
         lost,
