@@ -101,7 +101,7 @@ pub(crate) fn view(args: &Args) -> Result<(), Failure> {
     };
     let moments = moments(&results, &outputs(&results, &wanted)?)?;
     let origin = origin(&results) + &pace(args, kind);
-    let dimensions = if args.dimensions { lines(&results.loaded, &results.model) } else { Vec::new() };
+    let dimensions = if args.dimensions { lines(&results.loaded, &results.model, false) } else { Vec::new() };
     let strip = Strip { model: &results.model, moments, views: views(args, kind), origin, dimensions };
     let (one, bar) = (frames(&strip), bar(Some(strip.moments.len() as u64), &counted("frames"), false));
     let one = |frame| {
@@ -178,26 +178,33 @@ fn views(args: &Args, kind: Kind) -> Vec<View> {
 }
 
 /// The distances that are drawn: those of the first vehicle's car, and what is free before and over the body.
-fn lines(loaded: &Loaded, model: &Model) -> Vec<Measured> {
-    let of_car = loaded.dimensions().into_iter().filter(|own| own.vehicle.is_none()).filter_map(|own| {
-        let key = own.name.rsplit_once('.').map_or(own.name.as_str(), |(_, key)| key);
-        let is_drawn =
-            own.name.contains(".d_ring.") || own.name.ends_with(".recline") || !own.name.starts_with("seats.");
-        let title = if own.name.contains(".d_ring.") {
-            format!("D-ring {key}")
-        } else if own.code.is_empty() || own.code.contains(' ') {
-            own.name.replace('.', " ")
-        } else {
-            own.code.to_owned()
-        };
-        let label = match own.size {
-            Size::Distance(m) if m > 0.0 => format!("{title} {:.0}", m * 1e3),
-            Size::Distance(_) => return None,
-            Size::Angle(rad) => format!("{title} {:.0}°", rad.to_degrees()),
-        };
-        is_drawn.then_some(Measured { label, ends_m: own.ends_m, is_angle: matches!(own.size, Size::Angle(_)) })
-    });
-    let free = clearances(model).into_iter().map(|own| {
+///
+/// A run holds its bodies written out, of which the stature that places seats and D-rings is not known: `with_seats` says whether it is.
+fn lines(loaded: &Loaded, model: &Model, with_seats: bool) -> Vec<Measured> {
+    let of_car = loaded
+        .dimensions()
+        .into_iter()
+        .filter(|own| own.vehicle.is_none() && (with_seats || !own.name.starts_with("seats.")))
+        .filter_map(|own| {
+            let key = own.name.rsplit_once('.').map_or(own.name.as_str(), |(_, key)| key);
+            let is_drawn =
+                own.name.contains(".d_ring.") || own.name.ends_with(".recline") || !own.name.starts_with("seats.");
+            let title = if own.name.contains(".d_ring.") {
+                format!("D-ring {key}")
+            } else if own.code.is_empty() || own.code.contains(' ') {
+                own.name.replace('.', " ")
+            } else {
+                own.code.to_owned()
+            };
+            let label = match own.size {
+                Size::Distance(m) if m > 0.0 => format!("{title} {:.0}", m * 1e3),
+                Size::Distance(_) => return None,
+                Size::Angle(rad) => format!("{title} {:.0}°", rad.to_degrees()),
+            };
+            is_drawn.then_some(Measured { label, ends_m: own.ends_m, is_angle: matches!(own.size, Size::Angle(_)) })
+        });
+    // knees are a pair
+    let free = clearances(model).into_iter().filter(|own| !own.sphere.ends_with("right_knee")).map(|own| {
         let part = own.sphere.replace('_', " ");
         let label = format!("{part} to {} {:.0}", own.surface.replace('_', " "), own.distance_m * 1e3);
         Measured { label, ends_m: own.ends_m, is_angle: false }
@@ -227,7 +234,7 @@ fn seated(args: &Args, output: &Path, kind: Kind) -> Result<(), Failure> {
         return Err(Failure::BrokeOff(format!("error: {error}")));
     }
     let origin = format!("{}, before a run", file_name(&args.input));
-    let dimensions = if args.dimensions { lines(&opened.loaded, &opened.model) } else { Vec::new() };
+    let dimensions = if args.dimensions { lines(&opened.loaded, &opened.model, true) } else { Vec::new() };
     let strip = Strip { model: &opened.model, moments, views: views(args, kind), origin, dimensions };
     deliver_and(args.open, output, args.force, &picture(&strip, format)?)
 }

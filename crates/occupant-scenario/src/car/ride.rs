@@ -8,6 +8,8 @@ use crate::sections::{AnchorSection, CarBelt, CarClass, si_or};
 /// mid-size car, 416 and 616 mm, on the sled of G. Shaw et al.: Impact Response of Restrained PMHS in Frontal Sled Tests, Stapp Car Crash
 /// J. 53 (2009). It stands on the pillar: seats slide past it.
 const D_RING_M: [f64; 3] = [0.42, 0.27, 0.62];
+/// Behind the front, where backs lean more and no height adjuster is; ours.
+const REAR_D_RING_M: [f64; 3] = [0.46, 0.27, 0.56];
 /// Stature for which the D-ring stands there, how far its height adjuster follows the trunk per stature, its notches and how far that goes
 /// down and up, m; ours.
 const ADJUSTED_FOR_M: f64 = 1.75;
@@ -134,11 +136,12 @@ pub(super) fn buckle_m(kind: CarBelt) -> [f64; 3] {
 
 /// Where the D-ring of somebody's seat stands, whose design place is so far ahead of it: behind, outboard, above, m.
 pub(super) fn d_ring_m(stature_m: f64, seat: &Seat) -> [f64; 3] {
-    let [behind, outboard, above] = D_RING_M;
     let [down, up] = ADJUSTS_M;
     let notches = (ADJUSTS * (stature_m - ADJUSTED_FOR_M) / NOTCH_M).round();
-    // no adjuster behind the front
-    let adjusted = if seat.row == 0 { (NOTCH_M * notches).clamp(down, up) } else { 0.0 };
+    let ([behind, outboard, above], adjusted) = match seat.row {
+        0 => (D_RING_M, (NOTCH_M * notches).clamp(down, up)),
+        _ => (REAR_D_RING_M, 0.0),
+    };
     [behind - seat.track, outboard, above + adjusted]
 }
 

@@ -1,4 +1,4 @@
-//! What a car of its years has by default: belts, bags, seat backs, head restraints, knee bolster. Every number can be said.
+//! What a car of its years has by default: belts, bags, head restraints, knee bolster. Every number can be said.
 //!
 //! Sources, all of the United States; Europe followed within some years (UN R16, R17, R94):
 //! - front air bags: FMVSS 208, all cars from model year 1998, light trucks from 1999; none was usual before about 1990;
@@ -6,13 +6,10 @@
 //!   2008 (DOT HS 811 835);
 //! - head restraints: FMVSS 202 (1969) 700 mm, FMVSS 202a (model year 2009 and 2010) 800 mm and a backset of at most 55 mm; a car of 2005 rated
 //!   by IIHS has 85 mm; 100 mm before is an estimate;
-//! - moment of a seat back struck from behind: 1,069 ± 293 N·m in the 1980s, 1,501 ± 335 N·m with one recliner in the 2000s, 2,302 ± 699 N·m
-//!   with two (D. C. Viano, S. D. White: Seat Strength in Rear Body Block Tests, Traffic Injury Prevention 17, 2016). Two hold so much that
-//!   the back is fixed here;
 //! - columns that give way and laminated windscreens are older than all of this (FMVSS 203, 204, 205; 1966 to 1968);
 //! - knee bolsters: came with the rules for occupants without belts of 1987; twice the stiffness before is an estimate.
 
-use crate::sections::{CarSeatSection, CarYears, Force, Length, Moment};
+use crate::sections::{CarSeatSection, CarYears, Force, Length};
 
 /// Lengths in m, forces in N, moments in N·m.
 #[derive(Clone, Copy, Debug)]
@@ -24,8 +21,6 @@ pub(super) struct Years {
     pretensioner: f64,
     head_height: f64,
     head_gap: f64,
-    /// In front; none: fixed.
-    back_moment: Option<f64>,
     /// Stiffness of the knee bolster; none: that of the material.
     pub(super) bolster_n_m: Option<f64>,
 }
@@ -38,17 +33,14 @@ impl Years {
             pretensioner: 0.1,
             head_height: 0.80,
             head_gap: 0.05,
-            back_moment: None,
             bolster_n_m: None,
         };
         let without_limiter = Years { limiter: None, pretensioner: 0.0, head_height: 0.70, head_gap: 0.1, ..present };
         match years {
             CarYears::Present => present,
             CarYears::TwoThousands => Years { head_gap: 0.085, ..present },
-            CarYears::Nineties => Years { back_moment: Some(1500.0), ..without_limiter },
-            CarYears::Seventies => {
-                Years { bags: false, back_moment: Some(1070.0), bolster_n_m: Some(80e3), ..without_limiter }
-            }
+            CarYears::Nineties => without_limiter,
+            CarYears::Seventies => Years { bags: false, bolster_n_m: Some(80e3), ..without_limiter },
         }
     }
 
@@ -60,7 +52,6 @@ impl Years {
             pretensioner: own.pretensioner.or_else(|| Some(Length::of_si(in_front(self.pretensioner)))),
             head_height: own.head_height.or_else(|| Some(Length::of_si(self.head_height))),
             head_gap: own.head_gap.or_else(|| Some(Length::of_si(self.head_gap))),
-            back_moment: own.back_moment.or(self.back_moment.filter(|_| row == 0).map(Moment::of_si)),
             ..own
         }
     }

@@ -30,7 +30,7 @@ pub(crate) enum CarClass {
     Sled,
 }
 
-/// When a car was built: what of belts, bags, seats and head restraints it has by default.
+/// When a car was built: what of belts, bags and head restraints it has by default.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub(crate) enum CarYears {
     /// Up to about 1985: belts without limiter and pretensioner, no air bags.
@@ -56,7 +56,7 @@ pub(crate) enum CarYears {
 pub(crate) struct CarSection {
     /// Vehicle class, which gives all dimensions that are absent; "sedan" if absent.
     pub(crate) class: Option<CarClass>,
-    /// When it was built: "1970s", "1990s", "2000s" or "present", which gives all belts, bags, seat backs and head restraints that
+    /// When it was built: "1970s", "1990s", "2000s" or "present", which gives all belts, bags and head restraints that
     /// are absent; "present" if absent.
     pub(crate) years: Option<CarYears>,
     /// The side of the steering wheel; "left" if absent.
@@ -224,8 +224,7 @@ pub(crate) struct CarSeatSection {
     pub(crate) recline: Option<Angle<NOT_NEGATIVE>>,
     /// Lateral position of its centre; by class if absent.
     pub(crate) y: Option<Length>,
-    /// Moment at which its recliner yields, such as 1.5 kN·m. If absent, by years in front (1.07 kN·m in the 1970s, 1.5 kN·m in the 1990s);
-    /// at present and in the rear the back is then fixed.
+    /// Moment at which its recliner yields, such as 1.5 kN·m. If absent, the back is fixed.
     pub(crate) back_moment: Option<Moment<POSITIVE>>,
     /// Factor on the stiffness of its foam; 1 if absent.
     pub(crate) foam: Option<Ratio<POSITIVE>>,

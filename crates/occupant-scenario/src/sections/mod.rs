@@ -120,7 +120,7 @@ type Stiffness<const RANGE: usize = ANY> = Quantity<{ kind::STIFFNESS }, RANGE>;
 type RotationalStiffness<const RANGE: usize = ANY> = Quantity<{ kind::ROTATIONAL_STIFFNESS }, RANGE>;
 type RotationalDamping<const RANGE: usize = ANY> = Quantity<{ kind::ROTATIONAL_DAMPING }, RANGE>;
 type AngularVelocity<const RANGE: usize = ANY> = Quantity<{ kind::ANGULAR_VELOCITY }, RANGE>;
-pub(crate) type Moment<const RANGE: usize = ANY> = Quantity<{ kind::MOMENT }, RANGE>;
+type Moment<const RANGE: usize = ANY> = Quantity<{ kind::MOMENT }, RANGE>;
 type MomentPerAngle2<const RANGE: usize = ANY> = Quantity<{ kind::MOMENT_PER_ANGLE_2 }, RANGE>;
 type MomentPerAngle3<const RANGE: usize = ANY> = Quantity<{ kind::MOMENT_PER_ANGLE_3 }, RANGE>;
 type Area<const RANGE: usize = ANY> = Quantity<{ kind::AREA }, RANGE>;

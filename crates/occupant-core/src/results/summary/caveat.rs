@@ -265,27 +265,21 @@ impl Caveat {
     }
 
     /// A shoulder belt under load that is off the shoulder since a time, s.
-    pub(super) fn off_shoulder(body: &Body, chain: &Chain, time_s: f64) -> Self {
+    pub(super) fn off_shoulder(chain: &Chain, time_s: f64) -> Self {
         let seen = format!("was off the shoulder at {:.1} ms, under load", 1e3 * time_s);
-        Caveat::of_shoulder(body, chain, "off_shoulder", &format!("{seen}: it bears on the chest alone"))
+        Caveat::of_shoulder(chain, "off_shoulder", &format!("{seen}: it bears on the chest alone"))
     }
 
     /// A shoulder belt under load beside the neck since a time, s.
-    pub(super) fn at_neck(body: &Body, chain: &Chain, time_s: f64) -> Self {
+    pub(super) fn at_neck(chain: &Chain, time_s: f64) -> Self {
         let seen = format!("slid to the neck at {:.1} ms, under load", 1e3 * time_s);
-        Caveat::of_shoulder(body, chain, "on_neck", &format!("{seen}: what it does to the neck is not modelled"))
+        Caveat::of_shoulder(chain, "on_neck", &format!("{seen}: what it does to the neck is not modelled"))
     }
 
-    fn of_shoulder(body: &Body, chain: &Chain, sign: &str, seen: &str) -> Self {
+    fn of_shoulder(chain: &Chain, sign: &str, seen: &str) -> Self {
         let belt = &chain.belt;
-        let on = chain.nodes.iter().find_map(|node| match &node.site {
-            Site::Track(segment, track) if track.wing.is_none() => Some(body.tree.segment(*segment)),
-            _ => None,
-        });
-        let chest = on.and_then(|on| body.tree.landmarks_at(on).chest);
-        let text = format!("the belt {belt} {seen}; {}", not_to_be_quoted("the belt's and the chest's"));
-        let spoiled = chest.into_iter().flat_map(|chest| figures_of(body, chest));
-        let figures = [format!("straps.{}_*", word(belt))].into_iter().chain(spoiled).collect();
+        let text = format!("the belt {belt} {seen}; {}", not_to_be_quoted("the belt's"));
+        let figures = vec![format!("straps.{}_*", word(belt))];
         Caveat::new(format!("{belt}_{sign}"), text, figures)
     }
 
@@ -376,7 +370,14 @@ impl Caveat {
     /// A sphere that touched a part behind a bag while the bag was between them.
     pub(super) fn touched_through(body: &Body, sphere: usize, bag: &str, what: &str, time_s: f64) -> Self {
         let seen = format!("touched {what} through the bag {bag} at {:.1} ms", 1e3 * time_s);
-        Caveat::of_sphere(body, sphere, "through_bag", seen)
+        let caveat = Caveat::of_sphere(body, sphere, "through_bag", seen.clone());
+        let own = &body.spheres[sphere];
+        if Some(own.segment) == body.tree.landmarks_at(own.segment).head {
+            return caveat;
+        }
+        // what is behind yields by its own law, and the bag goes on: nothing is missing but for a head on a rim
+        let text = format!("{} {seen}: both press it from then on", own.name.replace('_', " "));
+        Caveat { text, figures: Vec::new(), ..caveat }
     }
 
     /// A sphere that left the compartment where nothing is modelled that would have stopped it.

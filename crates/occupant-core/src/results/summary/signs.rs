@@ -352,7 +352,7 @@ impl Signs {
             run_out.filter_map(|(chain, peak)| Some(Caveat::run_out(&chain.belt, *peak, chain.device.end_m()?)));
         let shoulders = chains.iter().zip(&self.shoulders);
         let shoulders = shoulders.flat_map(move |(chain, [off, neck])| {
-            [off.map(|s| Caveat::off_shoulder(body, chain, s)), neck.map(|s| Caveat::at_neck(body, chain, s))]
+            [off.map(|s| Caveat::off_shoulder(chain, s)), neck.map(|s| Caveat::at_neck(chain, s))]
         });
         stretched.chain(run_out).chain(slipped).chain(shoulders.flatten())
     }
