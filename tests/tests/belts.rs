@@ -300,7 +300,7 @@ fn a_belt_beside_the_body_and_a_lap_belt_that_would_slip_are_warned_of() {
     let beside = said_of_lap("[[-0.30, 0.58, 0.21], [-0.30, 0.12, 0.21]]");
     assert!(beside.contains("belts.lap.anchors") && beside.contains("to the right of the pelvis"), "{beside}");
     let flat = said_of_lap("[[-0.40, -0.58, 0.05], [-0.40, -0.12, 0.05]]");
-    assert!(flat.contains("slides up to the belly"), "{flat}");
+    assert!(flat.contains("slides up onto the abdomen"), "{flat}");
     let ahead = said_of_lap("[[-0.05, -0.58, 0.25], [-0.05, -0.12, 0.25]]");
     assert!(ahead.contains("20° to 80°"), "{ahead}");
 }

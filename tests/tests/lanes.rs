@@ -290,7 +290,7 @@ fn what_keeps_models_apart_has_a_name() {
     let unlike = |change: &dyn Fn(&mut Setup)| base.zip(&system(change), |a, _| a).err();
     assert_eq!(unlike(&|s| s.gravity_m_s2 = 9.0), None);
     let belts = unlike(&|s| s.belts.truncate(1));
-    assert_eq!(belts, Some(Unlike("the belts are others or go round other spheres")));
+    assert_eq!(belts, Some(Unlike("the belts differ or go round other spheres")));
     let springs = unlike(&|s| s.joints.ball_mut(tti12::UPPER_BACK).unwrap().spring = None);
     assert_eq!(springs, Some(Unlike("other joints have springs")));
     let fewer = unlike(&|s| s.surfaces.truncate(s.surfaces.len() - 1));

@@ -345,3 +345,18 @@ fn every_file_of_tests_belongs_to_a_binary() {
         }
     }
 }
+
+/// The lint tables of a manifest, line by line, under the names `rust` and `clippy`.
+fn lints(manifest: &str, prefix: &str) -> Vec<String> {
+    let text = fs::read_to_string(crates().join("..").join(manifest)).expect(manifest);
+    let tables = text.split("\n[").filter_map(|table| table.strip_prefix(prefix));
+    let lines = tables.flat_map(|table| table.lines().filter(|line| !line.is_empty() && !line.starts_with('#')));
+    lines.map(str::to_owned).collect()
+}
+
+#[test]
+fn the_python_module_has_the_lints_of_the_workspace() {
+    let workspace = lints("Cargo.toml", "workspace.lints.");
+    assert!(workspace.len() > 8, "{workspace:?}");
+    assert_eq!(lints("crates/occupant-py/Cargo.toml", "lints."), workspace);
+}

@@ -96,7 +96,7 @@ pub struct Face {
     pub number: u32,
     /// Name in scenarios.
     pub name: String,
-    /// Its corners; none where the deck's points leave it without area.
+    /// Its corners; none if the deck's points leave it without area.
     pub corners: Vec<Corner>,
 }
 
@@ -112,7 +112,7 @@ pub(crate) struct LeftOut {
 }
 
 impl WheelLayout {
-    /// Where it is, in words.
+    /// Where it is, as text.
     pub(crate) fn words(&self) -> String {
         let height = match self.below_in {
             0.0 => "level with it".to_owned(),

@@ -1,4 +1,4 @@
-//! What is wrong with a deck: collected, never the first only.
+//! Problems of a deck: collected, never the first only.
 
 use std::fmt;
 

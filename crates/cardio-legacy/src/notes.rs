@@ -1,7 +1,7 @@
 //! Card values that a scenario has no place for, kept in its notes for the way back to cards.
 //!
-//! They stand as lines `NAME = value` behind [`MARKER`], the last thing in the notes. A person may change or remove them;
-//! what is not there is chosen, and said in the report.
+//! They stand as lines `NAME = value` behind [`MARKER`], the last thing in the notes. A person may change or remove
+//! them; missing values are chosen and listed in the report.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ pub(crate) const TITLE_1: &str = "TITLE 1";
 pub(crate) const TITLE_2: &str = "TITLE 2";
 /// The plot option, STAN or NONE.
 pub(crate) const PLOT: &str = "PLOT";
-/// A pair of series 14 that the scenario cannot name: sphere and surface; its place in the series, from 1, is behind this name.
+/// A pair of series 14 that the scenario cannot name: sphere and surface; its position in the series, from 1, is behind this name.
 pub(crate) const PAIR: &str = "PASSED PAIR";
 
 /// Values by name, in the order of their names.

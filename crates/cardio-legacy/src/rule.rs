@@ -90,7 +90,7 @@ macro_rules! rules {
                 }
             }
 
-            /// What is expected, and how to mend what breaks the rule; none where that depends on the case.
+            /// What is expected, and how to mend what breaks the rule; none if that depends on the case.
             pub(crate) fn expected_and_remedy(self) -> [Option<&'static str>; 2] {
                 let [expected, remedy] = match self {
                     $(Self::$rule => [concat!($($expected)?), concat!($($remedy)?)],)*
@@ -179,7 +179,7 @@ rules! {
         remedy "remove one of the two; in lenient reading the later one counts, as it did in the program";
     /// A series stands elsewhere than in the report's order.
     OutOfOrder: Doubtful, "out-of-order", expects "the series in the order of their numbers",
-        remedy "sort the deck; the card number says which series it is, and so it was read";
+        remedy "sort the deck; it was read by its card numbers";
     /// A series that the deck needs is not there.
     SeriesMissing: Fatal, "series-missing", remedy "add the cards, or punch the card number if they are there";
     /// A series that the deck does not need is there.

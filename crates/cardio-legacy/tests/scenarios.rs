@@ -54,7 +54,7 @@ fn the_committed_scenarios_are_the_converted_decks() {
     }
 }
 
-/// What a run of each deck comes to, and what its first touches must tell: (deck, sphere, surface).
+/// What a run of each deck comes to, and what its first contacts must tell: (deck, sphere, surface).
 const STORIES: [(&str, &str, &str); 6] = [
     ("driver-exact-state-extended.dat", "pelvis", "front_cushion"),
     ("driver-lap-torso.dat", "left_hand", "steering_wheel"),
@@ -375,7 +375,7 @@ fn what_cards_lose_is_said_once() {
     assert_eq!(said, ["the title's `\u{394}`, `\u{2014}` cannot be punched and became ?"]);
     assert!(title.starts_with("F\u{e4}hrer ? ?"), "{title}");
     let (said, _) = remarks("notes = \"\"\"\n", "notes = \"\"\"\nMeasured twice.\n");
-    assert_eq!(said, ["notes: cards have no place for them but two titles"]);
+    assert_eq!(said, ["notes: cards can hold only two titles"]);
     let (said, _) = remarks("\n[time]", "\n[provenance]\nbody = \"a book\"\n\n[time]");
     assert_eq!(said, ["provenance: cards have no place for its 1 sources"]);
     // one material of four surfaces; one point of two

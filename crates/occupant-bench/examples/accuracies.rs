@@ -114,7 +114,7 @@ fn run(setup: &Setup, integrator: Integrator) -> Result<Run, Box<dyn Error>> {
 }
 
 impl Run {
-    /// Greatest distance of a head, mm, and the greatest error of heads' peaks and of any peak, %.
+    /// Largest distance of a head, mm, and the largest error of heads' peaks and of any peak, %.
     fn errors(&self, exact: &Run) -> [f64; 3] {
         let apart = self.paths.iter().flatten().zip(exact.paths.iter().flatten());
         let path_mm = 1e3 * apart.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);

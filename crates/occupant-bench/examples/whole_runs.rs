@@ -95,7 +95,7 @@ fn read(path: &Path, changes: &[String]) -> Result<Setup, Box<dyn Error>> {
     Ok(built.map_err(|problems| problems.to_string())?.0)
 }
 
-/// The head's c.g., or that of the last segment of a part without one, at every output, and the greatest reading there.
+/// The head's c.g., or that of the last segment of a part without one, at every output, and the largest reading there.
 struct Run {
     path: Vec<Point3<f64>>,
     peak_m_s2: f64,

@@ -27,7 +27,7 @@ pub const BELTED: &str = include_str!("../../../tests/data/hand/three-point.toml
 /// A driver with belt and air bag, as shipped.
 pub const BAGGED: &str = include_str!("../../../tests/data/hand/airbag-driver.toml");
 
-/// The same on a column that gives way, as shipped.
+/// The same on a column that yields, as shipped.
 pub const STROKING: &str = include_str!("../../../tests/data/hand/column-driver.toml");
 
 /// A person of 19 segments on a sled, as shipped.
@@ -93,7 +93,7 @@ pub fn sled() -> Model {
     read(SLED).model().expect("the scene is valid").0
 }
 
-/// The same on a column that gives way.
+/// The same on a column that yields.
 pub fn stroking() -> Model {
     read(STROKING).model().expect("the scene is valid").0
 }
@@ -213,7 +213,7 @@ impl Instant {
         dynamics::solve(skeleton, &kinematics, self.state.hinge_rate(), loads)
     }
 
-    /// One step in a vehicle whose motion stands still: four evaluations and the sums of the integrator.
+    /// One step in a vehicle whose motion is at rest: four evaluations and the sums of the integrator.
     pub fn step(&mut self) -> &State<f64> {
         let Instant { system, state, frames, history, scratch, stages, .. } = self;
         stages.step(state, STEP_S, |stage, state, rate| match stage {

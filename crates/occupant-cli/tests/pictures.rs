@@ -373,7 +373,7 @@ fn no_sphere_of_a_body_floats_beside_it() {
     }
 }
 
-/// The greatest of −∫F dx over the outputs of a run, J: of a belt's force on the body, and of the sphere in it in the vehicle.
+/// The largest of −∫F dx over the outputs of a run, J: of a belt's force on the body, and of the sphere in it in the vehicle.
 fn work_on_belt(folder: &Path, run: &str, belt: &str, sphere: &str) -> f64 {
     let channels = format!("belt.{belt}.body_force.*,sphere.{sphere}.position.*");
     let output = answer(folder, &["export", run, "-f", "-o", "belt.csv", "--channel", &channels]);

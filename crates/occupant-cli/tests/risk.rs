@@ -273,7 +273,7 @@ fn a_pulse_has_the_velocity_change_that_the_scenario_says() {
 }
 
 /// All of the page but its head and its origin stands folded on the page of the run, once for runs that share a motion; a vehicle that
-/// stands still has nothing to say.
+/// is at rest has nothing to say.
 #[test]
 fn the_page_of_a_run_has_what_risk_says_of_its_vehicle() {
     let folder = folder();

@@ -163,7 +163,7 @@ fn figures_of_a_part_of_a_run_are_marked_and_do_not_pass() {
     done(at, &["report", "first.mcap", "-o", "first.html"]);
     let page = fs::read_to_string(at.join("first.html")).expect("a page");
     assert!(!page.contains(r#""verdict":"passed""#) && page.contains(r#""verdict":null"#));
-    // a file that goes on from it holds the whole run
+    // a file that continues from it holds the whole run
     let (rest, names) = caveats(at, "rest.mcap");
     assert!(!names.contains(&"part_of_a_run".to_owned()), "{names:?}");
     assert_eq!(rest["covers_s"], serde_json::json!([0.0, 0.2]));

@@ -2,18 +2,18 @@
 //!
 //! The model is that of Texas Transportation Institute Research Report 140-2 (R. D. Young, 1970): a body of 12 rigid
 //! segments with 31 degrees of freedom, 17 contact spheres, plane surfaces of a compartment, lap and torso belts, joint
-//! dampers with stops and spinal springs, carried along by any three-dimensional path of the vehicle. The theory manual
-//! (`docs/theory/` beside this crate's sources) holds every equation with its number, and every decision that is ours.
+//! dampers with stops and spinal springs, in a vehicle that moves along any three-dimensional path. The theory manual
+//! (`docs/theory/` beside this crate's sources) contains every equation with its number, and our decisions.
 //!
 //! This crate reads no files, prints nothing and does not panic on user data. Results do not depend on the number of
-//! threads: one [`model::Model`] may be shared by all of them.
+//! threads: all of them may share one [`model::Model`].
 //!
 //! # A run
 //!
-//! A run is made of a [`model::setup::Setup`], plain SI data. It comes from code, or from the TOML or JSON of a scenario,
-//! which the crate `occupant-scenario` reads; both ways have the same defaults. [`model::Model::new`] checks it and
-//! computes the start; a model is immutable. [`run::simulate::simulate`] runs it and hands every output time to a
-//! [`results::recorder::Recorder`], which takes what it wants of the [`results::sample::Sample`].
+//! A run needs a [`model::setup::Setup`], plain SI data. It comes from code, or from the TOML or JSON of a scenario,
+//! which the crate `occupant-scenario` reads; both have the same defaults. [`model::Model::new`] checks it and computes
+//! the start; a model is immutable. [`run::simulate::simulate`] runs it and passes a [`results::sample::Sample`] at
+//! every output time to a [`results::recorder::Recorder`], which takes what it needs.
 //!
 //! An occupant dropped onto the ground from a parked vehicle:
 //!
@@ -53,12 +53,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A run in one's own hands, step by step or frame by frame, is a [`run::Run`]; a force of one's own a [`forces::own::Force`]. Programs
-//! depend best on the crate `occupant`, which has this one behind typed ids, one error and measures by type.
+//! To step a run yourself, or frame by frame, use a [`run::Run`]; for your own force a [`forces::own::Force`]. Programs
+//! should depend on the crate `occupant`, which adds typed ids, one error and measures by type.
 //!
-//! `examples/case_in_code.rs` beside this crate's sources is a driver, a compartment, belts and a crash pulse without a text.
-//! Examples that start from a scenario stand in `occupant-scenario`: a vehicle path of one's own (a
-//! [`vehicle::VehicleMotion`]), a recorder of one's own, many runs on all cores.
+//! `examples/case_in_code.rs` beside this crate's sources is a driver, a compartment, belts and a crash pulse without a
+//! text. `occupant-scenario` has examples that start from a scenario: your own vehicle path (a
+//! [`vehicle::VehicleMotion`]), your own recorder, many runs on all cores.
 //!
 //! # Notation
 //!
@@ -66,16 +66,16 @@
 //! |---|---|
 //! | `_m`, `_m_s2`, `_rad`, `_n`, `_n_m`, `_j`, `_s`, … | SI unit of a number; there are no others inside the crate |
 //! | space | X′ forward, Y′ left, Z′ up; gravity along −Z′ |
-//! | segment axes | X ahead, Y to the occupant's left, Z up when standing upright; origin at the centre of gravity |
+//! | segment axes | X forward, Y to the occupant's left, Z up when standing upright; origin at the centre of gravity |
 //! | vehicle axes | X_v forward, Y_v right, Z_v down; origin at the vehicle's centre of gravity |
 //! | vehicle-space | X′_v forward, Y′_v right, Z′_v down, fixed; where the vehicle's path is given |
 //! | T1 | upper end of the middle torso, the reference point of the body |
 //! | lower end | the end that is lower when standing upright: the distal end of a limb |
 //! | Eq. *n*, Fig. *n* | equation or figure of the report |
 //!
-//! # Where things are
+//! # Modules
 //!
-//! | room | holds |
+//! | module | contents |
 //! |---|---|
 //! | [`body`] | segments, joints, contact spheres: the occupant as data |
 //! | [`vehicle`] | the vehicle's path: table, pulse, sensors, at rest, a program's own |
@@ -87,10 +87,10 @@
 //! | [`results`] | samples, channels, reactions, energies, recorders, summaries, checkpoints to resume from |
 //! | [`diagnosis`] | what will be simulated and whether the step suits it, before a run |
 //!
-//! Above this crate `occupant-scenario` has scenarios as text: units, presets, overrides, messages with line and column;
-//! `occupant-study` has designs, searches and sensitivities of many runs, and the risk of a path alone; below it `crash-measures` has
-//! filters and injury measures of any time history, and `placed-text` reads TOML, JSON and CSV with places and says what is
-//! wrong with them.
+//! Above this crate `occupant-scenario` has scenarios as text: units, presets, overrides, messages with line and
+//! column; `occupant-study` has designs, searches and sensitivities of many runs, and the risk of a path alone; below
+//! it `crash-measures` has filters and injury measures of any time history, and `placed-text` reads TOML, JSON and CSV
+//! with positions and reports their mistakes.
 
 pub mod body;
 pub mod diagnosis;

@@ -1,8 +1,7 @@
-//! The words of results: what a quantity is called, its unit and axes, its field in the result file, and how it is taken
-//! from what it belongs to.
+//! Descriptions of results: name of a quantity, its unit and axes, its field in the result file, and how to compute it.
 //!
-//! Whatever has results of its own lists its quantities once; [`crate::results::catalogue`] puts the lists of a model
-//! together. Nothing here knows a model or a run.
+//! Each module with results lists its quantities once; [`crate::results::catalogue`] combines the lists of a model.
+//! Nothing here knows a model or a run.
 
 use std::fmt;
 
@@ -124,7 +123,7 @@ pub enum Value {
     Count(u64),
     /// Words.
     Text(String),
-    /// A vector; none where it does not exist.
+    /// A vector; none if it does not exist.
     Vector(Option<Vector3<f64>>),
     /// A rotation.
     Rotation(UnitQuaternion<f64>),

@@ -1,4 +1,4 @@
-//! The 16 characters of a channel code, and which of our channels they are.
+//! The 16 characters of a channel code, and the corresponding channels.
 //!
 //! ```text
 //! 1 1 HEAD CG 00 H3 AC X A
@@ -173,7 +173,7 @@ fn place_of_name(name: &str) -> Option<Place> {
         "resultant" => 'R',
         _ => return None,
     };
-    // a deflection is inward, the breastbone's way along X is not
+    // a deflection is inward, the sternum's way along X is not
     let is_against = (turned && matches!(direction, 'Y' | 'Z')) || dimension == "DS";
     let sign = if is_against { -1.0 } else { 1.0 };
     Some(Place { location, webbing: None, dimension, direction, of_vehicle, sign })

@@ -48,7 +48,7 @@ pub fn of_compartment(file: Option<&Path>) -> String {
 /// The scenario of the only deck of a file, in the compartment that stands beside it.
 ///
 /// # Errors
-/// What is wrong with the deck or its compartment; several decks, of which one is to be chosen; a path that the deck takes from disk.
+/// Problems of the deck or its compartment; several decks, of which one is to be chosen; a path that the deck takes from disk.
 pub fn from_deck(path: &Path, bytes: &[u8]) -> Result<FromDeck, Failure> {
     let name = path.display().to_string();
     let options = ParseOptions { file: name.clone(), ..ParseOptions::default() };

@@ -1,5 +1,5 @@
-//! Histories for other programs: the content of CSV, Parquet, XLSX and MAT files, and what they say of themselves and their
-//! columns. Names and writes no file.
+//! Histories for other programs: the content of CSV, Parquet, XLSX and MAT files, with their metadata. It names and
+//! writes no file.
 //!
 //! CSV has one line of headings with units, `time[s],head.acceleration.x[m/s^2]`, then numbers: nothing but that, so that
 //! spreadsheets and data frames open it as it is. What the columns are stands beside it in `NAME.csv-metadata.json`, the

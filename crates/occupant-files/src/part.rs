@@ -1,4 +1,4 @@
-//! What time a result file covers, and which figures of one that holds a part of a run are not those of the run.
+//! Time range of a result file, and the figures of a partial file that are not those of the whole run.
 
 use occupant_scenario::Draft;
 
@@ -6,7 +6,7 @@ use super::results::Results;
 
 /// What is missing of a run.
 pub(super) enum Part {
-    /// For all figures, in words.
+    /// For all figures, as text.
     Whole(String),
     /// What was before this time, s, for those that do not count from the start.
     Rest(f64),
@@ -17,7 +17,7 @@ pub(super) fn in_ms(time_s: f64) -> f64 {
 }
 
 impl Results {
-    /// What time a file covers that is not all of its scenario's, in words.
+    /// What time a file covers that is not all of its scenario's, as text.
     pub(super) fn span(&self) -> Option<String> {
         let (first, last) = (&self.checkpoints[0], &self.checkpoints[self.checkpoints.len() - 1]);
         let name = self.path.display();

@@ -34,9 +34,9 @@ pub struct Results {
     pub sha256: String,
     /// What the file says of the run before its start.
     pub run: BTreeMap<String, String>,
-    /// What the file has lost of the run, in words.
+    /// What the file has lost of the run, as text.
     lost: Option<String>,
-    /// What is wrong with it.
+    /// Problems of it.
     flaw: Option<String>,
     /// How the run ended.
     status: RunStatus,
@@ -125,7 +125,7 @@ impl Results {
         Some(format!("{}: what it holds is {worth}, its energy balance is {}", self.path.display(), energy.found()))
     }
 
-    /// What a user should know before trusting the results, in words.
+    /// What a user should know before trusting the results, as text.
     pub fn notes(&self) -> Vec<String> {
         let name = self.path.display();
         let mut notes = Vec::new();
@@ -155,7 +155,7 @@ impl Results {
     /// Shows every output to `recorder`, which learns of the begin of the run but not of its end.
     ///
     /// # Errors
-    /// What the recorder reports.
+    /// An error of the recorder.
     pub fn replay(&self, mut recorder: impl Recorder) -> Result<(), Failure> {
         let refused =
             |e: &dyn std::fmt::Display| Failure::plain(format!("{} cannot be evaluated: {e}", self.path.display()));

@@ -164,7 +164,7 @@ impl Tables {
     /// Scenario, model and warnings of a draft.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// Problems of it.
     pub fn open(&self, draft: Draft) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
         let loaded = draft.load(&|name| self.get(name))?;
         let (model, warnings) = loaded.model()?;
@@ -241,7 +241,7 @@ pub fn refused(name: &str, problems: &Diagnostics) -> Failure {
     Failure::CouldNotRun(nothing_was_run(&problems.to_string(), name, problems.count(Severity::Error)))
 }
 
-/// So many errors, in words.
+/// So many errors, as text.
 pub fn counted(errors: usize) -> String {
     if errors == 1 { "1 error".to_owned() } else { format!("{errors} errors") }
 }

@@ -1,4 +1,4 @@
-//! Measured signals as their files give them, and the units in which they stand.
+//! Measured signals with the units of their files.
 
 use std::path::PathBuf;
 
@@ -26,7 +26,7 @@ pub struct Signal {
     pub name: String,
     /// ISO-MME code.
     pub code: Option<Code>,
-    /// Unit as written; none where the file gives none.
+    /// Unit as written; none if the file gives none.
     pub unit: Option<String>,
     /// Its size and dimension; none also for a unit that is not known.
     pub scale: Option<Scale>,

@@ -1,4 +1,4 @@
-//! What is to know of the figures of a run at a fixed step, by that step alone.
+//! Caveats of a run with a fixed step that follow from that step alone.
 
 use occupant_core::diagnosis::{FrictionWatch, RK4_STABILITY_LIMIT, diagnose};
 use occupant_core::model::Model;

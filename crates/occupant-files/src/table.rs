@@ -149,7 +149,7 @@ enum Writer<W: Write + Send> {
 }
 
 impl<W: Write + Send> Table<W> {
-    /// Begins a table; `about` stands in the metadata of a Parquet file.
+    /// Begins a table; `about` is in the metadata of a Parquet file.
     ///
     /// # Errors
     /// Two columns of one name; what the writer refuses.
@@ -312,10 +312,10 @@ pub struct TableFile {
 }
 
 impl TableFile {
-    /// Begins a file; `about` stands in the metadata of a Parquet file.
+    /// Begins a file; `about` is in the metadata of a Parquet file.
     ///
     /// # Errors
-    /// The file is there and may not be replaced; the operating system refuses.
+    /// The file is there and may not be replaced; an error of the operating system.
     pub fn create(
         path: PathBuf,
         form: Form,
@@ -344,7 +344,7 @@ impl TableFile {
     /// Gives the complete file its name.
     ///
     /// # Errors
-    /// What the writer or the operating system refuses.
+    /// What the writer or an error of the operating system.
     pub fn publish(self) -> Result<PathBuf, Failure> {
         let file = self.table.finish().map_err(|e| unwritten(&self.path, &e))?;
         file.publish().map_err(|e| broke_off(&e))

@@ -1,4 +1,4 @@
-//! What is wrong in a file of measured signals, in the words of every message.
+//! Problems of a file of measured signals, in the form of all messages.
 
 use std::path::Path;
 

@@ -87,7 +87,7 @@ fn own_forces_are_kept_and_told() {
     let bytes = file(&model);
     let stored = StoredRun::read(&bytes).unwrap();
     assert_eq!(stored.checkpoints[3].memory.own[0][0], 1.5);
-    // the program itself goes on from there
+    // the program itself continues from there
     let mut again = Run::from_checkpoint(&model, &stored.checkpoints[3]).unwrap();
     let mut first = Run::new(&model);
     for run in [&mut again, &mut first] {
@@ -112,7 +112,7 @@ fn a_vehicle_that_was_told_is_told() {
     }
     run.end(Status::Completed, &mut recorder).unwrap();
     let refused = opened(&recorder.into_inner().unwrap().into_inner()).err().unwrap();
-    assert!(refused.contains("a vehicle that was told on its way"), "{refused}");
+    assert!(refused.contains("a vehicle whose motion is given during the run"), "{refused}");
 }
 
 /// A run of its scenario as it was read opens without a resolved one; cut off or damaged it is read as far as it goes.

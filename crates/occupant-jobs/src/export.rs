@@ -1,4 +1,4 @@
-//! Histories written to disk: a table with what describes it, or the folder of an ISO-MME test.
+//! Histories written to disk: a table with its metadata, or the folder of an ISO-MME test.
 
 use std::fs;
 use std::io::Write;

@@ -1,4 +1,4 @@
-//! The instruments of a dummy in a test: which columns of a table are which signals that injury measures are made of.
+//! The instruments of a dummy in a test: which columns of a table are the signals of injury measures.
 
 use crash_measures::injury::{Signals, Special};
 use crash_measures::signal::uniform_interval;

@@ -1,10 +1,10 @@
-//! The work of the program: runs, sweeps, ensembles, fits, and what is made of their results.
+//! The jobs of the program: runs, sweeps, ensembles, fits, and the use of their results.
 //!
-//! A job takes what it needs as values and gives results and their words. It reads no command line and knows no terminal: the
-//! command, a notebook and a page use it alike. What it says while it works goes to the `log`; how far it is goes to the bar
-//! that the caller gives it ([`base::Show`]).
+//! A job takes its inputs as values and returns results and texts. It reads no command line and no terminal, so the
+//! command, a notebook and a page can all use it. Its messages go to the `log`, its progress to the bar of the caller
+//! ([`base::Show`]).
 //!
-//! What the motion of a car alone says of the risk to its occupants:
+//! Occupant risk from the motion of a car alone:
 //!
 //! ```
 //! use occupant_jobs::risk::Report;

@@ -1,4 +1,4 @@
-//! Which curves stand in which plot: standard plots or channels by name, of one or more runs, with measured signals.
+//! Curves of each plot: standard plots or channels by name, of one or more runs, with measured signals.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! A results file for the printout of 1970: read, and its model rebuilt from the scenario that travels with it.
+//! Prepares a result file for the printout of 1970: reads it and rebuilds its model from the attached scenario.
 
 use std::path::Path;
 

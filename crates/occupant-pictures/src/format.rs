@@ -1,8 +1,8 @@
 //! Picture files: their kind, by their ending, and their bytes. A PNG is rendered from the SVG with our own fonts, on a white
 //! ground.
 //!
-//! A text becomes the outlines of its letters before the drawing is rendered: nothing is needed that shapes text, and
-//! no font of the machine is looked at.
+//! A text becomes the outlines of its letters before the drawing is rendered: no text shaping is needed, and no font of
+//! the machine is used.
 
 use std::fmt::Display;
 use std::ops::Range;

@@ -150,7 +150,7 @@ impl LiveRun {
         Ok(pythonize(py, &summary)?.unbind())
     }
 
-    /// All of the run as bytes: `load` goes on from there.
+    /// All of the run as bytes: `load` continues from there.
     fn save(&mut self) -> PyResult<Vec<u8>> {
         self.run.save().map_err(plain)
     }

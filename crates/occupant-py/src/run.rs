@@ -65,7 +65,7 @@ impl Run {
         Ok(pythonize(py, &self.summary)?.unbind())
     }
 
-    /// Injury measures by name, in the units of the summary; None where there is no value. Of several occupants the name of each
+    /// Injury measures by name, in the units of the summary; None if there is no value. Of several occupants the name of each
     /// and a dot stand before those of its measures.
     #[getter]
     fn measures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {

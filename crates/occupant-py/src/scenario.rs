@@ -70,7 +70,7 @@ impl Scenario {
         Ok(dict.into_any())
     }
 
-    /// Adds a force of one's own: `function(t, places, velocities)` gives a force for each of `places`, N. Places are spheres by name, or
+    /// Adds a force of your own: `function(t, places, velocities)` gives a force for each of `places`, N. Places are spheres by name, or
     /// points `("head", [x, y, z])` of a segment, of "vehicle" or of "space", m. The function sees and says all in space axes: x
     /// forward, y left, z up. It must follow from what it is given.
     fn add_force(&mut self, name: String, places: Vec<Bound<'_, PyAny>>, function: Py<PyAny>) -> PyResult<()> {
@@ -208,7 +208,7 @@ impl Scenario {
             let ahead = loaded.triggers_of_path();
             if !ahead.is_empty() {
                 let names: Vec<String> = ahead.iter().map(|name| format!("triggers.{name}")).collect();
-                let found = "triggers that look ahead along the path, which is to be told on the way";
+                let found = "triggers that need the path in advance, but it is given during the run";
                 let expected = "triggers by time or by what a belt does";
                 return Err(plain(format!("{}: {found}; expected {expected}", names.join(", "))));
             }

@@ -1,4 +1,4 @@
-//! A recorder of one's own: how near the driver's head comes to the hub of the steering wheel, and a run that ends as soon
+//! A recorder of your own: how near the driver's head comes to the hub of the steering wheel, and a run that ends as soon
 //! as the head has turned back. A recorder sees every output of the run and keeps what it wants.
 #![allow(clippy::print_stdout, reason = "an example prints its result")]
 

@@ -1,4 +1,4 @@
-//! A scenario text that has been read but not yet checked: the place to apply overrides.
+//! A scenario text that has been read but not yet checked. Overrides are applied here.
 
 use std::sync::Arc;
 
@@ -17,10 +17,10 @@ use placed_text::{
     targets, to_text,
 };
 
-/// Where a scenario names files.
+/// Paths at which a scenario names files.
 const FILES: [&str; 4] = ["path.file", "vehicles.*.path.file", "frames.*.path.file", "materials.*.file"];
 
-/// Whether a path leads to where a scenario names a file.
+/// Whether a scenario names a file at this path.
 pub fn names_file(path: &str) -> bool {
     let steps: Vec<&str> = path.split('.').collect();
     let fits = |pattern: &&str| {
@@ -34,15 +34,15 @@ pub fn names_file(path: &str) -> bool {
 #[derive(Clone, Debug)]
 pub struct Draft {
     pub(super) document: Document,
-    /// What it was before it was changed, if that has been looked at.
+    /// Its state before the changes, if known.
     ready: Option<Arc<Ready>>,
 }
 
 impl Draft {
-    /// Reads a text; `name` is what messages call it, such as its file name.
+    /// Reads a text; `name` is its name in messages, such as a file name.
     ///
     /// # Errors
-    /// Everything that is wrong with its syntax.
+    /// All syntax errors.
     pub fn read(text: &str, format: Format, name: &str) -> Result<Draft, Diagnostics> {
         Document::read(text, format, name).map(Draft::of)
     }
@@ -50,7 +50,7 @@ impl Draft {
     /// Reads bytes that should be UTF-8 text; [`Format::of_text`] says the format unless it is given.
     ///
     /// # Errors
-    /// The place of the first byte that is not UTF-8; else as [`Draft::read`].
+    /// The position of the first byte that is not UTF-8; otherwise as [`Draft::read`].
     pub fn read_bytes(bytes: &[u8], format: Option<Format>, name: &str) -> Result<Draft, Diagnostics> {
         Document::read_bytes(bytes, format, name).map(Draft::of)
     }
@@ -59,8 +59,8 @@ impl Draft {
         Draft { document, ready: None }
     }
 
-    /// The same, so that copies with a few other values are checked and read in a fraction of the time. A draft that is wrong
-    /// stays as it is.
+    /// Prepares the draft so that copies with a few other values are checked and read in a fraction of the time. An
+    /// invalid draft stays unchanged.
     #[must_use]
     pub fn prepared(mut self) -> Draft {
         if let Ok(ready) = self.clone().into_ready() {
@@ -73,7 +73,7 @@ impl Draft {
     /// The scenario checked and expanded.
     ///
     /// # Errors
-    /// Everything that is wrong with its words.
+    /// All problems of the scenario.
     pub(super) fn into_ready(mut self) -> Result<Ready, Diagnostics> {
         let Document { sources, root, .. } = &self.document;
         if let Some(ready) = self.ready.as_ref().and_then(|ready| ready.with(sources, root)) {
@@ -83,11 +83,11 @@ impl Draft {
         if problems.has_errors() { Err(problems) } else { Ready::of(self.document.root, whole) }
     }
 
-    /// Applies `path.to.key=value`, as a command line gives it. The value is read as TOML; what is not TOML is a text, so
-    /// that `path.speed=20 mph` needs no quotes.
+    /// Applies `path.to.key=value` from a command line. The value is read as TOML; anything else is a text, so
+    /// `path.speed=20 mph` needs no quotes.
     ///
     /// # Errors
-    /// No `=`, a path that cannot be read or leads nowhere.
+    /// No `=`, an invalid path, or a path that does not exist.
     pub fn set(&mut self, assignment: &str) -> Result<(), Diagnostics> {
         match assignment.split_once('=') {
             Some((path, value)) => self.set_value(path.trim(), value.trim()),
@@ -95,10 +95,10 @@ impl Draft {
         }
     }
 
-    /// Applies one value, given as text, at every place the path leads to.
+    /// Applies one value, given as text, at every place that the path matches.
     ///
     /// # Errors
-    /// A path that cannot be read or leads nowhere.
+    /// An invalid path, or a path that does not exist.
     pub fn set_value(&mut self, path: &str, value: &str) -> Result<(), Diagnostics> {
         let name = format!("override of {path}");
         let steps = parse_path(path).map_err(|found| refuse(&name, found, "a path such as belts.lap.anchors[1]"))?;
@@ -116,10 +116,10 @@ impl Draft {
         Ok(())
     }
 
-    /// The values a path leads to, presets included, as texts: `("joints.neck.damping", "20 in lbf s/rad")`.
+    /// The values that a path matches, including presets, as texts: `("joints.neck.damping", "20 in lbf s/rad")`.
     ///
     /// # Errors
-    /// A path that cannot be read or leads nowhere.
+    /// An invalid path, or a path that does not exist.
     pub fn get(&mut self, path: &str) -> Result<Vec<(String, Value)>, Diagnostics> {
         let steps = parse_path(path).map_err(|found| refuse(path, found, "a path such as belts.lap.slack"))?;
         let explicit = self.explicit();
@@ -147,12 +147,12 @@ impl Draft {
         units_of(&self.document)
     }
 
-    /// All that is wrong with the words of the scenario as it stands.
+    /// All problems of the scenario in its present state.
     pub fn check(&self) -> Diagnostics {
         self.clone().checked().1
     }
 
-    /// The scenario with its car written out, and all that is wrong with its words; notes every quantity in SI units.
+    /// The scenario with its car expanded, and all its problems; converts every quantity to SI units.
     fn checked(&mut self) -> (Document, Diagnostics) {
         imply_error_control(&mut self.document.root);
         let written = &mut self.document;
@@ -182,10 +182,10 @@ impl Draft {
         (whole, problems)
     }
 
-    /// Checks the scenario and reads the tables it refers to.
+    /// Checks the scenario and reads its tables.
     ///
     /// # Errors
-    /// Everything that is wrong with it.
+    /// All problems of it.
     pub fn load(self, resolver: Resolver) -> Result<Loaded, Diagnostics> {
         Loaded::from_draft(self, resolver)
     }
@@ -197,7 +197,7 @@ impl Draft {
         expand(&mut self.document.sources, &self.document.root)
     }
 
-    /// An override's value: TOML, a number such as `.2` that TOML does not take for one, or else the text itself.
+    /// The value of an override: TOML, a number such as `.2` that is not valid TOML, or otherwise the text itself.
     fn value(&self, id: SourceId) -> Node {
         let sources = &self.document.sources;
         parse_value(sources, id).unwrap_or_else(|_| {
@@ -210,7 +210,7 @@ impl Draft {
     }
 }
 
-/// An integrator of which only an accuracy is said has error control: `kind` goes without saying.
+/// An integrator with only an accuracy uses error control: `kind` is implied.
 fn imply_error_control(root: &mut Node) {
     let integrator = root.as_table_mut().and_then(|root| root.get_mut("integrator"));
     let Some(table) = integrator.and_then(|entry| entry.node.as_table_mut()) else { return };

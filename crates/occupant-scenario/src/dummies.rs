@@ -1,16 +1,16 @@
-//! `body.dummy`: body, joints and chest of a dummy in one word, under what the scenario says of them itself.
+//! `body.dummy`: body, joints and chest of a dummy by one name; other keys of the scenario override them.
 
 use serde::Deserialize;
 
 use crate::sections::DummyChoice;
 use placed_text::Node;
 
-/// Whether any body of a scenario is a dummy in one word.
+/// Whether any body of a scenario uses `dummy`.
 pub(super) fn any(root: &Node) -> bool {
     bodies(root).next().is_some()
 }
 
-/// What the dummies of a scenario are, in the words of the other sections.
+/// The dummies of a scenario, as keys of the other sections.
 pub(super) fn words(root: &Node) -> String {
     let one = |(prefix, body): (String, &Node)| {
         let choice = DummyChoice::deserialize(body.get("dummy")?).ok()?;
@@ -23,7 +23,7 @@ pub(super) fn words(root: &Node) -> String {
     bodies(root).filter_map(one).collect()
 }
 
-/// What stands before the sections of each body that names a dummy, and its section.
+/// Prefix of the sections of each body that names a dummy, and its section.
 fn bodies(root: &Node) -> impl Iterator<Item = (String, &Node)> {
     let several = root.get("occupants").and_then(Node::as_table).into_iter().flatten();
     let several = several.map(|(name, entry)| (format!("occupants.{name}."), &entry.node));
@@ -31,7 +31,7 @@ fn bodies(root: &Node) -> impl Iterator<Item = (String, &Node)> {
     all.filter_map(|(prefix, own)| Some((prefix, own.get("body")?))).filter(|(_, body)| body.get("dummy").is_some())
 }
 
-/// Body, chest and joints, and the mass of the head that its neck was fitted with, kg.
+/// Body, chest and joints, and the head mass for which its neck was fitted, kg.
 fn parts(choice: DummyChoice) -> ([&'static str; 3], f64) {
     match choice {
         DummyChoice::HybridIii50M => (["male50", "dummy50", "dummy50-like"], 4.54),

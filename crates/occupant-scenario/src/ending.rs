@@ -1,4 +1,4 @@
-//! What a run came to, by one rule for sweeps, ensembles, bands, fits and single runs.
+//! The ending of a run, by one rule for sweeps, ensembles, bands, fits and single runs.
 
 use std::any::Any;
 
@@ -8,23 +8,23 @@ use placed_text::Severity;
 
 pub use occupant_core::results::energy::{Balance, EnergyCheck};
 
-/// How a run of many ended.
+/// How one of many runs ended.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ending {
-    /// At its end time, its energy in balance to 10 %.
+    /// It reached its end time with its energy in balance to 10 %.
     Completed,
-    /// At its end time, but its results mean nothing.
+    /// It reached its end time, but its results mean nothing.
     OutOfBalance(EnergyCheck),
     /// The integration failed: when, where and why.
     Failed(String),
-    /// Its scenario is refused, so that nothing was run: what is wrong with it, in one line.
+    /// Its scenario is invalid, so nothing was run: the reason, in one line.
     Refused(String),
-    /// The program broke off, which is a defect: its last words.
+    /// The program panicked, which is a defect: its message.
     Broken(String),
 }
 
 impl Ending {
-    /// Of a run with this outcome; none if it was stopped on its way.
+    /// The ending of a run with this outcome; none if it was interrupted.
     pub fn of(outcome: &Outcome) -> Option<Ending> {
         match &outcome.status {
             Status::Stopped => None,
@@ -36,7 +36,7 @@ impl Ending {
         }
     }
 
-    /// Of a run whose scenario has these problems.
+    /// The ending of a run whose scenario has these problems.
     pub fn refused(problems: &Diagnostics) -> Ending {
         let errors = problems.iter().filter(|d| d.problem.severity == Severity::Error);
         let line = |Diagnostic { problem: p, .. }: &Diagnostic| {
@@ -47,7 +47,7 @@ impl Ending {
         Ending::Refused(lines.join(" | ").replace(['\n', '\r'], " "))
     }
 
-    /// Of a run in which the program panicked.
+    /// The ending of a run in which the program panicked.
     pub fn broken(panic: &(dyn Any + Send)) -> Ending {
         let text = panic.downcast_ref::<String>().map(String::as_str);
         let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
@@ -70,11 +70,11 @@ impl Ending {
 pub struct Unrecorded {
     /// Its number.
     pub index: u64,
-    /// What its recorder said.
+    /// Message of its recorder.
     pub source: RecordingFailed,
 }
 
-/// An error with what has caused it: the reason of the operating system stands last.
+/// An error with its causes; the operating system's reason is last.
 fn with_causes(error: &dyn std::error::Error) -> String {
     let mut text = error.to_string();
     let mut cause = error.source();

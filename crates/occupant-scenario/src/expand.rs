@@ -1,7 +1,7 @@
 //! Makes a scenario explicit: presets, pairs, `all` and joint sets become one entry for each segment, sphere and joint.
 //!
-//! Every value keeps the place it was written at. Later layers win: preset, then the scenario; within each `all`, then
-//! the pair, then the single name.
+//! Every value keeps its original position. Later layers win: preset, then the scenario; within each `all`, then the
+//! pair, then the single name.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use occupant_core::body::shape;
 use occupant_core::body::tti12::TTI12;
 use placed_text::{Document, Entry, Format, Node, Sources, Table, Value};
 
-/// Two keys of which a later layer's one, or an override's, replaces an earlier layer's other.
+/// Pairs of keys: one of them in a later layer, or in an override, replaces the other in an earlier layer.
 const RIVALS: [[&str; 2]; 9] = [
     ["mass", "weight"],
     ["peak", "delta_v"],
@@ -28,13 +28,13 @@ const RIVALS: [[&str; 2]; 9] = [
     ["returned", "atb"],
 ];
 
-/// The other key of two that say the same thing in two ways.
+/// The alternative key for the same quantity.
 pub(super) fn rival(key: &str) -> Option<&'static str> {
     let both = RIVALS.iter().find(|both| both.contains(&key))?;
     both.iter().copied().find(|other| *other != key)
 }
 
-/// The other key of two that say the same thing in two ways, as a path.
+/// The alternative key for the same quantity, as a path.
 pub fn rival_path(path: &str) -> Option<String> {
     let (above, key) = path.rsplit_once('.')?;
     Some(format!("{above}.{}", rival(key)?))
@@ -54,7 +54,7 @@ pub(super) fn expand(sources: &mut Sources, root: &Node) -> Node {
     written_out(sources, &whole)
 }
 
-/// The same of a tree whose car is written out.
+/// The same for a tree whose car is expanded.
 pub(super) fn written_out(sources: &mut Sources, root: &Node) -> Node {
     let mut explicit = root.clone();
     let sets = root.get("joint_sets").cloned();
@@ -72,7 +72,7 @@ pub(super) fn written_out(sources: &mut Sources, root: &Node) -> Node {
     explicit
 }
 
-/// Writes body and joints of the occupant out whose keys stand in `written`.
+/// Expands body and joints of the occupant with the keys in `written`.
 fn expand_occupant(sources: &mut Sources, written: &Node, sets: Option<&Node>, own: &mut Table) {
     let divided = living::divided(written);
     let written = divided.as_ref().unwrap_or(written);
@@ -87,7 +87,7 @@ fn expand_occupant(sources: &mut Sources, written: &Node, sets: Option<&Node>, o
     );
 }
 
-/// Lays what the library has of a name under what refers to it by `library`, and tells its source where nothing is told.
+/// Merges the library's entry under a section that refers to it by `library`, and adds its source if none is given.
 fn from_library(sources: &mut Sources, root: &mut Table) {
     let Some(library) = presets::library() else { return };
     let mut told = Table::new();
@@ -120,7 +120,7 @@ fn from_library(sources: &mut Sources, root: &mut Table) {
     }
 }
 
-/// What messages call the library.
+/// Name of the library in messages.
 const LIBRARY: &str = "library";
 
 /// Name of a joint, and whether it is a hinge.
@@ -137,7 +137,7 @@ fn joint_rows(body: &Node) -> Vec<JointWord> {
     own.map_or_else(report_joints, |own| own.iter().map(|(name, entry)| (name.clone(), is_hinge(entry))).collect())
 }
 
-/// Replaces the table under `key` by what `explicit` makes of its layers.
+/// Replaces the table under `key` by the result of `explicit` for its layers.
 fn section(sources: &mut Sources, root: &Node, key: &str, explicit: impl FnOnce(Vec<Node>) -> Table) -> Option<Entry> {
     let entry = root.as_table()?.get(key)?.clone();
     entry.node.as_table()?;
@@ -146,7 +146,7 @@ fn section(sources: &mut Sources, root: &Node, key: &str, explicit: impl FnOnce(
     Some(Entry { node: Node::new(entry.node.span, Value::Table(Arc::new(explicit(layers)))), ..entry })
 }
 
-/// What a section starts from: the preset that it names, or the body of the person that it describes.
+/// The base of a section: the preset that it names, or the body of the person that it describes.
 fn start(sources: &mut Sources, section: &Node, key: &str) -> Option<Node> {
     let (title, base) = presets::base(section, key)?;
     let id = sources.named(&title).unwrap_or_else(|| sources.add(title, base.shared()));
@@ -217,14 +217,14 @@ fn joints(layers: &[Node], rows: &[JointWord], sets: Option<&Node>) -> Table {
     explicit
 }
 
-/// What the layers say under any of `words`, later words and layers laid over earlier ones.
+/// The values of the layers under any of `words`; later words and layers override earlier ones.
 fn merged(layers: &[Node], words: &[String], whole: impl Fn(&str, &Entry) -> Entry) -> Option<Entry> {
     let tables = layers.iter().filter_map(Node::as_table);
     let entries = tables.flat_map(|table| words.iter().filter_map(|word| Some(whole(word, table.get(word)?))));
     entries.fold(None, |merged, entry| Some(laid_over(merged, entry)))
 }
 
-/// What is said of all joints, without what this kind of joint cannot have.
+/// The values for all joints, without those that this kind of joint cannot have.
 fn fitting(mut entry: Entry, is_hinge: bool) -> Entry {
     let foreign: &[&str] = if is_hinge {
         &["twist_damping", "stop", "stiffness", "rest_angle", "centre", "limit", "twist_limit"]
@@ -239,7 +239,7 @@ fn fitting(mut entry: Entry, is_hinge: bool) -> Entry {
     entry
 }
 
-/// A joint with the joint set it refers to laid under it. A reference that leads nowhere stays, to be reported.
+/// A joint merged over the joint set to which it refers. An unknown reference is kept and reported later.
 fn with_set(entry: &Entry, sets: Option<&Node>) -> Entry {
     let name = entry.node.get("set").and_then(Node::as_str);
     let set = name.and_then(|name| sets?.as_table()?.get(name));
@@ -262,7 +262,7 @@ fn plain_keys(layers: &[Node], except: &[&str]) -> Table {
     plain.map(|(key, entry)| (key.clone(), entry.clone())).collect()
 }
 
-/// Names in the layers that are neither a pair's word nor among `known`, in order of appearance.
+/// Names in the layers that are neither words for a pair nor among `known`, in order of appearance.
 fn other_names(layers: &[Node], known: &[&str]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for key in layers.iter().filter_map(Node::as_table).flat_map(Table::keys) {
@@ -274,7 +274,7 @@ fn other_names(layers: &[Node], known: &[&str]) -> Vec<String> {
     names
 }
 
-/// One merged entry for each of `names` that any layer speaks of, itself or through its pair.
+/// One merged entry for each of `names` that appears in a layer, itself or through its pair.
 fn members<'a>(layers: &[Node], names: impl Iterator<Item = &'a str>) -> Table {
     names
         .filter_map(|name| {
@@ -291,13 +291,13 @@ fn put(explicit: &mut Table, key: &str, layers: &[Node], members: Table) {
     }
 }
 
-/// A whole tree laid over another.
+/// A whole tree merged over another.
 pub(super) fn over(under: Node, root: &Node) -> Node {
     let entry = |node: Node| Entry { key_span: node.span, node };
     laid_over(Some(entry(under)), entry(root.clone())).node
 }
 
-/// `over` laid over `under`: tables merge key by key, everything else is replaced.
+/// `over` merged over `under`: tables merge key by key, everything else is replaced.
 pub(super) fn laid_over(under: Option<Entry>, over: Entry) -> Entry {
     let Some(mut under) = under else { return over };
     match (under.node.as_table_mut(), over.node.as_table()) {

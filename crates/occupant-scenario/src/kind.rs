@@ -1,5 +1,5 @@
-//! The kinds of quantity a scenario can hold: how each is called and written, what a bare number means in each unit
-//! system, and how a written one becomes a number in SI units.
+//! The kinds of quantity in a scenario: their names and notation, the meaning of bare numbers in each unit system, and
+//! the conversion to SI units.
 
 use occupant_units::unit::{Dimension, Scale, Unit, UnitError, parse, parse_heading};
 use serde::{Deserialize, Serialize};
@@ -142,7 +142,7 @@ impl Kind {
         KINDS.iter().find(|k| k.name == name)
     }
 
-    /// The unit of a bare number: that of the system, but degrees for angles; empty for plain numbers.
+    /// The unit of a bare number: that of the system, except degrees for angles; empty for plain numbers.
     pub const fn bare_unit(&self, units: UnitSystem) -> &'static str {
         match (self.unit, units) {
             (Unit::Radian, _) => "deg",
@@ -152,12 +152,12 @@ impl Kind {
         }
     }
 
-    /// What it is and how it may be written, for messages.
+    /// Its name and notation, for messages.
     pub(crate) fn expected(&self) -> String {
         format!("{}: {}", self.noun, self.example)
     }
 
-    /// What is written as a number in SI units, angles in radians.
+    /// A value as a number in SI units, angles in radians.
     ///
     /// # Errors
     /// No number, no number with a unit of this kind, or a number that is not finite.
@@ -174,7 +174,7 @@ impl Kind {
         finite(value * factor, &value.to_string())
     }
 
-    /// A number as a flag of a command gives it: bare in SI units, angles in degrees, or with its unit.
+    /// A number of a command's flag: bare in SI units, angles in degrees, or with its unit.
     ///
     /// # Errors
     /// As [`Kind::si`].
@@ -217,7 +217,7 @@ impl Kind {
     /// SI units in one of the unit in brackets after the name of a column, `x[mm]`.
     ///
     /// # Errors
-    /// No unit; a unit that cannot be read, or of something else. Places are those of the unit's text.
+    /// No unit, an invalid unit, or a unit of another quantity. Positions are those of the unit's text.
     pub fn column_factor(&self, name: &str, unit: Option<&str>) -> Result<f64, UnitError> {
         let expected =
             format!("the unit of {} in brackets, such as `{name}[{}]`", self.noun, self.bare_unit(UnitSystem::Si));
@@ -229,7 +229,7 @@ impl Kind {
         }
     }
 
-    /// The usual slip: pounds of mass for pounds of force, or the other way round.
+    /// The usual mistake: pounds of mass for pounds of force, or the reverse.
     fn pound_hint(&self, number: f64, unit_text: &str, scale: Scale) -> Option<String> {
         if self.unit == Unit::One || scale.dimension == self.dimension() {
             return None;
@@ -300,7 +300,7 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
         Some(word)
     })
 }
-/// The digits of a number as TOML has them: with digits on both sides of the point.
+/// The digits of a number in TOML's form: with digits on both sides of the point.
 fn plain(digits: &str) -> String {
     let (sign, digits) = match digits.strip_prefix(['-', '+']) {
         Some(rest) => (&digits[..1], rest),

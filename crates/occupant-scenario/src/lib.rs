@@ -1,4 +1,5 @@
-//! Scenarios: what a person writes, read with places, checked, and turned into the plain data of [`occupant_core`].
+//! Scenarios: text that a person writes is read with positions, checked, and converted to the plain data of
+//! [`occupant_core`].
 //!
 //! ```text
 //! text ─ Draft (overrides) ─ check ─ sections ─ Loaded ─ plain data ─ Setup ─ Model
@@ -7,8 +8,8 @@
 //! - [`placed_text`]: TOML, JSON and CSV with places, and messages that point at them;
 //! - `kind`: what a number can be, and how a written one becomes SI;
 //! - `check`: every value of the tree against the schema of the sections; quantities become SI here, once;
-//! - `sections`: one file for each concept: its keys, and the plain data they come to;
-//! - `expand`, `overrides`, `places`: presets and groups written out, values put and found by path.
+//! - `sections`: one file for each concept: its keys, and their conversion to plain data;
+//! - `expand`, `overrides`, `places`: presets and groups written out, values set and found by path.
 //!
 //! What it never does: read files, print, or compute anything that a run computes.
 //!
@@ -78,9 +79,9 @@
 //!
 //! | example | shows |
 //! |---|---|
-//! | `scenario_from_text` | a scenario file, all that is wrong with it, the peaks of its run |
+//! | `scenario_from_text` | a scenario file, all its mistakes, the peaks of its run |
 //! | `own_vehicle_path` | a program's own vehicle model as the path, an [`occupant_core::vehicle::VehicleMotion`] |
-//! | `own_recorder` | a recorder of one's own, and a run that ends early |
+//! | `own_recorder` | a custom recorder, and a run that ends early |
 //! | `sweep_with_rayon` | many runs on all cores |
 
 mod car;

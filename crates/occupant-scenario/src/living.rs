@@ -1,4 +1,5 @@
-//! What the joints of a person bring with them: a body whose neck has two joints, and of a volunteer the muscles of a living neck.
+//! Consequences of a person's joints: a body whose neck has two joints and, for a volunteer, the muscles of an active
+//! neck.
 
 use super::expand::written;
 use super::presets;
@@ -10,44 +11,44 @@ use serde::Deserialize;
 /// The preset of joints that has muscles.
 const VOLUNTEER: &str = "volunteer";
 
-/// The trigger that they answer unless another is named.
+/// The default trigger of the muscles.
 const FEELS: &str = "volunteer_feels";
 
-/// Acceleration along the floor from which a volunteer knows, ours: above what drivers do.
+/// Acceleration along the floor from which a volunteer reacts; our estimate, above that of ordinary driving.
 const FELT: &str = "[triggers]\nvolunteer_feels = { kind = \"vehicle_acceleration\", threshold = \"0.5 g\" }\n";
 
-/// Gains of a muscle, wholly active.
+/// Gains of a fully active muscle.
 struct Gains {
     joint: &'static str,
-    /// Of muscles that pull against each other: torque per angle, N·m/rad, and per rate, N·m·s/rad, at once.
+    /// Gains of antagonistic muscles: torque per angle, N·m/rad, and per rate, N·m·s/rad, immediate.
     tense: [f64; 2],
-    /// The same of reflexes, late.
+    /// The same for reflexes, delayed.
     late: [f64; 2],
-    /// Greatest torque, N·m.
+    /// Maximum torque, N·m.
     most_n_m: f64,
 }
 
-/// Fitted to four men at 15 g from ahead (Ewing and Thomas 1972), driven at T1, with their curves in view. How much is late was set
-/// by hand: the curves ask for nothing late. The base's limit is 1.5 times the 52 (± 11) N·m that men pull back at C7 (Vasavada et al.
-/// 2001), for muscles that are stretched; at the skull half of it, a guess.
+/// Fitted to four men at 15 g, frontal (Ewing and Thomas 1972), driven at T1, with their curves in view. The delayed
+/// part was set by hand: the curves need none. The base's limit is 1.5 times the 52 (± 11) N·m that men pull back at C7
+/// (Vasavada et al. 2001), for muscles that are stretched; the limit at the skull is half of it, a guess.
 const GAINS: [Gains; 2] = [
     Gains { joint: "neck_base", tense: [2.0, 8.9], late: [10.0, 1.3], most_n_m: 78.0 },
     Gains { joint: "neck", tense: [1.0, 2.4], late: [2.0, 0.2], most_n_m: 39.0 },
 ];
 
-/// Women pull 0.40 to 0.50 of what men do (Vasavada et al. 2001: 21, 15, 16 and 6 N·m back, ahead, aside and in twist, for 52, 30, 36
-/// and 15). All of their muscles are taken as so strong.
+/// Women pull 0.40 to 0.50 of what men pull (Vasavada et al. 2001: 21, 15, 16 and 6 N·m back, forward, sideways and in
+/// twist, against 52, 30, 36 and 15). The same factor is used for all of their muscles.
 const WOMEN: f64 = 0.44;
 
-/// Time constant of reflexes, ms: 20 of nerves and some 30 from there to the pull, as active models of people have them.
+/// Time constant of reflexes, ms: 20 in the nerves and some 30 until the muscle pulls, as in published active models.
 const LATE_MS: f64 = 50.0;
 
 /// Time constant of activation, fitted, ms.
 const RISE_MS: f64 = 12.0;
 
-/// Activation before anything is felt, and ms from then until muscles pull. Of the aware both are fitted; reflexes of necks show after
-/// 54 to 92 ms (Foust et al. 1973, Schneider et al. 1975), so that 50 is early and the 75 of the unaware a guess within. The tone of
-/// the braced is a guess: what someone holds for a while.
+/// Activation before the stimulus, and ms from then until muscles pull. Both are fitted for the aware. Reflexes of
+/// necks show after 54 to 92 ms (Foust et al. 1973, Schneider et al. 1975), so 50 is early; the 75 of the unaware is a
+/// guess in this range. The tone of the braced is a guess: a level that people can hold for a while.
 fn readiness(word: &str) -> [f64; 2] {
     match word {
         "unaware" => [0.0, 75.0],
@@ -57,7 +58,7 @@ fn readiness(word: &str) -> [f64; 2] {
 }
 
 impl Gains {
-    /// The muscle in the words of a scenario, of someone of a part of a man's strength.
+    /// The muscle as keys of a scenario, for a person with a fraction of a man's strength.
     fn words(&self, strength: f64, [tone, reaction_ms]: [f64; 2], trigger: &str) -> String {
         let [[k, d], [late_k, late_d]] = [self.tense, self.late].map(|both| both.map(|gain| gain * strength));
         let (joint, most) = (self.joint, self.most_n_m * strength);
@@ -78,7 +79,7 @@ fn is_volunteer(occupant: &Node) -> bool {
     preset(occupant, "joints") == Some(VOLUNTEER)
 }
 
-/// Whether someone is a volunteer, whose muscles are not those that are written.
+/// Whether someone is a volunteer without muscles of their own in the scenario.
 pub(super) fn any(root: &Node) -> bool {
     is_volunteer(root) || occupants(root).any(is_volunteer)
 }
@@ -88,14 +89,14 @@ fn occupants(root: &Node) -> impl Iterator<Item = &Node> {
     own.into_iter().flat_map(Table::values).map(|entry| &entry.node)
 }
 
-/// Whose strength an occupant has.
+/// The strength class of an occupant.
 fn sex(occupant: &Node) -> Sex {
     let own = occupant.get("body").and_then(|body| BodySection::deserialize(body).ok());
     let named = preset(occupant, "body").and_then(Person::named).unwrap_or(REFERENCE_PERSON);
     own.map_or(named, |own| own.person(named)).sex
 }
 
-/// The muscles of a volunteer who is written so, what is said of joints by their names in place of the preset's; none of another.
+/// The muscles of a volunteer; entries for its joints by name override the preset. None for anyone else.
 pub(super) fn muscles(sources: &mut Sources, occupant: &Node) -> Option<Entry> {
     if !is_volunteer(occupant) {
         return None;
@@ -117,7 +118,7 @@ pub(super) fn muscles(sources: &mut Sources, occupant: &Node) -> Option<Entry> {
     Some(muscles)
 }
 
-/// Adds what volunteers feel to the triggers of an explicit scenario, where one of `root` answers it.
+/// Adds the volunteers' trigger to an explicit scenario, if somebody in `root` uses it.
 pub(super) fn feel(sources: &mut Sources, root: &Node, explicit: &mut Table) -> Option<()> {
     let asks = |own: &Node| is_volunteer(own) && own.get("muscles").and_then(|said| said.get("trigger")).is_none();
     if !(asks(root) || occupants(root).any(asks)) {
@@ -134,7 +135,7 @@ pub(super) fn feel(sources: &mut Sources, root: &Node, explicit: &mut Table) -> 
     Some(())
 }
 
-/// A section of a text of ours.
+/// A section of a built-in text.
 fn laid(sources: &mut Sources, title: &str, text: &str, key: &str) -> Option<Entry> {
     let document: Document = written(title, text)?;
     let id = sources.named(title).unwrap_or_else(|| sources.add(title, document.shared()));
@@ -142,11 +143,11 @@ fn laid(sources: &mut Sources, title: &str, text: &str, key: &str) -> Option<Ent
     Some(Entry { node: entry.node.moved_to(id), ..entry.clone() })
 }
 
-/// Segments of a person of whom nothing else is said.
+/// Default number of segments of a person.
 const SEGMENTS: i64 = 19;
 
-/// An occupant with the joints of a person, of whose segments nothing is said, in as many as a neck of two joints is at home in; none
-/// of another.
+/// An occupant with the joints of a person and no given segments, with the number of segments for which a neck of two
+/// joints is intended; none otherwise.
 pub(super) fn divided(occupant: &Node) -> Option<Node> {
     let body = occupant.get("body")?;
     let says = |key: &str| body.get(key).is_some();

@@ -9,7 +9,7 @@ use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
 use placed_text::{Diagnostics, Document, Format, Node, Problem, Problems, table_text, with_key};
 
-/// Gives the bytes of a file named in a scenario, or says why not. The core reads no files itself.
+/// Returns the bytes of a file named in a scenario, or the reason of the failure. The core reads no files itself.
 pub type Resolver<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, String>;
 
 /// A scenario that has passed the check.
@@ -25,10 +25,10 @@ pub struct Loaded {
 }
 
 impl Scenario {
-    /// Reads and checks a scenario text. `name` is what messages call it; `resolver` gives the files it names.
+    /// Reads and checks a scenario text. `name` is its name in messages; `resolver` returns its files.
     ///
     /// # Errors
-    /// Everything that is wrong with it.
+    /// All problems of it.
     pub fn from_text(text: &str, format: Format, name: &str, resolver: Resolver) -> Result<Loaded, Diagnostics> {
         Draft::read(text, format, name)?.load(resolver)
     }
@@ -56,7 +56,7 @@ impl Loaded {
     /// The plain data of the scenario, with warnings.
     ///
     /// # Errors
-    /// Everything that does not fit together: names that lead nowhere, keys that are missing or have no meaning here.
+    /// Contradictions: unknown names, and keys that are missing or have no meaning here.
     pub fn build(&self) -> Result<(Setup, Diagnostics), Diagnostics> {
         let (drives, mut problems) = self.drives()?;
         let (setup, found) = self.built(drives.as_ref())?;
@@ -81,22 +81,23 @@ impl Loaded {
         build(&self.scenario, &self.explicit, &self.document, drives)
     }
 
-    /// Names of the triggers that look ahead along the path of the vehicle: none of a motion that is told on the way can be.
+    /// Names of the triggers that need the path of the vehicle in advance. Motion given frame by frame cannot have
+    /// them.
     pub fn triggers_of_path(&self) -> Vec<String> {
         let looks_ahead = self.explicit.triggers.iter().filter(|(_, trigger)| trigger.is_of_path());
         looks_ahead.map(|(name, _)| name.clone()).collect()
     }
 
-    /// What is driven before people are looked at, with warnings; none in a scenario without `drive`.
+    /// The vehicles of `drive`, simulated before the people, with warnings; none in a scenario without `drive`.
     ///
     /// # Errors
-    /// What is wrong with vehicles, ground and drivers.
+    /// Problems of vehicles, ground and drivers.
     pub fn drives(&self) -> Result<(Option<Drives>, Diagnostics), Diagnostics> {
         let people = if asks_for_people(&self.explicit) { self.people()? } else { Vec::new() };
         solve(&self.explicit, &self.document, &people)
     }
 
-    /// Those who begin in each vehicle of `drive`, as they sit there while it stands.
+    /// The occupants that begin in each vehicle of `drive`, seated while it stands.
     fn people(&self) -> Result<Vec<Option<People>>, Diagnostics> {
         let (setup, _) = self.built(None)?;
         let model = Model::new(setup).map_err(|problems| self.diagnose(&problems))?;
@@ -121,7 +122,7 @@ impl Loaded {
         }
     }
 
-    /// Places in the text for problems found later, when the model is built or run.
+    /// Positions in the text for problems found later, when the model is built or run.
     pub fn diagnose(&self, problems: &Problems) -> Diagnostics {
         let mut placed = Diagnostics::new();
         for problem in problems.iter() {
@@ -135,12 +136,12 @@ impl Loaded {
         &self.explicit
     }
 
-    /// The distances of its cars in words: of class and years, and as it says itself.
+    /// The distances of its `[car]`s: those of class and years, and its own values.
     pub fn dimensions(&self) -> Vec<Dimension> {
         car::dimensions(&self.document.sources, &self.root)
     }
 
-    /// Names and texts of the tables and surface files that the scenario names, each once.
+    /// Names and texts of the scenario's tables and surface files, each once.
     pub fn tables(&self) -> Vec<(&str, &str)> {
         let sources = &self.document.sources;
         let mut tables: Vec<(&str, &str)> = Vec::new();
@@ -154,7 +155,7 @@ impl Loaded {
     }
 }
 
-/// Reads the CSV files that the paths name, each once.
+/// Reads the CSV files at these paths, each once.
 fn read_tables(document: &mut Document, scenario: &Scenario, resolver: Resolver) -> Result<(), Diagnostics> {
     let mut problems = Diagnostics::new();
     for (at, file) in scenario.paths().into_iter().filter_map(|(at, path)| Some((at, path.file()?))) {

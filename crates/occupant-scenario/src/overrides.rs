@@ -5,20 +5,19 @@ use std::sync::Arc;
 use super::expand::rival;
 use placed_text::{Entry, Node, Span, Step, Value, child, follow, with_step};
 
-/// Whether a path can only be followed in the explicit form of a scenario: it has wildcards, or it leads into a list that
-/// is not written.
+/// Whether a path exists only in the explicit form of a scenario: it has wildcards, or it leads into a list that is not
+/// written.
 pub(super) fn needs_explicit(root: &Node, steps: &[Step]) -> bool {
     let written = || follow(root, steps).is_some();
     steps.contains(&Step::Every) || (steps.iter().any(|s| matches!(s, Step::Index(_))) && !written())
 }
 
-/// Puts `value` at a path without wildcards. Of two keys that say the same thing in two ways, such as the `peak` and the
-/// `delta_v` of a pulse, the one that is put replaces the other. Tables on the way are made where they are missing; a list
-/// on the way that only the explicit form has (a preset's inertia, say) is copied from there first. The word null takes away
-/// what stands there.
+/// Sets `value` at a path without wildcards. If two keys give the same quantity, such as the `peak` and the `delta_v`
+/// of a pulse, the new one replaces the other. Missing tables on the way are created. A list that only the explicit
+/// form has (such as a preset's inertia) is first copied from there. The word null removes the value.
 ///
 /// # Errors
-/// The part of the path that leads nowhere.
+/// The part of the path that does not exist.
 pub(super) fn put(root: &mut Node, explicit: Option<&Node>, steps: &[Step], value: Node) -> Result<(), String> {
     let mut node = root;
     let mut shadow = explicit;
@@ -63,7 +62,7 @@ fn path_end(step: &Step) -> &str {
     }
 }
 
-/// An entry to be filled: a copy of the explicit list if the path goes on into a list, else an empty table.
+/// An entry to be filled: a copy of the explicit list if the path continues into a list, else an empty table.
 fn blank(span: Span, next: Option<&Step>, shadow: Option<&Node>) -> Entry {
     let copied = match (next, shadow.map(|s| &s.value)) {
         (Some(_), Some(Value::Array(items))) => Some(Value::Array(items.clone())),

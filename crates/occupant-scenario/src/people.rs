@@ -1,15 +1,15 @@
-//! What is known of how people differ from the body of a scenario.
+//! Known differences between people and the body of a scenario.
 
 use crate::Loaded;
 use occupant_core::body::people::{Person, REFERENCE_PERSON};
 use occupant_core::diagnosis::BodyFigures;
 
-/// Of the presets of children.
+/// Presets of children.
 const CHILDREN: &str = "a child's segment lengths come from stature and sitting height alone, not from a survey: vary each by at least ±15 % in a study";
 
 impl Loaded {
-    /// Adds to the figures of its body how far people differ, where it makes the body of a person or has a preset that is
-    /// one: of lengths that it does not change.
+    /// Adds the variation among people to the figures of a body, for a person's body or a preset that is one: for
+    /// lengths that the scenario does not change.
     pub fn compare_with_people(&self, figures: &mut BodyFigures) {
         let Some(section) = &self.scenario.body else { return };
         let preset = section.preset.as_deref();

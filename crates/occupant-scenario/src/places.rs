@@ -1,7 +1,7 @@
-//! The places that a path leads to in a scenario: what may stand there, and what does.
+//! The places that a path matches in a scenario: their allowed and present values.
 //!
-//! A study asks this before it changes anything, so that a path that leads nowhere and a unit of the wrong kind are reported
-//! once and not by every run.
+//! A study uses this before it changes anything, so that an unknown path or a wrong unit is reported once and not by
+//! every run.
 
 use serde_json::Value as Json;
 
@@ -15,7 +15,7 @@ use occupant_core::body::both_sides;
 use occupant_units::unit::parse;
 use placed_text::{Node, Problem, Step, Value, child, children, did_you_mean, follow, parse_path, targets, to_text};
 
-/// What may stand at a place.
+/// The allowed value at a place.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Wanted {
     /// A quantity of this kind.
@@ -30,25 +30,25 @@ pub enum Wanted {
     Truth,
 }
 
-/// A single value of a scenario, presets and groups written out.
+/// A single value of a scenario with presets and groups expanded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
     /// Its path, without wildcards.
     pub path: String,
-    /// What may stand there.
+    /// The allowed value.
     pub wanted: Wanted,
-    /// What stands there, if anything.
+    /// The present value, if any.
     pub value: Option<Value>,
     /// The same as a number in SI units, angles in radians.
     pub si: Option<f64>,
 }
 
 impl Draft {
-    /// Every single value that a path stands for. A path to a group that the scenario knows by one word, such as
-    /// `joints.all.damping` or `body.segments.thighs.mass`, stands for the values that it changes.
+    /// Every single value that a path matches. A path to a group with one name, such as `joints.all.damping` or
+    /// `body.segments.thighs.mass`, matches the values that it changes.
     ///
     /// # Errors
-    /// A path that cannot be read, leads nowhere, or leads to a whole table or list.
+    /// A path that is invalid, does not exist, or is a whole table or list.
     pub fn places(&self, path: &str) -> Result<Vec<Place>, Problem> {
         let steps = parse_path(path).map_err(|found| misplaced(found, "a path such as belts.lap.slack"))?;
         let explicit = expand(&mut self.document.sources.clone(), &self.document.root);
@@ -101,7 +101,7 @@ impl Draft {
         }
     }
 
-    /// The values of the explicit scenario that change when something is written at a place where nothing stands.
+    /// The values of the explicit scenario that change when an absent key is written.
     fn changed_by(&self, explicit: &Node, steps: &[Step], place: Place) -> Result<Vec<Place>, Problem> {
         // any value that stands nowhere yet will do: it is only looked for again
         let mark = Value::String("\u{0}".to_owned());
@@ -128,7 +128,7 @@ impl Draft {
 }
 
 impl Wanted {
-    /// What may stand there, with its article.
+    /// The allowed value, with its article.
     pub fn noun(&self) -> &'static str {
         match self {
             Wanted::Quantity(kind) => kind.noun,
@@ -141,8 +141,8 @@ impl Wanted {
 }
 
 impl Draft {
-    /// A number in SI units as it would be written at a place, as TOML: with so many significant digits, in the unit that
-    /// the number there has, else in that of the scenario's bare numbers. None where no number can stand.
+    /// A number in SI units as TOML, with a number of significant digits, in the unit of the present value or otherwise
+    /// of the scenario's bare numbers. None if no number is allowed.
     pub fn written(&self, path: &str, si: f64, digits: usize) -> Option<String> {
         let place = self.places(path).ok()?.into_iter().next()?;
         if place.wanted == Wanted::Number {
@@ -153,8 +153,8 @@ impl Draft {
         Some(if matches!(place.value, Some(Value::String(_))) { format!("\"{number} {unit}\"") } else { number })
     }
 
-    /// The unit in which people read a number at a place, and how many SI units it is: that of the number that stands
-    /// there, else that of the scenario's bare numbers. None where no quantity can stand.
+    /// The unit in which a number is displayed, and its size in SI units: that of the present value, otherwise that of
+    /// the scenario's bare numbers. None if no quantity is allowed.
     pub fn unit_at(&self, path: &str) -> Option<(String, f64)> {
         let place = self.places(path).ok()?.into_iter().next()?;
         let Wanted::Quantity(kind) = place.wanted else { return None };
@@ -167,13 +167,13 @@ impl Draft {
     }
 }
 
-/// The shortest text of a number rounded to so many significant digits.
+/// The shortest text of a number rounded to a number of significant digits.
 fn rounded(value: f64, digits: usize) -> String {
     let short = format!("{value:.*e}", digits.max(1) - 1);
     short.parse::<f64>().unwrap_or(value).to_string()
 }
 
-/// Why a path with wildcards matches nothing: the first of its names that stands under none of what is before it.
+/// Why a path with wildcards matches nothing: its first name that does not exist under the previous ones.
 fn nowhere(explicit: &Node, path: &str, steps: &[Step]) -> Problem {
     let reached = |n: usize| -> Vec<&Node> {
         targets(explicit, &steps[..n]).iter().filter_map(|place| follow(explicit, place)).collect()
@@ -191,13 +191,13 @@ fn nowhere(explicit: &Node, path: &str, steps: &[Step]) -> Problem {
     misplaced(format!("`{path}` matches nothing in the base scenario"), "the path of an existing value").with_hint(hint)
 }
 
-/// Words for both sides of what stands in a table.
+/// Words for both sides of the entries of a table.
 fn pairs(node: Option<&Node>) -> Vec<String> {
     let table = node.and_then(Node::as_table);
     table.into_iter().flat_map(|table| table.keys()).filter_map(|name| both_sides(name)).collect()
 }
 
-/// The case of a table with a `kind` that its own `kind` names; else the view itself.
+/// The case of a table selected by its `kind`; otherwise the view itself.
 fn at_hand(view: View, root: &'static Json, node: Option<&Node>) -> View {
     let tag = node.and_then(|n| n.get("kind")).and_then(Node::as_str);
     let cases = view.cases(root).unwrap_or_default();
@@ -205,7 +205,7 @@ fn at_hand(view: View, root: &'static Json, node: Option<&Node>) -> View {
     case.map_or(view, |(_, view)| view)
 }
 
-/// Why a path leads to no value.
+/// Why a path matches no value.
 fn misplaced(found: impl Into<String>, expected: impl Into<String>) -> Problem {
     Problem::error("", found, expected)
 }
@@ -230,7 +230,7 @@ fn no_value(steps: &[Step]) -> Problem {
     misplaced(found, "the path of a number or a name")
 }
 
-/// The step of a path that leads nowhere, and what stands beside it.
+/// The step of a path that does not exist, and its siblings.
 fn unknown(view: &View, node: Option<&Node>, steps: &[Step], at: usize) -> Problem {
     let above = match at {
         0 => "the base scenario".to_owned(),
@@ -256,7 +256,7 @@ fn unknown(view: &View, node: Option<&Node>, steps: &[Step], at: usize) -> Probl
     misplaced(format!("{above} has nothing named `{key}`"), expected).with_hint(hint)
 }
 
-/// The paths at which a value stands.
+/// The paths of all values.
 fn collect(node: &Node, wanted: &Value, path: &mut Vec<Step>, found: &mut Vec<Vec<Step>>) {
     if node.value == *wanted {
         found.push(path.clone());

@@ -1,5 +1,5 @@
-//! What `body` and `joints` of a scenario start from: occupants that come with the program, in `presets` or made by
-//! [`occupant_core::body::people`]. Programs that do without a text get the same ones, read as a scenario's are.
+//! Bases of `body` and `joints` of a scenario: built-in occupants, in `presets` or made by
+//! [`occupant_core::body::people`]. Programs without a text get the same ones, read like a scenario's.
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -17,12 +17,12 @@ use occupant_core::body::{Body, Joint, JointKind};
 use occupant_core::forces::joint::Joints;
 use placed_text::{Document, Format, Node};
 
-/// The body that a scenario calls by this name in `body.preset`; none for a name that it does not know.
+/// The body named in `body.preset`; none for an unknown name.
 pub fn preset_body(name: &str) -> Option<Body> {
     Some(read(name)?.0)
 }
 
-/// The occupant of a scenario that says nothing but the names of presets.
+/// The occupant of a scenario with only names of presets.
 pub(crate) fn read(body: &str) -> Option<(Body, Joints)> {
     let text = format!("body = {{ preset = {body:?} }}\njoints = {{ preset = \"male50\" }}\n");
     let mut document = Document::read(&text, Format::Toml, "preset").ok()?;
@@ -30,7 +30,7 @@ pub(crate) fn read(body: &str) -> Option<(Body, Joints)> {
     occupant(body, &document)
 }
 
-/// The text that a section named `key` of a checked scenario starts from, and what messages call it.
+/// The base text of a section named `key` of a checked scenario, and its name in messages.
 pub(super) fn base(section: &Node, key: &str) -> Option<(String, Arc<Document>)> {
     let preset = section.get("preset").and_then(Node::as_str);
     match (key, preset) {
@@ -48,7 +48,7 @@ pub(super) fn base(section: &Node, key: &str) -> Option<(String, Arc<Document>)>
     }
 }
 
-/// The words of what a body section asks to give way, and what it is called.
+/// The text of the deformable parts that a body section selects, and its name.
 fn giving(own: &BodySection, made: &Made, body: &Body) -> Option<(String, String)> {
     let flesh = (own.pelvis == Some(PelvisChoice::Flesh)).then(|| chest::flesh(body));
     let chest = chest_of(own, made, body);
@@ -66,7 +66,7 @@ fn giving(own: &BodySection, made: &Made, body: &Body) -> Option<(String, String
     Some(([rides, belly, chest.join("\n"), plates, its_plate].join("\n"), name.join(" and ")))
 }
 
-/// The words of the chest that a body section asks for; none of a child, whom no test reaches.
+/// The text of the chest that a body section selects; none for a child, for which there are no tests.
 fn chest_of(own: &BodySection, made: &Made, body: &Body) -> Option<Vec<String>> {
     let choice = own.chest.filter(|choice| *choice != ChestChoice::Rigid)?;
     let is_old = made.preset.as_deref() == Some(OLD);
@@ -79,7 +79,7 @@ fn chest_of(own: &BodySection, made: &Made, body: &Body) -> Option<Vec<String>> 
 /// A text of the program, once it has been read.
 type Read = OnceLock<Option<Arc<Document>>>;
 
-/// What a body is made from.
+/// The inputs of a body.
 #[derive(Clone, PartialEq)]
 struct Made {
     preset: Option<String>,
@@ -90,11 +90,11 @@ struct Made {
     gives: (Option<ChestChoice>, Option<PelvisChoice>, Option<AbdomenChoice>),
 }
 
-/// Bodies that were made, with what messages call them.
+/// Bodies already made, with their names in messages.
 type Kept = Vec<(Made, String, Arc<Document>)>;
 
-/// The text of a body that is made from a section. The samples of a study ask for the same ones again and again, so the latest
-/// are kept.
+/// The text of a body made from a section. Samples of a study request the same bodies repeatedly, so the latest are
+/// kept.
 fn made(section: &Node, preset: Option<&str>) -> Option<(String, Arc<Document>)> {
     const KEPT: usize = 32;
     static LATEST: Mutex<Kept> = Mutex::new(Vec::new());
@@ -126,7 +126,7 @@ fn made(section: &Node, preset: Option<&str>) -> Option<(String, Arc<Document>)>
     Some((title, document))
 }
 
-/// The preset whose body stands in a file.
+/// The preset whose body is in a file.
 pub(super) const OLD: &str = "male50-1970";
 
 /// Presets of joints whose necks have two joints.
@@ -141,7 +141,7 @@ fn male50() -> Option<&'static Arc<Document>> {
 /// Sections of a scenario that the library has entries for.
 pub(super) const IN_LIBRARY: [&str; 5] = ["materials", "webbings", "limiters", "frames", "bags"];
 
-/// Materials, webbings, limiters and columns of public texts, with their sources, and bags that are made up.
+/// Materials, webbings, limiters and columns from public texts, with their sources, and invented bags.
 pub(super) fn library() -> Option<&'static Document> {
     static READ: OnceLock<Option<Document>> = OnceLock::new();
     READ.get_or_init(|| written("library", include_str!("presets/library.toml"))).as_ref()
@@ -164,8 +164,8 @@ const ELASTIC: [(&str, &str); 7] = [
     ("dummy06c-like", include_str!("presets/dummy06c-like.toml")),
 ];
 
-/// The grown-up that a body section speaks of; the reference where it is too incomplete or out of reach, which is reported
-/// when the body is built.
+/// The adult that a body section describes; the reference if it is incomplete or out of range, which is reported when
+/// the body is built.
 fn person(own: &BodySection, preset: Option<&str>) -> Option<Person> {
     let named = preset.and_then(Person::named);
     if named.is_none() && !own.describes_a_person() {
@@ -176,15 +176,15 @@ fn person(own: &BodySection, preset: Option<&str>) -> Option<Person> {
     Some(if person.is_within_reach() { person } else { start })
 }
 
-/// The grown-up of a body section, the reference person where there is none; none of a child or a body of one's own.
+/// The adult of a body section, by default the reference person; none for a child or your own body.
 pub(super) fn person_of(own: Option<&BodySection>) -> Option<Person> {
     let Some(own) = own else { return Some(people::REFERENCE_PERSON) };
     let says = own.preset.is_some() || own.describes_a_person() || !own.segments.is_empty() || !own.joints.is_empty();
     if says { person(own, own.preset.as_deref()) } else { Some(people::REFERENCE_PERSON) }
 }
 
-/// A body in the words of a scenario, with its joints where they are its own or `has_joints` says so. Every number has the
-/// same width, so that places in one text hold in another.
+/// A body as keys of a scenario, with its joints if they are its own or `has_joints` is set. Every number has the same
+/// width, so positions in one text are valid in another.
 fn words(body: &Body, has_joints: bool) -> String {
     let mut lines = vec![
         "[body]".to_owned(),

@@ -1,5 +1,5 @@
-//! What the samples of a study share: the base scenario checked, expanded and read once. A sample that changes values of
-//! sections that nothing is laid under is made from it; only what it changes is checked and read again.
+//! Data that the samples of a study share: the base scenario, checked, expanded and read once. A sample that only
+//! changes values of independent sections is derived from it; only its changes are checked and read again.
 
 use std::sync::Arc;
 
@@ -14,24 +14,24 @@ use placed_text::{Diagnostics, Document, Node, SourceId, Sources, Table};
 /// A scenario that has passed the check, and its explicit form.
 #[derive(Clone, Debug)]
 pub(crate) struct Ready {
-    /// What its places point into.
+    /// The text of its positions.
     pub(crate) sources: Sources,
     main: SourceId,
-    /// As it was written.
+    /// The scenario as written.
     pub(crate) root: Node,
-    /// The same with its car written out.
+    /// The same with its car expanded.
     whole: Node,
     pub(crate) scenario: Scenario,
-    /// With presets, pairs, `all` and joint sets written out.
+    /// With presets, pairs, `all` and joint sets expanded.
     pub(crate) explicit_root: Node,
     pub(crate) explicit: Scenario,
 }
 
-/// Sections on which others depend, or under which something is laid.
+/// Sections on which others depend, or that have a base.
 const OTHERS: [&str; 6] = ["units", "body", "joints", "joint_sets", "occupants", "provenance"];
 
 impl Ready {
-    /// Reads a document that has passed the check, with its car written out but no preset; `root` is what was written.
+    /// Reads a document that has passed the check, with its car expanded but no preset; `root` is the tree as written.
     ///
     /// # Errors
     /// A difference between check and sections.
@@ -44,7 +44,7 @@ impl Ready {
         Ok(Ready { sources, main, root, whole, scenario, explicit_root, explicit })
     }
 
-    /// The same with another tree, where no more than values of plain sections are others and those are right; else none.
+    /// The same with another tree, if it differs only in valid values of independent sections; otherwise none.
     pub(crate) fn with(&self, sources: &Sources, root: &Node) -> Option<Ready> {
         let mut document = Document { sources: sources.clone(), main: self.main, root: root.clone() };
         let has_car = car::is_there(root);
@@ -110,7 +110,7 @@ fn refers(old: &Table, new: &Table, key: &str) -> bool {
     entries.into_iter().any(|(_, entry)| entry.node.get("library").is_some())
 }
 
-/// What an explicit scenario says where it was silent.
+/// Explicit values of keys that the scenario leaves out.
 fn complete(mut explicit: Scenario) -> Scenario {
     // result files hold the explicit form, and what it leaves out was false in version 0.1.0
     let others = explicit.occupants.values_mut().filter_map(|occupant| occupant.posture.as_mut());
@@ -124,11 +124,11 @@ fn complete(mut explicit: Scenario) -> Scenario {
     explicit
 }
 
-/// Writes the function that takes a section over from another scenario, by its key.
+/// Defines the function that copies a section from another scenario, by its key.
 macro_rules! sections {
     ($($key:ident)*) => {
         impl Scenario {
-            /// Takes over a section; none of a key that is not its own.
+            /// Copies a section; none for an unknown key.
             fn take(&mut self, key: &str, from: &Scenario) -> Option<()> {
                 match key {
                     $(stringify!($key) => self.$key.clone_from(&from.$key),)*

@@ -1,4 +1,4 @@
-//! Correlated parameters: a Gaussian copula, which leaves each parameter's own distribution as it is.
+//! Correlated parameters: a Gaussian copula, which keeps each parameter's own distribution.
 //!
 //! z = Φ⁻¹(u), z′ = L z with the correlation matrix C = L Lᵀ, u′ = Φ(z′). Spearman's rank correlation r of the result
 //! belongs to Pearson's ρ = 2 sin(π r/6) of the normal scores (K. Pearson 1907; W. H. Kruskal 1958).

@@ -1,4 +1,4 @@
-//! The corners of a study: each parameter at its least and its greatest value, alone and with all others.
+//! The corners of a study: each parameter at its least and its largest value, alone and with all others.
 
 use super::Study;
 use super::law::{Law, Value};
@@ -50,7 +50,7 @@ impl Study {
     }
 }
 
-/// Least and greatest value of a parameter; none of one that a table gives, which has no ends of its own.
+/// Least and largest value of a parameter; none of one that a table gives, which has no ends of its own.
 fn ends(of: &Parameter) -> Option<[Value; 2]> {
     match &of.law {
         Law::Table => None,

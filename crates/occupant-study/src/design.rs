@@ -1,4 +1,4 @@
-//! Which samples a study has: for every index the coordinate of each parameter, computed from the index alone.
+//! The samples of a study: for every index the coordinate of each parameter, computed from the index alone.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,12 +1,12 @@
-//! Many runs on all processor cores, in lanes on each, with the rows of those that have ended handed to the caller.
+//! Many runs on all processor cores, in lanes on each, with the rows of finished runs passed to the caller.
 //!
 //! ```text
 //! indices ─ Source::begin ─ lanes, on the threads of a pool ─ Source::end ─ channel ─ sink, on the calling thread
 //! ```
 //!
-//! A thread takes the next index whenever one of its lanes is free, so lanes stay filled until the indices run out; batches
-//! would leave them idle at each end. What a row holds depends on its index alone: rows are the same bits for any number of
-//! threads, their order is not. Memory holds the runs under way and a handful of rows. Reads and writes no files.
+//! A thread takes the next index whenever one of its lanes is free, so lanes stay filled until the indices run out;
+//! batches would leave them idle at each end. A row depends only on its index: rows have the same bits for any number
+//! of threads, but not the same order. Memory holds the runs in progress and a few rows. Reads and writes no files.
 
 use std::cell::RefCell;
 use std::iter::from_fn;

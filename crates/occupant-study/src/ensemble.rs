@@ -1,9 +1,9 @@
 //! Ensembles: the same sample many times with small changes, to see which figures are stable.
 //!
-//! An occupant's motion after a hard contact is chaotic: the smallest change grows. Member 0 is the sample itself. Every
-//! other member changes each place by a number of its own, drawn evenly within plus and minus the tolerance. The numbers
-//! depend on seed, member and place alone: members of different samples are perturbed alike, so that samples are compared
-//! under the same changes, and an ensemble of 64 begins with that of 32.
+//! An occupant's motion after a hard contact is chaotic: the smallest change grows. Member 0 is the sample itself.
+//! Every other member changes each place by its own random number, uniform within plus and minus the tolerance. The
+//! numbers depend only on seed, member and place. So members of different samples have the same changes, and an
+//! ensemble of 64 begins with that of 32.
 
 use super::law::Value;
 use super::parameter::{Assignment, Parameter, Target, changed, place};

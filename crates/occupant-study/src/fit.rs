@@ -1,4 +1,4 @@
-//! What a study says of a fit, in SI units: which tests, which channels, how far the search may go.
+//! The fit of a study, in SI units: its tests, its channels, its search budget.
 
 use super::Study;
 use super::fit_section::{FilterChoice, FitChannel, FitTest, Misfit};

@@ -50,7 +50,7 @@ pub enum Misfit {
     /// Root mean square difference over the measured peak, weighted root mean square of the channels.
     #[default]
     Rms,
-    /// Error of the greatest value over the measured one, and of its time over the length of the window, root mean square
+    /// Error of the largest value over the measured one, and of its time over the length of the window, root mean square
     /// of both and of the channels, weighted.
     PeakAndTime,
 }
@@ -134,7 +134,7 @@ pub struct FitTest {
 pub struct OffsetRange {
     /// Least.
     pub from: Time,
-    /// Greatest.
+    /// Largest.
     pub to: Time,
 }
 
@@ -145,7 +145,7 @@ pub struct GainRange {
     /// Least, above 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub from: f64,
-    /// Greatest.
+    /// Largest.
     pub to: f64,
 }
 

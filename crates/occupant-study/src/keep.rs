@@ -1,4 +1,4 @@
-//! `keep` of a study: of which runs the whole motion is kept.
+//! `keep` of a study: the runs whose time histories are kept.
 
 use std::borrow::Cow;
 
@@ -44,7 +44,7 @@ pub enum Keep {
     None,
     /// Of these.
     Indices(Vec<u64>),
-    /// Of those with the greatest values of a measure.
+    /// Of those with the largest values of a measure.
     Worst {
         /// How many.
         count: u64,

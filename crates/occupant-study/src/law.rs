@@ -28,14 +28,14 @@ pub enum Distribution<N> {
     Uniform {
         /// Least value.
         from: N,
-        /// Greatest value.
+        /// Largest value.
         to: N,
     },
     /// Every ratio between two values equally likely.
     LogUniform {
         /// Least value.
         from: N,
-        /// Greatest value.
+        /// Largest value.
         to: N,
     },
     /// Gauss's bell.
@@ -53,7 +53,7 @@ pub enum Distribution<N> {
         sd: N,
         /// Least value.
         from: N,
-        /// Greatest value.
+        /// Largest value.
         to: N,
     },
     /// Straight lines up to the likeliest value and down again.
@@ -62,7 +62,7 @@ pub enum Distribution<N> {
         from: N,
         /// Likeliest value.
         mode: N,
-        /// Greatest value.
+        /// Largest value.
         to: N,
     },
 }
@@ -176,7 +176,7 @@ impl Distribution<f64> {
 pub struct Bounds {
     /// Least value.
     pub from: f64,
-    /// Greatest value.
+    /// Largest value.
     pub to: f64,
     /// Whether equal ratios are equal steps.
     pub log: bool,

@@ -222,7 +222,7 @@ impl Study {
     /// Puts the values of a run into a copy of the base scenario.
     ///
     /// # Errors
-    /// A path that leads nowhere in this draft; never in a clone of [`Study::base`].
+    /// A path that does not exist in this draft; never in a clone of [`Study::base`].
     pub fn apply(&self, index: u64, draft: &mut Draft) -> Result<(), Diagnostics> {
         parameter::put(&self.assignments(index), draft)
     }

@@ -1,4 +1,4 @@
-//! How far a computed history is from a measured one, as one number: 0 where they are the same.
+//! Difference between a computed and a measured history, as one number: 0 if they are equal.
 
 use super::fit_section::Misfit;
 use crash_measures::correlation::iso18571;
@@ -85,7 +85,7 @@ fn peak_and_time(measured: &[f64], computed: &[f64], dt_s: f64) -> f64 {
     (0.5 * (peak * peak + time * time)).sqrt()
 }
 
-/// Place, in samples, and height of the parabola through a greatest sample and those `half` to each side.
+/// Place, in samples, and height of the parabola through a largest sample and those `half` to each side.
 fn vertex(values: &[f64], at: usize, half: usize) -> (f64, f64) {
     let there = (at as f64, values[at]);
     if at < half || at + half >= values.len() {

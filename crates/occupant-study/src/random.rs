@@ -1,4 +1,5 @@
-//! Random numbers by address: the number at (seed, purpose, index, dimension) is the same whoever asks, in any order.
+//! Random numbers by address: the number at (seed, purpose, index, dimension) is always the same, in any order of
+//! requests.
 //!
 //! Philox 4×32-10, a block cipher weakened for speed: the address is the counter, the seed the key. J. K. Salmon,
 //! M. A. Moraes, R. O. Dror, D. E. Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC11 (2011); it passes TestU01's

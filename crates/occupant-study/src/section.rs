@@ -1,6 +1,6 @@
 //! A study as it is written: one field for each key of the text.
 //!
-//! The doc comments are the descriptions of the JSON Schema, so they speak to the person who writes a study.
+//! The doc comments are the descriptions of the JSON Schema, so they address the author of a study.
 
 use std::sync::OnceLock;
 
@@ -135,7 +135,7 @@ pub struct GridSection {
 pub struct RangeSection {
     /// Least value.
     pub from: Value,
-    /// Greatest value.
+    /// Largest value.
     pub to: Value,
     /// With "log" equal ratios are equally likely; "linear" if absent.
     pub scale: Option<ScaleChoice>,

@@ -1,4 +1,4 @@
-//! What an ensemble says about its figures: medians, quantiles, bands over time, and which figures are stable.
+//! Statistics of an ensemble's figures: medians, quantiles, bands over time, and which figures are stable.
 //!
 //! All functions take plain slices, one number for each member, member 0 the unperturbed one; a member that failed or has
 //! no such figure is NaN and is counted as missing.
@@ -24,7 +24,7 @@ pub struct Spread {
     pub q75: f64,
     /// 95 % lie below.
     pub q95: f64,
-    /// Greatest.
+    /// Largest.
     pub greatest: f64,
 }
 
@@ -189,7 +189,7 @@ impl Band {
         self.median.is_empty()
     }
 
-    /// Greatest size of the median: what a tolerance may be a part of.
+    /// Largest size of the median: what a tolerance may be a part of.
     pub fn peak(&self) -> f64 {
         let sizes = self.median.iter().map(|x| x.abs());
         sizes.filter(|x| x.is_finite()).fold(0.0, f64::max)

@@ -13,7 +13,7 @@ pub struct StudyText {
 }
 
 impl StudyText {
-    /// Reads and checks a text; `name` is what messages call it, such as its file name.
+    /// Reads and checks a text; `name` is its name in messages, such as its file name.
     ///
     /// # Errors
     /// Everything that is wrong with its syntax, or else with its words.

@@ -27,36 +27,36 @@ use crate::{
 #[derive(Clone, Debug)]
 pub struct Case {
     pub(crate) setup: Setup,
-    /// Its text, as long as nothing was added in code.
+    /// Its text, unless something was added in code.
     pub(crate) text: Option<Scenario>,
-    /// Triggers that look ahead along the path of the text, and that path.
+    /// Triggers that need the path of the text in advance, and that path.
     pub(crate) look_ahead: Option<(Vec<String>, VehiclePath)>,
     warnings: Vec<Problem>,
     /// Whether it was begun in code.
     is_of_code: bool,
     origin: Origin,
-    /// What was given things of another case.
+    /// Names of calls that received ids of another case.
     strange: Vec<String>,
 }
 
 impl Case {
-    /// An occupant in a parked vehicle, nothing to touch.
+    /// An occupant in a parked vehicle, with nothing to touch.
     pub fn new(title: impl Into<String>, occupant: Occupant) -> Self {
         let mut setup = SetupBuilder::new(title, occupant.body, occupant.joints).setup;
         setup.time.end_s = 0.2;
         Case { is_of_code: true, ..Case::from_setup(setup) }
     }
 
-    /// Of the simulator's plain data.
+    /// A case from the simulator's plain data.
     pub fn from_setup(setup: Setup) -> Self {
         let (warnings, strange) = (Vec::new(), Vec::new());
         Case { setup, text: None, look_ahead: None, warnings, is_of_code: false, origin: Origin::new(), strange }
     }
 
-    /// The case of a scenario's text that names no files.
+    /// The case of a scenario's text without files.
     ///
     /// # Errors
-    /// All that is wrong with it, each with line and column.
+    /// All mistakes, each with line and column.
     pub fn from_toml(text: &str) -> Result<Self, Error> {
         Case::from_scenario(&Scenario::from_toml(text)?)
     }
@@ -64,7 +64,7 @@ impl Case {
     /// The case of a scenario.
     ///
     /// # Errors
-    /// All that is wrong with it, each with line and column.
+    /// All mistakes, each with line and column.
     pub fn from_scenario(scenario: &Scenario) -> Result<Self, Error> {
         let (setup, triggers, warnings) = scenario.build()?;
         let look_ahead = (!triggers.is_empty()).then(|| (triggers, setup.path.clone()));
@@ -74,8 +74,8 @@ impl Case {
     /// The text as TOML of a case that was read from one.
     ///
     /// # Errors
-    /// A case built or changed in code: code has no text. A case that is to be written is built of its text: [`Scenario::set`] takes
-    /// whole tables, such as `set("belts.lap", "{ … }")`.
+    /// A case built or changed in code, which has no text. To write a case, build it from a text: [`Scenario::set`]
+    /// accepts whole tables, such as `set("belts.lap", "{ … }")`.
     pub fn to_toml(&self) -> Result<String, Error> {
         match &self.text {
             Some(text) => text.to_toml(),
@@ -87,7 +87,7 @@ impl Case {
         }
     }
 
-    /// What the text of the case warned of.
+    /// Warnings of the case's text.
     pub fn warnings(&self) -> &[Problem] {
         &self.warnings
     }
@@ -97,7 +97,7 @@ impl Case {
         &self.setup
     }
 
-    /// The same, to be changed.
+    /// The same, mutable.
     pub fn setup_mut(&mut self) -> &mut Setup {
         self.text = None;
         &mut self.setup
@@ -210,7 +210,7 @@ impl Case {
         self.setup_mut().bags.push(bag);
     }
 
-    /// Adds a steering column that gives way; it carries the frame that it names.
+    /// Adds a steering column that yields; it carries the frame that it names.
     pub fn column(&mut self, column: Column) {
         self.setup_mut().columns.push(column);
     }
@@ -220,7 +220,7 @@ impl Case {
         self.frame(OtherFrame { name: name.into(), path, parent: None })
     }
 
-    /// Adds a panel that moves against the vehicle and turns about a point of it, m.
+    /// Adds a panel that moves relative to the vehicle and turns about a point of it, m.
     pub fn panel(&mut self, name: &str, path: VehiclePath, about_m: [f64; 3]) -> FrameId {
         self.frame(OtherFrame { name: name.into(), path, parent: Some((Frame::Vehicle, about_m.into())) })
     }
@@ -238,7 +238,7 @@ impl Case {
         self.setup_mut().output.markers.push(marker);
     }
 
-    /// Adds a force of one's own; its channels are `own_force.NAME.*`.
+    /// Adds a force of your own; its channels are `own_force.NAME.*`.
     pub fn force(&mut self, name: &str, force: impl Force + 'static) {
         self.setup_mut().own_forces.push(OwnForce::new(name, force));
     }
@@ -249,15 +249,15 @@ impl Case {
         self.setup_mut().posture = InitialPosture::Seated(seat.seating);
     }
 
-    /// Notes what was given a thing of another case.
+    /// Notes a call that received an id of another case.
     fn know(&mut self, name: &str, of: Origin) {
         if of != self.origin {
             self.strange.push(format!("`{name}` was given a part of another case"));
         }
     }
 
-    /// Lets a body of the report's 12 segments stand upright with hanging arms, the upper end of its middle torso in this place
-    /// of space, m.
+    /// Places a body of the report's 12 segments upright with hanging arms, with the upper end of its middle torso at
+    /// this position in space, m.
     pub fn standing_at(&mut self, place_m: [f64; 3]) {
         let mut q = [0.0; DOF];
         q[..3].copy_from_slice(&place_m);
@@ -265,17 +265,17 @@ impl Case {
         self.setup_mut().posture = InitialPosture::Coordinates(Box::new(coordinates));
     }
 
-    /// When the run ends, s.
+    /// End time of the run, s.
     pub fn ends_at(&mut self, end_s: f64) {
         self.setup_mut().time.end_s = end_s;
     }
 
-    /// How often results are recorded, s.
+    /// Output interval, s.
     pub fn outputs_every(&mut self, interval_s: f64) {
         self.setup_mut().time.output_s = interval_s;
     }
 
-    /// How it is integrated; as accurate as [`Accuracy::Engineering`](occupant_core::model::accuracy::Accuracy) if nobody says.
+    /// The integrator; by default as accurate as [`Accuracy::Engineering`](occupant_core::model::accuracy::Accuracy).
     pub fn integrator(&mut self, integrator: Integrator) {
         self.setup_mut().integrator = integrator;
     }
@@ -283,7 +283,7 @@ impl Case {
     /// The model.
     ///
     /// # Errors
-    /// All that is wrong with the case.
+    /// All problems of the case.
     pub fn model(&self) -> Result<Model, Error> {
         self.check_triggers()?;
         if !self.strange.is_empty() {

@@ -14,48 +14,48 @@ use placed_text::Problems;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ErrorKind {
-    /// A text that is no scenario: [`Error::diagnostics`] has the places.
+    /// An invalid text: [`Error::diagnostics`] has the positions.
     Text,
-    /// A case of which no model can be made: [`Error::problems`] has all that is wrong.
+    /// An invalid case: [`Error::problems`] lists all problems.
     Case,
-    /// A name that nothing has.
+    /// An unknown name.
     Name,
-    /// An input that cannot be: a time, a frame of the vehicle, a number.
+    /// An impossible input: a time, a frame of the vehicle, a number.
     Input,
-    /// The integration could not go on.
+    /// The integration could not continue.
     Integration,
     /// Results could not be recorded.
     Recording,
 }
 
-/// What went wrong, in words that say what was found, what was expected and how to mend it.
+/// Description: what was found, what was expected and how to correct it.
 pub struct Error {
     kind: ErrorKind,
     source: Box<dyn std::error::Error + Send + Sync>,
 }
 
 impl Error {
-    /// Of a kind, in words or as another error says it.
+    /// An error of a kind, with a description or a cause.
     pub fn new(kind: ErrorKind, source: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> Self {
         Error { kind, source: source.into() }
     }
 
-    /// What kind it is.
+    /// Its kind.
     pub fn kind(&self) -> ErrorKind {
         self.kind
     }
 
-    /// What is wrong with a text, each with line and column.
+    /// Problems of a text, each with line and column.
     pub fn diagnostics(&self) -> Option<&Diagnostics> {
         self.source.downcast_ref()
     }
 
-    /// What is wrong with a case, each with its path.
+    /// Problems of a case, each with its path.
     pub fn problems(&self) -> Option<&Problems> {
         self.source.downcast_ref()
     }
 
-    /// The name that nothing has, with the nearest that something has.
+    /// The unknown name, with the nearest existing one.
     pub fn unknown(&self) -> Option<&Unknown> {
         self.source.downcast_ref()
     }
@@ -127,12 +127,12 @@ impl From<RunError> for Error {
     }
 }
 
-/// A name that a model has not.
+/// A name that a model does not have.
 pub(crate) fn unknown<'n>(what: &'static str, name: &str, names: impl Iterator<Item = &'n str>) -> Error {
     Error::from(Unknown::new(what, name, names))
 }
 
-/// The channel of a name that a model has not.
+/// The channel of a name that a model does not have.
 pub(crate) fn no_channel(model: &Model, name: &str) -> Error {
     let all = occupant_core::results::channel::channels(model);
     let names = || all.iter().map(|channel| channel.name.as_str());

@@ -1,4 +1,4 @@
-//! Names of things of a case, each of its own type. Each knows the case that gave it.
+//! Ids of items of a case, each with its own type. Each knows its case.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -6,12 +6,12 @@ use occupant_core::body::Segment;
 use occupant_core::forces::contact::surface::Frame;
 use occupant_core::forces::own::Place;
 
-/// The number of a case, by which things of another are told.
+/// The number of a case, which distinguishes ids of different cases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Origin(u64);
 
 impl Origin {
-    /// One that no case of the process has.
+    /// A number that no case of the process has.
     pub(crate) fn new() -> Self {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         Origin(NEXT.fetch_add(1, Ordering::Relaxed))

@@ -57,7 +57,7 @@ pub use occupant_scenario as scenario;
 #[cfg(any(feature = "mcap", feature = "parquet"))]
 pub use occupant_files as files;
 
-/// All that a program begins with.
+/// Everything that a program usually needs.
 pub mod prelude {
     pub use crate::measure::*;
     pub use crate::{

@@ -1,6 +1,6 @@
 //! Measures of a run by type.
 
-/// A measure that every run of an occupant has, or has where its body has the instrument.
+/// A measure of an occupant's run, if the body has the instrument.
 pub trait Measure: Copy {
     /// Its name among the figures of a run.
     const NAME: &'static str;
@@ -32,19 +32,19 @@ measures! {
     Hic15: "hic15", "1";
     /// Head injury criterion over at most 36 ms.
     Hic36: "hic36", "1";
-    /// Greatest acceleration of the head, m/s².
+    /// Largest acceleration of the head, m/s².
     HeadPeak: "head.peak", "m/s²";
     /// Acceleration of the head that is exceeded for 3 ms in all, m/s².
     HeadThreeMs: "head.three_ms_cumulative", "m/s²";
-    /// Greatest acceleration of the chest, m/s².
+    /// Largest acceleration of the chest, m/s².
     ChestPeak: "chest.peak", "m/s²";
     /// Acceleration of the chest that is exceeded for 3 ms in all, m/s².
     ChestThreeMs: "chest.three_ms_cumulative", "m/s²";
-    /// Greatest acceleration of the pelvis, m/s².
+    /// Largest acceleration of the pelvis, m/s².
     PelvisPeak: "pelvis.peak", "m/s²";
     /// Neck injury criterion.
     Nij: "nij", "1";
-    /// Greatest imbalance of energy as a part of the greatest energy.
+    /// Largest imbalance of energy as a part of the largest energy.
     EnergyError: "energy.balance_error", "1";
 }
 

@@ -1,4 +1,4 @@
-//! How the vehicle of a case moves.
+//! Motion of the vehicle of a case.
 
 use occupant_core::vehicle::{PulseDefinition, PulsePath, PulseShape, VehiclePath, VehicleState};
 use placed_text::with_key;
@@ -6,24 +6,24 @@ use placed_text::with_key;
 use crate::{Case, Error, ErrorKind};
 
 impl Case {
-    /// Gives the vehicle a path. A text's triggers that look ahead along another path are refused by [`Case::model`].
+    /// Gives the vehicle a path. [`Case::model`] refuses a text's triggers that were computed for another path.
     pub fn path(&mut self, path: VehiclePath) {
         self.setup_mut().path = path;
     }
 
-    /// Lets the vehicle go straight ahead, m/s, slowed by a pulse.
+    /// Straight travel of the vehicle, m/s, slowed by a pulse.
     ///
     /// # Errors
-    /// A pulse that cannot be.
+    /// An impossible pulse.
     pub fn pulse(&mut self, speed_m_s: f64, shape: PulseShape) -> Result<(), Error> {
         self.path(VehiclePath::Pulse(PulsePath::new(PulseDefinition::new(speed_m_s, shape))?));
         Ok(())
     }
 
-    /// Leaves the vehicle's motion to be told on the way: [`Run::push`](crate::Run::push). It begins as `start` says.
+    /// The vehicle's motion is given during the run: [`Run::push`](crate::Run::push). It begins with the state `start`.
     ///
     /// # Errors
-    /// A text with triggers that look ahead along its path: of what is not known nothing can be looked at. Nothing is changed then.
+    /// A text with triggers that need the path in advance. The case then stays unchanged.
     pub fn live(&mut self, start: VehicleState) -> Result<(), Error> {
         if let Some((triggers, _)) = &self.look_ahead {
             return Err(looked_ahead(triggers));
@@ -32,7 +32,7 @@ impl Case {
         Ok(())
     }
 
-    /// Whether the triggers that look ahead have seen the path that there is.
+    /// Whether the triggers that need the path in advance were computed for the present path.
     pub(crate) fn check_triggers(&self) -> Result<(), Error> {
         match &self.look_ahead {
             Some((triggers, path)) if *path != self.setup.path => Err(looked_ahead(triggers)),
@@ -41,7 +41,7 @@ impl Case {
     }
 }
 
-/// The triggers that look ahead along a path that is no longer there.
+/// Triggers computed for a path that is no longer used.
 fn looked_ahead(triggers: &[String]) -> Error {
     let names: Vec<String> = triggers.iter().map(|name| with_key("triggers", name)).collect();
     let found = "triggers that were evaluated on the path of the text, which is to be replaced";

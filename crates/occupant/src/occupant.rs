@@ -1,4 +1,4 @@
-//! Who sits there, and how.
+//! Occupants and their posture.
 
 use occupant_core::body::people::Division;
 use occupant_core::body::{Body, Sex};
@@ -7,7 +7,7 @@ use occupant_core::model::seating::{Seating, Settling};
 
 use crate::{Error, ErrorKind, SurfaceId};
 
-/// A body with what acts in its joints.
+/// A body with its joints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Occupant {
     pub(crate) body: Body,
@@ -23,24 +23,24 @@ impl Occupant {
     /// A person of this stature, m, and mass, kg, in 12 segments.
     ///
     /// # Errors
-    /// A size of which the surveys know nobody.
+    /// A size outside the surveys.
     pub fn person(sex: Sex, stature_m: f64, mass_kg: f64) -> Result<Self, Error> {
         let found = || Error::new(ErrorKind::Input, format!("no person of {stature_m} m and {mass_kg} kg is known"));
         Ok(Occupant { body: Body::person(sex, stature_m, mass_kg).ok_or_else(found)?, joints: Joints::male50() })
     }
 
-    /// A body of one's own with joints of its tree.
+    /// Your own body, with joints of its tree.
     pub fn custom(body: Body, joints: Joints) -> Self {
         Occupant { body, joints }
     }
 
-    /// How many segments bodies of people can have.
+    /// Numbers of segments of people's bodies.
     pub fn divisions() -> Vec<i64> {
         (1..=64).filter(|segments| Division::of(*segments).is_some()).collect()
     }
 }
 
-/// Where and how a body sits.
+/// Seat and posture of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seat {
     pub(crate) seating: Seating,
@@ -71,7 +71,7 @@ impl Seat {
         self
     }
 
-    /// What is moved until springs and weight balance.
+    /// The part that moves until springs and weight balance.
     #[must_use]
     pub fn settle(mut self, settle: Settling) -> Self {
         self.seating.settle = settle;

@@ -1,4 +1,4 @@
-//! What a run gives.
+//! Results of a run.
 
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Series, channels, find};
@@ -18,7 +18,7 @@ pub trait Simulate {
     /// Runs it and keeps everything.
     ///
     /// # Errors
-    /// A step that fails: a run that blew up has no results.
+    /// A step that fails: an unstable run has no results.
     fn simulate(&self) -> Result<Results, Error>;
 }
 
@@ -30,12 +30,12 @@ impl Simulate for Model {
     }
 }
 
-/// A recorder that keeps what results are made of.
+/// A recorder for everything that results need.
 #[derive(Clone, Debug)]
 pub struct Log {
     summarizer: Summarizer,
     series: Series,
-    /// What is run, from its first output on.
+    /// The recorded run, from its first output on.
     model: Option<Model>,
 }
 
@@ -45,19 +45,19 @@ impl Log {
         Log { summarizer: Summarizer::new(), series: Series::new(channels(model)), model: None }
     }
 
-    /// Keeps the named channels alone.
+    /// Keeps only the named channels.
     ///
     /// # Errors
-    /// A name that no channel has.
+    /// An unknown channel.
     pub fn of(model: &Model, names: &[&str]) -> Result<Self, Error> {
         let chosen = names.iter().map(|name| find(model, name)).collect::<Result<Vec<_>, _>>()?;
         Ok(Log { summarizer: Summarizer::new(), series: Series::new(chosen), model: None })
     }
 
-    /// Ends a run that was recorded here, wherever it stands.
+    /// Ends a recorded run at its present time.
     ///
     /// # Errors
-    /// A run of which nothing was recorded here, or of which more was recorded than it has come to.
+    /// A run without records here, or with records beyond its present time.
     pub fn end(mut self, run: Run<'_>) -> Result<Results, Error> {
         let is_own = self.model.as_ref().is_none_or(|model| model.setup() == run.model().setup());
         if !is_own || self.series.time_s.last().is_some_and(|latest_s| *latest_s > run.time_s()) {
@@ -117,7 +117,7 @@ impl Results {
     /// A measure, in its SI unit.
     ///
     /// # Errors
-    /// One that the run has not, such as a neck's of a body without one.
+    /// A measure that the run lacks, such as a neck measure of a body without a neck.
     pub fn measure<M: Measure>(&self, _measure: M) -> Result<f64, Error> {
         self.figure(M::NAME)
     }
@@ -125,7 +125,7 @@ impl Results {
     /// A figure by name, in its SI unit: `belts.lap.peak`.
     ///
     /// # Errors
-    /// A name that no figure has; one without a value, such as the time of a contact that never came.
+    /// An unknown figure, or one without a value, such as the time of a contact that never came.
     pub fn figure(&self, name: &str) -> Result<f64, Error> {
         let names = || self.figures.iter().map(|figure| figure.name.as_str());
         let figure = self.figures.iter().find(|figure| figure.name == name);
@@ -146,7 +146,7 @@ impl Results {
     /// A channel, a value for each output time in its SI unit: `head.acceleration.resultant`.
     ///
     /// # Errors
-    /// A name that no channel has, or one that was not kept.
+    /// An unknown channel, or one that was not kept.
     pub fn channel(&self, name: &str) -> Result<&[f64], Error> {
         self.series.of(name).ok_or_else(|| match find(&self.model, name) {
             Ok(_) => Error::new(ErrorKind::Name, format!("the channel `{name}` was not kept: `Log::of`")),

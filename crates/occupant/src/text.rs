@@ -1,4 +1,4 @@
-//! A case as text.
+//! Cases as text.
 
 use std::fmt;
 
@@ -36,10 +36,10 @@ impl fmt::Debug for Scenario {
 }
 
 impl Scenario {
-    /// Reads TOML; whether it is a whole scenario is looked at when it is used.
+    /// Reads TOML; whether the scenario is complete is checked when it is used.
     ///
     /// # Errors
-    /// All that is wrong with its syntax.
+    /// All syntax errors.
     pub fn from_toml(text: &str) -> Result<Self, Error> {
         Ok(Scenario { draft: Draft::read(text, Format::Toml, "scenario")?, files: Vec::new() })
     }
@@ -47,12 +47,13 @@ impl Scenario {
     /// Reads JSON, as [`Scenario::from_toml`].
     ///
     /// # Errors
-    /// All that is wrong with its syntax.
+    /// All syntax errors.
     pub fn from_json(text: &str) -> Result<Self, Error> {
         Ok(Scenario { draft: Draft::read(text, Format::Json, "scenario")?, files: Vec::new() })
     }
 
-    /// The same with the bytes of a file that it names, such as the table of its path; in place of those that it had by that name.
+    /// The same with the bytes of a file that it names, such as the table of its path; they replace earlier ones of
+    /// that name.
     #[must_use]
     pub fn with_file(mut self, name: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Self {
         let name = name.into();
@@ -64,21 +65,21 @@ impl Scenario {
     /// The value at a path, as text: `joints.neck.damping`, presets included.
     ///
     /// # Errors
-    /// A path that leads nowhere, or to several places.
+    /// A path that matches nothing, or several values.
     pub fn get(&self, path: &str) -> Result<String, Error> {
         let mut found = self.draft.clone().get(path)?;
         match (found.pop(), found.is_empty()) {
             (Some((_, value)), true) => written(&value).ok_or_else(|| {
                 Error::new(ErrorKind::Name, format!("`{path}` is {}; expected a single value", value.kind()))
             }),
-            _ => Err(Error::new(ErrorKind::Name, format!("`{path}` leads to several places; expected one"))),
+            _ => Err(Error::new(ErrorKind::Name, format!("`{path}` matches several values; expected one"))),
         }
     }
 
-    /// Puts a value, as text with its unit: `set("path.speed", "25 mph")`.
+    /// Sets a value, as text with its unit: `set("path.speed", "25 mph")`.
     ///
     /// # Errors
-    /// A path that leads nowhere; a key that no scenario has, or a value that it cannot have. Nothing is changed then.
+    /// A path that matches nothing, an unknown key, or an invalid value. The text then stays unchanged.
     pub fn set(&mut self, path: &str, value: &str) -> Result<(), Error> {
         let mut changed = self.draft.clone();
         changed.set_value(path, value)?;
@@ -91,10 +92,10 @@ impl Scenario {
         Ok(())
     }
 
-    /// The scenario as TOML, with all that was set.
+    /// The scenario as TOML, with all changes.
     ///
     /// # Errors
-    /// All that is wrong with the scenario.
+    /// All problems of the scenario.
     pub fn to_toml(&self) -> Result<String, Error> {
         let loaded = self.loaded()?;
         loaded.scenario.to_toml().map_err(|error| Error::new(ErrorKind::Text, error))
@@ -108,7 +109,7 @@ impl Scenario {
         Ok(self.draft.clone().load(&file)?)
     }
 
-    /// The plain data, the triggers that look ahead along the path, and warnings.
+    /// The plain data, the triggers that need the path in advance, and warnings.
     pub(crate) fn build(&self) -> Result<(Setup, Vec<String>, Vec<Problem>), Error> {
         let loaded = self.loaded()?;
         let (setup, warnings) = loaded.build()?;
@@ -117,7 +118,7 @@ impl Scenario {
     }
 }
 
-/// A value in words; none of a list of lists or a table.
+/// A value as text; none for a list of lists or a table.
 fn written(value: &Value) -> Option<String> {
     match value {
         Value::Bool(is) => Some(is.to_string()),

@@ -140,9 +140,9 @@ pub struct TextTable<'a> {
     pub separator: Separator,
     /// Its first line.
     pub first: Span,
-    /// Its headings; none where it begins with numbers.
+    /// Its headings; none if it begins with numbers.
     pub headings: Vec<Cell<'a>>,
-    /// Units in a line of their own below the headings; none where there is no such line.
+    /// Units in a line of their own below the headings; none if there is no such line.
     pub units: Vec<Cell<'a>>,
     /// The lines below.
     pub lines: Vec<Span>,
@@ -199,7 +199,7 @@ impl<'a> TextTable<'a> {
         Some(TextTable { separator, first, headings, units, lines: lines.collect(), before: 0, behind: None })
     }
 
-    /// The unit of a column, in its heading or below, with its place; none where there is none.
+    /// The unit of a column, in its heading or below, with its place; none if there is none.
     pub fn unit(&self, column: usize) -> Option<(&'a str, Span)> {
         let heading = self.headings.get(column)?;
         let below =
@@ -220,7 +220,7 @@ fn pages(sources: &Sources, lines: &[Span], body: &Body, start: usize) -> (usize
         let from = (same && at + heads.len() < lines.len()).then_some(at + heads.len())?;
         Body::from(sources, lines, from).filter(|page| page.count == body.count)
     };
-    // a page goes on with the times; another table of the same headings begins anew
+    // a page continues with the times; another table of the same headings begins anew
     let time =
         |line: usize| body.separator.cells(sources, lines[line]).first().and_then(|c| body.separator.value(c.text));
     let goes_on = |end: usize, page: &Body| time(page.first) > time(end - 1);

@@ -24,7 +24,7 @@ pub struct Document {
 }
 
 impl Document {
-    /// Reads a text; `name` is what messages call it, such as its file name.
+    /// Reads a text; `name` is its name in messages, such as its file name.
     ///
     /// # Errors
     /// Everything that is wrong with its syntax.
@@ -85,7 +85,7 @@ impl Document {
         }
     }
 
-    /// Its sections, once it has passed the check; `what` is what messages call it. A difference between check and
+    /// Its sections, once it has passed the check; `what` is its name in messages. A difference between check and
     /// sections is reported, not a panic.
     ///
     /// # Errors

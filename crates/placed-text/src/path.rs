@@ -21,7 +21,7 @@ const MAX_STEPS: usize = 32;
 /// Reads a path.
 ///
 /// # Errors
-/// What is wrong with it.
+/// Problems of it.
 pub fn parse(text: &str) -> Result<Vec<Step>, String> {
     let mut steps = Vec::new();
     let mut rest = text.trim();

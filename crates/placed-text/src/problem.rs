@@ -1,4 +1,4 @@
-//! What is wrong with an input: values that name the place, what was found, what was expected and how to mend it.
+//! Problems of an input: values that name the place, what was found, what was expected and how to mend it.
 
 use std::collections::HashSet;
 use std::fmt;
@@ -8,7 +8,7 @@ use crate::shown::number;
 /// How bad a problem is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// The run goes on; the user should know.
+    /// The run continues; the user should know.
     Warning,
     /// The input cannot be used.
     Error,

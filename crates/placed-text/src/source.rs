@@ -123,7 +123,7 @@ impl Sources {
     }
 }
 
-/// The greatest character boundary of `text` at or before `index`.
+/// The largest character boundary of `text` at or before `index`.
 fn floor_char_boundary(text: &str, index: usize) -> usize {
     let mut at = index.min(text.len());
     while !text.is_char_boundary(at) {

@@ -1,4 +1,4 @@
-//! What stands beside the road and does not drive.
+//! Barriers and other obstacles beside the road.
 
 /// A barrier. Places are X and Y in vehicle-space, m.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,4 +1,4 @@
-//! The body of a vehicle as others and the ground meet it: outline, stiffness of its faces, spheres of its hull.
+//! The body of a vehicle in contacts: outline, stiffness of its faces, spheres of its hull.
 
 /// Speed of approach without residual crush, m/s: 8 km/h.
 pub const NO_CRUSH_M_S: f64 = 2.222;
@@ -68,9 +68,9 @@ pub struct Row {
 /// Which crush the stiffness gives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reading {
-    /// The greatest crush is the residual crush and A/B: for damage, EES, reconstruction. Pulses are too short.
+    /// The largest crush is the residual crush and A/B: for damage, EES, reconstruction. Pulses are too short.
     Residual,
-    /// The greatest crush is longer by a share, at the same energy and residual crush: for pulses of occupants.
+    /// The largest crush is longer by a share, at the same energy and residual crush: for pulses of occupants.
     Dynamic {
         /// The share, 0.2 by the one test with channels compared so far.
         longer: f64,
@@ -78,7 +78,7 @@ pub enum Reading {
 }
 
 impl Reading {
-    /// Greatest crush over that of residual reading.
+    /// Largest crush over that of residual reading.
     pub fn stretch(self) -> f64 {
         match self {
             Reading::Residual => 1.0,
@@ -130,7 +130,7 @@ pub struct Crush {
     pub reading: Reading,
     /// Stiffer parts.
     pub hard: Vec<Hard>,
-    /// Greatest distance between nodes, m.
+    /// Largest distance between nodes, m.
     pub spacing_m: f64,
 }
 

@@ -216,7 +216,7 @@ impl Car {
         (loaded, shift_m)
     }
 
-    /// What is wrong with it.
+    /// Problems of it.
     ///
     /// # Errors
     /// The first number that no car can have.
@@ -282,7 +282,7 @@ impl Car {
     }
 }
 
-/// What is wrong with a vehicle.
+/// Problems of a vehicle.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CarError {
     /// A number that must be above zero.

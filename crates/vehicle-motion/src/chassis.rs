@@ -1,8 +1,9 @@
 //! Equations of motion: a rigid body that carries four wheels on slides.
 //!
-//! The accelerations a of the body's origin and α of its rotation follow from a symmetric system of six equations, from which
-//! the wheels' ways along their slides are eliminated. Each wheel is a point mass m at p = c + û s; the body feels all of its
-//! force across the slide and the spring along it. The spin ϖ is absolute, so books of an airborne, braked car close.
+//! The accelerations a of the body's origin and α of its rotation follow from a symmetric system of six equations, from
+//! which the wheels' travels along their slides are eliminated. Each wheel is a point mass m at p = c + û s; it
+//! transmits all of its force across the slide to the body, and the spring force along it. The spin ϖ is absolute, so
+//! the energy balance of an airborne, braked car closes.
 
 use crate::car::{Axle, Car, CarError};
 use crate::ground::Ground;

@@ -12,7 +12,7 @@ pub struct Table {
     values: Vec<f64>,
 }
 
-/// What is wrong with a table or a line.
+/// Problems of a table or a line.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TableError {
     /// Lists of unlike length, or empty.
@@ -111,7 +111,7 @@ pub struct Driver {
     pub on_impact: OnImpact,
 }
 
-/// What a driver does from his first collision on; the steering wheel stays where it was unless he goes on.
+/// What a driver does from his first collision on; the steering wheel stays where it was unless he continues.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum OnImpact {
     /// Feet off.
@@ -190,9 +190,9 @@ pub struct Follower {
     line_m: Vec<[f64; 2]>,
     /// Time from seeing to acting, s.
     pub delay_s: f64,
-    /// Greatest rate of the road-wheel angle, rad/s.
+    /// Largest rate of the road-wheel angle, rad/s.
     pub rate_rad_s: f64,
-    /// Greatest road-wheel angle, rad.
+    /// Largest road-wheel angle, rad.
     pub most_rad: f64,
     /// Time at which he lets go, s; the angle then stays.
     pub until_s: f64,

@@ -1,4 +1,4 @@
-//! The hull on the ground: spheres of the body, and the edges of the wheels at faces that their treads do not meet.
+//! The hull on the ground: spheres of the body, and the edges of the wheels at faces that their treads do not touch.
 
 use crate::V3;
 use crate::body::Body;
@@ -44,10 +44,10 @@ pub(crate) struct Hull {
     reach_m: f64,
 }
 
-/// What is remembered of it.
+/// Memory of it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct HullMemory {
-    /// Greatest depth of each sphere, then of the two edges of each wheel by face, m; and that before the last step.
+    /// Largest depth of each sphere, then of the two edges of each wheel by face, m; and that before the last step.
     most_m: Vec<f64>,
     before_m: Vec<f64>,
     /// Whether it may touch within the next step.
@@ -193,7 +193,7 @@ impl Hull {
         sum
     }
 
-    /// Remembers depths; a sphere that is apart forgets, but the roof.
+    /// Stores depths; a sphere that is apart forgets, but the roof.
     pub fn commit(
         &self,
         state: &State,

@@ -50,7 +50,7 @@ impl Planar {
 }
 
 /// An impact of two bodies at a place, with the direction of the contact's normal in either sense, restitution on both
-/// components, and the greatest ratio of the impulse along the contact to that across it. The sense is that in which they
+/// components, and the largest ratio of the impulse along the contact to that across it. The sense is that in which they
 /// close; none if they do not move across the contact.
 pub fn blow(bodies: [&Planar; 2], place_m: [f64; 2], normal_rad: f64, restitution: f64, friction: f64) -> Option<Blow> {
     let [first, second] = bodies;

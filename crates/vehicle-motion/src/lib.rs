@@ -1,9 +1,9 @@
 //! Motion of road vehicles on pavement, slopes and ditches.
 //!
-//! A vehicle is a rigid body of six degrees of freedom that carries four wheels. Each wheel slides along its suspension,
-//! spins, and meets the ground with a brush tyre on combined slip, which also holds a parked car on a slope. The crate
-//! knows no occupant, reads no files, prints nothing and starts no thread. The same input gives the same bits on every
-//! machine.
+//! A vehicle is a rigid body of six degrees of freedom that carries four wheels. Each wheel slides along its
+//! suspension, spins, and touches the ground with a brush tyre on combined slip, which also holds a parked car on a
+//! slope. The crate contains no occupants, reads no files, prints nothing and starts no thread. The same input gives
+//! the same bits on every machine.
 //!
 //! # A run
 //!
@@ -28,26 +28,26 @@
 //!
 //! | name | means |
 //! |---|---|
-//! | vehicle-space | X ahead, Y right, Z down, fixed; gravity along +Z. Heights and slopes are positive up |
-//! | body axes | x ahead, y right, z down (SAE J670); origin at the vehicle's centre of gravity with its load |
+//! | vehicle-space | X forward, Y right, Z down, fixed; gravity along +Z. Heights and slopes are positive up |
+//! | body axes | x forward, y right, z down (SAE J670); origin at the vehicle's centre of gravity with its load |
 //! | wheels | 0 left front, 1 right front, 2 left rear, 3 right rear |
-//! | jounce | way of a wheel along its slide, up positive |
+//! | jounce | travel of a wheel along its slide, up positive |
 //! | spin | absolute speed of a wheel about its axle, positive when it rolls forward |
 //! | `_m`, `_rad_s`, `_n_per_m`, … | SI unit of a number; there are no others |
 //!
-//! # Where things are
+//! # Modules
 //!
-//! | room | holds |
+//! | module | contents |
 //! |---|---|
 //! | [`car`] | the vehicle as data, checks |
 //! | [`presets`] | vehicles by class, and how far their numbers can be trusted |
 //! | [`body`] | outline, stiffness of the faces, spheres of the hull |
-//! | [`ground`] | plane, cross-section, curbs, zones of friction; how a wheel meets them |
+//! | [`ground`] | plane, cross-section, curbs, zones of friction; contact of a wheel |
 //! | [`tyre`] | the law of slip and shear force |
-//! | [`driver`] | steering, brake and drive over time; a driver who follows a line; what he does when hit |
+//! | [`driver`] | steering, brake and drive over time; a driver who follows a line; the reaction to a collision |
 //! | [`state`] | numbers of a vehicle's state, and sums of work |
 //! | [`chassis`] | equations of motion: the rate of change of the state |
-//! | [`crush`] | force per width over crush, outlines and nodes, contacts that keep momentum |
+//! | [`crush`] | force per width over crush, outlines and nodes, contacts that conserve momentum |
 //! | [`barrier`] | walls, poles, blocks, cushions, signs, rails |
 //! | [`impulse`] | impacts by impulse and momentum |
 //! | [`integrate`] | a Bogacki–Shampine pair with error control |

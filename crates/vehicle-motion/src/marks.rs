@@ -1,4 +1,4 @@
-//! Tyre marks: where a tyre has used up nearly all of its friction.
+//! Tyre marks: where a tyre uses nearly all of its friction.
 
 use crate::WHEELS;
 use crate::ground::Ground;

@@ -1,8 +1,8 @@
-//! The motion of a vehicle as a path: what was computed at the accepted steps, smooth in between.
+//! The motion of a vehicle as a path: the results at the accepted steps, smooth in between.
 //!
-//! Place by quintic Hermite polynomials through place, velocity and acceleration; attitude by R = R₀ exp(φ) with φ quintic through
-//! the turn from one step to the next and its rates. No Euler angles: a car may stand on its nose. Accelerations at the steps are
-//! those of the force laws, not differences of places.
+//! Position by quintic Hermite polynomials through position, velocity and acceleration; attitude by R = R₀ exp(φ) with
+//! φ quintic through the rotation from one step to the next and its rates. There are no Euler angles: a car may stand
+//! on its nose. Accelerations at the steps are those of the force laws, not differences of positions.
 
 use crate::V3;
 use crate::ride::{Ride, Station};

@@ -1,6 +1,6 @@
 //! Vehicles by class, and how far each of their numbers can be trusted.
 //!
-//! Masses and sizes are typical of a class, not measurements of a car. Two measured cars of the 1980s stand beside them.
+//! Masses and sizes are typical of a class, not measurements of a car. There are also two measured cars of the 1980s.
 
 use crate::body::{Body, Crush, Stiffness};
 use crate::car::{Axle, Car, Class, RIDE};

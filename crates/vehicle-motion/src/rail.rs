@@ -1,4 +1,4 @@
-//! A rail on posts in plan: lateral masses along a line under one tension, with bending, posts that yield and let go.
+//! A rail on posts in plan: lateral masses along a line under one tension, with bending, posts that yield and release.
 
 use crate::V3;
 use crate::barrier::Rail;
@@ -23,7 +23,7 @@ pub(crate) struct Beam {
     pull_n_per_m: f64,
 }
 
-/// What is remembered of a rail.
+/// Memory of a rail.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct BeamMemory {
     bent_per_m: Vec<f64>,
@@ -277,7 +277,7 @@ impl Beam {
         (sum, size)
     }
 
-    /// Remembers the greatest forces of a vehicle's nodes.
+    /// Stores the largest forces of a vehicle's nodes.
     pub fn press(&self, y: &[f64], series: &[Series], most: &mut [f64], shape: &Shape, pose: &Pose) {
         self.each(y, shape, pose, &mut |i, _, depth_m, _, facing| {
             if facing > SQUARE {

@@ -1,4 +1,4 @@
-//! The motion of one vehicle: where it starts, and what a drive leaves at its accepted steps.
+//! The motion of one vehicle: its start, and the results at its accepted steps.
 
 use nalgebra::{Quaternion, UnitQuaternion};
 
@@ -80,7 +80,7 @@ impl Ride {
         &self.stations[self.stations.len() - 1]
     }
 
-    /// Error of the energy balance of all that was driven together, over the greatest kinetic energy.
+    /// Error of the energy balance of all that was driven together, over the largest kinetic energy.
     pub fn balance(&self) -> f64 {
         self.balance
     }

@@ -1,4 +1,4 @@
-//! A drive of one vehicle from its start to its end, and what it leaves: stations and the energy balance.
+//! A drive of one vehicle from its start to its end, and its results: stations and the energy balance.
 
 use crate::car::Car;
 use crate::chassis::Chassis;
@@ -22,7 +22,7 @@ impl Drive {
     /// Of a vehicle.
     ///
     /// # Errors
-    /// What is wrong with the vehicle.
+    /// Problems of the vehicle.
     pub fn new(car: &Car, ground: Ground, driver: Driver) -> Result<Self, WorldError> {
         let chassis = Chassis::new(car).map_err(|what| WorldError::Car { car: 0, what })?;
         let entry = Entry::new(car.clone(), driver, Begin::At(Start::default()));

@@ -1,4 +1,4 @@
-//! A mass on a straight way, held back by a force: cushions and breakaway bases.
+//! A mass on a straight slide with a resisting force: cushions and breakaway bases.
 
 use crate::barrier::{End, Slider};
 
@@ -17,10 +17,10 @@ pub(crate) struct Slide {
     end: End,
 }
 
-/// What is remembered of it.
+/// Memory of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct SlideMemory {
-    /// Greatest way, m.
+    /// Largest way, m.
     pub most_m: f64,
     /// Direction, once it is known, rad.
     pub direction_rad: Option<f64>,
@@ -80,7 +80,7 @@ impl Slide {
         whole - self.table_n(0.0) * (build - 0.5 * build * build / BUILDS_M)
     }
 
-    /// Energy that it took up or holds, J, at a way after a greatest one.
+    /// Energy that it took up or holds, J, at a way after a largest one.
     pub fn taken_j(&self, way_m: f64, most_m: f64) -> f64 {
         let most_m = most_m.max(way_m);
         let (top_n, left_n) = (self.load_n(most_m), self.force_n(way_m, most_m));
@@ -95,7 +95,7 @@ impl Slide {
         self.energy_j(way_m) + end_n * beyond_m + 0.5 * RIGID_N_PER_M * beyond_m * beyond_m
     }
 
-    /// Force that holds it back, N, after a greatest way.
+    /// Force that holds it back, N, after a largest way.
     pub fn force_n(&self, way_m: f64, most_m: f64) -> f64 {
         if way_m >= most_m {
             return self.load_n(way_m);

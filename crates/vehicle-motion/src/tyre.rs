@@ -1,7 +1,8 @@
-//! The tyre in the plane of contact: a brush on combined slip whose slips follow with a relaxation length.
+//! The tyre in the plane of contact: a brush on combined slip, with a relaxation length.
 //!
-//! The transient slips ζ are bounded, |ζ| < ζ_m, whatever the speeds: nothing winds up at rest and nothing divides by a speed
-//! at lock. Steady, ζ gives the slip ς = −V_s/|V_r|. At rest the tyre is a spring, so a parked car stays on its slope.
+//! The transient slips ζ are bounded, |ζ| < ζ_m, at any speed: they do not accumulate at rest, and there is no division
+//! by a speed at lock. In steady state ζ gives the slip ς = −V_s/|V_r|. At rest the tyre is a spring, so a parked car
+//! stays on its slope.
 
 use libm::{atan, exp, sin};
 
@@ -31,7 +32,7 @@ pub struct Tyre {
     pub cornering_per_rad: f64,
     /// Reference load, N.
     pub reference_load_n: f64,
-    /// Load of the greatest cornering stiffness over the reference load.
+    /// Load of the largest cornering stiffness over the reference load.
     pub greatest_at: f64,
     /// Longitudinal slip stiffness per load.
     pub slip_stiffness: f64,

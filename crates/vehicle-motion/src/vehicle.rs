@@ -1,4 +1,4 @@
-//! A vehicle with its driver: where it starts, what it is told to do, which wheels are held.
+//! A vehicle with its driver: its start, its commands, its locked wheels.
 
 use crate::body::Body;
 use crate::car::{Car, CarError};

@@ -29,7 +29,7 @@ fn locked() -> Driver {
     Driver { locked_from_s: [Some(0.0); 4], ..Driver::coasting() }
 }
 
-/// Greatest of a number over the stations.
+/// Largest of a number over the stations.
 fn greatest(ride: &Ride, number: impl Fn(&vehicle_motion::run::Station) -> f64) -> f64 {
     ride.stations().iter().map(number).fold(0.0, f64::max)
 }

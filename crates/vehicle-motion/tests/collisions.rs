@@ -47,7 +47,7 @@ fn into_wall(car: &Car, speed_m_s: f64, tolerance: Tolerance) -> Outcome {
     world.run(0.1 + 0.4 / speed_m_s).unwrap()
 }
 
-/// How far the first car came, m, its greatest deceleration, g, and its last speed, m/s.
+/// How far the first car came, m, its largest deceleration, g, and its last speed, m/s.
 fn end(outcome: &Outcome, from_m: f64) -> [f64; 3] {
     let stations = outcome.rides[0].stations();
     let depth = stations.iter().map(|s| s.position_m.x - from_m).fold(0.0, f64::max);

@@ -214,7 +214,7 @@ fn impact(duration_s: f64) -> Impact {
     }
 }
 
-/// In a run, at the first touch: the same change of velocity as in plan; momentum stays, the balance closes; spread over a time
+/// In a run, at the first contact: the same change of velocity as in plan; momentum stays, the balance closes; spread over a time
 /// the impulse is the same.
 #[test]
 fn an_impact_in_a_run_does_what_it_does_in_plan() {

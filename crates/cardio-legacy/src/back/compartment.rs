@@ -25,7 +25,7 @@ pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
         }
     }
     for solid in &back.setup.solids {
-        back.misfit(format!("solids.{}: cards have plane surfaces alone", solid.name));
+        back.misfit(format!("solids.{}: cards have only plane surfaces", solid.name));
     }
     place_points(back, polygons);
     for surface in back.setup.surfaces.iter().filter(|surface| surface.name == layout.wheel.name) {

@@ -201,7 +201,7 @@ impl<'a> Back<'a> {
         let mut pairs = std::mem::take(&mut self.passed);
         for (name, value) in &self.kept {
             if let Some(place) = name.strip_prefix(notes::PAIR) {
-                // back to its place in the series
+                // back to its position in the series
                 let place = place.trim().parse().unwrap_or(usize::MAX);
                 if let Some((sphere, surface)) = value.split_once(' ') {
                     let at = place.saturating_sub(1).min(pairs.len());
@@ -237,7 +237,7 @@ fn left_behind(back: &mut Back<'_>, scenario: &Scenario) {
     let notes = scenario.notes.as_deref().unwrap_or_default();
     let own = notes.split_once(notes::MARKER).map_or(notes, |(own, _)| own);
     if !own.trim().is_empty() {
-        back.remarks.push("notes: cards have no place for them but two titles".to_owned());
+        back.remarks.push("notes: cards can hold only two titles".to_owned());
     }
     back.misfit_if(scenario.title.starts_with("FINI"), "title: a first card that begins with FINI ends the file");
     if !scenario.provenance.is_empty() {
@@ -268,6 +268,6 @@ fn times(back: &mut Back<'_>) {
     }
     back.misfit_if(
         setup.edge_force != EdgeForce::AtContactPoint && !setup.surfaces.is_empty(),
-        "contact.edge_force = \"centre\", which it is unless a scenario says another: cards know \"contact_point\" only",
+        "contact.edge_force = \"centre\", the default: cards have only \"contact_point\"",
     );
 }

@@ -91,7 +91,7 @@ fn seated(back: &mut Back<'_>, layout: &CompartmentLayout, seating: &Seating) {
         let key = field_named(field).and_then(|field| field.key.as_deref()).unwrap_or_default();
         match seating.angle_rad(key.trim_start_matches("posture.")) {
             Some(angle_rad) => back.set(field, angle_rad),
-            None => back.misfit(format!("{key} is not said: cards have one angle for both sides")),
+            None => back.misfit(format!("{key} is not given: cards have one angle for both sides")),
         }
     }
     back.misfit_if(seating.angles_rad.len() > POSTURE.len(), "posture: cards have six angles");
@@ -148,7 +148,7 @@ fn read_belt(back: &mut Back<'_>, belt: &Belt, number: u32, exact: bool) {
     }
 }
 
-/// Where a run ended, as far as cards can say it. They carry no greatest deformation, so an extension by cards is approximate.
+/// Where a run ended, as far as cards can say it. They carry no largest deformation, so an extension by cards is approximate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunEnd {
     /// Time, s.

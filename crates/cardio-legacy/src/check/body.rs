@@ -99,7 +99,7 @@ fn check_joints(c: &mut Check<'_>) {
         let less = c.value(&full) < c.value(&normal) && c.value(&full) != 0.0;
         let message = format!("less than the damping before the stop, {normal} = {}", c.digits(&normal));
         c.wrong_if(less, Rule::Unlikely, full, message)
-            .expected("more than the damping before the stop", "look whether the two have changed places");
+            .expected("more than the damping before the stop", "check whether the two are exchanged");
         for (at, [begin, full]) in joint.stops().iter().enumerate() {
             // The lower stop of a hinge is met by a falling angle.
             let falling = joint.is_hinge() && at == 0;
@@ -108,7 +108,7 @@ fn check_joints(c: &mut Check<'_>) {
             let side = if falling { "above the angle of the full stop" } else { "below the angle of the full stop" };
             let message = format!("the stop begins beyond its end, {full} = {}", c.digits(full));
             c.wrong_if(wrong, Rule::Impossible, begin, message)
-                .expected(side, "look whether the two angles have changed places");
+                .expected(side, "check whether the two angles are exchanged");
         }
     }
 }

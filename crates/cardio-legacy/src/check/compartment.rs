@@ -24,7 +24,7 @@ const WIDEST_IN: f64 = 60.0;
 pub(super) fn check(c: &mut Check<'_>) {
     let (width, roof, wheel) = (c.value("VCW"), c.value("VRW"), c.value("SWP"));
     c.wrong_if(roof > width, Rule::Unlikely, "VRW", "the roof is wider than the compartment")
-        .expected("at most VCW", "look whether VCW and VRW have changed places");
+        .expected("at most VCW", "check whether VCW and VRW are exchanged");
     c.wrong_if(wheel.abs() > width, Rule::Unlikely, "SWP", "the wheel's centre lies outside the compartment")
         .expected("at most VCW", "SWP counts from the centre line");
     for equal in EQUALITIES {
@@ -75,11 +75,11 @@ fn check_extents(c: &mut Check<'_>) {
     }
 }
 
-/// Springs of which the second slope is the softer; webbing that gives way under load is seldom meant.
+/// Springs of which the second slope is the softer; webbing that yields under load is seldom meant.
 fn check_stiffness(c: &mut Check<'_>, stem: &str, n: u32) {
     let [first, second] = [1, 2].map(|slope| format!("{stem}{slope}({n})"));
     let (soft, stiff) = (c.value(&first), c.value(&second));
     let message = format!("softer than {first} = {}", c.digits(&first));
     c.wrong_if(soft > stiff && stiff > 0.0, Rule::Unlikely, second, message)
-        .expected("the larger of the two", "look whether the two have changed places");
+        .expected("the larger of the two", "check whether the two are exchanged");
 }

@@ -90,7 +90,7 @@ fn check_speed(c: &mut Check<'_>, stations: &[Vec<f64>]) {
         .expected("the initial velocity in vehicle axes, in in/s", remedy);
 }
 
-/// Velocity of the vehicle along its own axes in the interval that begins at `start_s` or holds it, in/s; none where the
+/// Velocity of the vehicle along its own axes in the interval that begins at `start_s` or holds it, in/s; none if the
 /// stations make no path or do not cover that time.
 fn velocity_at(stations: &[Vec<f64>], start_s: f64) -> Option<Vector3<f64>> {
     let station = |n: &Vec<f64>| Station::new(n[0], [n[1], n[2], n[3]], [n[4], n[5], n[6]].map(f64::to_radians));

@@ -8,7 +8,7 @@ pub(super) fn check(c: &mut Check<'_>) {
     let (start, end, step) = (c.value("T1"), c.value("TF"), c.value("DT"));
     let late = format!("the run ends at or before its initial time T1 = {}", c.digits("T1"));
     c.wrong_if(end <= start, Rule::Impossible, "TF", late)
-        .expected("a time after T1", "look whether T1 and TF have changed places");
+        .expected("a time after T1", "check whether T1 and TF are exchanged");
     let coarse = step > 0.0 && end > start && step > (end - start) / 2.0;
     c.wrong_if(coarse, Rule::Unlikely, "DT", "fewer than two steps fit into the run")
         .expected("a small part of TF − T1", "look for milliseconds");

@@ -130,7 +130,7 @@ fn check(toml: &str, beside: Option<&str>) -> Result<Loaded, ConversionError> {
     Ok(loaded)
 }
 
-/// The pairs of series 14 that do not overlap at the start, in words; they show only where the body is placed.
+/// The pairs of series 14 that do not overlap at the start, as text; they show only where the body is placed.
 fn pairs_apart(loaded: &Loaded) -> Option<String> {
     let (_, warnings) = loaded.model().ok()?;
     let apart = warnings.iter().find(|warning| warning.problem.path == "initial_state.passed")?;

@@ -34,7 +34,7 @@ pub struct Case {
     pub loaded: Loaded,
     /// Its model.
     pub model: Model,
-    /// Warnings about it, in words.
+    /// Warnings about it, as text.
     pub(crate) warnings: Vec<String>,
     /// Numbers of the surfaces, in the setup's order.
     pub(crate) numbers: Vec<usize>,

@@ -37,8 +37,8 @@ fn report_missing(series: &SeriesLayout, read: &SeriesRead, first_line: usize, s
         _ => "",
     };
     let place = match before {
-        Some((number, _)) => format!("it should stand behind series {number}"),
-        None => "it should stand behind the titles".to_owned(),
+        Some((number, _)) => format!("it should follow series {number}"),
+        None => "it should follow the titles".to_owned(),
     };
     let ncard = series.ncard.unwrap_or_default();
     Diagnostic::new(Rule::SeriesMissing, format!("{series} is missing{why}"))

@@ -109,7 +109,7 @@ impl Reader<'_> {
             let line = earlier.first().and_then(|c| c.line).unwrap_or_default();
             finding(Rule::SeriesTwice, format!("{series} has been read at line {line}")).report(self.sink);
         } else if series.number < highest {
-            finding(Rule::OutOfOrder, format!("series {} stands behind series {highest}", series.number))
+            finding(Rule::OutOfOrder, format!("series {} comes after series {highest}", series.number))
                 .report(self.sink);
         }
     }

@@ -107,7 +107,7 @@ fn character(byte: u8) -> String {
     }
 }
 
-/// What a field takes, in words.
+/// What a field takes, as text.
 fn expectation(field: &Field) -> String {
     let width = field.columns.width();
     match field.format {
@@ -125,7 +125,7 @@ fn check_free_columns(card: &PunchedCard, layout: &CardLayout, id: CardId, sink:
         let mut punched = (gap.first..=gap.last).filter(is_punched);
         let Some(first) = punched.next() else { continue };
         let punched = Columns::new(first, punched.next_back().unwrap_or(first));
-        let message = format!("`{}` stands where the card is blank; it is not read", card.text_of(punched));
+        let message = format!("`{}` is in columns that the card leaves blank; it is not read", card.text_of(punched));
         Diagnostic::new(Rule::NotBlank, message)
             .on(card)
             .in_card(id)

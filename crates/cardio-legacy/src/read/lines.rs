@@ -53,7 +53,7 @@ fn until_end_mark<'a>(bytes: &'a [u8], sink: &mut Sink) -> &'a [u8] {
     let Some(end) = bytes.iter().position(|b| *b == END_MARK) else { return bytes };
     if bytes[end..].iter().any(|b| !matches!(*b, END_MARK | b' ' | b'\r' | b'\n')) {
         let line = lines(&bytes[..end]).len().max(1);
-        let message = "a DOS end-of-file mark (0x1a) stands in the file; what follows it is not read";
+        let message = "the file has a DOS end-of-file mark (0x1a); text after it is not read";
         Diagnostic::new(Rule::ControlCharacter, message)
             .at_line(line)
             .expected("the mark at the very end, or none")

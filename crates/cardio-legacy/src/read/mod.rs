@@ -139,7 +139,7 @@ impl<'a> Reader<'a> {
         self.check_rest_of_word_card(card, id);
         let behind = self.cards.get(self.at + 1..).unwrap_or_default();
         if let Some(card) = behind.iter().find(|c| !c.is_blank()) {
-            Diagnostic::new(Rule::AfterFinalCard, "something stands behind the final card; it is not read")
+            Diagnostic::new(Rule::AfterFinalCard, "there is text after the final card; it is not read")
                 .on(card)
                 .at(Columns::new(1, 80))
                 .report(self.sink);
@@ -151,7 +151,7 @@ impl<'a> Reader<'a> {
         let word = card.text_of(WORD);
         Diagnostic::new(
             Rule::NoFinalCard,
-            format!("`{word}` stands where the final card should; nothing from here on is read"),
+            format!("`{word}` is where the final card should be; nothing from here on is read"),
         )
         .on(card)
         .in_card(CardId { series: FINAL_CARD, letter: None, number: None })

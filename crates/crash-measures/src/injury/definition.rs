@@ -103,7 +103,7 @@ impl Definition {
         self
     }
 
-    /// The measure of a run; none where its signal is not there and nothing is to be said of that.
+    /// The measure of a run; none if its signal is not there and nothing is to be said of that.
     pub(super) fn of(&self, readings: &Readings) -> Option<Measure> {
         let filtered = readings.options.filtering != Filtering::None;
         let filter_class = if filtered { self.class.hertz() as u32 } else { 0 };

@@ -135,7 +135,7 @@ impl Readings {
         Ok(Finding { from_s: Some(n.time_s), remark: Some(format!("in {}", mode(n.mode))), ..whole(n.value) })
     }
 
-    /// The greatest value of a signal in a sense; 0 if it never has it.
+    /// The largest value of a signal in a sense; 0 if it never has it.
     fn towards(&self, which: Extreme, sign: f64, signal: &[f64]) -> Result<Finding, Lack> {
         let sampled = peak_towards(sign, signal, self.interval_s)?;
         let known = self.peak_of(which).map(|peak| Peak { value: peak.value.max(0.0), ..peak });

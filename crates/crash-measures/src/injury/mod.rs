@@ -4,7 +4,7 @@
 //! [`Measure`]s of them with the formulas of [`crate::measure`]. A simulated signal has no noise, so by default nothing
 //! is filtered; the classes of SAE J211 can be asked for where outputs are close enough for them.
 //!
-//! What every body reads makes the first measures. A chest that gives way, load cells of dummies for the side, instruments of
+//! What every body reads makes the first measures. A chest that yields, load cells of dummies for the side, instruments of
 //! whiplash tests and lower legs ([`Special`]) make more of them where they are read. A chest that is rigid has no deflection
 //! and no viscous criterion, and its measures say so instead of guessing.
 
@@ -90,7 +90,7 @@ pub struct Measure {
     /// Unit of the value and of its limits.
     #[serde(serialize_with = "symbol")]
     pub unit: Unit,
-    /// The value; none where it cannot be had, for the reason in `remark`.
+    /// The value; none if it cannot be had, for the reason in `remark`.
     pub value: Option<f64>,
     /// When, or the start of the window, s.
     pub from_s: Option<f64>,

@@ -17,7 +17,7 @@ use crate::signal::ChannelClass::{Cfc180, Cfc600};
 use crate::signal::resultant;
 use occupant_units::unit::Unit::{Metre, MetrePerSecond, MetrePerSecondSquared, Newton, One};
 
-/// Measures of a chest that gives way.
+/// Measures of a chest that yields.
 pub(super) const CHEST_PARTS: &[Definition] = &[
     measure("chest_deflection", "chest deflection", Metre, Cfc180, Readings::chest_deflection)
         .or_say("the thorax is rigid: it has no deflection and no viscous criterion")
@@ -103,7 +103,7 @@ impl Readings {
         present((0..most).map(|i| self.special(of(i))))
     }
 
-    /// The breastbone, or the points that a chest has.
+    /// The sternum, or the points that a chest has.
     fn chest_points(&self) -> Result<Several, Lack> {
         let points = ChestPoint::ALL.into_iter().map(Special::ChestPoint);
         present([Special::ChestDeflection].into_iter().chain(points).map(|which| self.special(which)))

@@ -45,7 +45,7 @@ pub struct Readings {
     pub(super) neck_shear_n: Result<Vec<f64>, SignalError>,
     special: BTreeMap<Special, Result<Vec<f64>, SignalError>>,
     pub(super) person: Option<Person>,
-    /// Greatest values that are known better than from samples; times count from the first sample.
+    /// Largest values that are known better than from samples; times count from the first sample.
     peaks: Option<Extremes>,
 }
 
@@ -53,7 +53,7 @@ pub struct Readings {
 #[derive(Clone, Debug)]
 pub struct Acceleration {
     pub(super) resultant_m_s2: Result<Vec<f64>, SignalError>,
-    /// Greatest value; times count from the first sample.
+    /// Largest value; times count from the first sample.
     pub peak: Result<Peak, SignalError>,
     /// Level held for 3 ms without interruption.
     pub three_ms_contiguous: Result<ThreeMs, SignalError>,
@@ -108,7 +108,7 @@ impl Readings {
         self.special.contains_key(&which)
     }
 
-    /// A greatest value that is known better than from samples.
+    /// A largest value that is known better than from samples.
     pub(super) fn peak_of(&self, which: Extreme) -> Option<Peak> {
         peak_of(&self.peaks, which)
     }

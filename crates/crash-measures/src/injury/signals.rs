@@ -8,11 +8,11 @@ use crate::measure::Peak;
 /// Three components over time.
 pub type Components = [Vec<f64>; 3];
 
-/// The greatest values of unfiltered signals where they are known better than from samples, in the order of [`Extreme`]; minus
+/// The largest values of unfiltered signals where they are known better than from samples, in the order of [`Extreme`]; minus
 /// infinity of what a body lacks. Times as of the run.
 pub type Extremes = [Peak; 10];
 
-/// Which signal a greatest value is of.
+/// Which signal a largest value is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extreme {
     /// Resultant acceleration of the head.
@@ -76,7 +76,7 @@ pub struct Signals {
     pub special: BTreeMap<Special, Vec<f64>>,
     /// Whose chest it is: a dummy's where nobody is named, that of the dummy whose limits are asked for.
     pub person: Option<Person>,
-    /// Greatest values between the samples, if they are known.
+    /// Largest values between the samples, if they are known.
     pub peaks: Option<Extremes>,
 }
 

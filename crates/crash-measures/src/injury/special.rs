@@ -9,7 +9,7 @@ use std::fmt;
 /// signs of SAE J1733.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Special {
-    /// Deflection of the breastbone, m.
+    /// Deflection of the sternum, m.
     ChestDeflection,
     /// Deflection of a point of the chest, m.
     ChestPoint(ChestPoint),

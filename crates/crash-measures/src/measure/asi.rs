@@ -162,7 +162,7 @@ mod tests {
         assert_eq!(new.history.len(), pulse.len());
     }
 
-    /// A pulse that is over, with a vibration of 20 g that goes on: wherever the record ends, the index is that of the pulse.
+    /// A pulse that is over, with a vibration of 20 g that continues: wherever the record ends, the index is that of the pulse.
     #[test]
     fn the_index_does_not_depend_on_where_the_record_ends() {
         for hertz in [55.0, 80.0, 137.0] {

@@ -31,7 +31,7 @@ impl Default for FlailDistances {
 /// Result of the flail-space model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlailSpace {
-    /// Time of impact with the interior, s; none where neither distance is reached.
+    /// Time of impact with the interior, s; none if neither distance is reached.
     pub impact_s: Option<f64>,
     /// Longitudinal occupant impact velocity, m/s, as a magnitude.
     pub oiv_x_mps: f64,

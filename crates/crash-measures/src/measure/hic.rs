@@ -51,7 +51,7 @@ pub struct Hic {
     pub end_s: f64,
 }
 
-/// Head injury criterion of a resultant acceleration in m/s²: the greatest over all windows of the straight line through the
+/// Head injury criterion of a resultant acceleration in m/s²: the largest over all windows of the straight line through the
 /// samples, wherever they start and end.
 ///
 /// A signal shorter than the window is searched as a whole. A signal with no positive window gives
@@ -138,7 +138,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The windows of the greatest length. While neither end passes a sample the integral over them is a parabola in time.
+    /// The windows of the largest length. While neither end passes a sample the integral over them is a parabola in time.
     fn try_longest(&mut self) {
         let last_s = self.integral.duration_s() - self.limit_s;
         let samples_s = (0..self.a.len()).map(|i| i as f64 * self.dt_s);

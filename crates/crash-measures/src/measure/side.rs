@@ -6,7 +6,7 @@
 use super::{Peak, peak::maximum};
 use crate::signal::{SignalError, require_same_length, require_samples};
 
-/// Greatest sum, at one time, of the amounts of forces that several load cells read, N: abdomen of the ES-2 and ES-2re (front,
+/// Largest sum, at one time, of the amounts of forces that several load cells read, N: abdomen of the ES-2 and ES-2re (front,
 /// middle and rear cell), pelvis of the SID-IIs (acetabulum and ilium). One cell alone gives a pubic or shoulder force.
 ///
 /// The rules prescribe no sign; amounts are added, which is never the milder reading.

@@ -187,7 +187,7 @@ mod tests {
 
     #[test]
     fn pure_yaw_swings_the_head_of_an_unaccelerated_vehicle() {
-        // the head stands still at 0.5 m ahead of a c.g. that turns at 2 rad/s: it circles backwards
+        // the head is at rest at 0.5 m ahead of a c.g. that turns at 2 rad/s: it circles backwards
         let n = 2000;
         let flight = HeadFlight { start_x_m: 0.5, ..HeadFlight::default() };
         let found = thiv(&vec![0.0; n], &vec![0.0; n], &vec![2.0; n], 1e-3, flight).unwrap();

@@ -1,6 +1,6 @@
 //! Chest and ribs: measures of a deflection, and of its rate.
 //!
-//! A deflection is that of the breastbone (or of a rib) against the spine, positive inward, in m; of a dummy without its
+//! A deflection is that of the sternum (or of a rib) against the spine, positive inward, in m; of a dummy without its
 //! skin. SAE J211 gives it class 180 as regulations use it, SAE J1727 class 600. A contact penetration (how deep a sphere
 //! sinks into a belt) is no deflection.
 //!
@@ -49,16 +49,16 @@ impl ChestSize {
     }
 }
 
-/// A greatest deflection, in metres and as a part of the depth.
+/// A largest deflection, in metres and as a part of the depth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Compression {
-    /// Greatest deflection inward, m; 0 of a chest that only bulges.
+    /// Largest deflection inward, m; 0 of a chest that only bulges.
     pub deflection: Peak,
     /// The same over the depth, without unit.
     pub share: f64,
 }
 
-/// Greatest deflection of a chest of `depth_m`: C = D/depth.
+/// Largest deflection of a chest of `depth_m`: C = D/depth.
 ///
 /// # Errors
 /// No sample, a sample that is not finite, an interval or depth that is not positive.
@@ -74,7 +74,7 @@ pub fn compression(deflection_m: &[f64], dt_s: f64, depth_m: f64) -> Result<Comp
 pub struct DeepestRib {
     /// Its place in the list.
     pub rib: usize,
-    /// Greatest deflection inward, m.
+    /// Largest deflection inward, m.
     pub deflection: Peak,
 }
 
@@ -101,7 +101,7 @@ fn rates(d: &[f64], dt_s: f64) -> impl Iterator<Item = (usize, f64)> {
     (2..d.len() - 2).map(move |i| (i, (8.0 * (d[i + 1] - d[i - 1]) - (d[i + 2] - d[i - 2])) / (12.0 * dt_s)))
 }
 
-/// Greatest rate of deflection inward, m/s; 0 of a chest that only goes out.
+/// Largest rate of deflection inward, m/s; 0 of a chest that only goes out.
 ///
 /// # Errors
 /// Fewer than five samples, a sample that is not finite, an interval that is not positive.
@@ -152,7 +152,7 @@ impl ThoracicIntercepts {
     }
 }
 
-/// Combined thoracic index CTI = A_3ms/A_int + D/D_int, without unit, of the 3 ms level of the chest in m/s² and the greatest
+/// Combined thoracic index CTI = A_3ms/A_int + D/D_int, without unit, of the 3 ms level of the chest in m/s² and the largest
 /// deflection in m (Kleinberger et al., NHTSA, 1998).
 ///
 /// # Errors
@@ -185,7 +185,7 @@ pub struct FourPoints<'a> {
     pub lower_right_m: &'a [f64],
 }
 
-/// PC score of a THOR's chest (Poplin et al. 2017), without unit: the greatest, over time, of
+/// PC score of a THOR's chest (Poplin et al. 2017), without unit: the largest, over time, of
 /// 0.486 U/17.439 + 0.492 L/14.735 + 0.496 |ΔU|/9.672 + 0.526 |ΔL|/12.384 in mm, with sum and difference of left and right.
 ///
 /// Read in an open program that cites the paper. A point that bulges out counts with its sign there; whether the paper takes

@@ -39,7 +39,7 @@ impl TibiaCriticals {
     }
 }
 
-/// Greatest tibia index, without unit, of moments in N·m and axial force in N.
+/// Largest tibia index, without unit, of moments in N·m and axial force in N.
 ///
 /// # Errors
 /// No sample, different lengths, a sample that is not finite, an interval or critical value that is not positive.

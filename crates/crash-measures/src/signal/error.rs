@@ -1,4 +1,4 @@
-//! What can be wrong with a signal, with what was found and what was needed.
+//! Checks of a signal, with what was found and what was needed.
 
 /// Why a signal cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -124,7 +124,7 @@ pub fn plateau(values: &[f64]) -> Option<Plateau> {
     [most, least].into_iter().filter(is_far).find_map(of)
 }
 
-/// The decimal place that all values are rounded to, such as 0.001; none where it is finer than a millionth, or where second differences of
+/// The decimal place that all values are rounded to, such as 0.001; none if it is finer than a millionth, or where second differences of
 /// the values are smaller than rounding makes them, as those of a straight line that happens to go through round numbers.
 #[must_use]
 pub fn resolution(values: &[f64]) -> Option<f64> {

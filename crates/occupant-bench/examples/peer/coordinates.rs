@@ -56,7 +56,7 @@ impl Placed {
     }
 }
 
-/// `state` as seen from the moving `vehicle`, in a vehicle that stands still at `home`.
+/// `state` as seen from the moving `vehicle`, in a vehicle that is at rest at `home`.
 fn seen_from_vehicle(state: &State<f64>, vehicle: &Moving<f64>, home: &Moving<f64>) -> State<f64> {
     let carry = |v: V3<f64>| home.axes.out(vehicle.axes.into_frame(v));
     let turn = home.axes.to_matrix() * vehicle.axes.to_matrix().transpose();

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! SECONDS is an instant of the scenario. Everything is seen from the vehicle of that instant and put where the vehicle
-//! stands at the scenario's start, so that surfaces stand still. SI, space axes, quaternions as w, x, y, z; positions q,
+//! stands at the scenario's start, so that surfaces are at rest. SI, space axes, quaternions as w, x, y, z; positions q,
 //! speeds v and accelerations in the coordinates of [`coordinates`], which are MuJoCo's.
 
 mod belts;

@@ -108,7 +108,7 @@ fn ends(model: &Model, now: &Instant) -> Vec<[f64; 3]> {
     ORDER.iter().flat_map(ends).collect()
 }
 
-/// Mean acceleration of the vehicle in every millisecond of the scenario, space axes, and the greatest turn of its axes.
+/// Mean acceleration of the vehicle in every millisecond of the scenario, space axes, and the largest turn of its axes.
 fn vehicle(model: &Model) -> Value {
     let time = &model.setup().time;
     let mut cursor = PathCursor::default();

@@ -21,13 +21,13 @@ const FIGURES: [&str; 4] = ["head.peak", "hic15", "belts.lap.peak", "belts.torso
 /// Errors against the reference.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Errors {
-    /// Greatest distance of the head's c.g., mm.
+    /// Largest distance of the head's c.g., mm.
     pub path_mm: f64,
     /// Of the peak of the head's acceleration, %.
     pub peak: f64,
     /// Of HIC15, %.
     pub hic: f64,
-    /// Of the greatest loop force, the worse of both belts, %.
+    /// Of the largest loop force, the worse of both belts, %.
     pub belt: f64,
 }
 

@@ -1,4 +1,4 @@
-//! What every command may lean on: its voices, how it is stopped, what it shows, its units; and the base of jobs.
+//! Shared tools of all commands: output, interruption, progress, units; and the base of jobs.
 //!
 //! Knows no command and no file format. What commands use everywhere is named here once.
 

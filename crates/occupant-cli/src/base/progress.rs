@@ -1,4 +1,4 @@
-//! How far a run is, or many runs are: a bar on a terminal; a line for work that shows no bar within two seconds.
+//! Progress of one or many runs: a bar on a terminal; a line for work that shows no bar within two seconds.
 
 use std::fmt;
 use std::io::{IsTerminal, stderr};

@@ -1,4 +1,4 @@
-//! The flag for the units in which tables and pages tell people their numbers.
+//! The flag for the units of tables and pages.
 
 use occupant_jobs::base::Units;
 use occupant_scenario::kind::UnitSystem;

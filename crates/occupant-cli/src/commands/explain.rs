@@ -163,7 +163,7 @@ impl<'a> Key<'a> {
         bare(self.path.rsplit('.').next().unwrap_or_default())
     }
 
-    /// What may stand there, in words.
+    /// What may stand there, as text.
     fn kind(&self) -> String {
         let schema = self.schema();
         let mut words = match (schema["x-dimension"].as_str(), names(schema)) {

@@ -1,6 +1,6 @@
-//! The command line, a file for each command: flags, what they mean, which job they ask for, and what the program answers.
+//! The command line, a file for each command: flags, their meaning, the job, and the output.
 //!
-//! Computes nothing and lays out no file: that is the work of the rooms below.
+//! It computes nothing and defines no file format; the crates below do.
 //!
 //! Results go to standard output, talk to standard error. Exit codes: 0 done; 1 it ran, and a check failed, the
 //! integration failed or it was interrupted; 2 it could not run (flags, files, the scenario). A reader that closes the pipe

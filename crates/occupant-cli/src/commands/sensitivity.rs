@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::base::progress::show;
 use crate::base::{Existing, Failure, UnitsArg, file_name, print, sha256};
 use occupant_files::table::Form;
 use occupant_jobs::export::TableFiles;
@@ -48,6 +49,10 @@ pub(crate) struct Args {
     /// Replace existing files
     #[arg(short, long)]
     force: bool,
+
+    /// Show no progress
+    #[arg(short, long)]
+    quiet: bool,
 }
 
 /// Computes and prints the derivatives.
@@ -65,7 +70,7 @@ pub(crate) fn sensitivity(args: &Args) -> Result<(), Failure> {
     let begin = |(path, form): (&PathBuf, Form)| TableFiles::begin(path, form, &kept, Existing::by(args.force));
     let files = args.output.as_ref().zip(form).map(begin).transpose()?;
     let asked = ask(&base, &opened.model, &resolver, &words)?;
-    let analysis = analyse(&opened.model, &asked)?;
+    let analysis = analyse(&opened.model, &asked, show(args.quiet))?;
     let name = file_name(scenario);
     if let Some(files) = files {
         let about = about(&opened.model, &asked, &analysis, [&name, &sha256(&opened.bytes)]);

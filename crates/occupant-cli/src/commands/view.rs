@@ -122,7 +122,7 @@ pub(crate) fn view(args: &Args) -> Result<(), Failure> {
     deliver_and(args.open, &output, args.force, &bytes)
 }
 
-/// How fast a film plays, in words.
+/// How fast a film plays, as text.
 fn pace(args: &Args, kind: Kind) -> String {
     match (&args.times, kind) {
         (None, Kind::Film(_) | Kind::Frames) => format!(", {} times slower than real time", args.slow_motion),

@@ -75,7 +75,7 @@ fn the_summary_of_a_resumed_run_is_that_of_the_whole() {
     };
     let whole = summary(&["-o", "whole.mcap"]);
     run(folder.path(), &["--until", "0.0604", "-o", "first.mcap"]);
-    // the end lies between two outputs: the run goes on from the one before
+    // the end lies between two outputs: the run continues from the one before
     assert_eq!(summary(&["--resume", "first.mcap", "-o", "rest.mcap"]), whole);
     let rest = stored(&folder.path().join("rest.mcap"));
     assert_eq!(rest.run["resumed_at_s"], "0.06");

@@ -204,7 +204,7 @@ fn the_error_of_a_run_is_estimated_by_a_finer_one() {
     assert_eq!(peak["difference"].as_f64().unwrap(), figure(&coarse) - figure(&fine));
     assert!(off(&fine) > 0.0 && off(&fine) < off(&coarse), "{} {}", off(&fine), off(&coarse));
     let table = out(&answer(folder.path(), &["run", "case.toml", "--no-mcap", "--estimate-error"]));
-    // the greatest forces of the thighs are those of steps, and fall off within one
+    // the largest forces of the thighs are those of steps, and fall off within one
     let worst = "head path 0.019 mm; contacts.left_thigh.peak 0.3 %, contacts.right_thigh.peak 0.3 %, ";
     let worst = format!("integration error   {worst}contacts.left_hand.first_speed 0.2 %");
     assert!(table.contains(&worst), "{table}");

@@ -56,7 +56,7 @@ budget = 160
 "#;
 
 /// Measures a run of the case with these changes into a table: belt forces and pelvis acceleration, each with
-/// noise of `noise` of its greatest value, the same for the same seed.
+/// noise of `noise` of its largest value, the same for the same seed.
 fn measure(folder: &Path, name: &str, changes: &[&str], noise: f64, seed: u64) {
     let mut run = vec!["run", "case.toml", "-o", "test.mcap", "--force", "--quiet", "--set", TIME];
     for change in changes {

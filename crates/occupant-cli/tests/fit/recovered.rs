@@ -17,7 +17,7 @@ fn without_noise_the_hidden_numbers_are_found_to_four_digits() {
     let found = found(at, "out");
     for (name, planted) in [("lap", 90e3), ("slack", 0.035)] {
         let p = parameter(&found, name);
-        // measured: the table shows all five digits; the search stops at differences of 1e-4, the refinement goes on
+        // measured: the table shows all five digits; the search stops at differences of 1e-4, the refinement continues
         let error = (number(&p["value"]) / planted - 1.0).abs();
         assert!(error < 1e-4, "{name}: {error}\n{said}");
         assert_eq!(p["verdict"], "identified", "{said}");

@@ -229,7 +229,7 @@ impl Seek for Narrow {
 fn a_target_that_is_full_ends_the_run_with_its_reason() {
     let model = model();
     let (whole, _) = record(&model, ());
-    // while the run goes on, and in what is left for its end
+    // while the run continues, and in what is left for its end
     for room in [whole.len() / 2, whole.len() - 100] {
         let kept = std::io::Cursor::new(Vec::new());
         let mut recorder = recorder_into(Narrow { kept, room });

@@ -141,7 +141,7 @@ fn a_run_made_in_the_folder_of_a_study_does_it_no_harm() {
     let text = page(at);
     let first = commands(&text)[0].clone();
     shell(&at.join("out"), &first);
-    // the sweep's own folder still goes on being one
+    // the sweep's own folder still continues being one
     done(at, &["sweep", "study.toml", "-o", "out", "--csv", "--quiet"]);
     done(at, &["study", "report", "out"]);
     assert_eq!(page(at), text);

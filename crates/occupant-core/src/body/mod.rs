@@ -1,7 +1,7 @@
-//! The occupant's body: rigid segments, the tree that their joints make of them, and the spheres that can touch things.
+//! The occupant's body: rigid segments, the tree of their joints, and their contact spheres.
 //!
-//! Report: "Body Geometry and Coordinate Systems", Figs 1 and 5. Segment axes are X ahead, Y to the
-//! occupant's left and Z up when the occupant stands upright with hanging arms; they are principal axes.
+//! Report: "Body Geometry and Coordinate Systems", Figs 1 and 5. Segment axes are X forward, Y to the occupant's left
+//! and Z up when the occupant stands upright with hanging arms; they are principal axes.
 
 mod mounted;
 pub mod named;
@@ -115,7 +115,7 @@ pub struct ContactSphere {
     pub part: String,
     /// What its contact forces are multiplied by, for a material that was measured on the whole part; 1 by default.
     pub share: f64,
-    /// How it rides on parts of its segment that give way; not at all by default.
+    /// How it rides on parts of its segment that yield; not at all by default.
     pub ride: Ride,
 }
 
@@ -157,9 +157,9 @@ pub struct Body {
     pub condyles_m: Option<Vector3<f64>>,
     /// Contact spheres; the tree's standard ones unless a scenario says otherwise.
     pub spheres: Vec<ContactSphere>,
-    /// Parts that give way; none of a rigid trunk.
+    /// Parts that yield; none of a rigid trunk.
     pub plates: Vec<Plate>,
-    /// What of them are chests that results tell of, one of each body at most.
+    /// Chests that results report, at most one per body.
     pub chests: Vec<Chest>,
 }
 
@@ -261,8 +261,8 @@ impl Body {
         Some(self.socket_m(next).z - self.segment(segment).length_m)
     }
 
-    /// Where the joint is that carries a segment, seen from the joint of the segment that it hangs from, along that one's
-    /// axes, m; zero for the first segment.
+    /// Position of the joint that carries a segment, from the joint of its parent, in the parent's axes, m; zero for
+    /// the first segment.
     pub(crate) fn offset_m(&self, segment: Segment) -> Vector3<f64> {
         let Some(joint) = self.tree.bearer(segment) else { return Vector3::zeros() };
         self.sites(joint)[0].point_m - self.joint_m(self.tree[joint].carrying()[0])

@@ -1,4 +1,4 @@
-//! A body that hangs on any of its segments, with parts left out: what a rig holds.
+//! A body mounted at any of its segments, with parts omitted: for a rig.
 
 use super::tree::{JointRow, Place, SphereRow};
 use super::{Body, ContactSphere, Joint, Plate, Ride, Segment, Tree};

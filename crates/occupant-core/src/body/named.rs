@@ -1,7 +1,7 @@
 //! Trees made at run time, from joints that name their segments.
 //!
-//! What the report's body says of a segment or a sphere holds for one of the same name: a `left_thigh` below the pelvis is
-//! the upper part of a leg, and the sphere `left_knee` is at its lower end.
+//! Names have the meaning of the report's body: a `left_thigh` below the pelvis is the upper part of a leg, and the
+//! sphere `left_knee` is at its lower end.
 
 use std::collections::HashSet;
 

@@ -1,15 +1,16 @@
-//! Bodies of people of any size: one measured body, stretched segment by segment.
+//! Bodies of people of any size: one measured body, scaled segment by segment.
 //!
-//! The body that is stretched is the 50th-percentile male of the GEBOD generator (US Air Force) in its 15 segments. Each
-//! segment's depth, breadth and length grow with a measure of the person; that measure follows from sex, stature and mass
-//! by a regression over the 4082 men or 1986 women of the ANSUR II survey (US Army). Children have no such survey: theirs
-//! are stretches of the same body, from the weights and sitting heights of 49 CFR 571.208 S7.1.4 and mass fractions of
-//! Jensen; the lengths of their segments are the weakest numbers here.
+//! The base body is the 50th-percentile male of the GEBOD generator (US Air Force) in its 15 segments. Each segment's
+//! depth, breadth and length scale with a measure of the person. A regression over the 4082 men or 1986 women of the
+//! ANSUR II survey (US Army) gives that measure from sex, stature and mass. There is no such survey of children: theirs
+//! are scalings of the same body, from the weights and sitting heights of 49 CFR 571.208 S7.1.4 and mass fractions of
+//! Jensen; the lengths of their segments are the least certain numbers here.
 //!
-//! The 15 segments are a body of their own (`divided`), or become the 12 of [`super::tti12::TTI12`] by the parallel-axis theorem, products
-//! of inertia left out. The neck's joint of the 12 is 125 mm below the centre of gravity of the reference's head, where one joint alone gives the path of a dummy's
-//! head in the neck pendulum of 49 CFR 572.7 (chords of 2ρ sin(θ/2) with ρ = 122 to 128 mm at 30, 60 and 68 degrees); the
-//! neck's mass belongs to the upper torso.
+//! The 15 segments are used directly (`divided`), or are merged to the 12 of [`super::tti12::TTI12`] by the
+//! parallel-axis theorem, products of inertia neglected. The neck's joint of the 12 is 125 mm below the centre of
+//! gravity of the reference head. There a single joint gives the path of a dummy's head in the neck pendulum of 49 CFR
+//! 572.7 (chords of 2ρ sin(θ/2) with ρ = 122 to 128 mm at 30, 60 and 68 degrees). The neck's mass belongs to the upper
+//! torso.
 
 mod divided;
 mod merged;
@@ -286,7 +287,7 @@ impl Body {
         Body { name: "male50".to_owned(), ..REFERENCE_PERSON.body(Division::default()).0 }
     }
 
-    /// A grown-up by sex, stature and mass, as a scenario's `body.sex`, `body.stature`, `body.mass`; none where the
+    /// A grown-up by sex, stature and mass, as a scenario's `body.sex`, `body.stature`, `body.mass`; none if the
     /// measurements behind it reach no such person.
     pub fn person(sex: Sex, stature_m: f64, mass_kg: f64) -> Option<Self> {
         let person = Person { sex, stature_m, mass_kg };

@@ -1,23 +1,23 @@
-//! Parts of the trunk that give way: point masses on slides, and what rides on them.
+//! Deformable parts of the trunk: point masses on slides, and what rides on them.
 
 use nalgebra::{Point3, Vector3};
 
 use super::Segment;
 
-/// A part of a segment that gives way along a line: its mass is a point that slides.
+/// A part of a segment that yields along a line: its mass is a point that slides.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plate {
     /// Unique name, such as `sternum`.
     pub name: String,
     /// The segment, of whose mass it is a part.
     pub segment: Segment,
-    /// Where its mass is before it gives way, from the segment's lower end, segment axes, m.
+    /// Where its mass is before it yields, from the segment's lower end, segment axes, m.
     pub place_from_lower_end_m: Point3<f64>,
     /// The way inwards along which it slides, segment axes; any length.
     pub inward: Vector3<f64>,
     /// m.
     pub mass_kg: f64,
-    /// Depth of the trunk behind it, m: deflections of more than 0.45 of it are told of. None where none is known.
+    /// Depth of the trunk behind it, m: deflections of more than 0.45 of it are told of. None if none is known.
     pub depth_m: Option<f64>,
 }
 
@@ -69,7 +69,7 @@ pub struct Chest {
     pub of: String,
     /// The set of plates that it was made from: `person`, `dummy50`, `dummy05f`, or `own`.
     pub preset: String,
-    /// The plate of the breastbone (index).
+    /// The plate of the sternum (index).
     pub breastbone: usize,
     /// Depth that deflections are compared with, m.
     pub depth_m: f64,

@@ -1,14 +1,14 @@
-//! What a body is made of, as one table: segments, the joints that hold them together, and the spheres round them.
+//! The structure of a body as one table: segments, their joints, and their spheres.
 //!
-//! Everything that depends on the order or the topology of a body is derived from its [`Tree`]: what the kernel loops over
-//! ([`crate::motion::layout`]), the report's coordinates, names in scenarios and results. Nothing here knows a number of
-//! kilograms or metres; those are a [`super::Body`].
+//! Everything that depends on the order or the topology of a body is derived from its [`Tree`]: the loops of the kernel
+//! ([`crate::motion::layout`]), the report's coordinates, names in scenarios and results. It contains no masses or
+//! lengths; those are in [`super::Body`].
 
 use std::collections::BTreeSet;
 use std::ops::Index;
 use std::sync::{Mutex, PoisonError};
 
-/// A segment of a tree: its place in the table.
+/// A segment of a tree: its position in the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Segment(pub(super) usize);
 
@@ -29,7 +29,7 @@ impl Segment {
     }
 }
 
-/// A joint of a tree: its place in the table.
+/// A joint of a tree: its position in the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Joint(pub(super) usize);
 
@@ -82,7 +82,7 @@ pub struct SegmentRow {
 }
 
 impl SegmentRow {
-    /// True for a segment that hangs from its upper end, false for one that stands on its lower end.
+    /// True for a segment whose joint is at its upper end, false for one whose joint is at its lower end.
     pub const fn hangs(&self) -> bool {
         matches!(self.joint_end, End::Upper)
     }
@@ -146,7 +146,7 @@ impl JointRow {
         }
     }
 
-    /// Whether the body hangs the other way on this joint, from a mount beyond it: its distal segment carries the proximal.
+    /// Whether this joint is reversed, on the way to a mount beyond it: its distal segment carries the proximal one.
     pub fn is_reversed(&self) -> bool {
         self.proximal > self.distal
     }
@@ -233,7 +233,7 @@ impl Landmarks {
         legs: Pair { left: None, right: None },
     };
 
-    /// The same among other segments and joints, where they are there.
+    /// The same with other indices of segments and joints, if they exist.
     pub(crate) fn map(
         &self,
         segment: impl Fn(Segment) -> Option<Segment>,
@@ -269,7 +269,7 @@ impl Landmarks {
     }
 }
 
-/// The tables of a body. A segment stands after the one that carries it.
+/// The tables of a body. A segment comes after its parent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tree {
     pub(super) segments: &'static [SegmentRow],
@@ -299,7 +299,7 @@ pub enum TreeProblem {
     #[error("no segment for the landmark `{0}`")]
     MissingLandmark(&'static str),
     /// A segment that no joint before has named.
-    #[error("the joint `{joint}` hangs on `{segment}`, which no joint before it carries{}", meant(.nearest.as_deref()))]
+    #[error("the joint `{joint}` is on `{segment}`, which no joint before it carries{}", meant(.nearest.as_deref()))]
     UnknownSegment {
         /// Name of the joint.
         joint: String,
@@ -322,7 +322,7 @@ fn meant(nearest: Option<&str>) -> String {
     nearest.map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
 }
 
-/// A name that is kept to the end of the program, once for all that are spelt so.
+/// A name that lives to the end of the program, stored once for all equal ones.
 pub(crate) fn kept(name: &str) -> &'static str {
     static NAMES: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
     let mut names = NAMES.lock().unwrap_or_else(PoisonError::into_inner);
@@ -335,8 +335,8 @@ pub(crate) fn kept(name: &str) -> &'static str {
 }
 
 impl Tree {
-    /// The tree of these tables, in which a segment stands after the one that carries it. It is kept to the end of the
-    /// program, once for all that are alike: runs that differ in numbers alone share it.
+    /// The tree of these tables, in which a segment comes after its parent. It lives to the end of the program, once
+    /// for all equal ones: runs that differ only in numbers share it.
     pub(crate) fn interned(
         segments: &[SegmentRow],
         joints: &[JointRow],
@@ -448,8 +448,8 @@ impl Tree {
         self.joints().find(|j| self[*j].name == name)
     }
 
-    /// The joint by which a segment hangs on one nearer to the first, which hangs on none: that of which it is the distal segment but where the way
-    /// to a mount goes against it.
+    /// The joint to the segment's parent; none for the root. Usually the segment is its distal side; on the path from
+    /// the root to a mount it is the proximal one.
     pub fn bearer(&self, segment: Segment) -> Option<Joint> {
         self.joints().find(|joint| self[*joint].carrying()[1] == segment)
     }
@@ -496,7 +496,7 @@ impl Tree {
         marks.arms().chain(marks.legs()).any(|limb| self.is_of(segment, &limb))
     }
 
-    /// Whether a joint hangs the second segment on the first.
+    /// Whether a joint attaches the second segment to the first.
     pub fn carries(&self, proximal: Segment, distal: Segment) -> bool {
         self.joints.iter().any(|row| (row.proximal, row.distal) == (proximal, distal))
     }
@@ -514,7 +514,7 @@ impl Tree {
     }
 }
 
-/// The word for the left and the right one of two: "feet" for "left_foot"; none for what stands in the middle.
+/// The word for a left–right pair: "feet" for "left_foot"; none for a single segment.
 pub fn both_sides(name: &str) -> Option<String> {
     let one = name.strip_prefix("left_").or(name.strip_prefix("right_"))?;
     Some(one.strip_suffix("foot").map_or_else(|| format!("{one}s"), |stem| format!("{stem}feet")))

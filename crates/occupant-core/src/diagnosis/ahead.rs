@@ -1,4 +1,4 @@
-//! Whether anything stands ahead of the head of an occupant whom no belt holds.
+//! Whether there is anything ahead of the head of an occupant without a belt.
 
 use nalgebra::Point3;
 use serde::Serialize;

@@ -1,9 +1,10 @@
 //! Stability of friction in a step of the classical Runge–Kutta method, the one with fixed steps: step·f·wF/(v_s·m_eff)
 //! must stay below 2.785.
 //!
-//! Friction is −f·wF·v_t/√(v_t² + v_s²); at low slip it is a damper f·wF/v_s against the effective mass along the surface.
-//! The masses are those of the posture at the start. In the shipped cases the energy balance jumps where the number
-//! passes the limit: 2.4e-6 at 2.72 and 3.3e-4 at 3.48 (`cart-unbelted`), 1.7e-6 at 2.79 and 6.7e-5 at 3.14 (`rear-seat`).
+//! Friction is −f·wF·v_t/√(v_t² + v_s²); at low slip it is a damper f·wF/v_s against the effective mass along the
+//! surface. The masses are those of the posture at the start. In the shipped cases the energy balance jumps where the
+//! number exceeds the limit: 2.4e-6 at 2.72 and 3.3e-4 at 3.48 (`cart-unbelted`), 1.7e-6 at 2.79 and 6.7e-5 at 3.14
+//! (`rear-seat`).
 
 use serde::Serialize;
 
@@ -26,7 +27,7 @@ pub struct UnstableFriction {
     pub surface: String,
     /// Name of its material.
     pub material: String,
-    /// When the number was greatest.
+    /// When the number was largest.
     pub time_s: f64,
     /// Normal force then.
     pub normal_force_n: f64,

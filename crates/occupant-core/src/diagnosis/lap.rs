@@ -1,4 +1,4 @@
-//! Whether lap belts begin so that they slide up on the wings of the pelvis.
+//! Whether lap belts start at an angle at which they slide up the iliac wings.
 
 use nalgebra::{Point3, Vector3};
 use serde::Serialize;

@@ -1,4 +1,4 @@
-//! The fastest rates of contacts at the start, and the friction that a step can bear.
+//! The fastest rates of contacts at the start, and the largest friction for which a step is stable.
 //!
 //! The classical Runge–Kutta method is stable while step·rate stays below about 2.8 on either axis. These are
 //! estimates: the posture is that of the start, the slope the steepest of the material, the mass the smallest of any

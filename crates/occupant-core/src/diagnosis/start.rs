@@ -1,4 +1,4 @@
-//! Where things stand at the start: seat, contacts, other force elements.
+//! The initial state: seat, contacts, other force elements.
 
 use crate::forces::table::InOrder;
 use serde::Serialize;
@@ -70,7 +70,7 @@ pub struct FrictionFigures {
     pub coefficient: f64,
     /// v_s, slip at which friction reaches 71 % of its full value.
     pub speed_m_s: f64,
-    /// With which speed a body creeps down a slope of 10° on it; none where it slides.
+    /// With which speed a body creeps down a slope of 10° on it; none if it slides.
     pub creeps_m_s: Option<f64>,
 }
 

@@ -1,7 +1,7 @@
 //! Exponential and logarithm, with the same bits on every machine and in all lanes.
 //!
-//! What computes with lanes avoids closures handed to `fold` and the like: they are compiled outside of the function that may
-//! use wide registers, where each instruction becomes a call.
+//! Code for lanes avoids closures passed to `fold` and the like: they are compiled outside the function that may use
+//! wide registers, where each instruction becomes a call.
 
 use crate::motion::scalar::Scalar;
 

@@ -1,4 +1,4 @@
-//! What a kind of force element owes the rest of the simulator.
+//! The interface of a kind of force element.
 
 use std::fmt::Debug;
 
@@ -18,10 +18,10 @@ use crate::motion::vector::V3;
 use crate::quantity::{Energy, FieldWords, Quantity};
 use placed_text::Problems;
 
-/// A kind of force element: all elements of one kind in a model share a law, a place in the energy ledger, and the way in
-/// which they are checked, laid, remembered and compared.
+/// A kind of force element: all elements of one kind in a model share a law, a place in the energy ledger, and the code
+/// that checks, places, stores and compares them.
 ///
-/// The type that implements it is only a name; the types of its law and memory stand beside it. A kind may use the body,
+/// The implementing type is only a name; the types of its law and memory are associated types. A kind may use the body,
 /// its motion and the frames, and knows no other kind.
 pub trait Element: Copy + Debug {
     /// Whether results speak of the kind only where a model has elements of it.
@@ -32,21 +32,21 @@ pub trait Element: Copy + Debug {
     const STORED: &'static [StoredEnergy];
     /// The work sums that they add to.
     const SUMS: &'static [WorkSum];
-    /// What messages call one of them, and many.
+    /// Name in messages of one of them, and many.
     const NAMES: [&'static str; 2];
 
     /// What a setup says of them.
     type Data<'a>: Copy;
     /// Constants of the law.
     type Law<S>;
-    /// What one of them remembers between steps: numbers that change only at accepted steps.
+    /// Memory of one element between steps: numbers that change only at accepted steps.
     type Past<S>;
     /// What spares an evaluation needless work. No result depends on it.
     type Hints<S: Scalar>: Hints<S>;
     /// What one of them does at one instant.
     type Action<S>;
 
-    /// Reports what is wrong with the data by themselves.
+    /// Reports problems of the data alone.
     fn check(data: Self::Data<'_>, body: &Body, problems: &mut Problems);
 
     /// Constants that do not depend on where the body is.
@@ -65,14 +65,14 @@ pub trait Element: Copy + Debug {
     ) {
     }
 
-    /// Appends the numbers of the state that they own, as they begin, scaled to the order of 1; each notes where its stand.
+    /// Appends the initial state variables of the elements, scaled to the order of 1; each element notes its own.
     fn own(_law: &mut Self::Law<f64>, _numbers: &mut Vec<f64>) {}
 
-    /// What each remembers of a body that stands where it is.
+    /// Initial memory of each element for a body at rest in its position.
     fn start(law: &Self::Law<f64>, at: &Instant<'_, f64>) -> Vec<Self::Past<f64>>;
 
-    /// The same of a body that has moved a little since the last restart, as far as it tells on an evaluation without a commit;
-    /// `hints` are then those of these places. Returns how many elements an evaluation looks at.
+    /// Updates the memory after the body has moved a little, enough for evaluations that do not commit. Also updates
+    /// `hints`. Returns the number of elements that an evaluation visits.
     fn restart(
         law: &Self::Law<f64>,
         at: &Instant<'_, f64>,
@@ -91,7 +91,7 @@ pub trait Element: Copy + Debug {
         Pace::any()
     }
 
-    /// How many there are that remember something.
+    /// Number of elements with a memory.
     fn count<S>(law: &Self::Law<S>) -> usize;
 
     /// How many may act at one instant.
@@ -109,25 +109,24 @@ pub trait Element: Copy + Debug {
         f: &impl Fn(S, A) -> T,
     ) -> Result<Self::Law<T>, Unlike>;
 
-    /// f called with every number that two of them remember, in one order.
+    /// Calls f with every number that two memories contain, in one order.
     fn each<S, A>(one: &mut Self::Past<S>, other: &mut Self::Past<A>, f: &mut impl FnMut(&mut S, &mut A));
 
-    /// What one remembers with every number replaced by f of it, in the order of [`Element::each`].
+    /// A memory with every number replaced by f of it, in the order of [`Element::each`].
     fn map<A: Copy, S>(past: &Self::Past<A>, f: &mut impl FnMut(A) -> S) -> Self::Past<S>;
 
-    /// Whether the one of this number could remember this.
+    /// Whether this is a possible memory of the element with this number.
     fn is_possible(_law: &Self::Law<f64>, _number: usize, _past: &Self::Past<f64>) -> bool {
         true
     }
 
-    /// What of them could not be worked out within the last step, in words; none where all was. What they remember may then
-    /// be no numbers.
+    /// What could not be computed within the last step, as text; none if everything was. The memory may then contain
+    /// NaN.
     fn failure(_data: Self::Data<'_>, _law: &Self::Law<f64>, _past: &[Self::Past<f64>]) -> Option<String> {
         None
     }
 
-    /// Whether what they remember can jump: whether anything of them can switch in a run. What only changes its slope does
-    /// not.
+    /// Whether their memory can jump, because an element can switch in a run. A mere change of slope does not count.
     fn can_switch(_law: &Self::Law<f64>) -> bool {
         false
     }
@@ -138,8 +137,8 @@ pub trait Element: Copy + Debug {
         S::zero()
     }
 
-    /// Where between `before` and `now`, of the times `times_s`, the first switch of the one of this number was due, as a part
-    /// of the way; none where it cannot be told. Up to 0 it was due before.
+    /// Fraction of the way between `before` and `now`, at the times `times_s`, at which the first switch of the element
+    /// with this number was due; none if unknown. Up to 0 it was due before.
     fn due<S: Scalar<Mask = bool>>(
         _law: &Self::Law<S>,
         _number: usize,
@@ -150,11 +149,11 @@ pub trait Element: Copy + Debug {
         None
     }
 
-    /// Brings what one remembers back into range after its numbers were changed a little.
+    /// Brings a memory back into range after its numbers were changed a little.
     fn confine(_past: &mut Self::Past<f64>) {}
 
-    /// Adds forces and powers to `load` and shows every action. At an accepted step each element first takes over
-    /// the present position; within a step what they remember is only read.
+    /// Adds forces and powers to `load` and passes on every action. At an accepted step each element first updates its
+    /// memory with the present position; within a step the memory is only read.
     fn apply<S: Scalar>(
         law: &Self::Law<S>,
         at: &Instant<'_, S>,
@@ -175,10 +174,10 @@ pub trait Element: Copy + Debug {
         Vec::new()
     }
 
-    /// The segment in whose body's books an action (number) stands.
+    /// The segment whose body's ledger contains an action (number).
     fn segment(law: &Self::Law<f64>, spheres: &[Site<f64>], number: usize, action: &Self::Action<f64>) -> usize;
 
-    /// Writes the energies of [`Element::STORED`], from all that they do at one instant, to their places, J.
+    /// Writes the energies of [`Element::STORED`], from all actions at one instant, to their places, J.
     fn stored_j(actions: &[Self::Action<f64>], stored_j: &mut [f64; STORES]);
 }
 
@@ -194,8 +193,8 @@ pub trait Hints<S: Scalar>: Clone + Debug {
     /// Becomes what `other`, of the same elements, is; allocates nothing.
     fn take_over(&mut self, other: &Self);
 
-    /// Leaves nothing out in these lanes until the next commit, as it must be where the remembered numbers are those of
-    /// another place.
+    /// Visits every element in these lanes until the next commit, as required if the memory belongs to another
+    /// position.
     fn look_again(&mut self, lanes: S::Mask);
 
     /// Becomes what `other`, of the same elements, is in these lanes.
@@ -212,7 +211,7 @@ impl<S: Scalar> Hints<S> for () {
     fn blend(&mut self, _other: &Self, _lanes: S::Mask) {}
 }
 
-/// An energy that the elements of a kind hold, or have lost by what they remember.
+/// An energy that the elements of a kind store, or have lost according to their memory.
 #[derive(Clone, Copy, Debug)]
 pub struct StoredEnergy {
     /// Its place in the energy ledger.
@@ -261,7 +260,7 @@ pub struct Instant<'a, S> {
     pub carried: &'a [Moving<S>],
     /// Spheres of the bodies.
     pub spheres: &'a [Site<S>],
-    /// Whether this is an accepted step, which what elements remember takes over.
+    /// Whether this is an accepted step, at which memory is updated.
     pub accepted: bool,
 }
 
@@ -283,7 +282,7 @@ impl<'a, S: Scalar> Instant<'a, S> {
 
 /// Legs of all bodies.
 pub(crate) const MOST_LEGS: usize = 2 * MOST_BODIES;
-/// Most frames that give way.
+/// Most frames that yield.
 pub(crate) const MOST_GIVING: usize = 2;
 
 /// Loads on the segments but gravity, and their powers.
@@ -293,9 +292,9 @@ pub struct Load<S> {
     pub wrench: [Wrench<S>; MOST_SEGMENTS],
     /// By body, W.
     pub power: [Work<S>; MOST_BODIES],
-    /// Forces of each body on the frames that give way, and their moments about the origin of space, space axes, N and N·m.
+    /// Forces of each body on the frames that yield, and their moments about the origin of space, space axes, N and N·m.
     pub(crate) onto: [[Wrench<S>; MOST_GIVING]; MOST_BODIES],
-    /// Behind the place there of each frame that gives way; 0 of others.
+    /// Behind the place there of each frame that yields; 0 of others.
     giving: [u8; MOST_FRAMES],
     body_of: [u8; MOST_SEGMENTS],
     bodies: usize,
@@ -313,7 +312,7 @@ pub struct Load<S> {
 }
 
 impl<S: Scalar> Load<S> {
-    /// None yet, where these frames give way.
+    /// None yet, where these frames yield.
     #[inline(always)]
     pub(crate) fn zero(layout: &Layout, giving: impl IntoIterator<Item = usize>) -> Self {
         let mut body_of = [0; MOST_SEGMENTS];
@@ -410,12 +409,12 @@ impl<S: Scalar> Load<S> {
     }
 }
 
-/// What keeps two systems from being computed side by side, in words.
+/// What keeps two systems from being computed side by side, as text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct Unlike(pub &'static str);
 
-/// What elements cannot remember.
+/// A memory that elements cannot have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Misfit {

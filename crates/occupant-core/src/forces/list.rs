@@ -149,7 +149,7 @@ macro_rules! kinds {
                 $(self.$kind.clear();)+
             }
 
-            /// Becomes what `other` is; allocates nothing where there is room.
+            /// Becomes what `other` is; allocates nothing if there is room.
             pub(crate) fn take_over(&mut self, other: &Self)
             where
                 S: Copy,
@@ -199,7 +199,7 @@ macro_rules! kinds {
         }
 
         impl Data<'_> {
-            /// Reports what is wrong with the data by themselves, in the order of [`STORED`], then of what stores nothing.
+            /// Reports problems of the data by themselves, in the order of [`STORED`], then of what stores nothing.
             pub(crate) fn check(&self, body: &Body, problems: &mut Problems) {
                 let mut found = [const { Problems::new() }; STORES + 1];
                 $(
@@ -578,7 +578,7 @@ impl<S: Scalar> History<S> {
 
 #[cfg(any(target_arch = "x86_64", test))]
 impl History<f64> {
-    /// Remembers what `memory` does, of a later place. What is far from touching stays left out where no contact has begun or
+    /// Stores what `memory` does, of a later place. What is far from touching stays left out where no contact has begun or
     /// ended meanwhile.
     pub(crate) fn remember(&mut self, memory: &Memory<f64>) {
         let contacts = self.memory.contacts.iter().zip(&memory.contacts);

@@ -1,11 +1,11 @@
-//! What acts on the body: contact, belts, air bags, columns, joints, each kind of force element in a room of its own.
+//! Forces on the body: contact, belts, air bags, columns, joints; each kind of force element has its own module.
 //!
-//! A kind is an [`Element`]. The list of kinds in `list.rs` gives the force laws of everything ([`Forces`]), what they
-//! remember ([`History`]), what they do at one instant ([`Actions`]), their energies (`STORED`, `SUMS`). The kernel, runs
-//! side by side, dual numbers, the energy ledger and checkpoints know the list alone. What results show of a kind is its
-//! [`shown::Reported`]: result files, summaries, pictures and sensitivities visit the list ([`visit_kinds`]). To add a kind
-//! takes a folder with its [`Element`] and [`shown::Reported`], its line in the list, its places in the ledger and its data
-//! in a setup.
+//! A kind is an [`Element`]. From the list of kinds in `list.rs` follow the force laws ([`Forces`]), their memory
+//! ([`History`]), their actions at one instant ([`Actions`]) and their energies (`STORED`, `SUMS`). The kernel, lanes,
+//! dual numbers, the energy ledger and checkpoints know only the list. The results of a kind are its
+//! [`shown::Reported`]: result files, summaries, pictures and sensitivities visit the list ([`visit_kinds`]). To add a
+//! kind, add a folder with its [`Element`] and [`shown::Reported`], its line in the list, its places in the ledger and
+//! its data in a setup.
 //!
 //! Nothing here knows a model, a run or a result.
 

@@ -1,4 +1,4 @@
-//! How long a step may be in which a force must not be missed.
+//! Largest step that cannot miss a force.
 
 use crate::motion::scalar::Scalar;
 

@@ -1,4 +1,4 @@
-//! Rates of the equations of motion: how fast a spring or a damper answers, alone.
+//! Rates of the equations of motion: the rate of a single spring or damper.
 //!
 //! A spring K against an effective mass m oscillates with ω = √(K/m); a damper J against an effective inertia I decays
 //! with J/I.

@@ -1,4 +1,4 @@
-//! What a kind of force element gives to results: its quantities, peaks, tables, events, and what pictures draw of it.
+//! Results of a kind of force element: quantities, peaks, tables, events, and drawing data.
 
 use std::marker::PhantomData;
 
@@ -23,19 +23,19 @@ pub trait Reported: Element + 'static {
     const MESSAGE: &'static str = "";
     /// Fields of that message and time histories of one of them.
     const QUANTITIES: &'static [Quantity<OneOf<Self>>] = &[];
-    /// The numbers of one of them whose peaks a run's summary tells.
+    /// Numbers of an element whose peaks a run's summary reports.
     const PEAKS: &'static [Tracked] = &[];
 
     /// Whether a run's summary has a table of their peaks.
     const SHOWS_PEAKS: bool = true;
-    /// Whether a run's summary tells what happens to them: [`Reported::event`].
+    /// Whether a run's summary reports their events: [`Reported::event`].
     const TELLS: bool = false;
 
     /// Shows what one of them does to who follows it: the numbers of [`Reported::PEAKS`] in their order.
     #[inline(always)]
     fn track<S: Scalar>(_action: &Self::Action<S>, _tracker: &mut impl Tracker<S>) {}
 
-    /// Exchanges what they remember with a result file; at the start of a step `like` is what they remember at the output.
+    /// Exchanges their memory with a result file; at the start of a step `like` is their memory at the output.
     fn keep(_past: &mut Vec<Self::Past<f64>>, _like: Option<&[Self::Past<f64>]>, _file: &mut dyn Archive) {}
 
     /// Names of the elements and the spheres that they act on.
@@ -71,14 +71,15 @@ pub trait Reported: Element + 'static {
     ) {
     }
 
-    /// What happens at accepted steps, in words as of [`Reported::event`]: all that [`Reported::switched`] and [`Reported::told`] say.
+    /// Events at accepted steps, as text of [`Reported::event`]: all that [`Reported::switched`] and [`Reported::told`]
+    /// report.
     const BY_STEPS: &'static [&'static str] = &[];
 
     /// Shows what has happened to one of them between two accepted steps, by the numbers that it tracks there.
     fn told(_before: &[f64], _now: &[f64], _show: &mut dyn FnMut(&'static str)) {}
 
     /// What has happened to one of them between two looks, in words that follow its name, and by how much its force jumps, N;
-    /// nothing where only a slope changes.
+    /// nothing if only a slope changes.
     fn event<S: Scalar>(_before: &Self::Action<S>, _now: &Self::Action<S>) -> Option<(&'static str, Option<S>)> {
         None
     }
@@ -154,7 +155,7 @@ pub struct Pull<'a> {
 
 /// Follows what force elements do from step to step.
 pub trait Tracker<S> {
-    /// A number whose greatest value is kept.
+    /// A number whose largest value is kept.
     fn number(&mut self, number: S);
     /// Several.
     #[inline(always)]
@@ -170,7 +171,7 @@ pub trait Tracker<S> {
     fn touch(&mut self, touch: &Touch<S>);
 }
 
-/// A number whose greatest value in a run is kept: [`Reported::track`] shows it.
+/// A number whose largest value in a run is kept: [`Reported::track`] shows it.
 #[derive(Clone, Copy, Debug)]
 pub struct Tracked {
     /// Column of the peak.

@@ -1,4 +1,4 @@
-//! The spheres of the body as the kernel sees them: what surfaces press on and belts go round.
+//! The spheres of the body in the kernel: surfaces press on them, and belts go round them.
 
 use crate::body::{Body, ContactSphere, Shares};
 use crate::motion::kinematics::Kinematics;
@@ -6,7 +6,7 @@ use crate::motion::layout::MOST_SLIDES;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
-/// What uses a sphere: each use may ride in its own way on parts of a segment that give way.
+/// What uses a sphere: each use may ride in its own way on parts of a segment that yield.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Use {
     /// Surfaces, solids and other spheres.

@@ -1,10 +1,10 @@
 //! The bilinear dissipative spring of contacts and webbing: data and law.
 //!
-//! Report: Fig. 16 is lost; the curve is our decision. With Δ_m the greatest deformation so far (the present one counts),
-//! a = min(Δ_m, Δ_b), b = max(Δ_m − Δ_b, 0) and e = Δ − Δ_m + μ₁a + μ₂b:
+//! Report: Fig. 16 is lost; the curve is our decision. With Δ_m the largest deformation so far (including the present
+//! one), a = min(Δ_m, Δ_b), b = max(Δ_m − Δ_b, 0) and e = Δ − Δ_m + μ₁a + μ₂b:
 //!
 //! - F = (K₁/μ₁) e for 0 < e ≤ μ₁a, then slope K₂/μ₂: the unloading line, which meets the loading curve at Δ_m;
-//! - U = ∫F de, the energy that unloading gives back: exactly μ₁ of what range 1 took and μ₂ of what range 2 took.
+//! - U = ∫F de, the energy that unloading returns: exactly μ₁ of the work of range 1 and μ₂ of that of range 2.
 //!
 //! Loading is the case Δ = Δ_m of the same formula. K₁ = 0 is a gap: no force up to Δ_b, whatever μ₁ is.
 
@@ -58,7 +58,7 @@ impl BilinearSpring {
         Spring::<f64>::new(self).steepest()
     }
 
-    /// Reports what is wrong with it under `path`.
+    /// Reports problems of it under `path`.
     pub(crate) fn check(&self, path: &str, problems: &mut Problems) {
         problems.check_at_least_zero(&format!("{path}.k1"), self.k1_n_per_m, "N/m");
         problems.check_at_least_zero(&format!("{path}.k2"), self.k2_n_per_m, "N/m");
@@ -71,7 +71,7 @@ impl BilinearSpring {
         if k2 > 0.0 && k2 < k1 && self.returned_2 > YIELDING {
             let found = format!("{k2} N/m, softer than k1 = {k1} N/m, of a spring that gives back {}", self.returned_2);
             let expected =
-                "the larger of the two, or of what yields mu2 of 0.5 at most: have k1 and k2 changed places?";
+                "the larger of the two, or mu2 of at most 0.5 for a part that yields: are k1 and k2 exchanged?";
             problems.warning(format!("{path}.k2"), found, expected);
         }
         for (key, value) in [("mu1", self.returned_1), ("mu2", self.returned_2)] {
@@ -131,7 +131,7 @@ impl<S: Scalar> Spring<S> {
         }
     }
 
-    /// Force (N) and recoverable energy (J) at deformation `depth` (m) after a greatest deformation `greatest` (m).
+    /// Force (N) and recoverable energy (J) at deformation `depth` (m) after a largest deformation `greatest` (m).
     #[inline(always)]
     pub fn respond(&self, depth: S, greatest: S) -> (S, S) {
         let o = S::zero();

@@ -1,4 +1,4 @@
-//! How what a run carries on goes to a result file and comes back: said once for both ways.
+//! Conversion of a run's memory to and from a result file, defined once for both directions.
 
 use crate::quantity::{FieldWords, Value};
 
@@ -10,7 +10,7 @@ pub trait Archive {
     /// What comes belongs to the start of the step that leads beyond the output.
     fn begin_step(&mut self) {}
 
-    /// The stored values cannot be, in words.
+    /// The stored values cannot be, as text.
     fn refuse(&mut self, _why: &str) {}
 }
 

@@ -1,6 +1,6 @@
-//! Tables of force elements, a row for each element of a kind: what a run's summary and a start's diagnosis give for them.
+//! Tables of force elements, one row per element of a kind, for a run's summary and for the diagnosis of its start.
 //!
-//! JSON, text tables, studies and reports are made from the columns alone and name no kind.
+//! JSON, text tables, studies and reports use only the columns and name no kind.
 
 use std::borrow::Borrow;
 use std::ops::Index;
@@ -150,7 +150,7 @@ pub struct Table {
 pub enum Cell {
     /// Words.
     Text(String),
-    /// A number; none where there is none, such as the time of a peak that was not reached.
+    /// A number; none if there is none, such as the time of a peak that was not reached.
     Number(Option<f64>),
 }
 

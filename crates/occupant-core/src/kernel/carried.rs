@@ -1,14 +1,14 @@
-//! What the joints carry, from what an evaluation has derived.
+//! Loads of the joints, from the results of an evaluation.
 //!
-//! Newton's and Euler's equations of all segments beyond a joint, with the accelerations that the evaluation found. About the
-//! joint, with d the places of the segments' own joints and r those of their centres of gravity, seen from these,
+//! Newton's and Euler's equations of all segments beyond a joint, with the accelerations of the evaluation. About the
+//! joint, with d the positions of the segments' own joints and r those of their centres of gravity relative to these,
 //!
 //! ```text
 //! f = Σ [M (a + g Z′) − F]
 //! τ = Σ [Iα + ω × Iω + r × M (a + g Z′) − T + d × (M (a + g Z′) − F)]
 //! ```
 //!
-//! F and T are the loads of contacts and all other force elements but joints.
+//! F and T are the loads of contacts and all other force elements except joints.
 
 use crate::kernel::{Evaluation, Scratch};
 use crate::motion::dynamics::{Accelerations, Wrench};

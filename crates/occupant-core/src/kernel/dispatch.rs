@@ -1,4 +1,4 @@
-//! A run alone: its rate in the instructions of AVX where the processor has them, and all that an evaluation derives.
+//! A single run: its rate with AVX instructions if the processor has them, and all results of an evaluation.
 
 use crate::forces::{History, Load, Observer};
 use crate::kernel::{Evaluation, Scratch, Situation, System};

@@ -1,4 +1,4 @@
-//! What the instruments of a dummy read at an evaluation: of every accepted step, in lanes as alone.
+//! Readings of a dummy's instruments at an evaluation: at every accepted step, in lanes and alone.
 
 use crate::body::tree::{BodyRow, JointRow};
 use crate::body::{Body, Limb, Segment};
@@ -20,14 +20,14 @@ pub(crate) const NECK: usize = 15;
 pub(crate) const FEMURS: usize = 21;
 /// Where the place of the head stands in a reading.
 pub(crate) const PLACE: usize = 23;
-/// Where deflections of the chest stand: of the breastbone, then of the points of [`POINTS`].
+/// Where deflections of the chest stand: of the sternum, then of the points of [`POINTS`].
 pub(crate) const CHEST: usize = 26;
 /// Where what tests from behind read stands: acceleration of T1 ahead, speed ahead of the head and place ahead of the pelvis in the
 /// body's home.
 pub(crate) const REAR: usize = CHEST + CHEST_POINTS;
 /// How many they are.
 pub(crate) const CHEST_POINTS: usize = 1 + POINTS.len();
-/// Points of a chest beside the breastbone, as bodies name them.
+/// Points of a chest beside the sternum, as bodies name them.
 const POINTS: [&str; 4] = ["upper_left", "upper_right", "lower_left", "lower_right"];
 
 /// What the instruments of one body read at one instant, SI. In SAE J211 axes of the segments: what accelerometers of head,

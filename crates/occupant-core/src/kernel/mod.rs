@@ -1,6 +1,6 @@
 //! The derivative kernel: from a state to its rate of change.
 //!
-//! One evaluation reads as the report's method: places and velocities of the segments, loads from force elements,
+//! One evaluation follows the report's method: positions and velocities of the segments, loads from force elements,
 //! then the accelerations of the tree. It allocates nothing, and is written once over `Scalar`.
 //!
 //! Results that are not integrated (which surface is touched, how strongly) go to an [`Observer`]; the unit observer `()`
@@ -125,7 +125,7 @@ pub struct Scratch<S> {
     carried: Vec<Moving<S>>,
     load: Load<S>,
     sweep: Sweep<S>,
-    /// Where columns and hinges carry their frames; none where there are none.
+    /// Where columns and hinges carry their frames; none if there are none.
     frames: Option<Box<Frames<S>>>,
 }
 

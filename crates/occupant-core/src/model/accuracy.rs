@@ -1,4 +1,4 @@
-//! How near to the solution of its equations a run is asked to be.
+//! The requested accuracy of a run.
 
 use serde::{Deserialize, Serialize};
 

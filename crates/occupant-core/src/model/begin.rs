@@ -1,4 +1,4 @@
-//! How a model begins: the body placed, or all bodies, then everything that depends on where they are.
+//! The start of a model: the body or all bodies are placed, then everything that depends on their positions.
 
 use crate::forces::contact::OPEN;
 use crate::forces::contact::flat_face::FlatFace;

@@ -1,7 +1,7 @@
-//! Whether a setup is one of a blow from behind on a seat with a head restraint, whose measures are those of whiplash.
+//! Whether a setup is a rear impact on a seat with a head restraint, which has whiplash measures.
 //!
-//! A head restraint is a surface or solid with `head_restraint` in its name. The blow is from behind where the vehicle that carries it
-//! gets at least 1 m/s ahead along its own X within 150 ms, and more than it loses within any such time.
+//! A head restraint is a surface or solid with `head_restraint` in its name. It is a rear impact if the vehicle that
+//! carries it gains at least 1 m/s forward along its own X within 150 ms, and more than it loses within any such time.
 
 use crate::forces::contact::surface::Frame;
 use crate::model::setup::Setup;

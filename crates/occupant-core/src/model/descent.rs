@@ -1,8 +1,8 @@
-//! Going down in potential energy to where a body rests: Newton's method, shifted so that it goes downhill.
+//! Descent in potential energy to where a body rests: Newton's method, shifted so that it descends.
 //!
 //! (H + λ1) δ = −g,   g = ∂V/∂x, H its differences, made symmetric
 //!
-//! A step is taken where V falls, ½(g + g′)·δ < 0.
+//! A step is accepted if V falls, ½(g + g′)·δ < 0.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -67,7 +67,7 @@ pub(super) fn descend(body: &mut impl Movable, from: &State<f64>, weight_n: f64)
     (state, g)
 }
 
-/// −(H + λ1)⁻¹g, shortened where it is too long; none where H + λ1 is not positive definite.
+/// −(H + λ1)⁻¹g, shortened where it is too long; none if H + λ1 is not positive definite.
 fn downhill(hessian: &DMatrix<f64>, g: &DVector<f64>, shift: f64) -> Option<DVector<f64>> {
     let shifted = hessian + DMatrix::from_diagonal_element(g.len(), g.len(), shift + 1e-9);
     let step = -shifted.cholesky()?.solve(g);

@@ -1,10 +1,10 @@
-//! Settling of a limp body: all joints give way until contacts, belts, springs, locks and elastic limits carry it.
+//! Settling of a limp body: all joints are released until contacts, belts, springs, locks and elastic limits carry it.
 //!
-//! Our decision (the report has none): where it comes to lie is the minimum of the potential energy V below the posture that
-//! it was seated in, at rest, without friction and damping; its muscles rest. Freedoms x are the displacement of T1, the turn
-//! of the first segment, of all that hangs on a ball joint about that joint, and of a hinge about its axis; −∂V/∂x is the load
-//! there, and [`descend`] goes down. It begins where the body as one piece has settled: there springs and locks are
-//! at rest, and belts of one loop have their length and slack.
+//! Our decision (the report has none): it rests at the minimum of the potential energy V below its seated posture,
+//! without friction and damping, with muscles at rest. The degrees of freedom x are the displacement of T1, the
+//! rotation of the first segment, of everything beyond a ball joint about that joint, and of everything beyond a hinge
+//! about its axis. −∂V/∂x is the load there, and [`descend`] reduces V. It begins where the body has settled as one
+//! piece: springs and locks are at rest there, and belts of one loop have their length and slack.
 
 use nalgebra::{DVector, Matrix3, Vector3};
 
@@ -26,7 +26,7 @@ use crate::motion::vector::V3;
 use crate::vehicle::FrameMotion;
 use occupant_units::trig;
 
-/// A limp body at rest in a vehicle that stands still.
+/// A limp body at rest in a vehicle that is at rest.
 struct Limp {
     system: System<f64>,
     still: Frames<f64>,

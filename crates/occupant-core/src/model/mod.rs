@@ -303,7 +303,7 @@ fn names_hash(setup: &Setup) -> u64 {
     hasher.finish()
 }
 
-/// Frames for a motion of the vehicle at a time; others stand still in space.
+/// Frames for a motion of the vehicle at a time; others are at rest in space.
 pub fn frames(time_s: f64, vehicle: &FrameMotion) -> Frames<f64> {
     let mut frames = Frames::still(time_s);
     frames[VEHICLE] = Moving::of(vehicle);

@@ -1,4 +1,4 @@
-//! How segments are turned at the start: from angles under their names to a state.
+//! Initial orientations of segments: from angles under their names to a state.
 
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 

@@ -1,11 +1,11 @@
 //! Seating: from posture angles and a seat to the state at the start.
 //!
-//! Report: "Seating the Passenger", Figs 19 and 20. In vehicle axes a segment that leans back by γ has
-//! Z = (−sin γ, 0, −cos γ). Our decisions: the pelvis sphere is tangent to the seat back and sinks into the cushion until
-//! the loading curve there, resolved along gravity, carries g·(M₁+…+M₈ + ½(M₉+M₁₀)); each leg is a two-link chain from hip
-//! to heel with the knee above the line. Where the legs of a smaller person do not reach the heels' place, the thighs lie along
-//! the cushion and the feet stand as high as they were to, nearer; where they do not reach down to there either, the legs lie
-//! stretched along the cushion.
+//! Report: "Seating the Passenger", Figs 19 and 20. In vehicle axes a segment that leans back by γ has Z = (−sin γ, 0,
+//! −cos γ). Our decisions: the pelvis sphere is tangent to the seat back and sinks into the cushion until the loading
+//! curve there, resolved along gravity, carries g·(M₁+…+M₈ + ½(M₉+M₁₀)); each leg is a two-link chain from hip to heel
+//! with the knee above the line. If the legs of a smaller person do not reach the heels' position, the thighs lie along
+//! the cushion and the feet are at the given height, but nearer. If they do not reach down to that height either, the
+//! legs lie stretched along the cushion.
 
 use nalgebra::{Matrix3, Vector3};
 

@@ -22,7 +22,7 @@ pub struct Seating {
     /// Lateral place of the body's middle plane, Y_v (right positive).
     pub lateral_m: f64,
     /// Angles under the names of segments, which lean by γ, and of hinges, which turn by α: `head`, or `upper_arms` for
-    /// both. A segment of which nothing is said hangs as the one that carries it; heels say where the legs are.
+    /// both. Other segments are aligned with their parent; heels determine the legs.
     pub angles_rad: Vec<(String, f64)>,
     /// X_VH, Z_VH: the heels in vehicle axes.
     pub heels_m: [f64; 2],
@@ -129,7 +129,7 @@ pub enum InitialPosture {
     Together,
     /// Given in the report's generalized coordinates; their rates replace [`InitialVelocity`].
     Coordinates(Box<ReportCoordinates>),
-    /// Where an earlier run ended, as far as cards tell it (series 6 and 14). They carry no greatest deformation.
+    /// Where an earlier run ended, as far as cards tell it (series 6 and 14). They carry no largest deformation.
     Continued {
         /// As in [`InitialPosture::Coordinates`].
         coordinates: Box<ReportCoordinates>,

@@ -1,10 +1,11 @@
-//! Settling: the seated body moves as one piece until contacts and belts carry it. What is `limp` gives way in
-//! its joints too.
+//! Settling: the seated body moves as one piece until contacts and belts carry it. With `limp` its joints are released
+//! too.
 //!
-//! Our decision (the report has none): joints locked, posture kept; the six freedoms of the rigid body are found by a
-//! damped quasi-Newton iteration on the resultant force and moment of contacts, belts and weight, every contact on its loading
-//! curve, at rest relative to the vehicle. Directions that nothing resists are left alone; what friction holds stays. Where that
-//! finds no rest, since the feet do not reach the floor yet, say, the body goes down in potential energy until something carries it.
+//! Our decision (the report has none): joints locked, posture kept; the six degrees of freedom of the rigid body are
+//! found by a damped quasi-Newton iteration on the resultant force and moment of contacts, belts and weight, every
+//! contact on its loading curve, at rest relative to the vehicle. Directions without resistance, and those that
+//! friction holds, stay unchanged. If this finds no rest, for example because the feet do not yet reach the floor, the
+//! body descends in potential energy until something carries it.
 
 use nalgebra::{DVector, Matrix3, Matrix6, Vector3, Vector6};
 use serde::{Serialize, Serializer};
@@ -83,7 +84,7 @@ impl Settled {
             problems.warning(
                 "posture.settle",
                 format!(
-                    "the body does not come to rest: {:.1} N and {:.1} N·m are left over of a weight of {:.1} N",
+                    "the body does not come to rest: {:.1} N and {:.1} N·m remain, for a weight of {:.1} N",
                     self.residual_force_n, self.residual_moment_n_m, self.weight_n
                 ),
                 "a posture that seat, floor and belts can carry with locked joints",
@@ -338,7 +339,7 @@ pub(super) fn standing(setup: &Setup, vehicle: &FrameMotion) -> Frames<f64> {
     still
 }
 
-/// Gives muscles at the start of a body that has settled what their joints carry there, at rest in frames that stand still.
+/// Gives muscles at the start of a body that has settled what their joints carry there, at rest in frames that are at rest.
 pub(crate) fn carry(system: &mut System<f64>, state: &State<f64>, still: &Frames<f64>, history: &History<f64>) {
     let mut scratch = Scratch::blank(system);
     let (k, loads) = system.loads(&mut scratch, Situation::within(state, still), &mut history.clone());
@@ -348,7 +349,7 @@ pub(crate) fn carry(system: &mut System<f64>, state: &State<f64>, still: &Frames
     }
 }
 
-/// The joint of a resting body that lacks most to hold its posture; none where all hold it.
+/// The joint of a resting body that lacks most to hold its posture; none if all hold it.
 pub(super) fn lack(
     system: &System<f64>,
     body: &Body,

@@ -1,4 +1,4 @@
-//! Everything a run needs, as plain SI data: what a scenario says once its words are numbers.
+//! Everything that a run needs, as plain SI data: the content of a scenario as numbers.
 //!
 //! [`SetupBuilder`] puts one together in code. A `Setup` may still be wrong; [`crate::model::Model::new`] checks it and reports every problem at once.
 
@@ -196,7 +196,7 @@ impl OtherFrame {
     }
 }
 
-/// What was driven, told at the stations of the drive; clones share it.
+/// The drive, given at its stations; clones share it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DriveLog {
     /// Name of the vehicle.
@@ -238,7 +238,7 @@ pub struct Scenery {
 pub struct Member {
     /// Its name: small letters, digits and `_`; none of a first one that stands at the top of a scenario.
     pub name: String,
-    /// The frame in whose axes it begins and its places are told.
+    /// The frame in whose axes it begins and its positions are reported.
     pub home: Frame,
     /// The spheres (indices) that can touch each surface, then each solid; all of them where there is no list.
     pub meets: Vec<Option<Vec<usize>>>,
@@ -252,13 +252,13 @@ impl Member {
         self.alone.body.name == LOOSE
     }
 
-    /// Where a scenario tells of it.
+    /// Its path in a scenario.
     pub(crate) fn path(&self) -> String {
         with_key(if self.is_loose() { "loose" } else { "occupants" }, &self.name)
     }
 }
 
-/// What the frame is called that stands still.
+/// Name of the frame at rest.
 pub const GROUND: &str = "ground";
 
 /// What the body is called of which a loose one consists.
@@ -281,7 +281,7 @@ pub struct Setup {
     pub surfaces: Vec<Surface>,
     /// Solids, vehicle's and space's. Where results and seats name a surface by its index, they stand behind all surfaces.
     pub solids: Vec<Solid>,
-    /// Surfaces, and solids behind all surfaces (indices), that the spine leans on, such as a seat's back: a chest that gives way
+    /// Surfaces, and solids behind all surfaces (indices), that the spine leans on, such as a seat's back: a chest that yields
     /// meets them as a rigid one.
     pub behind: Vec<usize>,
     /// Where the edge force acts.
@@ -294,7 +294,7 @@ pub struct Setup {
     pub chains: Vec<Chain>,
     /// Air bags.
     pub bags: Vec<Bag>,
-    /// Steering columns and hinges that give way, each of which carries one of `frames`.
+    /// Steering columns and hinges that yield, each of which carries one of `frames`.
     pub columns: Vec<Column>,
     /// What resists the deflections of the body's plates.
     pub bands: Vec<Band>,
@@ -330,7 +330,7 @@ impl Setup {
         let forces = self.own_forces.iter().map(|own| format!("the program's own force `{}`", own.name));
         let path = match self.path {
             VehiclePath::Own(_) => Some("a vehicle that the program moves"),
-            VehiclePath::Live(_) => Some("a vehicle that was told on its way how it moves"),
+            VehiclePath::Live(_) => Some("a vehicle whose motion is given during the run"),
             _ => None,
         };
         path.map(str::to_owned).into_iter().chain(forces).collect()
@@ -409,7 +409,7 @@ impl Setup {
         self.surfaces.iter().map(|s| s.name.as_str()).chain(solids).chain(spheres)
     }
 
-    /// Name of the surface, solid or sphere of this index; none for one that there is not.
+    /// Name of the surface, solid or sphere of this index; none for one that does not exist.
     pub fn surface_name(&self, index: usize) -> Option<&str> {
         self.surface_names().nth(index)
     }

@@ -1,4 +1,5 @@
-//! Several bodies in one run: each begins as it would alone, then all are one model whose kernel goes from tree to tree.
+//! Several bodies in one run: each starts as it would alone, then all are one model whose kernel goes from tree to
+//! tree.
 
 use crate::body::{Body, called};
 use crate::forces::belt::Belt;
@@ -11,7 +12,7 @@ use crate::model::seating::InitialPosture;
 use crate::model::setup::{Member, OtherFrame, Setup};
 use placed_text::{Problem, Problems};
 
-/// What stands first in the paths of problems that are a member's own.
+/// Prefix of the paths of problems of a member.
 const OWN: [&str; 9] =
     ["body", "joints", "posture", "seat", "mount", "velocity", "belts", "self_contact", "initial_state"];
 
@@ -55,9 +56,7 @@ impl Setup {
         self
     }
 
-    /// The bodies `members` in the world of this setup, of which the body and what belongs to it count nothing. `pairs` are
-    /// spheres of two of them that meet, by member and index, `skins` the materials of members that say no other; the first where
-    /// there are too few.
+    /// Puts `members` into this setup's world. The setup's own body, joints, belts and posture are ignored.
     #[must_use]
     pub fn together(self, members: Vec<Member>, pairs: &[[(usize, usize); 2]], skins: &[usize]) -> Setup {
         let mut all = Setup { body: bodies(&members), members, posture: InitialPosture::Together, ..self };
@@ -111,7 +110,7 @@ impl Setup {
             firsts.push(sphere);
             (segment, sphere) = (segment + alone.body.segments.len(), sphere + count);
         }
-        // a member that there is not has no sphere: `Model::new` refuses it
+        // a member that does not exist has no sphere: `Model::new` refuses it
         let among_all = |(member, i): (usize, usize)| firsts.get(member).map_or(usize::MAX, |first| first + i);
         own.pairs.extend(pairs.iter().map(|pair| pair.map(among_all)));
         behind.sort_unstable();
@@ -139,7 +138,7 @@ fn moved(node: &Node, segment: usize, sphere: usize, first: usize) -> Node {
     Node { site, ride, ..node.clone() }
 }
 
-/// The members as models of their own; none where there is one body.
+/// The members as models of their own; none if there is one body.
 pub(super) fn alone(setup: &Setup, problems: &mut Problems) -> Option<Vec<Model>> {
     let mut models = Vec::new();
     for member in &setup.members {

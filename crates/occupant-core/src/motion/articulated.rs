@@ -1,28 +1,28 @@
 //! The sweeps through any tree.
 //!
-//! With A, J symmetric, a the acceleration of a segment's joint and α its angular acceleration, the segment and all that hangs
-//! on it need at that joint
+//! With A, J symmetric, a the acceleration of a segment's joint and α its angular acceleration, the segment and
+//! everything beyond it require at that joint
 //!
 //! ```text
 //! force    f = A a − B α + β_f     A = m1 + ΣAₖ     B = m[r]× + Σ(Bₖ + Aₖ[cₖ]×)
 //! moment   τ = J α − Bᵀ a + β_τ    J = J_own + Σ(Jₖ + (Bₖᵀ[cₖ]×) + (Bₖᵀ[cₖ]×)ᵀ − [cₖ]×Aₖ[cₖ]×)
 //! ```
 //!
-//! where the index k tells what a segment that hangs at cₖ needs for α of the one that carries it. A fixed joint hands that on as
-//! it is. About the axis u of a hinge there is no moment, u·τ = 0, and α grows by u q̈ + ω × u q̇ from inside to outside: q̈ =
-//! g·a − h·α − b with h = Ju/d, g = Bu/d, d = u·Ju takes from A, B and J their parts along u. A universal joint is two hinges
-//! with nothing between them; their axes stand at right angles, so that the second d vanishes as little as the first.
+//! where the index k marks the requirement of a child at cₖ for its parent's α. A fixed joint passes it on unchanged. A
+//! hinge has no moment about its axis u, u·τ = 0, and α increases by u q̈ + ω × u q̇ across it: q̈ = g·a − h·α − b with
+//! h = Ju/d, g = Bu/d, d = u·Ju, which removes the parts of A, B and J along u. A universal joint is two hinges with
+//! nothing between them; their axes are at right angles, so the second d does not vanish either.
 //!
-//! A point mass m that slides along û, at r = r₀ + ûs, is a part of its segment's mass, which has it at r₀. With P = 1 − ûûᵀ it
-//! needs A = mP, β_f = 2mṡP(ω×û) + (Q − S)û at r; all loads on what rides on it act on the segment. What the segment needs changes
-//! by that less m at r₀, with n = û × r₀:
+//! A point mass m that slides along û, at r = r₀ + ûs, is a part of its segment's mass, which includes it at r₀. With P
+//! = 1 − ûûᵀ it requires A = mP, β_f = 2mṡP(ω×û) + (Q − S)û at r; all loads on what rides on it act on the segment. The
+//! segment's requirement changes by this minus m at r₀, with n = û × r₀:
 //!
 //! ```text
 //! A −= m ûûᵀ     B += m s[û]× − m û nᵀ     J −= m (n nᵀ + r rᵀ − r₀r₀ᵀ − (r² − r₀²) 1)
 //! s̈ = (Q − S)/m − û·(a + α×r + ω×(ω×r) + 2ṡ ω×û)
 //! ```
 //!
-//! About a ball joint there is no moment at all: what is handed on is a force, f = (A − BJ⁻¹Bᵀ) a + β_f + BJ⁻¹β_τ.
+//! A ball joint has no moment at all and passes on only a force, f = (A − BJ⁻¹Bᵀ) a + β_f + BJ⁻¹β_τ.
 
 use crate::motion::dynamics::{Accelerations, Wrench};
 use crate::motion::kinematics::{Kinematics, Slid};

@@ -1,10 +1,9 @@
 //! Dual numbers: a value and its derivatives in N directions, carried through every operation.
 //!
-//! The value runs through exactly the operations of `f64`, so the values of a run in duals are to the bit those of the
-//! plain run; comparisons, masks and branches go by the value. What a branch does to the derivative is what the branch
-//! taken does: at the place where two branches meet the derivative is that of one side. Where a function has no finite
-//! derivative this is our decision: √ at 0, arccos at ±1 and the angle of the null vector have the derivative 0, |x| at 0
-//! that of its positive side.
+//! The value uses exactly the operations of `f64`, so the values of a run in duals have the bits of the plain run;
+//! comparisons, masks and branches use the value. The derivative follows the branch taken: where two branches meet it
+//! is that of one side. Where a function has no finite derivative, our decision is: √ at 0, arccos at ±1 and the angle
+//! of the null vector have the derivative 0, |x| at 0 that of its positive side.
 
 use std::array::from_fn;
 use std::ops::{Add, Div, Mul, Neg, Sub};

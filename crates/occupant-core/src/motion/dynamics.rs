@@ -1,8 +1,8 @@
 //! Equations of motion: D·u̇ = E + F_p + F_s + Q_f + R (Eq. 53) solved by one sweep in and one sweep out of the tree.
 //!
-//! Seen from its joint a subtree is a few small matrices and vectors: what force and moment it needs there for an
-//! acceleration of the joint. `articulated` finds them for any tree, `closed` for that of the report. Gravity
-//! is uniform: it only shifts every acceleration, and is added at the end. The result is the report's.
+//! At its joint a subtree is represented by a few small matrices and vectors: the force and moment that it requires
+//! there for an acceleration of the joint. `articulated` computes them for any tree, `closed` for that of the report.
+//! Gravity is uniform: it only shifts every acceleration, and is added at the end. The result is the report's.
 
 use crate::motion::frame::{Frames, Moving};
 use crate::motion::kinematics::Kinematics;
@@ -49,7 +49,7 @@ pub struct Accelerations<S> {
     pub slides: [S; MOST_SLIDES],
 }
 
-/// Accelerations under the loads `wrench` (without gravity, which is added here): solves (53). A guided root stands still.
+/// Accelerations under the loads `wrench` (without gravity, which is added here): solves (53). A guided root is at rest.
 #[inline(always)]
 pub fn solve<S: Scalar>(
     body: &Skeleton<S>,
@@ -113,7 +113,7 @@ impl<S: Scalar> Sweep<S> {
                 let a = carrier.acceleration - gravity;
                 sweep.solve((bodies, body), k, hinge_rate, (wrench, drive), [a, carrier.alpha], out);
                 if let (Some(root), Some(power)) = (&root, &mut power) {
-                    // of a mount in space, which stands still, it is 0
+                    // of a mount in space, which is at rest, it is 0
                     let first = bodies.layout.trunks()[body].first;
                     let Wrench { force, moment } = sweep.at_root(first, a, root.alpha);
                     power[body].vehicle += force.dot(root.velocity) + moment.dot(root.omega);

@@ -1,7 +1,7 @@
 //! Motion of the frames that surfaces and anchors are fixed to, as the kernel uses it.
 //!
-//! Report: Eqs 82, 83 and 94. Space is frame 0 and the first vehicle frame 1; others follow. Behind all of them stand the
-//! segments that carry faces.
+//! Report: Eqs 82, 83 and 94. Space is frame 0 and the first vehicle frame 1; others follow. Last are the segments that
+//! carry faces.
 
 use std::ops::{Index, IndexMut};
 

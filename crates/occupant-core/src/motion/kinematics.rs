@@ -1,4 +1,4 @@
-//! Where every segment is and how it moves: derived from the state, overwritten at every evaluation.
+//! Position and motion of every segment: derived from the state, overwritten at every evaluation.
 //!
 //! Report: "Body Geometry and Coordinate Systems". Every joint is T1 plus constant vectors in axes of the segments, in the
 //! report's body multiples of Y and Z; all vectors are in space axes.

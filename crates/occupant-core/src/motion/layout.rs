@@ -1,6 +1,6 @@
-//! What the kernel loops over: how the segments of a tree hang on each other, and where the numbers of each stand in a state.
+//! The loops of the kernel: parents of the segments of a tree, and the positions of their numbers in a state.
 //!
-//! Segments are indices here; a segment's joint is the one that carries it. A segment stands after the one that carries it.
+//! Segments are indices here; a segment's joint is the one that carries it. A segment comes after its parent.
 
 use crate::body::tree::{JointKind, JointRow, Tree};
 
@@ -89,7 +89,7 @@ impl Row {
 pub struct TreeError {
     /// Its place among the segments, from 0.
     pub segment: usize,
-    /// What is wrong with it.
+    /// Problems of it.
     pub found: &'static str,
     /// What could be there.
     pub expected: &'static str,
@@ -117,7 +117,7 @@ impl Layout {
             turns += hinges(segment);
             match parent {
                 None if n > 0 => return error("carried by none", "one root, the first segment"),
-                Some(parent) if parent >= n => return error("carried by one that stands after it", "one before it"),
+                Some(parent) if parent >= n => return error("carried by one that comes after it", "one before it"),
                 _ => {}
             }
             match freedom {

@@ -1,7 +1,7 @@
-//! How easily the body gives way: accelerations for unit loads in the posture at the start.
+//! Mobility of the body: accelerations for unit loads in the initial posture.
 //!
 //! The equations of motion are linear in the loads, so the difference of two solutions is the exact response; at rest
-//! no velocity term is in the way. Ours; the report has no such estimate.
+//! there is no velocity term. Ours; the report has no such estimate.
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
@@ -54,7 +54,7 @@ impl<'a> Mobility<'a> {
         symmetric(column)
     }
 
-    /// α̈ of a hinge, by its place in the state, for a unit moment in it, 1/(kg·m²).
+    /// α̈ of a hinge, by its position in the state, for a unit moment in it, 1/(kg·m²).
     pub(crate) fn of_hinge(&self, hinge: usize) -> f64 {
         let lower = self.skeleton.layout.hinged()[hinge];
         let upper = self.skeleton.layout.parent(lower).unwrap_or(lower);
@@ -77,7 +77,7 @@ fn symmetric(column: impl Fn(V3<f64>) -> Vector3<f64>) -> Matrix3<f64> {
     (matrix + matrix.transpose()) * 0.5
 }
 
-/// Greatest eigenvalue of a symmetric matrix.
+/// Largest eigenvalue of a symmetric matrix.
 pub(crate) fn greatest(matrix: Matrix3<f64>) -> f64 {
     SymmetricEigen::new(matrix).eigenvalues.max()
 }

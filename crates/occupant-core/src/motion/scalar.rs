@@ -2,7 +2,8 @@
 //!
 //! The kernel (kinematics, force laws, recursion) is written once over [`Scalar`]: `f64` for a single run; vectors of
 //! lanes (several scenarios at once) and dual numbers (exact sensitivities) fit the same trait. A comparison gives a
-//! [`Scalar::Mask`]; [`Scalar::select`] picks per lane, and [`Scalar::any`] lets the kernel skip work that no lane needs.
+//! [`Scalar::Mask`]; [`Scalar::select`] selects per lane, and [`Scalar::any`] lets the kernel skip work that no lane
+//! needs.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};

@@ -1,8 +1,8 @@
-//! Constants of the multibody system: masses, inertias and joint places, seen from each segment's own joint.
+//! Constants of the multibody system: masses, inertias and joint positions, relative to each segment's own joint.
 //!
-//! Report: "Body Geometry and Coordinate Systems". There, seen from its proximal joint, the centre of gravity of a segment lies
-//! on its Z axis: at −ρ̄ for the hanging segments, at +ρ for the upper torso and the head (Eq. 15 as printed has ρ₁ for ρ̄₁).
-//! Of any other body it may lie anywhere, and so may the joints.
+//! Report: "Body Geometry and Coordinate Systems". There, relative to its proximal joint, the centre of gravity of a
+//! segment is on its Z axis: at −ρ̄ for the hanging segments, at +ρ for the upper torso and the head (Eq. 15 is printed
+//! with ρ₁ for ρ̄₁). In other bodies it may be anywhere, and so may the joints.
 
 use nalgebra::{Matrix3, Vector3};
 

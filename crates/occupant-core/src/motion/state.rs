@@ -1,8 +1,8 @@
-//! What is integrated: place, orientations, hinge angles, their speeds, and the work sums of the energy ledger.
+//! The integrated state: position, orientations, hinge angles, their speeds, and the work sums of the energy ledger.
 //!
-//! Report: Eqs 8, 13–26 for the place of a segment; the state itself is ours, because Euler angles are singular for an
-//! upright torso. It is one row of numbers, of which a [`Shape`] says what stands where. A rate of change has the same
-//! shape, so that Runge–Kutta stages are sums of rows.
+//! Report: Eqs 8, 13–26 for the position of a segment; the state itself is ours, because Euler angles are singular for
+//! an upright torso. It is one row of numbers; a [`Shape`] describes its layout. A rate of change has the same shape,
+//! so that Runge–Kutta stages are sums of rows.
 
 use std::array::from_fn;
 
@@ -227,7 +227,7 @@ impl<S: Copy> State<S> {
         self.set_vector(3 * body, place);
     }
 
-    /// Orientation of a segment by its place in [`Layout::free`].
+    /// Orientation of a segment by its position in [`Layout::free`].
     #[inline(always)]
     pub fn orientation(&self, slot: usize) -> Quat<S> {
         let at = self.shape.turn(slot);
@@ -278,7 +278,7 @@ impl<S: Copy> State<S> {
         self.set_vector(self.shape.places() + 3 * body, velocity);
     }
 
-    /// Absolute angular velocity of a segment by its place in [`Layout::free`], space axes, rad/s.
+    /// Absolute angular velocity of a segment by its position in [`Layout::free`], space axes, rad/s.
     #[inline(always)]
     pub fn omega(&self, slot: usize) -> V3<S> {
         self.vector(self.shape.spin(slot))

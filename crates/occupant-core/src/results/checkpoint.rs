@@ -1,7 +1,7 @@
-//! All that a run carries from one output to the next, as plain data: a run that goes on from there gives the same bits as
-//! one that was never interrupted.
+//! The complete memory of a run at an output, as plain data: a run resumed from it gives the same bits as an
+//! uninterrupted one.
 //!
-//! What follows from the scenario alone (β₀, L₀, the body at the start) is not in it: the model has it.
+//! It omits what follows from the scenario alone (β₀, L₀, the initial body): the model has it.
 
 use crate::forces::stored::Archive;
 use crate::forces::{Forces, History, Memory, Misfit, STORED};
@@ -24,9 +24,9 @@ pub struct Checkpoint {
     pub state: Vec<f64>,
     /// What force elements remember, in the model's order.
     pub memory: Memory<f64>,
-    /// First touches so far, in the order in which they happened.
+    /// First contacts so far, in the order in which they happened.
     pub first_touches: Vec<FirstTouch>,
-    /// Greatest values at the accepted steps so far, as plain numbers: [`Peaks`](super::peaks::Peaks); none where nobody has looked.
+    /// Largest values at the accepted steps so far, as plain numbers: [`Peaks`](super::peaks::Peaks); none if nobody has looked.
     pub peaks: Vec<f64>,
     /// The step before, of which instruments were read: the number of the next sample, its time, its readings.
     pub readings_before: Vec<f64>,
@@ -36,7 +36,7 @@ pub struct Checkpoint {
     pub events: Vec<Switched>,
     /// Sums and extremes.
     pub progress: Progress,
-    /// The step of the error control in which the output lies, if it goes on beyond it.
+    /// The step of the error control in which the output lies, if it continues beyond it.
     pub under_way: Option<StepStart>,
 }
 
@@ -99,7 +99,7 @@ pub struct Progress {
     pub step_error: f64,
     /// Energies from which the balance counts.
     pub energy_start: EnergyStart,
-    /// Greatest energies so far.
+    /// Largest energies so far.
     pub greatest: Greatest,
     /// How still the bodies are of a run that ends when they rest.
     pub rest: Rest,
@@ -120,12 +120,12 @@ impl Progress {
                 file.number(held.start, &mut start.stored_j[energy.at]);
             }
         }
-        file.number(words(23, "greatest_kinetic_j", "greatest kinetic energy relative to the vehicle so far"), &mut self.greatest.all.kinetic_j);
-        file.number(words(24, "greatest_imbalance_j", "greatest energy imbalance so far"), &mut self.greatest.all.imbalance_j);
-        file.number(words(46, "greatest_work_j", "greatest work of gravity and force elements so far"), &mut self.greatest.all.work_j);
-        let own = file.numbers(words(64, "body_energies_j", "of several bodies, one behind the other: greatest kinetic energy relative to the vehicle, greatest work of gravity and force elements, and greatest energy imbalance so far"), self.greatest.numbers());
+        file.number(words(23, "greatest_kinetic_j", "largest kinetic energy relative to the vehicle so far"), &mut self.greatest.all.kinetic_j);
+        file.number(words(24, "greatest_imbalance_j", "largest energy imbalance so far"), &mut self.greatest.all.imbalance_j);
+        file.number(words(46, "greatest_work_j", "largest work of gravity and force elements so far"), &mut self.greatest.all.work_j);
+        let own = file.numbers(words(64, "body_energies_j", "of several bodies, one behind the other: greatest kinetic energy relative to the vehicle, greatest work of gravity and force elements, and largest energy imbalance so far"), self.greatest.numbers());
         self.greatest.read(&own);
-        file.number(words(56, "most_kinetic_j", "greatest kinetic energy in space so far, of a run that ends at rest"), &mut self.rest.most_j);
+        file.number(words(56, "most_kinetic_j", "largest kinetic energy in space so far, of a run that ends at rest"), &mut self.rest.most_j);
         file.number(words(57, "still_since_s", "time since which the bodies are still, of a run that ends at rest; 1e30 while they are not"), &mut self.rest.since_s);
         file.number(words(25, "step_error", "error of the last accepted step in units of the tolerance"), &mut self.step_error);
     }
@@ -158,10 +158,10 @@ pub enum CheckpointError {
         /// Time of the output, s.
         time_s: f64,
     },
-    /// Readings, events and greatest values of other elements, instruments or parts than the model has.
+    /// Readings, events and largest values of other elements, instruments or parts than the model has.
     #[error("the checkpoint has greatest values, readings or events that are not those of the scenario")]
     Readings,
-    /// A first touch of a sphere or surface that the model does not have.
+    /// A first contact of a sphere or surface that the model does not have.
     #[error("the checkpoint knows a touch of sphere {sphere} and surface {surface}, which the scenario does not have")]
     Touch {
         /// Index of the sphere.

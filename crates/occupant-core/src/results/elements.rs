@@ -1,4 +1,4 @@
-//! Force elements in results, kind by kind: what they draw, pull and tell at an output.
+//! Force elements in results, kind by kind: drawing data, forces and quantities at an output.
 
 use crate::forces::contact::surface::Frame;
 use crate::forces::shown::{Line, Named, Pull, Section, Shown};

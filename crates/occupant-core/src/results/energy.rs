@@ -1,8 +1,8 @@
 //! The energy ledger: every joule of the occupant accounted for at each output.
 //!
 //! Kinetic, gravity and stored energies are functions of the state; work sums are integrated with the integrator's own
-//! weights. With W_v the work of the moving vehicle on the occupant, kinetic + gravity + what is stored without a work
-//! sum + Σ work sums − W_v stays what it was at the start.
+//! weights. With W_v the work of the moving vehicle on the occupant, kinetic + gravity + stored energy without a work
+//! sum + Σ work sums − W_v is constant.
 
 use std::ops::Range;
 
@@ -107,7 +107,7 @@ impl EnergyLedger {
     }
 }
 
-/// The greatest energies among the outputs of a run so far, J: of all bodies together, and of each where there are several.
+/// The largest energies among the outputs of a run so far, J: of all bodies together, and of each where there are several.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Greatest {
     /// Of all together.
@@ -116,7 +116,7 @@ pub struct Greatest {
     pub each: [Extremes; MOST_BODIES],
 }
 
-/// The greatest energies of some bodies so far, J.
+/// The largest energies of some bodies so far, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Extremes {
     /// Kinetic energy relative to the vehicle.
@@ -204,13 +204,13 @@ impl Extremes {
 /// How still the bodies of a run are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rest {
-    /// Greatest kinetic energy in space so far, J.
+    /// Largest kinetic energy in space so far, J.
     pub most_j: f64,
     /// Since when all of them have had next to none of it, s; 1e30 while they have.
     pub since_s: f64,
 }
 
-/// A body with less than this part of the greatest kinetic energy of all is still.
+/// A body with less than this part of the largest kinetic energy of all is still.
 const STILL: f64 = 1e-4;
 /// Bodies that have been still for so long rest, s.
 const REST_S: f64 = 0.2;
@@ -244,22 +244,22 @@ const REST_M_S: f64 = 0.01;
 /// How well a run kept its energy, up to its last output.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct EnergyCheck {
-    /// Greatest imbalance among the outputs as a fraction of the reference; not a number, `null` in JSON, where nothing
+    /// Largest imbalance among the outputs as a fraction of the reference; not a number, `null` in JSON, where nothing
     /// moved or pulled.
     pub balance_error: f64,
-    /// The greatest kinetic energy relative to the vehicle; where that takes speeds above 100 m/s, which are the vehicle's, the
+    /// The largest kinetic energy relative to the vehicle; where that takes speeds above 100 m/s, which are the vehicle's, the
     /// largest work of gravity and force elements; of a body slower than 1 cm/s that of 1 cm/s.
     pub reference: &'static str,
     /// Its size, J.
     pub reference_j: f64,
-    /// Greatest kinetic energy relative to the vehicle, J.
+    /// Largest kinetic energy relative to the vehicle, J.
     pub greatest_kinetic_j: f64,
     /// What that means for the results.
     pub balance: Balance,
 }
 
 impl EnergyCheck {
-    /// What was found, in words.
+    /// What was found, as text.
     pub fn found(&self) -> String {
         let EnergyCheck { balance_error, reference, greatest_kinetic_j: kinetic_j, .. } = self;
         match Balance::of(*balance_error) {

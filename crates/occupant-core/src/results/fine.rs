@@ -1,8 +1,8 @@
-//! Readings of the instruments at equal times, however seldom a run is recorded: what measures with windows are made of.
+//! Readings of the instruments at equal times, independent of the output interval; measures with windows use them.
 //!
-//! Steps are read at their ends, 10 to 20 thousand times a second where a body touches anything, and lie on straight lines
-//! between. Numbers of steps have the precision of an `f32`, in a run as in its file; those of outputs alone, from which
-//! derivatives are made, are whole.
+//! Instruments are read at the ends of steps, 10 to 20 thousand times a second during contact, and are linear in
+//! between. Values at steps have the precision of an `f32`, in a run as in its file; values at outputs, from which
+//! derivatives are made, have full precision.
 
 use crate::kernel::instruments::{CHEST, CHEST_POINTS, PLACE, REAR, Reading};
 use crate::model::Model;
@@ -15,7 +15,7 @@ use crate::results::sample::Sample;
 pub const READINGS_S: f64 = 1e-4;
 
 /// Numbers of the instruments of one body in a sample: those of a reading without the place of the head; behind them, where any
-/// body has a chest that gives way, its deflections; behind them, of a blow from behind, [`REAR_SIGNALS`].
+/// body has a chest that yields, its deflections; behind them, of a blow from behind, [`REAR_SIGNALS`].
 pub(crate) const SIGNALS: usize = PLACE;
 
 /// Of T1, of the head restraint, of the head's speed and of the pelvis' place.
@@ -134,7 +134,7 @@ impl Fine {
         self.samples.clear();
     }
 
-    /// Becomes what `other` is, of the same run; allocates nothing where there is room.
+    /// Becomes what `other` is, of the same run; allocates nothing if there is room.
     pub(crate) fn take_over(&mut self, other: &Fine) {
         (self.interval_s, self.next, self.before_s) = (other.interval_s, other.next, other.before_s);
         self.before.clone_from(&other.before);

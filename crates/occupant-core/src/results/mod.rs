@@ -1,4 +1,4 @@
-//! What a run gives: samples, energies, reactions, channels, summaries, checkpoints.
+//! Results of a run: samples, energies, reactions, channels, summaries, checkpoints.
 
 pub mod catalogue;
 pub mod channel;

@@ -1,4 +1,4 @@
-//! How a run ended: its outcome, first touches, and the errors that say when, where and why.
+//! How a run ended: its outcome, first contacts, and errors with time, place and reason.
 
 use crate::results::checkpoint::CheckpointError;
 use crate::results::energy::EnergyCheck;
@@ -50,7 +50,7 @@ pub struct FirstTouch {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StepError {
-    /// The vehicle's motion is told on the way, and nobody has told it so far.
+    /// The vehicle is live, and its motion is not known yet.
     #[error(
         "the vehicle motion is known only up to t = {known_s:.6} s, but the run goes to {target_s:.6} s; if you step the run yourself, push a frame first"
     )]
@@ -100,11 +100,11 @@ pub enum StepError {
     },
 }
 
-/// A run that did not come to its end.
+/// A run that did not reach its end.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SimulationError {
-    /// The integration could not go on: what was recorded before stands.
+    /// The integration could not continue; recorded outputs stay valid.
     #[error("{}", failed(.0))]
     Failed(Box<Outcome>),
     /// The recorder failed.

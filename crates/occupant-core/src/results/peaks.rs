@@ -1,5 +1,5 @@
-//! Greatest values of a run with their times, at its accepted steps: they see what happens between its outputs, and how often a
-//! run is recorded makes no difference to them.
+//! Peak values of a run with their times, at its accepted steps: they include what happens between outputs and do not
+//! depend on the output interval.
 
 use crate::results::summary::Peak;
 
@@ -8,7 +8,7 @@ pub(crate) const FELT: usize = 16;
 /// Where its excursions begin among them: forward, rearward, right, left, down, up.
 pub(crate) const EXCURSIONS: usize = 10;
 
-/// Greatest values at the accepted steps of a run so far.
+/// Largest values at the accepted steps of a run so far.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Peaks {
     /// What kinds of force elements track, in their order, that of their elements and of their peaks.
@@ -20,16 +20,16 @@ pub struct Peaks {
     pub(crate) parts: Vec<PartPeak>,
 }
 
-/// Greatest values of the contacts of one part of a body.
+/// Largest values of the contacts of one part of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PartPeak {
     /// Magnitude of the sum of the forces, N.
     pub force: Peak,
-    /// The surface of the greatest normal force then.
+    /// The surface of the largest normal force then.
     pub surface: usize,
     /// Δ, m.
     pub penetration: Peak,
-    /// Greatest Δ over the thickness of a solid.
+    /// Largest Δ over the thickness of a solid.
     pub used: f64,
     /// Δ in a bar or a rim whose axis a centre went through, m, and which that was.
     pub through: Peak,
@@ -70,7 +70,7 @@ impl Peaks {
         self.parts.fill(PartPeak::NONE);
     }
 
-    /// Becomes what `other` is, which is of the same run; allocates nothing where there is room.
+    /// Becomes what `other` is, which is of the same run; allocates nothing if there is room.
     pub(crate) fn take_over(&mut self, other: &Peaks) {
         self.elements.clone_from(&other.elements);
         self.felt.clone_from(&other.felt);

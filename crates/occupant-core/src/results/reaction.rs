@@ -1,7 +1,7 @@
-//! What the joints carry: forces and moments between the two segments of a joint.
+//! Loads of the joints: forces and moments between the two segments of a joint.
 //!
-//! By `kernel::carried`. The moment of a ball joint is that of its damper, stop, spring and muscle, for it
-//! constrains none; a hinge adds the two constraint moments across its axis.
+//! By `kernel::carried`. The moment of a ball joint is that of its damper, stop, spring and muscle, because the joint
+//! constrains no rotation; a hinge adds the two constraint moments across its axis.
 
 use nalgebra::Vector3;
 

@@ -1,4 +1,4 @@
-//! What head restraints do to heads in a blow from behind.
+//! Loads of head restraints on heads in a rear impact.
 
 use nalgebra::Vector3;
 

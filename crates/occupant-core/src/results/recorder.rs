@@ -1,4 +1,4 @@
-//! Where the results of a run go.
+//! Receivers of the results of a run.
 
 use crate::model::Model;
 use crate::results::outcome::Outcome;
@@ -7,7 +7,7 @@ use crate::results::sample::Sample;
 /// Whatever went wrong in a recorder, e.g. a full disk.
 pub type RecorderError = Box<dyn std::error::Error + Send + Sync>;
 
-/// Whether a run goes on.
+/// Whether a run continues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flow {
     /// Go on.

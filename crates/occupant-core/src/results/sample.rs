@@ -1,4 +1,4 @@
-//! What a run tells at one output time (report, "Output", items 1–7), computed when asked for.
+//! Results of a run at one output time (report, "Output", items 1–7), computed on request.
 
 use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
 
@@ -62,7 +62,7 @@ pub struct Sample<'a> {
     pub ledgers: &'a [EnergyLedger],
     /// The body (index) whose instruments and summary are asked for: [`Sample::of_body`].
     pub of: usize,
-    /// In whose axes places are told; those of each body's home if none: [`Sample::seen_by_vehicle`].
+    /// The frame of reported positions; by default each body's home: [`Sample::seen_by_vehicle`].
     pub watcher: Option<&'a FrameMotion>,
     /// Place and attitude of the vehicle in vehicle-space, as the path gives them.
     pub vehicle_pose: VehiclePose,
@@ -76,11 +76,11 @@ pub struct Sample<'a> {
     pub effort: Effort,
     /// Sums and extremes so far, this output included.
     pub progress: Progress,
-    /// First touches so far, in the order in which they happened.
+    /// First contacts so far, in the order in which they happened.
     pub first_touches: &'a [FirstTouch],
     /// What has switched since the output before, in the order in which it happened, unless that was within a step beyond.
     pub switched: &'a [Switched],
-    /// Greatest values at the accepted steps so far.
+    /// Largest values at the accepted steps so far.
     pub step_peaks: &'a Peaks,
     /// What there is to see at this output alone.
     pub now: &'a Peaks,
@@ -88,7 +88,7 @@ pub struct Sample<'a> {
     pub fine: &'a Fine,
     /// What they read at this output, by body.
     pub(crate) readings: &'a [Reading<f64>],
-    /// The step of the error control in which this output lies, if it goes on beyond it.
+    /// The step of the error control in which this output lies, if it continues beyond it.
     pub under_way: Option<StepUnderWay<'a>>,
 }
 
@@ -132,10 +132,10 @@ pub struct Contact {
     pub slip_m_s: f64,
 }
 
-/// Where nothing is: what is told of a segment or sphere that the body has not.
+/// Value for a segment or sphere that the body does not have.
 const NOWHERE: Point3<f64> = Point3::new(f64::NAN, f64::NAN, f64::NAN);
 
-/// All that is told of a segment, sphere, joint or frame which the model has not is not a number.
+/// For a segment, sphere, joint or frame that the model does not have, every value is NaN.
 impl<'a> Sample<'a> {
     /// Whether a segment is one of the model's.
     fn has(&self, segment: Segment) -> bool {
@@ -170,7 +170,7 @@ impl<'a> Sample<'a> {
         }
     }
 
-    /// In whose axes places and forces on a segment are told.
+    /// The frame of positions and forces on a segment.
     pub(crate) fn seen_from(&self, segment: usize) -> &'a FrameMotion {
         let of = |segment| self.model.body().tree.body_of(self.model.body().tree.segment(segment));
         self.watcher.unwrap_or_else(|| &self.homes[of(segment)])
@@ -287,7 +287,7 @@ impl<'a> Sample<'a> {
         self.touches().map(move |t| sample.contact(&t))
     }
 
-    /// What each sphere feels, one by one: of two spheres of the body that touch each other both do.
+    /// Forces on each sphere; if two spheres of the body touch each other, both are listed.
     fn touches(&self) -> impl Iterator<Item = Touch<f64>> + use<'a> {
         let contacts = &self.model.system().forces.contacts;
         self.actions.contacts.iter().flat_map(move |touch| contacts.sides(touch))
@@ -312,7 +312,7 @@ impl<'a> Sample<'a> {
         }
     }
 
-    /// Greatest Δ in a surface or solid, m; 0 without contact.
+    /// Largest Δ in a surface or solid, m; 0 without contact.
     pub(crate) fn surface_depth_m(&self, surface: usize) -> f64 {
         self.touches_of(surface).map(|t| t.depth).fold(0.0, f64::max)
     }
@@ -322,7 +322,7 @@ impl<'a> Sample<'a> {
         self.touches().filter(move |t| contacts.surface(t.pair, t.part as usize) == surface)
     }
 
-    /// Greatest Δ of a sphere, m; 0 without contact.
+    /// Largest Δ of a sphere, m; 0 without contact.
     pub(crate) fn penetration_m(&self, sphere: usize) -> f64 {
         self.touches().filter(|t| t.sphere == sphere).map(|t| t.depth).fold(0.0, f64::max)
     }
@@ -436,7 +436,7 @@ impl<'a> Sample<'a> {
         }
     }
 
-    /// The frame in whose axes what touches a segment is told.
+    /// The frame in which contacts of a segment are given.
     fn seen_frame(&self, segment: usize) -> usize {
         let tree = self.model.body().tree;
         let member = self.model.setup().members.get(tree.body_of(tree.segment(segment)));

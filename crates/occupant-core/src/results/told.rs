@@ -1,4 +1,4 @@
-//! What happened to force elements in a run, as plain numbers: words are told by their places.
+//! Events of force elements in a run, as plain numbers: texts are given by their indices.
 
 use super::sample::Switched;
 use crate::forces::{Forces, Listed, Visitor, visit_kinds};
@@ -14,7 +14,7 @@ pub(crate) fn to_indices(list: &[Switched]) -> Vec<u32> {
     list.iter().filter_map(number).flatten().collect()
 }
 
-/// From such numbers, with times, s; none where they are not of this program.
+/// From such numbers, with times, s; none if they are not of this program.
 pub(crate) fn from_indices(times_s: &[f64], indices: &[u32]) -> Option<Vec<Switched>> {
     let kinds = kinds();
     let (rows, rest) = indices.as_chunks();

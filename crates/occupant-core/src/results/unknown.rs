@@ -1,10 +1,10 @@
-//! A name or an index that a model has not.
+//! A name or an index that a model does not have.
 
 use std::fmt::Display;
 
 use placed_text::nearest;
 
-/// A name or an index that a model has not, with what may have been meant.
+/// A name or an index that a model does not have, with a likely correction.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("no {what} `{asked}`{}", meant(self.nearest.as_deref()))]
 #[non_exhaustive]

@@ -1,5 +1,5 @@
-//! The latest step of the integration under error control and what a trial of the next leads to: of one run, or of several
-//! side by side.
+//! The latest step under error control, and the outcome of a trial of the next one: for one run, or for several in
+//! lanes.
 
 use crate::forces::History;
 use crate::motion::integrate::bogacki_shampine::Room;

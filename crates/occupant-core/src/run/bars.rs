@@ -1,5 +1,5 @@
-//! Spheres whose centres go through the axis of a bar or a rim, as accepted steps show it: the normal turns round while the centre is
-//! within.
+//! Spheres whose centres go through the axis of a bar or a rim, detected at accepted steps: the normal reverses while
+//! the centre is inside.
 
 use super::corner::Touching;
 use crate::model::Model;

@@ -1,5 +1,5 @@
-//! What happens to force elements between accepted steps, by the numbers that they track there: webbing goes slack, a bag is
-//! touched. How often a run is recorded makes no difference to it.
+//! Events of force elements between accepted steps, from the numbers that they track there: webbing goes slack, a bag
+//! is touched. They do not depend on the output interval.
 
 use super::switch::ROOM;
 use crate::forces::shown::Reported;

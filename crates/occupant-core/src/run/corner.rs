@@ -1,8 +1,8 @@
-//! Corners within a step: where a contact begins or ends, and where one turns from loading to unloading.
+//! Corners within a step: where a contact begins or ends, and where it changes from loading to unloading.
 //!
-//! The error control sees that a step has met a corner, not where: it shortens steps until one is short enough to pass over
-//! it. A trial tells more: what touches at its start and at its end, how deep and how fast. So the corner is located, the
-//! step ends just behind it, and the next one begins on the other side.
+//! Error control notices that a step contains a corner, but not where: it shortens steps until one is short enough to
+//! pass over it. A trial gives more information: the contacts at its start and at its end, with their depth and speed.
+//! So the corner is located, the step ends just behind it, and the next one begins on the other side.
 
 use super::Step;
 use crate::forces::History;

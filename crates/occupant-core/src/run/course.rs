@@ -1,7 +1,7 @@
-//! What a run carries from step to step and from output to output, and how it ends.
+//! The memory of a run from step to step and from output to output, and its end.
 //!
-//! The model stands beside it, unchanged: every call gets the one that the course was made for. [`super::Run`] keeps both
-//! together; runs side by side keep models of their own.
+//! The model is separate and immutable: every call receives the model for which the course was made. [`super::Run`]
+//! keeps both together; runs in lanes keep their own models.
 
 use super::adaptive::{Control, Memory as Wanted};
 use super::{Front, Rear, Step, Stretch, Switches};

@@ -1,4 +1,4 @@
-//! A run in one's own hands.
+//! A run that a program steps itself.
 
 use std::fmt;
 use std::ops::Deref;
@@ -16,10 +16,10 @@ use crate::run::simulate::go_on;
 use crate::vehicle::live::{LiveFrame, LiveFrames};
 use crate::vehicle::{FrameMotion, VehicleInput, VehiclePose};
 
-/// A run of a model that one steps oneself: to a time, from frame to frame, with looks, kicks and pauses between.
+/// A run that a program steps itself: to a time, from frame to frame, with looks, kicks and pauses in between.
 ///
-/// It stands ready at the model's start. Looking at it changes nothing, however often; a clone goes on by itself; all of it
-/// is the same to the bit in every process.
+/// It begins at the model's start. Looking at it never changes it; a clone is independent; every process gives the same
+/// bits.
 ///
 /// ```
 /// # use occupant_core::{body::Body, forces::joint::Joints, model::{Model, seating::InitialPosture, setup::SetupBuilder}};
@@ -45,7 +45,7 @@ use crate::vehicle::{FrameMotion, VehicleInput, VehiclePose};
 pub struct Run<'m> {
     pub(super) model: Held<'m>,
     pub(super) course: Course,
-    /// Whether a recorder was told of the run.
+    /// Whether a recorder has begun.
     pub(super) is_recorded: bool,
 }
 
@@ -79,13 +79,13 @@ impl<'m> Run<'m> {
         Run { model: Held::Lent(model), course: Course::looked_at(model), is_recorded: false }
     }
 
-    /// The same of a model that it shares, and so keeps: it may go anywhere.
+    /// The same for a shared model, which it keeps alive: it has no borrowed lifetime.
     pub fn shared(model: Arc<Model>) -> Run<'static> {
         Run { course: Course::looked_at(&model), model: Held::Shared(model), is_recorded: false }
     }
 
-    /// The run of which [`Run::checkpoint`] or an output gave a checkpoint. Of a vehicle that is told on the way it has no
-    /// motion yet: [`Run::load`] has.
+    /// The run at a checkpoint of [`Run::checkpoint`] or of an output. It has no motion of a live vehicle yet;
+    /// [`Run::load`] restores that too.
     ///
     /// # Errors
     /// A checkpoint that does not fit the model.
@@ -114,7 +114,7 @@ impl<'m> Run<'m> {
         &self.course.state
     }
 
-    /// What force elements remember.
+    /// Memory of force elements.
     pub fn history(&self) -> &History<f64> {
         &self.course.history
     }
@@ -134,7 +134,7 @@ impl<'m> Run<'m> {
         (near..near + 3).filter_map(|index| self.model.output_time_s(index)).find(|output_s| *output_s > now_s)
     }
 
-    /// Steps to a time, s: up to the model's end, and as far as a vehicle that is told on the way has been told.
+    /// Steps to a time, s: at most the model's end, and at most the known motion of a live vehicle.
     ///
     /// # Errors
     /// A time before the present one or behind the end, or no number; a step that fails.
@@ -162,7 +162,7 @@ impl<'m> Run<'m> {
         self.advance_to(self.time_s() + by_s)
     }
 
-    /// Looks at the run as it stands.
+    /// Looks at the present state of the run.
     ///
     /// # Errors
     /// None of today's; forces that cannot be worked out may become one.
@@ -172,12 +172,12 @@ impl<'m> Run<'m> {
         seen.ok_or_else(|| RunError::input("a look that saw nothing", "a sample"))
     }
 
-    /// Hands the run as it stands to a recorder as its next output. The first output tells the recorder that the run begins. From
-    /// then on what instruments read is kept until the next output, half a megabyte a second or so: who no longer wants outputs
-    /// of a long run goes on with a [`Run::load`] of it, or looks.
+    /// Passes the present state of the run to a recorder as its next output. The first output begins the recorder. From
+    /// then on the readings of instruments are kept until the next output, about half a megabyte per second. If a long
+    /// run needs no more outputs, continue with a [`Run::load`] of it, or use looks.
     ///
     /// # Errors
-    /// What the recorder reports.
+    /// An error of the recorder.
     pub fn record(&mut self, recorder: &mut dyn Recorder) -> Result<Flow, RecordingFailed> {
         if !self.is_recorded {
             self.course.begin(&self.model, recorder)?;
@@ -189,7 +189,7 @@ impl<'m> Run<'m> {
     /// Goes on to the model's end and records every output on the way, the present one first.
     ///
     /// # Errors
-    /// A step that fails, what the recorder reports.
+    /// A step that fails, an error of the recorder.
     pub fn finish(mut self, recorder: &mut dyn Recorder) -> Result<Outcome, SimulationError> {
         if !self.is_recorded {
             self.course.begin(&self.model, recorder)?;
@@ -198,15 +198,15 @@ impl<'m> Run<'m> {
         self.course.end(status, recorder)?.succeeded()
     }
 
-    /// Ends the run here and tells `recorder` how.
+    /// Ends the run here and informs `recorder`.
     ///
     /// # Errors
-    /// What the recorder reports.
+    /// An error of the recorder.
     pub fn end(self, status: Status, recorder: &mut dyn Recorder) -> Result<Outcome, RecordingFailed> {
         self.course.end(status, recorder)
     }
 
-    /// All that the run carries on from here, as plain data; [`Run::save`] has what was told of the vehicle as well.
+    /// The complete memory of the run, as plain data; [`Run::save`] also contains the motion of a live vehicle.
     ///
     /// # Errors
     /// As of [`Run::look`].
@@ -214,13 +214,13 @@ impl<'m> Run<'m> {
         self.look(|sample| sample.checkpoint())
     }
 
-    /// Up to when the motion of the vehicle is known, s; without end but for a vehicle that is told on the way.
+    /// End of the known vehicle motion, s; unlimited unless the vehicle is live.
     pub fn known_until_s(&self) -> f64 {
         self.course.known_s(&self.model)
     }
 
-    /// Tells how the vehicle moves from [`Run::known_until_s`] to `until_s`, the end of a frame. The model's path is
-    /// [`VehiclePath::live`](crate::vehicle::VehiclePath::live). Places and velocities go on without a jump.
+    /// Gives the vehicle's motion from [`Run::known_until_s`] to `until_s`, the end of a frame. The model's path is
+    /// [`VehiclePath::live`](crate::vehicle::VehiclePath::live). Positions and velocities continue without a jump.
     ///
     /// # Errors
     /// A model whose path is known beforehand; a frame that is not behind all others, or before the run has come to the end of
@@ -236,7 +236,7 @@ impl<'m> Run<'m> {
         }
         if self.time_s() < from_s {
             let found = format!("a frame from {from_s} s on in a run at {} s", self.time_s());
-            return Err(RunError::input(found, "a run that has come to the end of the frame before"));
+            return Err(RunError::input(found, "a run that has reached the end of the previous frame"));
         }
         let (start, pose) = self.vehicle_at(from_s);
         let frame = LiveFrame::new([from_s, until_s], start, pose.attitude, input);
@@ -251,7 +251,7 @@ impl<'m> Run<'m> {
         Ok(())
     }
 
-    /// How the vehicle moves at a time, as far as it is known.
+    /// Motion of the vehicle at a time, as far as it is known.
     fn vehicle_at(&mut self, t_s: f64) -> (FrameMotion, VehiclePose) {
         let (path, cursor) = (&self.model.setup().path, &mut self.course.cursor);
         (path.motion(t_s, t_s, cursor), path.attitude(t_s, cursor))
@@ -268,7 +268,7 @@ impl<'m> Run<'m> {
         self.course.taken = Some(Vec::with_capacity(room));
     }
 
-    /// The accepted steps since they were last taken; none where nobody follows them. `spent` is a list to be used again.
+    /// The accepted steps since they were last taken; none if nobody follows them. `spent` is a list to be used again.
     pub fn take_steps(&mut self, mut spent: Vec<Step>) -> Vec<Step> {
         spent.clear();
         match &mut self.course.taken {

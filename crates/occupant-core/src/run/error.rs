@@ -1,4 +1,4 @@
-//! What can go wrong with a run that is stepped from outside.
+//! Errors of a run that a program steps itself.
 
 use crate::results::checkpoint::CheckpointError;
 use crate::results::outcome::{RecordingFailed, StepError};
@@ -8,9 +8,9 @@ use crate::results::outcome::{RecordingFailed, StepError};
 #[non_exhaustive]
 pub enum RunError {
     /// A time that the run cannot go to.
-    #[error("the run stands at t = {now_s} s and ends at {end_s} s: it cannot go to {target_s} s")]
+    #[error("the run is at t = {now_s} s and ends at {end_s} s: it cannot go to {target_s} s")]
     Time {
-        /// Where it stands, s.
+        /// Its present time, s.
         now_s: f64,
         /// The end of its model, s.
         end_s: f64,
@@ -25,7 +25,7 @@ pub enum RunError {
         /// What was expected.
         expected: String,
     },
-    /// The integration cannot go on; the run stands where it came to.
+    /// The integration cannot continue; the run stays at its present state.
     #[error(transparent)]
     Step(#[from] StepError),
     /// The recorder failed.

@@ -337,7 +337,7 @@ impl Course {
 /// whether anything has switched on the way.
 #[derive(Clone, Debug)]
 pub(super) struct Rear {
-    /// The latest step; none where there is none to go back to.
+    /// The latest step; none if there is none to go back to.
     pub(super) step: Option<Step>,
     /// At its start; the history is that before the commit there.
     pub(super) state: State<f64>,

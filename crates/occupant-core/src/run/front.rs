@@ -1,7 +1,7 @@
 //! The integration under error control, which runs ahead of the outputs.
 //!
-//! It stands at the end of its latest step. Outputs within that step are read off its course and change nothing: how often
-//! a run is recorded, and when it ends, makes no difference to its motion.
+//! It is at the end of its latest step. Outputs within that step are interpolated and change nothing: neither the
+//! output interval nor the end of the run affects the motion.
 
 use std::mem::swap;
 
@@ -215,7 +215,7 @@ impl Front {
         self.search.as_ref().is_some_and(Search::is_under_way)
     }
 
-    /// What could not be worked out within the last trial, in words.
+    /// What could not be worked out within the last trial, as text.
     pub(super) fn failure(&self, model: &Model) -> Option<String> {
         self.ahead.trial.memory.failure(&model.setup().forces(&[]), &model.system().forces)
     }
@@ -255,7 +255,7 @@ impl Front {
         within([from, at_from], [to, at_to], h, (time_s - self.step.start_s) / h)
     }
 
-    /// The start of the step, if it goes on beyond `time_s`.
+    /// The start of the step, if it continues beyond `time_s`.
     pub(super) fn under_way(&self, time_s: f64) -> Option<StepUnderWay<'_>> {
         let at = if self.is_half_known { &self.ahead.to } else { &self.ahead.from };
         (time_s < self.step.end_s).then_some(StepUnderWay {

@@ -1,4 +1,4 @@
-//! What a run is changed by from outside: impulses, other states.
+//! External changes of a run: impulses, other states.
 
 use nalgebra::{Point3, Vector3};
 
@@ -52,8 +52,8 @@ impl Run<'_> {
         self.set_state(state)
     }
 
-    /// Goes on from another state, such as [`Run::state`] with another velocity. The energy balance counts on from it: what
-    /// it has more or less is no error.
+    /// Continues from another state, such as [`Run::state`] with another velocity. The energy balance continues from
+    /// it; its difference in energy is no error.
     ///
     /// # Errors
     /// A state of another body; numbers that are not finite.
@@ -76,7 +76,7 @@ impl Run<'_> {
 }
 
 impl Course {
-    /// Goes on from another state at the present time; what force elements remember is that of the latest look.
+    /// Continues from another state at the present time, with the memory of force elements from the latest look.
     fn restart(&mut self, model: &Model, state: State<f64>) {
         self.state = state;
         self.history.look_again();

@@ -1,8 +1,7 @@
 //! A run: steps, output times, many runs side by side.
 //!
-//! [`simulate::simulate`] takes a model from its start to its end. [`Run`] is the same in one's own hands: step to a time,
-//! look, kick, change, save, go on, and tell a vehicle's motion frame by
-//! frame ([`Run::push`]).
+//! [`simulate::simulate`] takes a model from its start to its end. With [`Run`] a program does the same itself: step to
+//! a time, look, kick, change, save, continue, and give a vehicle's motion frame by frame ([`Run::push`]).
 
 mod adaptive;
 mod ahead;

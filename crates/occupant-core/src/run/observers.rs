@@ -1,4 +1,4 @@
-//! What a run watches in evaluations: what touches, what force elements do, what instruments read.
+//! Observers of evaluations: contacts, force elements, instruments.
 
 use crate::forces::Actions;
 use crate::forces::contact::{PairHistory, Touch};
@@ -20,7 +20,7 @@ use crate::run::changes::Changes;
 use crate::run::corner::Touching;
 use crate::vehicle::PathCursor;
 
-/// A sphere against a part of a face, as first touches and peaks tell it.
+/// A sphere against a part of a face, as first contacts and peaks tell it.
 #[derive(Clone, Copy)]
 pub(super) struct Meeting {
     pub sphere: usize,
@@ -85,7 +85,7 @@ impl Tracker<f64> for Count<'_> {
     fn touch(&mut self, _touch: &Touch<f64>) {}
 }
 
-/// Remembers which sphere has touched which surface, the greatest values and the readings.
+/// Stores which sphere has touched which surface, the largest values and the readings.
 #[derive(Clone)]
 pub(super) struct Seen {
     surfaces: usize,
@@ -99,7 +99,7 @@ pub(super) struct Seen {
     look: Look,
 }
 
-/// What greatest values are found with.
+/// What largest values are found with.
 #[derive(Clone)]
 struct Look {
     /// By sphere.

@@ -1,4 +1,4 @@
-//! A run as bytes: to be put away and taken up again, in another process or on another machine.
+//! A run as bytes: to be saved and resumed, in another process or on another machine.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use crate::vehicle::live::LiveFrames;
 const MARK: &[u8; 16] = b"occupant run 1\r\n";
 
 impl Run<'_> {
-    /// All of the run as bytes, with what was told of the vehicle: [`Run::load`] goes on from there, to the bit.
+    /// The whole run as bytes, including the motion of a live vehicle: [`Run::load`] continues from it, to the bit.
     ///
     /// # Errors
     /// As of [`Run::look`].
@@ -67,7 +67,7 @@ impl<'m> Run<'m> {
             *list = (&mut file as &mut dyn Archive).numbers(EXTRA, Vec::new());
         }
         if !file.is_sound || !file.rest.is_empty() {
-            return Err(wrong("a saved run that breaks off or goes on"));
+            return Err(wrong("a saved run that is cut off or too long"));
         }
         let [energies, breaks_s, frames, is_recorded] = lists;
         let mut course = Course::from_checkpoint(model, &checkpoint, false)?;

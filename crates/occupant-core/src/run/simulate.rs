@@ -1,4 +1,4 @@
-//! A run from start to end: steps, exact output times, first touches.
+//! A run from start to end: steps, exact output times, first contacts.
 
 use crate::model::Model;
 use crate::results::checkpoint::Checkpoint;
@@ -6,10 +6,10 @@ use crate::results::outcome::{Outcome, RecordingFailed, ResumeError, SimulationE
 use crate::results::recorder::{Flow, Recorder};
 use crate::run::Course;
 
-/// Runs `model` from its start to its end time, or to where the recorder stops it.
+/// Runs `model` from its start to its end time, or until the recorder stops it.
 ///
 /// # Errors
-/// A step that fails, with the outcome so far: what was recorded before stands. What the recorder reports.
+/// A step that fails, with the outcome so far; recorded outputs stay valid. An error of the recorder.
 pub fn simulate(model: &Model, recorder: impl Recorder) -> Result<Outcome, SimulationError> {
     attempt(model, recorder)?.succeeded()
 }
@@ -17,7 +17,7 @@ pub fn simulate(model: &Model, recorder: impl Recorder) -> Result<Outcome, Simul
 /// Runs `model` as far as it goes: a step that fails is an [`Outcome`] of [`Status::Failed`].
 ///
 /// # Errors
-/// What the recorder reports.
+/// An error of the recorder.
 pub fn attempt(model: &Model, mut recorder: impl Recorder) -> Result<Outcome, RecordingFailed> {
     go(model, Course::new(model), &mut recorder)
 }
@@ -27,7 +27,7 @@ pub fn attempt(model: &Model, mut recorder: impl Recorder) -> Result<Outcome, Re
 /// an outcome, as of [`attempt`].
 ///
 /// # Errors
-/// A checkpoint that does not fit the model; what the recorder reports.
+/// A checkpoint that does not fit the model; an error of the recorder.
 pub fn resume(model: &Model, checkpoint: &Checkpoint, mut recorder: impl Recorder) -> Result<Outcome, ResumeError> {
     let run = Course::from_checkpoint(model, checkpoint, true).map_err(ResumeError::Refused)?;
     go(model, run, &mut recorder).map_err(ResumeError::Recording)
@@ -36,7 +36,7 @@ pub fn resume(model: &Model, checkpoint: &Checkpoint, mut recorder: impl Recorde
 /// Records the output of a checkpoint once more, to the bit, without a step. The recorder neither begins nor ends here.
 ///
 /// # Errors
-/// A checkpoint that does not fit the model; what the recorder reports.
+/// A checkpoint that does not fit the model; an error of the recorder.
 pub fn replay(model: &Model, checkpoint: &Checkpoint, recorder: &mut impl Recorder) -> Result<(), ResumeError> {
     let mut run = Course::from_checkpoint(model, checkpoint, true).map_err(ResumeError::Refused)?;
     let recorded = run.record(model, recorder);

@@ -1,8 +1,8 @@
 //! Switches within a step: a spool locks, a vent opens, webbing leaves a node.
 //!
-//! What force elements remember changes at commits alone. Where something of it jumps, the step must end there, or the jump
-//! comes as late as the step is long. A trial tells that something has switched, and what the element remembers of both ends
-//! tells about when; trials of other lengths close in on that time. The step then ends just behind it, and its commit is the
+//! Force elements change their memory only at commits. If it jumps, the step must end there; otherwise the jump is late
+//! by up to the length of the step. A trial shows that something has switched, and the memory at both ends shows
+//! roughly when; trials of other lengths approach that time. The step then ends just behind it, and its commit is the
 //! switch.
 
 use super::Step;
@@ -108,7 +108,7 @@ impl Search {
         self.trials > 0
     }
 
-    /// Where the step is to end instead of `step.end_s`, s; none where it may end there. `memory` is that of both ends of
+    /// Where the step is to end instead of `step.end_s`, s; none if it may end there. `memory` is that of both ends of
     /// the trial, `last_s` the length of the step before.
     pub(super) fn end_earlier(
         &mut self,

@@ -1,12 +1,12 @@
-//! Where in a path's list of pieces the last question was answered.
+//! The piece of a path that answered the last query.
 
 use super::live::LiveFrames;
 
-/// Remembers the piece of a path that was found last, so that the next look-up, usually in the same piece or the next,
-/// takes no search.
+/// Stores the piece of a path that was found last, so that the next look-up, usually in the same piece or the next,
+/// needs no search.
 ///
-/// It changes the speed and never the answer: any cursor, fresh or from another path, gives the same bits. Of a path that is
-/// told on the way it holds what was told.
+/// It affects only the speed: any cursor, fresh or from another path, gives the same bits. For a live path it contains
+/// the motion given so far.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PathCursor {
     piece: usize,

@@ -1,14 +1,14 @@
-//! Accelerations of a table that is read along straight lines: second differences of its stations. Ours, for output alone.
+//! Accelerations of a linearly interpolated table: second differences of its stations. Ours, only for output.
 //!
 //! Between stations the velocity of such a path is constant, and at them it jumps. The mean velocities of two neighbouring intervals
 //! belong to their middles, so that at the station between them
 //!
 //! a_i = 2 (slope_i − slope_{i−1}) / (t_{i+1} − t_{i−1})
 //!
-//! with straight lines from station to station. It is of second order in the length of even intervals; digits that the
-//! stations lack appear in it divided by the square of that length. Before the second station it is that of the second. After the
-//! last one but one it stays where the table ends; where the vehicle coasts or stands still from then on, that counts as one more
-//! interval.
+//! with straight lines from station to station. It is of second order in the length of even intervals; rounding of the
+//! stations appears divided by the square of that length. Before the second station it is that of the second. After the
+//! last but one it stays constant if the table ends; if the vehicle then coasts or is at rest, that counts as one
+//! more interval.
 
 use nalgebra::Vector6;
 

@@ -1,4 +1,4 @@
-//! The path of a point of a vehicle that was driven: a drive that `vehicle-motion` has solved before the run. Ours.
+//! The path of a point of a driven vehicle: `vehicle-motion` solves the drive before the run. Ours.
 
 use std::sync::Arc;
 

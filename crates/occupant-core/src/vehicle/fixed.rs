@@ -1,4 +1,4 @@
-//! A vehicle (or any frame) that stands still.
+//! A vehicle (or any frame) that is at rest.
 
 use super::frame::FrameMotion;
 use super::problem::PathProblem;
@@ -19,7 +19,7 @@ impl Default for FixedPath {
 }
 
 impl FixedPath {
-    /// A frame that stands at `pose` for ever.
+    /// A frame at rest at `pose`.
     ///
     /// # Errors
     /// Every number of the pose that is not finite.
@@ -33,7 +33,7 @@ impl FixedPath {
         FixedPath { pose, motion: FrameMotion::at_rest(&pose) }
     }
 
-    /// Where it stands.
+    /// Its pose.
     pub fn pose(&self) -> VehiclePose {
         self.pose
     }

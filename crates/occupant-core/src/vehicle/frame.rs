@@ -36,7 +36,7 @@ impl FrameMotion {
         }
     }
 
-    /// The motion of a frame that there is not.
+    /// The motion of a frame that does not exist.
     pub(crate) fn nowhere() -> Self {
         let none = Vector3::repeat(f64::NAN);
         FrameMotion {

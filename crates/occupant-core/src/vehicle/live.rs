@@ -1,14 +1,14 @@
-//! A vehicle that is told how it moves while the run goes on, frame by frame: by a driving simulator, a game, a controller. Ours.
+//! A vehicle whose motion is given frame by frame during the run: by a driving simulator, a game, a controller. Ours.
 //!
-//! Within a frame of length T place and turn are cubics in the time τ since its start, the turn as a rotation vector φ away
-//! from the attitude there:
+//! Within a frame of length T, position and rotation are cubics in the time τ since its start, the rotation as a
+//! rotation vector φ from the attitude there:
 //!
 //! ```text
 //! R(τ) = exp([φ(τ)]) R(0)        ω = φ̇ + A φ×φ̇ + B φ×(φ×φ̇)        A = (1 − cos θ)/θ²    B = (θ − sin θ)/θ³    θ = |φ|
 //! ```
 //!
-//! so that place, attitude and both velocities are continuous from frame to frame, and every velocity is the derivative of
-//! its place. Accelerations jump where frames meet: error control ends a step there.
+//! so that position, attitude and both velocities are continuous from frame to frame, and every velocity is the
+//! derivative of its position. Accelerations jump between frames: error control ends a step there.
 
 use nalgebra::{Matrix3, Vector3};
 use occupant_units::trig;
@@ -23,7 +23,7 @@ const MOST_M_S2: f64 = 1e5;
 /// Further than this nothing turns within one frame, rad.
 const MOST_RAD: f64 = 2.0;
 
-/// A path that is told frame by frame: [`Run::push`](crate::run::Run::push). It begins as given and goes on without
+/// A path that is told frame by frame: [`Run::push`](crate::run::Run::push). It begins as given and continues without
 /// acceleration until it is told otherwise.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LivePath {
@@ -32,7 +32,7 @@ pub struct LivePath {
 }
 
 impl LivePath {
-    /// Before any frame was told.
+    /// Before the first frame.
     pub(super) fn motion(&self, t_s: f64) -> FrameMotion {
         self.start.motion().coasted(t_s)
     }
@@ -65,7 +65,7 @@ impl VehicleInput {
     }
 }
 
-/// A frame that was told.
+/// A given frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LiveFrame {
     pub from_s: f64,
@@ -81,7 +81,7 @@ impl LiveFrame {
     /// From `start` on.
     ///
     /// # Errors
-    /// What is wrong with the input, in words: what was found, and what was expected.
+    /// Problems of the input, in words: what was found, and what was expected.
     pub(crate) fn new(
         [from_s, until_s]: [f64; 2],
         start: FrameMotion,
@@ -113,7 +113,7 @@ impl LiveFrame {
             |cubic: &[Vector3<f64>; 3]| (cubic[1] * 2.0).norm().max((cubic[1] * 2.0 + cubic[2] * 6.0 * t).norm());
         if fastest(&frame.place) > MOST_M_S2 {
             let found = format!("an acceleration of {:.1e} m/s² within a frame of {t} s", fastest(&frame.place));
-            return Err((found, "a place that changes as the velocity says"));
+            return Err((found, "a position that changes as the velocity requires"));
         }
         let angle = at(&frame.turn, t)[0].norm();
         if angle > MOST_RAD {
@@ -242,7 +242,7 @@ fn rotation_vector(turn: &Matrix3<f64>) -> Vector3<f64> {
     if sine < 1e-5 && angle < 1.0 { by_sine * (1.0 + sine * sine / 6.0) } else { by_sine * (angle / sine) }
 }
 
-/// The latest frames that were told: a step that ends in the present one may have to be taken again from the one before.
+/// The latest given frames: a step that ends in the present one may have to be repeated from the previous one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LiveFrames {
     before: Option<LiveFrame>,
@@ -339,7 +339,7 @@ mod tests {
         }
     }
 
-    /// A state that is told is reached, and where the next frame begins.
+    /// A given state is reached, also where the next frame begins.
     #[test]
     fn a_state_is_reached() {
         let (reached, told) = (frame(&VehicleInput::State(end())).motion(1.25), end().motion());

@@ -1,8 +1,8 @@
 //! Where the vehicle is and how it moves (report, "The Path of the Vehicle in Space", Eqs 78 to 83).
 //!
-//! The occupant feels the vehicle only through the places and velocities of its surfaces and belt anchors, so the path
-//! is prescribed: the occupant never pushes the vehicle. A [`VehiclePath`] is built once, checked while it is
-//! built, and then asked at every stage of every integration step for a [`FrameMotion`] in space axes.
+//! The path is prescribed: the occupant never pushes the vehicle, which acts only through the positions and velocities
+//! of its surfaces and belt anchors. A [`VehiclePath`] is built and checked once. At every stage of every integration
+//! step it gives a [`FrameMotion`] in space axes.
 //!
 //! - [`TablePath`]: stations in time, read linearly ([`Interpolation::Linear`], the report's way) or by natural cubic
 //!   splines (ours);
@@ -12,10 +12,10 @@
 //! - [`FixedPath`]: a frame at rest, such as a vehicle in a free fall test (ours);
 //! - [`DrivenPath`]: a vehicle that was driven on a road and beside it, by `vehicle_motion` (ours);
 //! - [`OwnPath`]: a program's own vehicle model, any [`VehicleMotion`] (ours);
-//! - [`LivePath`]: a vehicle that a run is told of frame by frame, by [`VehicleInput`]s (ours).
+//! - [`LivePath`]: a vehicle whose motion is given frame by frame, by [`VehicleInput`]s (ours).
 //!
-//! Input is in the report's vehicle-space axes X′_v forward, Y′_v right, Z′_v down, with roll, pitch and yaw; output is in
-//! space axes X′ forward, Y′ left, Z′ up. F = diag(1, −1, −1) leads from one to the other (Eq. 81).
+//! Input is in the report's vehicle-space axes X′_v forward, Y′_v right, Z′_v down, with roll, pitch and yaw; output is
+//! in space axes X′ forward, Y′ left, Z′ up. F = diag(1, −1, −1) converts one to the other (Eq. 81).
 //!
 //! Departures from the report, all ours: velocities come from differentiating the interpolant; the path is evaluated at
 //! the integrator's stage times where the report moves the vehicle once a step; a linear table keeps the velocity of
@@ -54,7 +54,7 @@ pub use sensors::{
 pub use station::{Station, unwrap_angles};
 pub use table::{AfterEnd, Interpolation, TablePath};
 
-/// Where the vehicle is, told as the input tells it.
+/// Position of the vehicle, in the convention of the input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VehiclePose {
     /// The vehicle's c.g. in vehicle-space axes (X′_v forward, Y′_v right, Z′_v down), m.
@@ -86,7 +86,7 @@ pub enum VehiclePath {
     Driven(DrivenPath),
     /// What a program computes itself.
     Own(OwnPath),
-    /// What a run is told on its way.
+    /// Motion given during a run.
     Live(Box<LivePath>),
 }
 
@@ -109,22 +109,22 @@ impl VehiclePath {
         VehiclePath::Own(OwnPath::new(motion))
     }
 
-    /// A vehicle that is `start` at 0 s and is told from then on, frame by frame, how it moves:
+    /// A vehicle with the state `start` at 0 s whose motion is then given frame by frame:
     /// [`Run::push`](crate::run::Run::push).
     pub fn live(start: VehicleState) -> Self {
         VehiclePath::Live(Box::new(LivePath { start }))
     }
 
-    /// Whether it is told on the way.
+    /// Whether its motion is given during the run.
     pub fn is_live(&self) -> bool {
         matches!(self, VehiclePath::Live(_))
     }
 
     /// Pose and motion at `t_s`, in space axes.
     ///
-    /// `step_middle_s` is the middle of the present integration step; it decides which interval of a linear table gives the
-    /// velocities, and whether a held table already stands still. For output at an instant give `t_s` itself. The
-    /// answer depends on the two times alone, never on `cursor`, but of a path that is told on the way. Outside the path's span (see
+    /// `step_middle_s` is the middle of the present integration step; it decides which interval of a linear table gives
+    /// the velocities, and whether a held table already is at rest. For output at an instant give `t_s` itself. The
+    /// answer depends only on the two times, never on `cursor`, except for a live path. Outside the path's span (see
     /// `VehiclePath::check_span`) the vehicle coasts.
     pub fn motion(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> FrameMotion {
         match self {

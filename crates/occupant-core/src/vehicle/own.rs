@@ -57,14 +57,14 @@ impl VehicleState {
 
 /// A program's own vehicle model.
 ///
-/// A run asks for one instant several times, in any order, from any thread; a resumed run and a run side by side with others
-/// ask again. So the answer must depend on the time alone, **to the bit**: nothing remembered from call to call, no clock, no
-/// random numbers. A model that must be integrated is integrated before the run and answers from what it has stored.
+/// A run queries one instant several times, in any order, from any thread; a resumed run and a run in lanes query
+/// again. So the answer must depend on the time alone, **to the bit**: no memory between calls, no clock, no random
+/// numbers. Integrate a model that needs it before the run, and answer from the stored result.
 ///
-/// The velocities must be the derivatives of the place and the angles: contacts and belts take energy out of the vehicle's
-/// motion by them, and the energy ledger shows a contradiction as an imbalance. Place and velocity must be continuous;
-/// accelerations may jump, at the times of [`VehicleMotion::breaks_s`]. For the same bits on every machine take sines and
-/// the like from `occupant_units::trig`: those of the standard library differ in the last digit.
+/// The velocities must be the derivatives of position and angles: contacts and belts use them for the work of the
+/// vehicle, and the energy ledger shows a contradiction as an imbalance. Position and velocity must be continuous;
+/// accelerations may jump, at the times of [`VehicleMotion::breaks_s`]. For the same bits on every machine use the
+/// sines of `occupant_units::trig`: those of the standard library differ in the last digit.
 pub trait VehicleMotion: Debug + Send + Sync {
     /// The vehicle at `t_s`, a time within [`VehicleMotion::span_s`].
     fn at(&self, t_s: f64) -> VehicleState;

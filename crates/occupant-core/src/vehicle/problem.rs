@@ -1,4 +1,4 @@
-//! What can be wrong with a vehicle path.
+//! Problems of a vehicle path.
 
 use std::fmt::Display;
 

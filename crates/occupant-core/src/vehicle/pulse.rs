@@ -1,9 +1,9 @@
 //! A vehicle that travels straight on with a fixed attitude and is slowed by a deceleration pulse. All of it is ours; the
 //! report knows only tables.
 //!
-//! Before the pulse the speed is the initial one, after it the last one. A pulse stronger than the initial speed brings the
-//! vehicle to rest, exactly, and there it stays, whatever the pulse would still do; where a rebound is given the
-//! speed goes on falling to minus the rebound and stays there.
+//! Before the pulse the speed is the initial one, after it the last one. A pulse stronger than the initial speed brings
+//! the vehicle to rest, exactly, and it stays there for the rest of the pulse. With a rebound the speed continues to
+//! fall to minus the rebound and stays there.
 
 mod crossing;
 mod profile;
@@ -135,7 +135,7 @@ impl PulsePath {
         (self.begin_s, self.begin_s + self.profile.duration_s())
     }
 
-    /// The deceleration of greatest size that the pulse prescribes, with its sign, m/s².
+    /// The deceleration of largest size that the pulse prescribes, with its sign, m/s².
     pub fn peak_deceleration_m_s2(&self) -> f64 {
         self.profile.peak_m_s2()
     }
@@ -214,7 +214,7 @@ struct Travel {
     acceleration_m_s2: f64,
 }
 
-/// What is wrong with a definition, its shape apart.
+/// Problems of a definition, its shape apart.
 fn find_problems(definition: &PulseDefinition, problems: &mut Vec<PathProblem>) {
     expect_finite_pose(problems, &definition.initial);
     expect_not_negative(problems, "initial speed", definition.initial_speed_m_s);
@@ -224,7 +224,7 @@ fn find_problems(definition: &PulseDefinition, problems: &mut Vec<PathProblem>) 
     }
 }
 
-/// Whether a vehicle that starts at rest and stands still from τ = `since_s` on never got going: it has not moved, or
+/// Whether a vehicle that starts at rest and is at rest from τ = `since_s` on never got going: it has not moved, or
 /// was to be faster afterwards than ever before. Without this the noise before a measured thrust would stop the
 /// vehicle, and the thrust would be lost in silence.
 fn holds_back(profile: &Profile, since_s: f64, distance_m: f64) -> bool {

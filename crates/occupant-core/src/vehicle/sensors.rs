@@ -2,15 +2,14 @@
 //! (strapdown integration), or the velocity change of an event data recorder. All of it is ours; the report knows
 //! only tables.
 //!
-//! The sensors stand at r from the c.g. Their own motion is integrated, and the c.g. follows from it without
-//! any derivative of the rates:
+//! The sensors are at r from the c.g. Their own motion is integrated, and the c.g. follows from it without any
+//! derivative of the rates:
 //!
 //! ```text
 //! X_cg = X_s − A r,   v_cg = v_s − ω × A r,   a_cg = a_s − ω̇ × A r − ω × (ω × A r)
 //! ```
 //!
-//! Between samples the rates are straight lines, and so are recorded accelerations; [`strapdown`] says how they are
-//! integrated.
+//! Between samples the rates are straight lines, and so are recorded accelerations; [`strapdown`] integrates them.
 
 mod baseline;
 mod delta_v;
@@ -127,7 +126,7 @@ impl SensorPath {
 
     /// Pose and motion at `t_s`, in space axes.
     ///
-    /// Outside the record the vehicle coasts, or stands still if the path says so; it stands still in the steps whose
+    /// Outside the record the vehicle coasts, or is at rest if the path says so; it is at rest in the steps whose
     /// middle, `step_middle_s`, is past the last sample.
     pub(crate) fn motion(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> FrameMotion {
         let (first_s, last_s) = self.span_s();

@@ -1,4 +1,4 @@
-//! Cubic splines, and their straight-line little sister, through the stations of a table.
+//! Cubic splines, and piecewise linear interpolation, through the stations of a table.
 //!
 //! One piece between two stations is a cubic in s = t − t_i with six channels at once: x, y, z, roll, pitch, yaw.
 

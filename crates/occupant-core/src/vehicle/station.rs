@@ -1,4 +1,4 @@
-//! Stations of a table: the vehicle's place and attitude at given times, and what can be wrong with them.
+//! Stations of a table: the vehicle's position and attitude at given times, and their checks.
 
 use std::f64::consts::PI;
 
@@ -62,7 +62,7 @@ pub(super) fn problems_of(stations: &[Station]) -> Vec<PathProblem> {
     problems
 }
 
-/// What is wrong with a station only in the light of the one before it.
+/// Problems of a station only in the light of the one before it.
 fn compare_with_previous(station: usize, previous: &Station, here: &Station, problems: &mut Vec<PathProblem>) {
     let (before, now) = (previous.channels(), here.channels());
     let length_s = here.time_s - previous.time_s;

@@ -1,4 +1,4 @@
-//! A vehicle path given by stations in time: the report's tabular record (its POSVEH), and the smooth one.
+//! A vehicle path given by stations in time: the report's tabular record (its POSVEH), or a smooth one.
 
 use nalgebra::{Vector3, Vector6};
 use serde::{Deserialize, Serialize};
@@ -31,12 +31,12 @@ pub enum Interpolation {
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(feature = "schema", schemars(rename = "After"))]
 pub enum AfterEnd {
-    /// A run that goes on is refused.
+    /// A run that continues is refused.
     #[default]
     Error,
-    /// It goes on with constant velocity.
+    /// It continues with constant velocity.
     Coast,
-    /// It stands still; a spline comes to rest there.
+    /// It is at rest; a spline comes to rest there.
     Hold,
 }
 
@@ -150,8 +150,8 @@ impl TablePath {
     ///
     /// The pose is the interpolant at `t_s` itself. Velocities differentiate the interpolant: of a spline at `t_s`; of
     /// straight lines in the interval that contains `step_middle_s`, so that one integration step sees one velocity
-    /// even where it begins or ends at a station. Outside the stations the vehicle coasts, or stands still if the path
-    /// says so; it stands still in the steps whose middle is past the last station.
+    /// even where it begins or ends at a station. Outside the stations the vehicle coasts, or is at rest if the path
+    /// says so; it is at rest in the steps whose middle is past the last station.
     pub(crate) fn motion(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> FrameMotion {
         let (first_s, last_s) = self.span_s();
         let inside_s = t_s.clamp(first_s, last_s);

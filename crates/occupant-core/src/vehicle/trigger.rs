@@ -1,4 +1,4 @@
-//! When a vehicle's motion sets something off.
+//! Times at which a vehicle's motion fires a trigger.
 
 use nalgebra::Vector3;
 

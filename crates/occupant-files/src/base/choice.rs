@@ -1,4 +1,4 @@
-//! Flags whose words stand for values: tables of names, what help says of them, and the values.
+//! Flags with named values: tables of names, their help texts, and their values.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 

@@ -1,5 +1,5 @@
-//! What is looked at unless somebody asks for something else: the channels of plots, of the page and of bands over time, and
-//! the figures of studies. Each list stands here once, in the order in which it is shown.
+//! Defaults: the channels of plots, of the page and of bands over time, and the figures of studies. Each list is here
+//! once, in the order of display.
 
 /// Channels by pattern ([`star`](occupant_core::results::channel::star)), each with the name of its curve, in which `*` is what the star stands
 /// for.

@@ -25,7 +25,7 @@ pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
 /// The bytes of a file that a user or a text names, of `-` those of standard input. Results may be of any size.
 ///
 /// # Errors
-/// What the operating system refuses; what is no ordinary file, such as a pipe that nobody may ever write into or a device
+/// An error of the operating system; what is no ordinary file, such as a pipe that nobody may ever write into or a device
 /// without end, but for a pipe that is open already; more than a text may have ([`ErrorKind::InvalidData`]).
 pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
     if is_input(path) {
@@ -53,7 +53,7 @@ pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
 /// What stands in a folder, sorted.
 ///
 /// # Errors
-/// What the operating system refuses.
+/// An error of the operating system.
 pub fn entries(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let mut paths = fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<PathBuf>>>()?;
     paths.sort();

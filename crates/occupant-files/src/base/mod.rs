@@ -1,4 +1,4 @@
-//! What every room may lean on: how work with files ends, how files come to their names, what is shown by default.
+//! Shared tools: results of file operations, names of files, default displays.
 
 #[cfg(feature = "clap")]
 mod choice;

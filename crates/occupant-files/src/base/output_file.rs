@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 
-/// What happens to files that stand where ours goes.
+/// Treatment of existing files with the same name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Existing {
     /// They are left alone and ours is refused.
@@ -74,7 +74,7 @@ pub enum FileProblem {
         /// The file.
         path: PathBuf,
     },
-    /// The operating system refuses.
+    /// An error of the operating system.
     #[error("cannot {doing} {}: {source}", .path.display())]
     Io {
         /// What was tried.
@@ -144,7 +144,7 @@ fn place_of(target: &Path) -> Result<PathBuf, FileProblem> {
 /// Removes a file.
 ///
 /// # Errors
-/// The operating system refuses.
+/// An error of the operating system.
 pub fn remove_if_there(path: &Path) -> Result<(), FileProblem> {
     let refused = |source: &io::Error| source.kind() != ErrorKind::NotFound;
     let refused = fs::remove_file(path).err().filter(refused);
@@ -155,7 +155,7 @@ impl PartialFile {
     /// Begins the file that will be `target`.
     ///
     /// # Errors
-    /// A file is there and may not be replaced; the operating system refuses.
+    /// A file is there and may not be replaced; an error of the operating system.
     pub fn create(target: &Path, existing: Existing) -> Result<Self, FileProblem> {
         let place = place_of(target)?;
         if existing == Existing::Keep && fs::symlink_metadata(&place).is_ok() {
@@ -186,7 +186,7 @@ impl PartialFile {
     /// Gives the complete file its name, safe against a loss of power.
     ///
     /// # Errors
-    /// A file of that name has come meanwhile and may not be replaced; the operating system refuses. The file then keeps
+    /// A file of that name has come meanwhile and may not be replaced; an error of the operating system. The file then keeps
     /// its provisional name.
     pub fn publish(mut self) -> Result<PathBuf, FileProblem> {
         self.finish()?;
@@ -206,7 +206,7 @@ impl PartialFile {
     /// Leaves the file under its provisional name, safe against a loss of power, and gives the name.
     ///
     /// # Errors
-    /// The operating system refuses.
+    /// An error of the operating system.
     pub fn keep(self) -> Result<PathBuf, FileProblem> {
         let mut file = self.that_stays();
         file.finish()?;
@@ -253,7 +253,7 @@ fn taken_over(name: &Path) -> io::Result<File> {
 /// Makes a provisional file or folder for `place`; where others may be replaced under the first name that is free.
 ///
 /// # Errors
-/// It is there and may not be replaced; the operating system refuses.
+/// It exists and may not be replaced; an error of the operating system.
 pub fn begun<T>(
     place: &Path,
     existing: Existing,
@@ -331,7 +331,7 @@ impl Seek for PartialFile {
 /// Writes a file of results that carries its name only when it is complete.
 ///
 /// # Errors
-/// A file is there and may not be replaced; the operating system refuses.
+/// A file is there and may not be replaced; an error of the operating system.
 pub fn publish(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Failure> {
     Ok(write_whole(path, Existing::by(force), bytes).map(|_| ())?)
 }

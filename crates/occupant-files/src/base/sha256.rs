@@ -1,4 +1,4 @@
-//! What names the content of a file.
+//! Hash of the content of a file.
 
 use sha2::{Digest, Sha256};
 

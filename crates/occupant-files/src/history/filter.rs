@@ -1,4 +1,4 @@
-//! Which filter class a channel gets.
+//! The filter class of a channel.
 
 use std::str::FromStr;
 
@@ -41,7 +41,7 @@ impl FromStr for Filter {
 }
 
 impl Filter {
-    /// The class for a channel; none where it stays as it is.
+    /// The class for a channel; none if it stays as it is.
     pub fn class_of(self, channel: &str) -> Option<ChannelClass> {
         match self {
             Filter::None => None,

@@ -29,7 +29,7 @@ impl Histories {
     /// Whether every channel has a value for each time.
     ///
     /// # Errors
-    /// The first that has not, in words.
+    /// The first that has not, as text.
     pub fn check(&self) -> Result<(), String> {
         let count = self.time_s.len();
         match self.columns.iter().find(|column| column.values.len() != count) {

@@ -1,7 +1,7 @@
-//! What a file says of the run it holds: metadata records and attachments.
+//! Metadata records and attachments of a run in its file.
 //!
-//! The record `occupant.run` comes first. `occupant.result` comes last and says how the run ended: a file without it is
-//! the beginning of a run that was cut off.
+//! The record `occupant.run` comes first. `occupant.result` comes last and describes how the run ended: a file without
+//! it is an incomplete run.
 
 use std::collections::BTreeMap;
 

@@ -1,6 +1,6 @@
-//! The message of all that the run carries on from an output, so that it can resume there bit for bit.
+//! The message with the complete memory of a run at an output, from which it can resume bit for bit.
 //!
-//! Pairs are numbered as the model numbers them; those in no list are open and have no greatest deformation.
+//! Pairs are numbered as the model numbers them; those in no list are open and have no largest deformation.
 
 use occupant_core::forces::stored::Archive;
 use occupant_core::quantity::{FieldWords, Kind, Value};
@@ -28,7 +28,7 @@ pub fn write(wire: &mut Wire, sample: &Sample<'_>) {
 /// Reads the message back. A field that the file does not have leaves what it would tell blank.
 ///
 /// # Errors
-/// Fields that cannot be, in words.
+/// Fields that cannot be, as text.
 pub fn read(bytes: &[u8]) -> Result<Checkpoint, String> {
     let mut reader = Reader { rest: Rest(bytes), trouble: None };
     let checkpoint = Checkpoint::stored(&mut reader);

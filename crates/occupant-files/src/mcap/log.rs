@@ -1,4 +1,4 @@
-//! `/log`: warnings, first touches, how the run ended.
+//! `/log`: warnings, first contacts, how the run ended.
 
 use occupant_core::model::Model;
 use occupant_core::results::outcome::{FirstTouch, Outcome, Status};
@@ -33,7 +33,7 @@ impl Names {
         }
     }
 
-    /// A first touch in words.
+    /// A first contact in words.
     pub fn first_touch(&self, touch: &FirstTouch) -> String {
         format!(
             "{} touches {} first at t = {:.6} s, at {:.3} m/s, closing at {:.3} m/s",

@@ -1,9 +1,9 @@
 //! Runs as MCAP files that Foxglove-compatible viewers show and Python reads.
 //!
-//! [`McapRecorder`] is a recorder of `occupant_core`. What a file holds — topics, units, frames, schemas — stands in
-//! `crates/occupant-cli/docs/mcap.md`.
+//! [`McapRecorder`] is a recorder of `occupant_core`. `crates/occupant-cli/docs/mcap.md` describes its topics, units,
+//! frames and schemas.
 //!
-//! Field numbers, topic names and frame names are never used again for something else; additions get new ones.
+//! Field numbers, topic names and frame names are never reused; additions get new ones.
 
 pub mod about;
 mod channel;

@@ -1,8 +1,8 @@
-//! Where messages go: to a thread that compresses and writes them while the run is at work.
+//! A thread that compresses and writes messages during the run.
 //!
-//! The thread does with the writer, in the same order, what would have been done without it, so the file has the same
-//! bytes. Its errors come back with the next chunk, at the latest when the writer is called home. If no thread can be had,
-//! everything is done at once.
+//! The thread does the same as the run would do, in the same order, so the file has the same bytes. Its errors are
+//! returned with the next chunk, at the latest when the writer is finished. Without a thread everything is written
+//! immediately.
 
 use std::io::{Seek, Write};
 use std::sync::mpsc::{SyncSender, sync_channel};

@@ -71,7 +71,7 @@ impl<'a> Frame<'a> {
     /// What it says; `room` is how many bytes compressed chunks may still make.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// Problems of it.
     pub fn record(self, room: &mut u64) -> Result<Record<'a>, &'static str> {
         let fields = Fields(self.body);
         match self.opcode {

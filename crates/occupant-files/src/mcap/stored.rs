@@ -58,7 +58,7 @@ impl StoredRun {
     /// is damaged reading resumes with the next one that is whole.
     ///
     /// # Errors
-    /// A file that is not MCAP, or a checkpoint that cannot be read, in words.
+    /// A file that is not MCAP, or a checkpoint that cannot be read, as text.
     pub fn read(bytes: &[u8]) -> Result<Self, String> {
         if !bytes.starts_with(mcap::MAGIC) {
             return Err("it is not an MCAP file".to_owned());
@@ -187,7 +187,7 @@ impl StoredRun {
         (status, lost.or_else(|| said("reason")).or_else(|| Some("it was cut off".to_owned())))
     }
 
-    /// What is wrong with the file; none for one that is whole or was cut off.
+    /// Problems of the file; none for one that is whole or was cut off.
     pub fn flaw(&self) -> Option<String> {
         let whole = if self.result.is_some() { "; all outputs are there" } else { "" };
         self.lost().or_else(|| self.damage.map(|damage| damaged_at(damage) + whole))

@@ -19,7 +19,7 @@ pub const LINES_SCENE: &str = "/scene/belts";
 pub const FORCES_SCENE: &str = "/scene/forces";
 /// Names and open sides of the surfaces, written once.
 pub const LABELS_SCENE: &str = "/scene/labels";
-/// Warnings, first touches, the end.
+/// Warnings, first contacts, the end.
 pub const LOG: &str = "/log";
 
 /// The frame of a segment: its axes, at its centre of gravity.
@@ -30,7 +30,7 @@ pub fn segment_frame(name: &str) -> String {
     }
 }
 
-/// The frame of a sphere that rides on parts of its segment that give way: the segment's axes, where it has been carried.
+/// The frame of a sphere that rides on parts of its segment that yield: the segment's axes, where it has been carried.
 pub fn ridden_frame(segment: &str, sphere: &str) -> String {
     let own = sphere.rsplit_once('.').map_or(sphere, |(_, own)| own);
     format!("{}/{own}", segment_frame(segment))

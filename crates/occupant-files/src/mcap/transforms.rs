@@ -1,4 +1,4 @@
-//! `/tf`: space → vehicle → the segments → spheres that ride on parts of them that give way. Every message holds every frame,
+//! `/tf`: space → vehicle → the segments → spheres that ride on parts of them that yield. Every message holds every frame,
 //! because a viewer that jumps in time reads only the last one.
 
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};

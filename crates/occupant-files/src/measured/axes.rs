@@ -1,4 +1,4 @@
-//! Which way the axes of records and tables point.
+//! Directions of the axes of records and tables.
 
 /// x is forward in both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

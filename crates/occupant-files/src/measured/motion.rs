@@ -53,7 +53,7 @@ pub struct Column {
 pub struct Motion {
     /// What kind it is.
     pub kind: MotionKind,
-    /// What it is, in words.
+    /// What it is, as text.
     pub words: String,
     /// Times, s.
     pub time_s: Vec<f64>,
@@ -76,7 +76,7 @@ pub struct Placed<'a> {
 }
 
 impl Motion {
-    /// The motion in a record; none where it has none.
+    /// The motion in a record; none if it has none.
     ///
     /// # Errors
     /// A place that has no accelerometers; a signal without a unit; a hole that was not to be bridged.
@@ -343,7 +343,7 @@ fn plain(recording: &Recording) -> (MotionKind, Found<'_>, String) {
 }
 
 /// Of several places the one that is most likely to move as the vehicle does: its velocity change is that of most places, within a tenth, and of
-/// those it rings least, by the sum of all its rises and falls. None where most do not agree.
+/// those it rings least, by the sum of all its rises and falls. None if most do not agree.
 fn typical(recording: &Recording) -> Option<(String, String)> {
     let changes = velocity_changes(recording);
     let mut sorted: Vec<f64> = changes.iter().map(|(_, change)| *change).collect();

@@ -1,7 +1,7 @@
-//! Which measured signal belongs to which channel.
+//! Pairs of measured signals and channels.
 //!
-//! By `--map column=channel`; else by the same name; else by the ISO-MME code. With a map for a channel nothing else is
-//! looked for.
+//! By `--map column=channel`, otherwise by the same name, otherwise by the ISO-MME code. A channel with a map uses
+//! nothing else.
 
 use std::fmt;
 use std::str::FromStr;

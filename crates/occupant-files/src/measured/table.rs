@@ -67,7 +67,7 @@ fn in_words(heading: &str) -> Option<(&str, &str)> {
 /// Reads a table; `columns` names its columns in place of its headings, `-` one that is left out, `-NAME` one whose sign is turned.
 ///
 /// # Errors
-/// What is wrong with it.
+/// Problems of it.
 pub fn read(path: &Path, text: &str, columns: Option<&str>, sha256: String) -> Result<Recording, Failure> {
     let mut sources = Sources::new();
     let id = sources.add_named(path.display().to_string(), text);

@@ -337,7 +337,7 @@ mod tests {
     #[test]
     fn channels_become_signals_with_times_and_units() {
         for bytes in [file(false), file(true)] {
-            // a second segment of the same channels goes on
+            // a second segment of the same channels continues
             let whole = objects(&[bytes.clone(), bytes].concat()).unwrap();
             let signals: Vec<Signal> =
                 whole.iter().filter_map(|o| o.signal(&whole, Path::new("a.tdms")).ok()?).collect();

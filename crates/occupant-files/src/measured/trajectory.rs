@@ -284,7 +284,7 @@ fn rows(
 /// An element with more attributes is none of OpenSCENARIO, and the parser compares each with all others.
 const MOST_ATTRIBUTES: usize = 200;
 
-/// The greatest number of attributes of an element of XML, in one pass.
+/// The largest number of attributes of an element of XML, in one pass.
 fn most_attributes(text: &str) -> usize {
     let (mut most, mut rest) = (0, text);
     while let Some(at) = rest.find('<') {

@@ -1,7 +1,8 @@
 //! ISO-MME (ISO/TS 13499): channel codes, reading and writing of tests.
 //!
-//! Writes no folder itself, and leaves what is measured to be matched elsewhere. A test is a folder: `NAME.mme` says what the test was, `Channel/NAME.chn` lists channels, `Channel/NAME.001` and on hold
-//! one channel each. Layout and codes from a public reader and its dictionary (RED 1.6.2); the standard was not read.
+//! It writes no folder itself and does not match signals to channels. A test is a folder: `NAME.mme` describes the
+//! test, `Channel/NAME.chn` lists the channels, `Channel/NAME.001` and following contain one channel each. Layout and
+//! codes from a public reader and its dictionary (RED 1.6.2); the standard was not read.
 
 mod header;
 mod read;

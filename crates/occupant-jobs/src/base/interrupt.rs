@@ -1,4 +1,4 @@
-//! Work that is asked to stop, and stops at its next output.
+//! Interruption: work stops at its next output.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

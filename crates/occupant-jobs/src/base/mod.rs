@@ -1,4 +1,4 @@
-//! What every job may lean on: what it says and shows, how it is stopped, text tables, units; and the base of the library of
+//! Shared tools of all jobs: messages, progress, interruption, text tables, units, and the base of the library of
 //! files.
 
 pub mod interrupt;

@@ -1,30 +1,30 @@
-//! How far many runs are: a bar where the caller has one, else a line now and then.
+//! Progress of many runs: a bar if the caller has one, otherwise a line now and then.
 
 use std::fmt;
 use std::time::{Duration, Instant};
 
 use super::say;
 
-/// A bar that shows how far a job is: on a terminal, in a notebook, on a page.
+/// A bar that shows the progress of a job: on a terminal, in a notebook, on a page.
 pub trait Bar: Send + Sync {
-    /// There are so many in all.
+    /// Sets the number of all steps.
     fn set_length(&self, all: u64);
-    /// So many are done.
+    /// Sets the number of finished steps.
     fn set_position(&self, done: u64);
-    /// What else is to be said beside it.
+    /// Sets the text beside the bar.
     fn set_message(&self, words: String);
-    /// What was done until now says nothing of the rate.
+    /// Excludes the work so far from the rate.
     fn forget_rate(&self);
-    /// The job is done: the bar goes.
+    /// Removes the bar at the end of the job.
     fn clear(&self);
 }
 
-/// What a job shows of its way.
+/// What a job shows of its progress.
 #[derive(Clone, Copy)]
 pub struct Show {
-    /// Nothing but what nobody should overlook.
+    /// Only warnings and errors.
     pub quiet: bool,
-    /// Makes a bar of so many of a thing, such as `samples`; none where nothing can show one.
+    /// Makes a bar of a number of items, such as `samples`; none if nothing can show one.
     pub bar: fn(u64, &str) -> Option<Box<dyn Bar>>,
 }
 
@@ -32,13 +32,13 @@ impl Show {
     /// Shows nothing.
     pub const NOTHING: Show = Show { quiet: true, bar: |_, _| None };
 
-    /// A bar of so many of `what`, unless nothing is to be shown.
+    /// A bar of `all` items called `what`, unless nothing is to be shown.
     pub fn bar(self, all: u64, what: &str) -> Option<Box<dyn Bar>> {
         if self.quiet { None } else { (self.bar)(all, what) }
     }
 }
 
-/// How far many runs are: a bar, else a line now and then.
+/// Progress of many runs: a bar, otherwise a line now and then.
 pub struct Runs {
     bar: Option<Box<dyn Bar>>,
     all: u64,
@@ -47,7 +47,7 @@ pub struct Runs {
     every: Duration,
     line: Instant,
     began: Instant,
-    /// How many were done before this process.
+    /// Number of runs done before this process.
     before: u64,
 }
 
@@ -58,13 +58,13 @@ impl fmt::Debug for Runs {
 }
 
 impl Runs {
-    /// Of so many of `what`; without a bar at most a line `every` so often.
+    /// Progress of `all` items called `what`; without a bar at most one line per interval `every`.
     pub fn new(all: u64, what: &'static str, every: Duration, show: Show) -> Self {
         let now = Instant::now();
         Runs { bar: show.bar(all, what), all, quiet: show.quiet, what, every, line: now, began: now, before: 0 }
     }
 
-    /// So many were there before: they say nothing of the rate.
+    /// Sets the number of runs done before; they do not count for the rate.
     pub fn from(mut self, before: u64) -> Self {
         if let Some(bar) = &self.bar {
             bar.set_position(before);
@@ -79,7 +79,7 @@ impl Runs {
         self.began.elapsed().as_secs_f64()
     }
 
-    /// How many, how fast, how long still.
+    /// Count, rate and time to go, as text.
     pub fn words(&self, done: u64) -> String {
         let (all, what) = (self.all, self.what);
         let computed = done.saturating_sub(self.before);
@@ -99,12 +99,12 @@ impl Runs {
         self.bar.as_deref()
     }
 
-    /// Whether lines are written, but none for a while.
+    /// Whether lines are written and none was written for a while.
     pub fn is_line_due(&self) -> bool {
         !self.quiet && self.line.elapsed() > self.every
     }
 
-    /// Says a line.
+    /// Writes a line.
     pub fn say(&mut self, text: &str) {
         if !self.quiet {
             say(text);
@@ -112,7 +112,7 @@ impl Runs {
         }
     }
 
-    /// No more.
+    /// Ends the display.
     pub fn end(&self) {
         if let Some(bar) = &self.bar {
             bar.clear();

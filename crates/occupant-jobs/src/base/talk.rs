@@ -1,5 +1,4 @@
-//! What jobs say while they work. It goes to the log: a command writes it to standard error, a notebook shows it, nobody need
-//! listen.
+//! Messages of jobs while they work. They go to the log: a command writes it to standard error, a notebook shows it.
 
 use super::Failure;
 

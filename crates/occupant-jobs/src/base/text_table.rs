@@ -1,4 +1,5 @@
-//! Text tables: columns as wide as their widest cell, numbers to the right, heads and words over several lines where the terminal is narrow.
+//! Text tables: columns as wide as their widest cell, numbers aligned right, headings and texts over several lines if
+//! the terminal is narrow.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 

@@ -1,5 +1,4 @@
-//! The units in which tables and pages tell people their numbers: those of the scenario, or as asked for. Answers in JSON and
-//! tables in files are SI.
+//! The units of tables and pages: those of the scenario, or as requested. Answers in JSON and tables in files are SI.
 
 use occupant_scenario::Draft;
 use occupant_scenario::kind::UnitSystem;
@@ -37,7 +36,7 @@ impl Units {
         Units { system, is_asked: false }
     }
 
-    /// What is shown for a unit of a table, and how many of that unit are one of it; none where it stays as it is.
+    /// What is shown for a unit of a table, and how many of that unit are one of it; none if it stays as it is.
     fn instead(self, unit: &str) -> Option<(f64, Shown)> {
         let (measured, si) = Unit::measuring(unit).filter(|_| self.system == UnitSystem::InchPound)?;
         let dimension = measured.dimension();

@@ -1,4 +1,4 @@
-//! Which computed history is held against which measured one: a run and a test, two runs, or two tables.
+//! Pairs of computed and measured histories: of a run and a test, two runs, or two tables.
 
 use crash_measures::signal::ChannelClass;
 use occupant_core::results::channel::{Channel, channels};
@@ -11,7 +11,7 @@ use occupant_files::results::Results;
 use occupant_files::signals::Recording;
 use occupant_pictures::plot::standard;
 
-/// Greatest value of a history that counts as zero throughout.
+/// Largest value of a history that counts as zero throughout.
 const ZERO: f64 = 1e-100;
 
 /// A computed and a measured history of one channel, both filtered.

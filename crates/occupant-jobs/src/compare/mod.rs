@@ -1,4 +1,4 @@
-//! How well a run follows a test, or another run: its channels rated against the signals that belong to them.
+//! Rating of a run against a test or another run, channel by channel.
 
 mod couples;
 mod rating;

@@ -56,7 +56,7 @@ pub struct Rating {
 }
 
 impl Rating {
-    /// The whole score of a metric by its key; none where it is not rated.
+    /// The whole score of a metric by its key; none if it is not rated.
     pub fn score(&self, metric: &str, score: &str) -> Option<f64> {
         self.scores.get(metric)?.get(score)?.as_f64()
     }

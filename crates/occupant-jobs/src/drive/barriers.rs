@@ -1,4 +1,4 @@
-//! How a vehicle met what stands beside the road.
+//! Collisions of a vehicle with obstacles beside the road.
 
 use occupant_scenario::Drives;
 use serde::Serialize;
@@ -30,9 +30,9 @@ pub struct Met {
     pub exit_speed_m_s: f64,
     /// Away from it, rad.
     pub exit_angle_rad: Option<f64>,
-    /// Greatest way of a rail, or of a cushion or sign, m.
+    /// Largest way of a rail, or of a cushion or sign, m.
     pub deflection_m: Option<f64>,
-    /// Greatest tension of a rail, N, and posts that let it go.
+    /// Largest tension of a rail, N, and posts that let it go.
     pub tension_n: Option<f64>,
     /// How many posts have given way.
     pub released_posts: Option<usize>,

@@ -1,4 +1,4 @@
-//! What a vehicle met, and what that did to it.
+//! Collisions of a vehicle and their effects.
 
 use std::f64::consts::PI;
 
@@ -19,9 +19,9 @@ pub struct Collision {
     pub from_s: f64,
     /// Its end, s.
     pub until_s: f64,
-    /// Speed of the centres of gravity against each other at first touch, m/s.
+    /// Speed of the centres of gravity against each other at first contact, m/s.
     pub closing_m_s: f64,
-    /// Greatest change of velocity, and that change along the vehicle's axes at first touch, m/s.
+    /// Largest change of velocity, and that change along the vehicle's axes at first contact, m/s.
     pub delta_v_m_s: f64,
     /// Change of velocity along x, y, z of the vehicle, m/s.
     pub delta_v_axes_m_s: [f64; 3],
@@ -33,14 +33,14 @@ pub struct Collision {
     pub clock: u8,
     /// Speed of a barrier that absorbs as much as the vehicle did in it, m/s.
     pub ees_m_s: f64,
-    /// Greatest acceleration, m/s².
+    /// Largest acceleration, m/s².
     pub peak_m_s2: f64,
 }
 
 /// A touch that changes the speed by less, by itself or with the tyres, is none, m/s: cars that lean on each other.
 const LEAST_M_S: f64 = 0.5;
 
-/// Collisions of a vehicle in the order of first touches.
+/// Collisions of a vehicle in the order of first contacts.
 pub(super) fn of(drives: &Drives, number: usize) -> Vec<Collision> {
     let all = drives.outcome.contacts.iter().filter_map(|contact| one(drives, contact, number));
     all.filter(|own| own.delta_v_m_s.min(own.delta_v_contact_m_s) >= LEAST_M_S).collect()
@@ -113,7 +113,7 @@ pub(super) fn text(collisions: &[Collision], units: Units) -> String {
     table.text()
 }
 
-/// Damage of a vehicle as a table: greatest and residual crush, then residual depths C1 to C6 at equal distances over each damaged side.
+/// Damage of a vehicle as a table: largest and residual crush, then residual depths C1 to C6 at equal distances over each damaged side.
 pub(super) fn damage_text(damage: &Damage, units: Units) -> String {
     let m = |value: f64| units.say(value, "m", 3);
     let mut table = Table::new(&[

@@ -1,4 +1,4 @@
-//! What happened when.
+//! Events with their times.
 
 use std::f64::consts::FRAC_PI_2;
 

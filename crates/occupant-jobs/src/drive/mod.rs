@@ -1,4 +1,4 @@
-//! What a drive comes to: events, tyre marks, figures, tables.
+//! Results of a drive: events, tyre marks, figures, tables.
 
 mod barriers;
 mod collisions;
@@ -35,7 +35,7 @@ pub struct Driven {
     pub marks: Vec<Mark>,
     /// The motion, as channels.
     pub motion: Figurable,
-    /// What it met, in the order of first touches.
+    /// What it met, in the order of first contacts.
     pub collisions: Vec<Collision>,
     /// Barriers that it met.
     pub barriers: Vec<Met>,
@@ -51,11 +51,11 @@ pub struct Figurable {
     pub distance_m: f64,
     /// Yaw of the whole drive, turns counted, rad.
     pub turned_rad: f64,
-    /// Greatest roll, pitch and slip angle with their times, rad and s.
+    /// Largest roll, pitch and slip angle with their times, rad and s.
     pub roll: (f64, f64),
-    /// Greatest pitch, rad, and when, s.
+    /// Largest pitch, rad, and when, s.
     pub pitch: (f64, f64),
-    /// Greatest slip angle, rad, and when, s.
+    /// Largest slip angle, rad, and when, s.
     pub slip: (f64, f64),
     /// Steepest ground under the centre of gravity, rise over run.
     pub slope: (f64, f64),

@@ -1,4 +1,4 @@
-//! The plan of a drive: road, barriers, tyre marks, vehicles at times, seen from above.
+//! The plan view of a drive: road, barriers, tyre marks, vehicles at chosen times.
 
 use occupant_scenario::Drives;
 use vehicle_motion::barrier::Barrier;
@@ -7,7 +7,7 @@ use vehicle_motion::run::Station;
 use super::Driven;
 use occupant_pictures::svg::{Anchor, Svg, Text};
 
-/// Greatest size of the plan without its words, user units, and greatest scale, user units to a metre.
+/// Largest size of the plan without its words, user units, and largest scale, user units to a metre.
 const SIZE: [f64; 2] = [1400.0, 700.0];
 const LARGEST: f64 = 60.0;
 const SIDE: f64 = 24.0;
@@ -15,7 +15,7 @@ const HEAD: f64 = 64.0;
 const FOOT: f64 = 58.0;
 /// Room round what is shown, and a wall beyond it, m.
 const MARGIN_M: f64 = 3.0;
-/// Vehicles are drawn at so many equal times besides first touches and the end.
+/// Vehicles are drawn at so many equal times besides first contacts and the end.
 const TIMES: usize = 8;
 /// Zones of friction are looked for along so many lines.
 const LINES: usize = 1000;
@@ -191,7 +191,7 @@ fn vehicle(svg: &mut Svg, sheet: &Sheet, drives: &Drives, driven: &Driven, label
     let mut times_s: Vec<f64> = (0..=TIMES).map(|i| end_s * i as f64 / TIMES as f64).collect();
     times_s.extend(driven.collisions.iter().map(|own| own.from_s));
     times_s.sort_by(f64::total_cmp);
-    // where it stands still, or hardly moves on, it is drawn once
+    // where it is at rest, or hardly moves on, it is drawn once
     let mut drawn: Option<[f64; 2]> = None;
     for (i, time_s) in times_s.iter().enumerate() {
         let at = stations.partition_point(|station| station.time_s < time_s - 1e-9).min(stations.len() - 1);

@@ -1,4 +1,4 @@
-//! Slip angle: which way a vehicle goes against its heading.
+//! Slip angle: direction of travel relative to the heading.
 
 use vehicle_motion::V3;
 use vehicle_motion::run::Station;

@@ -1,4 +1,4 @@
-//! Bands over time: within which the middle 90 % of the members lie, and when they part.
+//! Bands over time: the range of the middle 90 % of the members, and the time at which they diverge.
 
 use crate::base::customary::BANDS;
 use occupant_core::model::Model;
@@ -44,7 +44,7 @@ pub struct ChannelBand {
     pub tolerance: f64,
     /// When they part, s; none if they never do.
     pub lost_at_s: Option<f64>,
-    /// Greatest width of the middle 90 %, in the unit, and when it is reached, s.
+    /// Largest width of the middle 90 %, in the unit, and when it is reached, s.
     pub widest: Option<f64>,
     /// When it is widest, s.
     pub widest_at_s: Option<f64>,
@@ -130,7 +130,7 @@ impl ChannelBand {
     }
 }
 
-/// Greatest width of the middle 90 %, and its time.
+/// Largest width of the middle 90 %, and its time.
 fn widest(band: &Band, time_s: &[f64]) -> Option<(f64, f64)> {
     let widths = band.q95.iter().zip(&band.q05).map(|(high, low)| high - low);
     let timed = widths.zip(time_s.iter().copied()).filter(|(w, _)| w.is_finite());
@@ -146,7 +146,7 @@ fn put_in(band: &Band, unit: &str) -> f64 {
     }
 }
 
-/// Greatest less least: a place has no zero to measure its size from.
+/// Largest less least: a place has no zero to measure its size from.
 fn range(values: &[f64]) -> f64 {
     let finite = || values.iter().copied().filter(|x| x.is_finite());
     let range = finite().fold(f64::NEG_INFINITY, f64::max) - finite().fold(f64::INFINITY, f64::min);

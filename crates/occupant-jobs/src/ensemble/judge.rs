@@ -41,7 +41,7 @@ impl Judged {
 }
 
 /// Judges figures (name, unit, a value for each member). Left out are those that no member has, and the times of peaks that
-/// are too small for anybody to act on: when nothing was greatest says nothing.
+/// are too small for anybody to act on: when nothing was largest says nothing.
 pub fn judge<'a>(figures: impl Iterator<Item = (&'a str, &'a str, &'a [f64])>, relative: f64) -> Vec<Judged> {
     let mut judged: Vec<Judged> =
         figures.filter_map(|(name, unit, values)| Judged::of(name, unit, values, relative)).collect();

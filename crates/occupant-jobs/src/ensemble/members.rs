@@ -1,7 +1,7 @@
 //! The members of an ensemble, run on all cores.
 //!
-//! What a member leaves depends on its number alone, and the members stand in the order of their numbers: the results are
-//! the same bits for any number of threads.
+//! The results of a member depend only on its number, and members are in the order of their numbers. So the results
+//! have the same bits for any number of threads.
 
 use std::ops::Range;
 
@@ -30,7 +30,7 @@ pub struct Left {
 }
 
 impl Left {
-    /// The value of a figure by its place in the list; NaN if there is none.
+    /// The value of a figure by its position in the list; NaN if there is none.
     pub fn value(&self, figure: usize) -> f64 {
         self.figures.get(figure).and_then(|f| f.value).unwrap_or(f64::NAN)
     }

@@ -1,4 +1,4 @@
-//! Ensembles: one run many times with small changes, and what may be said of it in one number.
+//! Ensembles: one run many times with small changes, and which figures can be quoted as one number.
 //!
 //! ```text
 //! study ─ members (threads: member → model → run → figures, histories) ─ judged figures, bands ─ tables, plot

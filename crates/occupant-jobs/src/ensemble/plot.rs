@@ -1,7 +1,7 @@
 //! Bands as a picture: a figure for each channel.
 //!
-//! The middle 90 % is pale, the middle half darker, the median a line, the unchanged run a dashed one; a red line stands
-//! where the members part.
+//! The middle 90 % is pale, the middle half darker, the median a line, the unchanged run a dashed one; a red line marks
+//! where the members diverge.
 
 use super::{Bands, ChannelBand};
 use crate::base::Units;

@@ -1,4 +1,4 @@
-//! What an ensemble came to: `--json` prints it, the tables on the terminal are made of it.
+//! Results of an ensemble: `--json` prints them, and the tables on the terminal use them.
 
 use occupant_study::Tolerances;
 use occupant_study::spread::Verdict;

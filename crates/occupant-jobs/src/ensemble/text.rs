@@ -1,4 +1,4 @@
-//! An ensemble in words: what was changed, which figures hold, when the members part.
+//! An ensemble as text: changes, stable figures, times at which the members diverge.
 
 use occupant_study::Tolerances;
 use occupant_study::spread::Verdict;

@@ -1,4 +1,4 @@
-//! What an extension by cards costs: it is run, and compared with the run that goes on.
+//! Accuracy of an extension by cards: it is run and compared with an uninterrupted run.
 
 use cardio_legacy::{ConvertOptions, Deck};
 use crash_measures::signal::STANDARD_GRAVITY_MPS2;
@@ -51,7 +51,7 @@ pub(super) fn histories(model: &Model, from: Option<&Checkpoint>) -> Result<Seri
     ended.map(|_| series)
 }
 
-/// How far an extension is from the run that goes on, in words.
+/// How far an extension is from the run that continues, as text.
 pub(super) fn words(goes_on: Result<Series, String>, extension: Result<Series, String>) -> String {
     const WHY: &str = "cards do not carry the largest deformations, so the extension is approximate";
     let (goes_on, extension) = match (goes_on, extension) {

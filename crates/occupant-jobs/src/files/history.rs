@@ -1,4 +1,4 @@
-//! Time histories as the library of files takes them from a run, and what is said of names that fit none.
+//! Time histories that the library of files takes from a run, and messages about unknown names.
 
 use occupant_core::model::Model;
 use occupant_core::results::channel::Channel;

@@ -1,4 +1,4 @@
-//! What jobs say of the files that they open, and the folders of studies.
+//! Messages about opened files, and the folders of studies.
 
 pub mod history;
 pub mod scenario;

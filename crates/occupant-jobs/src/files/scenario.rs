@@ -1,4 +1,4 @@
-//! Scenarios as the library of files opens them, and what is said of them.
+//! Scenarios opened by the library of files, and messages about them.
 
 use occupant_scenario::{Drives, Loaded};
 use placed_text::Diagnostics;

@@ -19,7 +19,7 @@ const FALLS_TO: f64 = 0.8;
 pub struct Accord {
     /// Correlation of both, −1 to 1; 0 for a history that does not vary.
     pub correlation: f64,
-    /// Greatest measured magnitude over the greatest computed one; none where nothing is computed.
+    /// Largest measured magnitude over the largest computed one; none if nothing is computed.
     pub peak_ratio: Option<f64>,
     /// By how much the measured signal is late: with this shift, at most 10 ms, both are nearest each other, s.
     pub lag_s: f64,
@@ -55,7 +55,7 @@ impl Accord {
         }
     }
 
-    /// What is wrong with the test, as far as that can be seen.
+    /// Problems of the test, as far as that can be seen.
     pub fn caution(&self, test: &str, channel: &str) -> Option<String> {
         let of = format!("{channel} of {test}");
         let ratio = self.peak_ratio.unwrap_or(f64::INFINITY);

@@ -1,4 +1,4 @@
-//! Every candidate of a fit in the order in which the search asked for it, as a table: history.parquet and history.csv.
+//! All candidates of a fit in the order of the search, as a table: history.parquet and history.csv.
 
 use std::path::PathBuf;
 
@@ -12,7 +12,7 @@ use occupant_study::search::Stage;
 /// Writes both tables; their names.
 ///
 /// # Errors
-/// The operating system refuses.
+/// An error of the operating system.
 pub fn write(folder: &Folder, fitting: &Fitting, records: &[Record]) -> Result<Vec<PathBuf>, Failure> {
     let files = [("history.parquet", Form::Parquet), ("history.csv", Form::Csv)];
     let files = files.map(|(name, form)| (folder.path.join(name), form));

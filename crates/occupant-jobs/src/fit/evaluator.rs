@@ -1,8 +1,8 @@
-//! Values of candidates: from the journal where it holds them, else by runs on all threads, side by side in lanes.
+//! Values of candidates: from the journal if it has them, otherwise by runs on all threads, in lanes.
 //!
-//! An evaluation is a candidate with all experiments; evaluations are counted from 0, the base scenario, in the order in
-//! which the search asks for them. Run e of evaluation i is row i·E + e of the journal. The journal is appended to when a
-//! run ends; what a killed process had under way is computed again.
+//! An evaluation is a candidate with all experiments; evaluations are counted from 0, the base scenario, in the order
+//! of the search. Run e of evaluation i is row i·E + e of the journal. A row is appended when a run ends; runs that a
+//! killed process had in progress are computed again.
 
 use std::collections::BTreeMap;
 
@@ -56,7 +56,7 @@ impl<'a> Evaluator<'a> {
     /// Reads what the journal holds. The lock of the folder must be held.
     ///
     /// # Errors
-    /// The operating system refuses; a journal of something else.
+    /// An error of the operating system; a journal of something else.
     pub fn new(
         fitting: &'a Fitting,
         (folder, sums): (&Folder, &Checksums),
@@ -136,7 +136,7 @@ impl<'a> Evaluator<'a> {
     /// Makes everything safe against a loss of power, and gives the records.
     ///
     /// # Errors
-    /// The operating system refuses.
+    /// An error of the operating system.
     pub fn close(self) -> Result<Vec<Record>, Problem> {
         self.progress.end();
         self.journal.close()?;

@@ -1,4 +1,4 @@
-//! A scenario that stands for one test or several, with the parameters of the study in it.
+//! A scenario that models one test or several, with the parameters of the study.
 
 use std::path::PathBuf;
 
@@ -53,7 +53,7 @@ impl Experiment {
     /// A scenario to which no test belongs yet.
     ///
     /// # Errors
-    /// What is wrong with the scenario.
+    /// Problems of the scenario.
     pub fn new(
         scenario: PathBuf,
         text: String,
@@ -136,7 +136,7 @@ impl Experiment {
     /// Scenario and model with these texts at these places.
     ///
     /// # Errors
-    /// What is wrong with the scenario then.
+    /// Problems of the scenario then.
     pub fn scenario_with(
         &self,
         changes: impl IntoIterator<Item = (impl AsRef<str>, impl AsRef<str>)>,
@@ -151,7 +151,7 @@ impl Experiment {
     /// The model of a run of the fit with these texts at these places: its outputs may be denser.
     ///
     /// # Errors
-    /// What is wrong with the scenario then.
+    /// Problems of the scenario then.
     pub fn model_with(
         &self,
         changes: impl IntoIterator<Item = (impl Into<String>, impl Into<String>)>,
@@ -164,7 +164,7 @@ impl Experiment {
     /// The model with these values of all parameters, or without any.
     ///
     /// # Errors
-    /// What is wrong with the scenario then.
+    /// Problems of the scenario then.
     pub fn model_of(&self, values: Option<&[f64]>) -> Result<Model, Diagnostics> {
         let assignments = values.map_or(Vec::new(), |v| self.study.assignments_of(v));
         self.model_with(assignments.iter().map(|a| (&a.path, a.text())))
@@ -223,7 +223,7 @@ impl Experiment {
         self.compared(series, corrections, |target, computed| Ok(Accord::of(&target.reference, computed)))
     }
 
-    /// Computed less measured of each target, over the greatest measured value.
+    /// Computed less measured of each target, over the largest measured value.
     ///
     /// # Errors
     /// Histories that cannot be compared.

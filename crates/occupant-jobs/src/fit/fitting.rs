@@ -1,4 +1,4 @@
-//! A fit as it stands before its search: a study, its tests, and the scenarios that stand for them.
+//! A fit before its search: a study, its tests, and their scenarios.
 
 use std::path::Path;
 
@@ -59,10 +59,10 @@ pub struct Test {
 }
 
 impl Fitting {
-    /// Reads a study, the scenarios and the tests; `name` is what messages call it.
+    /// Reads a study, the scenarios and the tests; `name` is its name in messages.
     ///
     /// # Errors
-    /// Everything that is wrong, in words.
+    /// All problems, as text.
     pub fn open(name: &Path, given: &Given<'_>, program: String) -> Result<Fitting, Failure> {
         let (shown, texts) = (name.display().to_string(), Texts::of_files(name));
         let text = study_text(name, &texts)?;

@@ -1,11 +1,11 @@
-//! Fits: the parameters within their bounds with which runs follow measured channels best.
+//! Fits: find the parameters, within their bounds, with which runs follow measured channels best.
 //!
 //! ```text
 //! study + tests ─ Opening ─ Fitting ─ search ⇄ Evaluator (journal, threads, lanes) ─ FitResult ─ fit.json, fitted.toml, plots, history
 //! ```
 //!
-//! The search asks for values of whole generations; the evaluator runs what the journal does not hold yet. As both depend on
-//! nothing but study, tests and program, a fit that was killed ends at the same answer when it is resumed.
+//! The search requests values of whole generations; the evaluator runs those that the journal lacks. Both depend only
+//! on study, tests and program, so a killed fit reaches the same answer when it is resumed.
 
 mod accord;
 mod candidates;

@@ -1,4 +1,4 @@
-//! From the names of a study and of tests to everything that a fit needs. All problems are reported at once.
+//! Opens a study and its tests, with everything that a fit needs. All problems are reported at once.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -141,7 +141,7 @@ impl<'a> Opening<'a> {
         }
     }
 
-    /// The scenario that stands for a test: one that is there already, or a new one; none if it was refused.
+    /// The scenario that represents a test: one that is there already, or a new one; none if it was refused.
     fn experiment(&mut self, named: &Named) -> Option<usize> {
         let test = &named.test;
         let same = |(known, _): &&(FitTest, Option<usize>)| (&known.base, &known.set) == (&test.base, &test.set);
@@ -267,7 +267,7 @@ impl<'a> Opening<'a> {
         pairs
     }
 
-    /// The channels that count, in this scenario; none if the study names one that there is not.
+    /// The channels that count, in this scenario; none if the study names one that does not exist.
     fn wanted(&mut self, fit: &Fit, experiment: usize) -> Option<Vec<(Channel, FitChannel)>> {
         let model = self.experiments[experiment].model.clone();
         if fit.channels.is_empty() {

@@ -1,4 +1,4 @@
-//! How far a fit is: without a terminal a line for each stage, and now and then one whenever the score has improved.
+//! Progress of a fit: without a terminal a line for each stage, and now and then one when the score has improved.
 
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! What a fit says at its end.
+//! Report of a finished fit.
 
 use occupant_study::ApplyChoice;
 
@@ -69,7 +69,7 @@ pub(super) fn short(value: f64) -> String {
 fn parameters(result: &FitResult) -> String {
     let mut table = Table::new(&[
         (Left, &["parameter", "unit"]),
-        (Right, &["base", "fitted", "interval", "looked for"]),
+        (Right, &["base", "fitted", "interval", "bounds"]),
         (Left, &[""]),
     ]);
     for p in &result.parameters {

@@ -126,7 +126,7 @@ pub struct ParameterEstimate {
     pub open: [bool; 2],
     /// Between these it can go alone.
     pub alone: [f64; 2],
-    /// Least and greatest among the evaluated sets that are as good as the best.
+    /// Least and largest among the evaluated sets that are as good as the best.
     pub near_optimal: [f64; 2],
     /// How well it is identified.
     pub verdict: Verdict,

@@ -1,7 +1,7 @@
 //! The scenario with the numbers of a fit, as its author would have written it: comments, order and units stay.
 //!
-//! The numbers are put into the text itself. The text counts only if it says the same scenario as the program's own
-//! changes do; where it cannot (a list that only a preset has, a text in JSON), the scenario is written anew.
+//! The numbers are inserted into the text. The text is used only if it gives the same scenario as the program's own
+//! changes; otherwise (a list that only a preset has, a text in JSON) the scenario is written anew.
 
 use occupant_scenario::{Draft, Format, Scenario};
 use occupant_study::{Assignment, Parameter};
@@ -45,7 +45,7 @@ pub fn numbers(experiment: &Experiment, values: &[f64]) -> Result<Vec<Fitted>, S
             return Err(format!("`{path}` is not a number"));
         };
         let text = study.base.written(&path, si, DIGITS);
-        let text = text.ok_or_else(|| format!("no number can stand at `{path}`"))?;
+        let text = text.ok_or_else(|| format!("`{path}` cannot be a number"))?;
         Ok(Fitted { fitted: experiment.fitted.clone(), parameter: of(&path), path, text })
     };
     study.assignments_of(values).into_iter().map(number).collect()
@@ -109,7 +109,7 @@ fn edited(experiment: &Experiment, numbers: &[&Fitted], provenance: &[(String, S
     Some(document.to_string())
 }
 
-/// Puts a value at a place, with the blanks and comments of the old one; none where the text has no such place and none can
+/// Puts a value at a place, with the blanks and comments of the old one; none if the text has no such place and none can
 /// be made.
 fn put(item: &mut Item, steps: &[Step], mut new: Value) -> Option<()> {
     let Some((step, rest)) = steps.split_first() else {

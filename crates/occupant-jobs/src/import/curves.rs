@@ -1,4 +1,4 @@
-//! Signals side by side in one table, at the times of the one that has most samples.
+//! Signals in one table, at the times of the one with most samples.
 
 use std::io;
 

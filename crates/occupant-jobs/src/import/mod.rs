@@ -35,9 +35,9 @@ pub struct Request<'a> {
 /// What became of a record.
 #[derive(Debug)]
 pub struct Made {
-    /// The vehicle's path; none where the record has none.
+    /// The vehicle's path; none if the record has none.
     pub path: Option<PathTable>,
-    /// The curves as a table, and how many they are; none where all is path.
+    /// The curves as a table, and how many they are; none if all is path.
     pub curves: Option<(Vec<u8>, usize)>,
     /// What to know of it.
     pub notes: Vec<String>,

@@ -15,7 +15,7 @@ use occupant_files::signals::{Recording, Signal};
 pub struct PathTable {
     /// The table as CSV.
     pub csv: Vec<u8>,
-    /// What it is, in words.
+    /// What it is, as text.
     pub words: String,
     /// The keys of the section but for `file`.
     pub keys: Vec<String>,

@@ -19,12 +19,12 @@ impl Array {
         self.0.extend(values.iter().flat_map(|v| v.to_le_bytes()));
     }
 
-    /// Adds a small count; a greater one is the greatest.
+    /// Adds a small count; a greater one is the largest.
     pub fn uint16(&mut self, value: usize) {
         self.0.extend(u16::try_from(value).unwrap_or(u16::MAX).to_le_bytes());
     }
 
-    /// Adds a count; a greater one is the greatest.
+    /// Adds a count; a greater one is the largest.
     pub fn uint32(&mut self, value: usize) {
         self.0.extend(u32::try_from(value).unwrap_or(u32::MAX).to_le_bytes());
     }

@@ -9,7 +9,7 @@ use crate::base::Units;
 
 use super::array::Array;
 
-/// Spheres with the greatest contact forces that are plotted.
+/// Spheres with the largest contact forces that are plotted.
 const MOST_SPHERES: usize = 8;
 
 /// A plot.
@@ -102,7 +102,7 @@ fn curve((name, channel, values): Found<'_>, unit: &'static str, per: f64) -> Cu
     Curve { name, meaning: format!("{}: {}", channel.name, channel.meaning), values: shown }
 }
 
-/// Leaves the spheres with the greatest forces, none that touched nothing, in the list's order.
+/// Leaves the spheres with the largest forces, none that touched nothing, in the list's order.
 fn keep_greatest(found: &mut Vec<Found<'_>>) {
     let peak = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
     let mut peaks: Vec<f64> = found.iter().map(|f| peak(f.2)).collect();

@@ -1,4 +1,4 @@
-//! What the page is made from. The names of the fields are those that `assets/viewer/src` reads.
+//! Data of the page. The names of the fields are those that `assets/viewer/src` reads.
 
 use nalgebra::Point3;
 use occupant_core::forces::contact::solid::Solid;

@@ -162,7 +162,7 @@ fn add_ride_down(rows: &mut Vec<Measure>, ride: &RideDown, units: Units) {
         let (part, figure) = (&stopped.part, |what: &str| format!("ride_down.{}.{what}", word(&stopped.part)));
         let remark = "travel of the vehicle while the part decelerates: from a loss of 2 % of its speed to its largest forward excursion. Added to the excursion in the vehicle, it is the stopping distance";
         add(format!("{part}, ride-down distance"), figure("distance"), stopped.ride_down_m, length, Some(remark));
-        add(format!("{part}, way ahead in the vehicle"), figure("in_vehicle"), stopped.in_vehicle_m, length, None);
+        add(format!("{part}, forward travel in the vehicle"), figure("in_vehicle"), stopped.in_vehicle_m, length, None);
     }
     if let Some(share) = ride.share() {
         let remark = "work of the body on the moving vehicle, as a fraction of its initial kinetic energy";

@@ -22,7 +22,7 @@ pub struct Motion {
     lines: Vec<MovingLine>,
     /// Poses of the segments: x, y, z, quaternion x, y, z, w.
     poses: Array,
-    /// How far the spheres of `ridden` have been carried by parts of the body that give way: x, y, z, axes of their segments.
+    /// How far the spheres of `ridden` have been carried by parts of the body that yield: x, y, z, axes of their segments.
     carried: Array,
     /// Those spheres (indices).
     ridden: Vec<usize>,

@@ -1,5 +1,5 @@
-//! The HTML file from its parts. No user text can leave its place: the title is escaped, and in the data every `<` is, so
-//! that no `</script>` ends them early.
+//! Assembles the HTML file. No user text can break out of its place: the title is escaped, and so is every `<` in the
+//! data, so that no `</script>` ends them early.
 
 use super::data::Report;
 use crate::base::Failure;

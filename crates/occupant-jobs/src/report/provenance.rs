@@ -1,4 +1,4 @@
-//! Where a run comes from: what the file says of itself, and how the run ended.
+//! Origin of a run: the information in its file, and how the run ended.
 
 use occupant_core::results::summary::{RunStatus, Summary};
 

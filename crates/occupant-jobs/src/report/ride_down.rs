@@ -1,13 +1,14 @@
-//! How the parts of a body ride down with the vehicle, and what belts and surfaces take from it.
+//! Ride-down of the parts of a body with the vehicle, and the energy that belts and surfaces absorb.
 //!
-//! A part (chest, pelvis) is slowed from the time at which its speed along the vehicle's first velocity has fallen by [`SLOWED`] of
-//! that velocity, to the time of its greatest excursion ahead in the vehicle, when it has the vehicle's speed. Its stopping distance
-//! between the two is the *ride-down distance*, which the vehicle goes in that time, and the way that it goes ahead in the vehicle.
+//! A part (chest, pelvis) is slowed from the time at which its speed along the vehicle's first velocity has fallen by
+//! [`SLOWED`] of that velocity, to the time of its largest excursion ahead in the vehicle, when it has the vehicle's
+//! speed. Its stopping distance between the two is the *ride-down distance*, which the vehicle travels in that time,
+//! plus its own forward travel in the vehicle.
 //!
-//! The work that a surface takes up is ∫F dΔ of the normal force and ∫|friction| v dt of the slip, pair by pair; that of a loop is ∫F dL
-//! over its length; straps tell what they store and have lost. Each is told at its greatest; what comes back later is not taken
-//! off. Integrals are sums of trapezoids over the outputs. What rides down in energy is exact: the work of the moving
-//! vehicle on the body, of the ledger, over the kinetic energy at the start.
+//! The work absorbed by a surface is ∫F dΔ of the normal force and ∫|friction| v dt of the slip, pair by pair; that of
+//! a loop is ∫F dL over its length; straps give their stored and lost energy. Each is the maximum over time; energy
+//! returned later is not subtracted. Integrals are sums of trapezoids over the outputs. The energy ride-down is exact:
+//! the work of the moving vehicle on the body, of the ledger, over the kinetic energy at the start.
 
 use std::collections::BTreeMap;
 
@@ -29,7 +30,7 @@ struct Part {
     segment: Segment,
     /// How far the vehicle had gone, and the part in it, when it was slowed, m.
     slowed: Option<[f64; 2]>,
-    /// The same at its greatest excursion since.
+    /// The same at its largest excursion since.
     ahead: [f64; 2],
 }
 
@@ -44,7 +45,7 @@ pub struct Stopped {
     pub in_vehicle_m: f64,
 }
 
-/// A sum over time, with its greatest value.
+/// A sum over time, with its largest value.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sum {
     now: f64,
@@ -93,12 +94,12 @@ impl RideDown {
         self.parts.iter().filter_map(of).collect()
     }
 
-    /// The share of the kinetic energy at the start that went into the moving vehicle; none where it hardly moved.
+    /// The share of the kinetic energy at the start that went into the moving vehicle; none if it hardly moved.
     pub fn share(&self) -> Option<f64> {
         (self.speed_m_s > LEAST_M_S && self.kinetic_j > 0.0).then(|| -self.vehicle_work_j / self.kinetic_j)
     }
 
-    /// What each belt and each surface took up at most, J: those that took anything, the greatest first.
+    /// What each belt and each surface took up at most, J: those that took anything, the largest first.
     pub fn works_j(&self) -> Vec<(String, f64)> {
         let belts = self.belts.iter().map(|(name, sum, _)| (format!("belt {name}"), sum.greatest));
         let name = |surface: &usize| self.names.get(*surface).cloned().unwrap_or_default();

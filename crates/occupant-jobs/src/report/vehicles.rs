@@ -1,4 +1,4 @@
-//! What the motion of the vehicles alone says of the risk, folded on the page of a run: the sections of `occupant risk`.
+//! Occupant risk from the motion of the vehicles alone, folded on the page of a run: the sections of `occupant risk`.
 
 use super::data::Run;
 use crate::base::Units;
@@ -6,7 +6,7 @@ use crate::risk::{self, OWN_STYLE};
 use occupant_files::results::Results;
 use occupant_pictures::html::Html;
 
-/// HTML that stands below what the script draws; nothing where no vehicle is ever accelerated or turned. A motion that several runs share
+/// HTML that stands below what the script draws; nothing if no vehicle is ever accelerated or turned. A motion that several runs share
 /// stands there once.
 pub(super) fn vehicles(runs: &[Results], units: Units) -> String {
     let mut reports: Vec<risk::Report> = Vec::new();

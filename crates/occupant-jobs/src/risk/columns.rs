@@ -1,4 +1,4 @@
-//! The measures as figures of a run, for the table of a study whose vehicle moves as it was recorded.
+//! The measures as figures of a run, for the table of a study with a recorded vehicle motion.
 
 use std::sync::Mutex;
 

@@ -1,4 +1,4 @@
-//! What the errors of sensors make of the measures: an interval for each.
+//! Intervals of the measures due to sensor errors.
 
 use std::collections::BTreeMap;
 

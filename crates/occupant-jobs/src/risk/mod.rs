@@ -1,4 +1,4 @@
-//! What a vehicle's motion alone says of the risk to its occupants: measures, limits, their table and JSON. Reads no file.
+//! Occupant risk from a vehicle's motion alone: measures, limits, their table and JSON. Reads no file.
 
 mod columns;
 mod figures;
@@ -73,12 +73,12 @@ impl Report {
         Report { subject, preparation, flight, signals, risk, judgements, intervals: None, notes }
     }
 
-    /// Of a vehicle of a run by name, as `occupant risk` makes it of a run unless it is told otherwise; none of one that cannot be sampled.
+    /// Of a vehicle of a run by name, as `occupant risk` makes it of a run by default; none of one that cannot be sampled.
     pub fn of_run(name: &str, setup: &Setup, vehicle: Option<&str>) -> Option<Self> {
         Report::of_path(Subject::of_run(name, setup, vehicle, PATH_INTERVAL_S).ok()??)
     }
 
-    /// Of a path that was sampled, prepared and judged as `occupant risk` does unless it is told otherwise; none of one that cannot be prepared.
+    /// Of a path that was sampled, prepared and judged as `occupant risk` does by default; none of one that cannot be prepared.
     pub fn of_path(subject: Subject) -> Option<Self> {
         let filter = ChannelClass::from_number(180).map(|class| (class, CfcFamily::Iso6487));
         let preparation = Preparation { filter, ..Preparation::default() };

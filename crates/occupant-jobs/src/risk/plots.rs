@@ -7,7 +7,7 @@ use occupant_study::risk::{AXES, VehicleSignals};
 use super::Report;
 use occupant_pictures::plot::{Axis, Curve, Figure, Style};
 
-/// Points of a curve at most; of more, the least and greatest of each part are drawn.
+/// Points of a curve at most; of more, the least and largest of each part are drawn.
 const POINTS: usize = 1200;
 
 /// All plots that the channels allow.
@@ -86,7 +86,7 @@ fn figure(
     })
 }
 
-/// Which samples are drawn: all, or the least and the greatest of each part.
+/// Which samples are drawn: all, or the least and the largest of each part.
 fn thinned(values: &[f64]) -> Vec<usize> {
     if values.len() <= POINTS {
         return (0..values.len()).collect();

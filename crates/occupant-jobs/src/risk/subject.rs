@@ -1,4 +1,4 @@
-//! What is measured: a file of recorded data, or the path of a scenario's vehicle.
+//! The subject: a file of recorded data, or the path of a scenario's vehicle.
 
 use occupant_core::model::setup::{OtherFrame, Setup};
 use occupant_core::vehicle::{AccelerationRecord, Attitude, Interpolation, PathCursor, VehiclePath};

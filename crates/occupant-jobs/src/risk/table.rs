@@ -1,4 +1,4 @@
-//! The report as text, in the manner of a test report: measures in SI and US units, limits, what was left out.
+//! The report as text, in the style of a test report: measures in SI and US units, limits, omissions.
 
 use crash_measures::measure::limits::{Basis, Quantity};
 use occupant_scenario::kind::UnitSystem;
@@ -95,7 +95,7 @@ pub fn filter_name(preparation: &Preparation) -> Option<String> {
     Some(format!("CFC {:.0}, {}", class.hertz(), family_name(family)))
 }
 
-/// Where the motion comes from, in words.
+/// Where the motion comes from, as text.
 pub fn source_name(report: &Report) -> &'static str {
     match report.subject.source {
         Source::Recorded => "recorded",
@@ -234,7 +234,7 @@ pub(super) fn unit_of(quantity: Quantity, units: Option<UnitSystem>) -> Unit {
     }
 }
 
-/// Where a limit was read, in words.
+/// Where a limit was read, as text.
 pub fn basis_name(basis: Basis) -> &'static str {
     match basis {
         Basis::SecondarySource => "a source that quotes the rule",

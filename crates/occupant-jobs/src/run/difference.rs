@@ -1,4 +1,4 @@
-//! What differs between two scenarios, key by key.
+//! Differences between two scenarios, key by key.
 
 use occupant_scenario::Scenario;
 use serde_json::Value;

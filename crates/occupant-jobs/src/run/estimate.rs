@@ -38,7 +38,7 @@ pub struct ErrorEstimate {
     against: &'static str,
     /// What it cost.
     evaluations: u64,
-    /// The greatest distance of the head's c.g. at any output, m.
+    /// The largest distance of the head's c.g. at any output, m.
     head_path_m: f64,
     /// Every figure of the summary that both runs have.
     figures: Vec<FigureError>,

@@ -1,4 +1,4 @@
-//! Damaged and hostile result files: no reader panics, and what is still good is used.
+//! Damaged and hostile result files: no reader panics, and intact parts are used.
 
 use std::fs;
 use std::path::{Path, PathBuf};

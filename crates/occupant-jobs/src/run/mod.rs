@@ -1,4 +1,4 @@
-//! One run: the file that it writes, the file that it resumes, and who watches it. The integration itself is the core's.
+//! One run: the file that it writes, the file that it resumes, and its observers. The core does the integration.
 
 mod difference;
 pub mod earlier;

@@ -1,6 +1,7 @@
 //! The work of `occupant sensitivity`.
 
 use std::collections::HashSet;
+use std::sync::OnceLock;
 use std::time::Instant;
 
 use occupant_core::model::Model;
@@ -8,13 +9,14 @@ use occupant_core::results::outcome::Status;
 use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::run::simulate::attempt;
 use occupant_scenario::{Draft, Resolver};
-use occupant_study::sensitivity::finite::{Neighbours, neighbours, tightly};
+use occupant_study::sensitivity::finite::{Neighbours, neighbours_watched, tightly};
 use occupant_study::sensitivity::measures::{Derivatives, Request, Values, chosen, derivatives, pick, plain_values};
 use occupant_study::sensitivity::verdict::{Comparison, compare};
-use occupant_study::sensitivity::{Built, Parameter, Trajectory, follow, parameter};
+use occupant_study::sensitivity::{Built, Parameter, Trajectory, follow_watched, parameter};
 use placed_text::Problem;
 
-use crate::base::Failure;
+use crate::base::progress::Bar;
+use crate::base::{Failure, Show};
 use crate::files::history::choose;
 use crate::files::scenario::counted;
 
@@ -138,11 +140,39 @@ fn figures(model: &Model) -> Result<Vec<Figure>, Failure> {
     Ok(summary.map_or_else(Vec::new, |s| s.figures(model)))
 }
 
-/// Computes all derivatives.
+/// A bar of one stage of the work, made at its first step.
+struct Stage {
+    show: Show,
+    what: &'static str,
+    bar: OnceLock<Option<Box<dyn Bar>>>,
+}
+
+impl Stage {
+    fn new(show: Show, what: &'static str) -> Self {
+        Stage { show, what, bar: OnceLock::new() }
+    }
+
+    /// `done` of `all` are done.
+    fn is_at(&self, done: usize, all: usize) {
+        if let Some(bar) = self.bar.get_or_init(|| self.show.bar(all as u64, self.what)) {
+            bar.set_position(done as u64);
+        }
+    }
+}
+
+impl Drop for Stage {
+    fn drop(&mut self) {
+        if let Some(Some(bar)) = self.bar.get() {
+            bar.clear();
+        }
+    }
+}
+
+/// Computes all derivatives and shows its progress, stage by stage.
 ///
 /// # Errors
 /// Every parameter that has none; a run that cannot be followed.
-pub fn analyse(model: &Model, asked: &Asked<'_>) -> Result<Analysis, Failure> {
+pub fn analyse(model: &Model, asked: &Asked<'_>, show: Show) -> Result<Analysis, Failure> {
     let (mut built, mut wrong) = (Vec::new(), Vec::new());
     for parameter in &asked.parameters {
         match Built::new(model, parameter) {
@@ -164,20 +194,23 @@ pub fn analyse(model: &Model, asked: &Asked<'_>) -> Result<Analysis, Failure> {
         let finely: Vec<Parameter<'_>> = asked.parameters.iter().map(|p| p.of_models(tightly)).collect();
         let request = Request { figures: names.clone(), channels: Vec::new() };
         let model = tightly(model.clone());
-        let (found, of) = derive(&model, &finely, &mut built, &request, &mut cost_s[1])?;
+        let (found, of) = derive(&model, &finely, &mut built, &request, &mut cost_s[1], show)?;
         all.iter_mut().zip(of).for_each(|(all, of)| all.figures = of.figures);
         trajectory = Some(found);
     }
     if !channels.is_empty() {
         let request = Request { figures: Vec::new(), channels: channels.clone() };
-        let (found, of) = derive(model, &asked.parameters, &mut built, &request, &mut cost_s[1])?;
+        let (found, of) = derive(model, &asked.parameters, &mut built, &request, &mut cost_s[1], show)?;
         values.channels = plain_values(model, &found, &request).map_err(Failure::broke_off)?.channels;
         all.iter_mut().zip(of).for_each(|(all, of)| all.channels = of.channels);
         trajectory = Some(found);
     }
     let Some(trajectory) = trajectory else { return Err(Failure::CouldNotRun("nothing was asked for".to_owned())) };
     let checked: &[Parameter<'_>] = if names.is_empty() { &[] } else { &asked.parameters };
-    let neighbours = neighbours(model, checked, mean_step_s(model, &trajectory), names);
+    let runs = Stage::new(show, "runs to check them");
+    let step_s = mean_step_s(model, &trajectory);
+    let neighbours = neighbours_watched(model, checked, step_s, names, &|done, all| runs.is_at(done, all));
+    drop(runs);
     let compare = |(k, parameter): (usize, &Parameter<'_>)| {
         let one = |i: usize| compare(&all[k].figures[i], parameter.size, &neighbours, k, i);
         (0..names.len()).map(one).collect()
@@ -193,11 +226,19 @@ fn derive(
     built: &mut [Built],
     request: &Request,
     cost_s: &mut f64,
+    show: Show,
 ) -> Result<(Trajectory, Vec<Derivatives>), Failure> {
     let begun = Instant::now();
-    let trajectory = follow(model, built).map_err(Failure::broke_off)?;
+    let outputs = Stage::new(show, "outputs with derivatives");
+    let trajectory = follow_watched(model, built, &mut |done, all| outputs.is_at(done, all));
+    let trajectory = trajectory.map_err(Failure::broke_off)?;
+    drop(outputs);
     *cost_s = begun.elapsed().as_secs_f64();
-    let of = parameters.iter().enumerate().map(|(k, parameter)| derivatives(model, parameter, &trajectory, k, request));
+    let done = Stage::new(show, "parameters");
+    let of = parameters.iter().enumerate().map(|(k, parameter)| {
+        done.is_at(k, parameters.len());
+        derivatives(model, parameter, &trajectory, k, request)
+    });
     let of = of.collect::<Result<_, _>>().map_err(Failure::broke_off)?;
     Ok((trajectory, of))
 }
@@ -206,7 +247,7 @@ fn mean_step_s(model: &Model, trajectory: &Trajectory) -> f64 {
     (trajectory.outcome.time_s - model.setup().time.start_s) / trajectory.outcome.effort.steps.max(1) as f64
 }
 
-/// Relative sensitivity: parts of the figure per part of the parameter; none where one of them is 0.
+/// Relative sensitivity: parts of the figure per part of the parameter; none if one of them is 0.
 pub fn relative(derivative: f64, value: f64, nominal: f64) -> Option<f64> {
     let relative = derivative * nominal / value;
     (value != 0.0 && nominal != 0.0 && relative.is_finite()).then_some(relative)

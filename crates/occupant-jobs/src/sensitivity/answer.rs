@@ -44,7 +44,7 @@ pub fn answer(file: &str, model: &Model, asked: &Asked<'_>, analysis: &Analysis)
     })
 }
 
-/// Changes are parts of `size`; a doubt is the greatest relative distance of two extrapolations, of the constants that the
+/// Changes are parts of `size`; a doubt is the largest relative distance of two extrapolations, of the constants that the
 /// model is built of and of the vehicle's motion, null if the parameter leaves that alone.
 fn parameters(asked: &Asked<'_>, analysis: &Analysis) -> Vec<Value> {
     let one = |(parameter, built): (&Parameter<'_>, &Built)| {
@@ -63,7 +63,7 @@ fn parameters(asked: &Asked<'_>, analysis: &Analysis) -> Vec<Value> {
     asked.parameters.iter().zip(&analysis.built).map(one).collect()
 }
 
-/// `doubt` is the distance of two extrapolations of the derivative, and rounding; `off_by` the greatest distance of a secant
+/// `doubt` is the distance of two extrapolations of the derivative, and rounding; `off_by` the largest distance of a secant
 /// from the derivative, as a part of it, for changes up to `up_to_part`, or at that where it does not hold for a `reason`.
 fn sensitivities(asked: &Asked<'_>, analysis: &Analysis) -> Vec<Value> {
     let mut all = Vec::new();

@@ -1,4 +1,4 @@
-//! Derivatives of a scenario's run: the request, the analysis, its words, JSON and histories. Writes no file.
+//! Derivatives of a scenario's run: request, analysis, text, JSON and histories. Writes no file.
 
 mod analysis;
 mod answer;

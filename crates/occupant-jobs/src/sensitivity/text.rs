@@ -1,4 +1,4 @@
-//! The answer in words: a table of derivatives, how far they hold, and where the run is not smooth.
+//! The answer as text: a table of derivatives, how far they hold, and where the run is not smooth.
 
 use occupant_core::model::Model;
 use occupant_study::sensitivity::events::{Change, Event, Happening, Touching};

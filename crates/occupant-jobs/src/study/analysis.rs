@@ -71,13 +71,13 @@ pub struct Reach {
 }
 
 impl Reach {
-    /// Least and greatest response, that of the base included.
+    /// Least and largest response, that of the base included.
     pub fn range(&self) -> [f64; 2] {
         let all = || self.levels.iter().map(|l| l.1).chain([self.nominal]);
         [all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)]
     }
 
-    /// The response at the least and at the greatest value of the parameter, if its values have an order.
+    /// The response at the least and at the largest value of the parameter, if its values have an order.
     pub fn ends(&self) -> Option<[f64; 2]> {
         if !self.ordered {
             return None;

@@ -1,8 +1,8 @@
 //! Bands over time of every sample of a study with an ensemble: a file for each sample.
 //!
 //! A sweep keeps no histories, so the members of a sample are run once more, one sample at a time: memory grows with
-//! members, channels and outputs, not with samples. A file carries its name only when it is complete and says of what it
-//! is, so that a process that was killed is resumed at the first sample that has none.
+//! members, channels and outputs, not with samples. A file gets its name only when it is complete, so a killed process
+//! is resumed at the first sample without one.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -56,7 +56,7 @@ impl StudyBands<'_> {
     /// Writes the bands of all samples that have none yet.
     ///
     /// # Errors
-    /// Files of something else that may not be replaced; interrupted; the operating system refuses.
+    /// Files of something else that may not be replaced; interrupted; an error of the operating system.
     pub fn write_all(&self, existing: Existing) -> Result<(), Failure> {
         let samples = self.plan.study.samples();
         let mut all = 0..samples;

@@ -1,7 +1,7 @@
-//! When a sample is too small for what is read from it. A number that breaks a rule is marked, not hidden.
+//! Marks for samples that are too small for a result. A number that breaks a rule is marked, not hidden.
 //!
-//! The limits are ours. Each is the least with which the number can be quoted at all: an index to its first digit, a sign
-//! that is known, a linear model that explains most of what it is a model of.
+//! The limits are ours. Each is the minimum for which the number can be quoted at all: the first digit of an index, a
+//! known sign, a linear model that explains most of the variation.
 
 use occupant_study::Design;
 use occupant_study::analysis::{Effect, Estimate, RankCorrelation, Regression, SobolIndices, rank_correlation};

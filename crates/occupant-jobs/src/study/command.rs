@@ -1,7 +1,7 @@
 //! The shell command that runs one sample again.
 //!
-//! It names the copies in the folder of the sweep, so that it gives the same figures wherever the folder is moved, and says
-//! the values themselves: factors and offsets stand as what they come to, in digits that give the same bits back.
+//! It names the copies in the folder of the sweep, so it gives the same figures wherever the folder is moved. It
+//! contains the resulting values instead of factors and offsets, with enough digits for the same bits.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use crate::base::file_name;
 use crate::files::study_folder::{Manifest, NamedBy};
 use crate::sweep::Plan;
 
-/// The command that runs a run of the study again, given in the folder of the sweep. None where no shell can say it.
+/// The command that runs a run of the study again, given in the folder of the sweep. None if no shell can say it.
 pub fn command(plan: &Plan, manifest: &Manifest, run: u64) -> Option<String> {
     let (args, _) = plan.command(run);
     let base = manifest.texts.iter().find(|t| t.by == NamedBy::StudyAsBase)?;

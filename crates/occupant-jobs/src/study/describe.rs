@@ -30,7 +30,7 @@ pub fn design(study: &Study) -> String {
     }
 }
 
-/// How the values of a parameter are spread, in words.
+/// How the values of a parameter are spread, as text.
 pub fn law(parameter: &Parameter, unit: &Told) -> String {
     let range = |from: f64, to: f64| format!("{} to {}", given(from, unit), given_with_unit(to, unit));
     let text = match &parameter.law {

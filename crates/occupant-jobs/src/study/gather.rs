@@ -1,4 +1,4 @@
-//! From the rows of a journal to a table of samples: only the columns that are asked for.
+//! From the rows of a journal to a table of samples: only the requested columns.
 
 use std::collections::BTreeSet;
 

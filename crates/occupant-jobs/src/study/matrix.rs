@@ -43,7 +43,7 @@ fn told(report: &Report) -> Vec<(Finding<'_>, String)> {
     told.take(MOST).map(|of| (head(&of), of)).map(|(head, of)| (of, head)).collect()
 }
 
-/// The matrix as a section of the page; nothing where nothing can be told.
+/// The matrix as a section of the page; nothing if nothing can be told.
 pub(super) fn section(html: &mut Html, report: &Report) {
     let told = told(report);
     let (Some((first, _)), inputs) = (told.first(), &report.gathered.samples.inputs) else { return };

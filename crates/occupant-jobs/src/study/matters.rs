@@ -1,4 +1,4 @@
-//! The tables of what matters: indices, effects, reaches, correlations, coefficients.
+//! The tables of importance: indices, effects, reaches, correlations, coefficients.
 
 use occupant_study::analysis::{Estimate, SobolIndices};
 

@@ -30,9 +30,9 @@ pub struct Number {
 pub struct Run {
     /// Its number.
     pub number: u64,
-    /// 0 for the greatest or least value, 1 for the next.
+    /// 0 for the largest or least value, 1 for the next.
     pub place: u64,
-    /// The command that runs it again; none where no shell can say it.
+    /// The command that runs it again; none if no shell can say it.
     pub command: Option<String>,
 }
 

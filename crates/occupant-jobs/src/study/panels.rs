@@ -20,7 +20,7 @@ const CELL: [f64; 2] = [46.0, 24.0];
 const LEFT: f64 = 62.0;
 const TOP: f64 = 26.0;
 const BELOW: f64 = 40.0;
-/// From the least to the greatest: pale to dark, the same order for those who see no colours.
+/// From the least to the largest: pale to dark, the same order for those who see no colours.
 const SHADES: [[f64; 3]; 5] =
     [[255.0, 247.0, 220.0], [254.0, 217.0, 142.0], [251.0, 154.0, 60.0], [204.0, 76.0, 20.0], [102.0, 22.0, 10.0]];
 

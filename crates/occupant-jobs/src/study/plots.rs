@@ -19,7 +19,7 @@ const ORANGE: &str = "#d55e00";
 /// What a rule marks.
 const GREY: &str = "#9a9a9a";
 const PALE: &str = "#a6cbe3";
-/// From the least to the greatest fifth.
+/// From the least to the largest fifth.
 const FIFTHS: [&str; 5] = ["#0d0887", "#6a00a8", "#b12a90", "#e16462", "#fca636"];
 
 /// The two kinds of numbers of a plot: colour, how much lower they stand, size of their dots.

@@ -29,7 +29,7 @@ impl Tables {
 /// Writes the tables.
 ///
 /// # Errors
-/// A file that is there and may not be replaced; the operating system refuses.
+/// A file that is there and may not be replaced; an error of the operating system.
 pub fn write(report: &Report, tables: &Tables, existing: Existing) -> Result<(), Failure> {
     let about = [
         ("occupant.study", report.opened.manifest_sha256.clone()),

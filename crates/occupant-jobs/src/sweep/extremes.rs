@@ -1,11 +1,11 @@
-//! The runs with the greatest and the least values of a figure.
+//! The runs with the largest and the least values of a figure.
 
 /// The runs at both ends of a figure: value and run.
 #[derive(Clone, Debug, Default)]
 pub struct Extremes<R> {
     /// So many at each end.
     count: usize,
-    /// Greatest first; of equal ones the lowest number.
+    /// Largest first; of equal ones the lowest number.
     pub worst: Vec<(f64, R)>,
     /// Least first.
     pub best: Vec<(f64, R)>,

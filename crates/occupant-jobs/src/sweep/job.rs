@@ -38,10 +38,10 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Computes what is missing, and of a whole sweep writes the tables. Whether it came to anything, and what to, in words.
+    /// Computes what is missing, and of a whole sweep writes the tables. Whether it came to anything, and what to, as text.
     ///
     /// # Errors
-    /// A folder of something else, or in which another process is at work; interrupted; the operating system refuses.
+    /// A folder of something else, or in which another process is at work; interrupted; an error of the operating system.
     pub fn run(&self) -> Result<(Done, String), Failure> {
         let Sweep { plan, folder, .. } = self;
         let manifest = &plan.manifest;

@@ -24,7 +24,7 @@ pub fn parse(text: &str) -> Option<Keep> {
 /// Makes the folder of the kept runs, where there will be any.
 ///
 /// # Errors
-/// The operating system refuses.
+/// An error of the operating system.
 pub fn prepare(keep: &Keep, folder: &Folder) -> Result<(), Problem> {
     if *keep == Keep::None {
         return Ok(());

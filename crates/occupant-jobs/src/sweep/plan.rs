@@ -43,10 +43,10 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Reads a study and all that it names; `name` is what messages call it.
+    /// Reads a study and all that it names; `name` is its name in messages.
     ///
     /// # Errors
-    /// Everything that is wrong with it, in words.
+    /// All problems of it, as text.
     pub fn open(name: &Path, overrides: &[String], texts: &Texts, program: String) -> Result<Plan, Failure> {
         let text = study_text(name, texts)?;
         let shown = name.display().to_string();
@@ -105,7 +105,7 @@ impl Plan {
     /// The model of a sample.
     ///
     /// # Errors
-    /// What is wrong with its scenario.
+    /// Problems of its scenario.
     pub fn open_sample(&self, index: u64) -> Result<Opened, Diagnostics> {
         let (loaded, model, warnings) = self.model(Some(index))?;
         // only a run that is kept needs the bytes
@@ -115,7 +115,7 @@ impl Plan {
     /// Refuses a study of which every sample that is looked at is refused, such as one of a key without meaning in its scenario.
     ///
     /// # Errors
-    /// What is wrong with the first of them.
+    /// Problems of the first of them.
     pub fn refuse_hopeless(&self) -> Result<(), Failure> {
         let samples = self.study.len();
         let spread = (0..LOOKED_AT).map(|i| i * samples / LOOKED_AT).chain([samples.saturating_sub(1)]);
@@ -135,7 +135,7 @@ impl Plan {
     /// The same of a sample whose run is kept, as `occupant run` has it: its title says what was changed.
     ///
     /// # Errors
-    /// What is wrong with its scenario.
+    /// Problems of its scenario.
     pub fn open_kept(&self, index: u64) -> Result<(Opened, ScenarioArgs), Diagnostics> {
         let (args, bytes) = self.command(index);
         let mut draft = self.study.base.clone();
@@ -232,7 +232,7 @@ impl Plan {
     }
 }
 
-/// The text of a study; `name` is what messages call it.
+/// The text of a study; `name` is its name in messages.
 ///
 /// # Errors
 /// One that cannot be read; everything that is wrong with its words.
@@ -251,7 +251,7 @@ pub fn study_text(name: &Path, texts: &Texts) -> Result<StudyText, Failure> {
     })
 }
 
-/// What is wrong with a study that names, at this place, a file that cannot be read.
+/// Problems of a study that names, at this place, a file that cannot be read.
 pub fn unread(text: &StudyText, at: &str, file: &str, error: &dyn Display) -> Diagnostics {
     text.complaint(at, format!("{file} cannot be read: {error}"), "a file, with its path relative to the study", None)
 }

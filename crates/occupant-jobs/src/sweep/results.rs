@@ -15,9 +15,9 @@ use occupant_files::table::{Cell, Form};
 pub struct Results {
     /// How runs ended.
     pub census: Census,
-    /// The samples with the greatest values of the measure that the keep names, greatest first.
+    /// The samples with the largest values of the measure that the keep names, largest first.
     pub worst: Vec<u64>,
-    /// Least and greatest of the figures that are shown: name, unit, values and samples.
+    /// Least and largest of the figures that are shown: name, unit, values and samples.
     pub ranges: Vec<(String, String, Extremes<u64>)>,
     /// What is stable, where the study has ensembles.
     pub ensembles: Option<Ensembles>,
@@ -28,7 +28,7 @@ pub struct Results {
 /// Writes the tables into `folder` and counts how samples ended.
 ///
 /// # Errors
-/// Samples that are missing or disagree; another process at the same work; the operating system refuses. A table that was
+/// Samples that are missing or disagree; another process at the same work; an error of the operating system. A table that was
 /// there stays until the new one is complete.
 pub fn write(
     (folder, sums): (&Folder, &Checksums),

@@ -70,7 +70,7 @@ impl Stable {
     /// Begins the tables; none for a sweep without ensembles.
     ///
     /// # Errors
-    /// The operating system refuses.
+    /// An error of the operating system.
     pub fn begin(folder: &Folder, manifest: &Manifest, csv: bool) -> Result<Option<Stable>, Failure> {
         let all = || manifest.columns.iter().enumerate();
         let Some((sample, _)) = all().find(|(_, c)| c.name == SAMPLE) else {
@@ -101,7 +101,7 @@ impl Stable {
     /// Looks at the next run; `counts` says whether its figures count.
     ///
     /// # Errors
-    /// The operating system refuses.
+    /// An error of the operating system.
     pub fn see(&mut self, row: &Row, counts: bool) -> Result<(), Failure> {
         let number = |at: usize| row.cells.get(at).and_then(Cell::number);
         let sample = number(self.sample).unwrap_or(0.0) as u64;
@@ -145,7 +145,7 @@ impl Stable {
     /// Gives the complete files their names.
     ///
     /// # Errors
-    /// The operating system refuses.
+    /// An error of the operating system.
     pub fn finish(mut self) -> Result<Ensembles, Failure> {
         if let Some(last) = self.present.take() {
             self.judge(&last)?;

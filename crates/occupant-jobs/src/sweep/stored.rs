@@ -76,7 +76,7 @@ pub fn open(folders: &[PathBuf], by: MadeBy) -> Result<Stored, Failure> {
 /// The manifest that all folders share.
 ///
 /// # Errors
-/// A folder without one, or with another; the operating system refuses.
+/// A folder without one, or with another; an error of the operating system.
 fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
     let manifest_of = |folder: &Folder| {
         folder.manifest()?.ok_or_else(|| {

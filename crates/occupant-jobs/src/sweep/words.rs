@@ -62,7 +62,7 @@ pub fn judged(census: &Census) -> Done {
     Done::Unwell
 }
 
-/// Least and greatest of each figure, and in which samples.
+/// Least and largest of each figure, and in which samples.
 fn ranges(results: &Results, units: Units) -> String {
     let mut table =
         Table::new(&[(Left, &["figure"]), (Right, &["least", "in sample", "greatest", "in sample"]), (Left, &[""])]);

@@ -1,5 +1,5 @@
-//! How the occupant looks in pictures: rounded parts fixed to the segments. For the eye only; the physics knows the
-//! contact spheres alone.
+//! The occupant in pictures: rounded parts fixed to the segments. Only for display; the physics uses only the contact
+//! spheres.
 //!
 //! A part is the convex hull of two ellipsoids whose axes are the segment's. Limbs are capsules through their spheres;
 //! the trunk has the elliptic section that gives it its mass and inertia.

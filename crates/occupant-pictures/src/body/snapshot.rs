@@ -1,4 +1,4 @@
-//! What there is to draw at one output, in vehicle axes.
+//! Drawing data of one output, in vehicle axes.
 
 use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 use occupant_core::forces::contact::flat_face::FlatFace;

@@ -55,7 +55,7 @@ impl File {
         json!({ "attributes": { "POSITION": position, "NORMAL": normal }, "indices": indices, "material": material })
     }
 
-    /// Adds rows of numbers, with the least and greatest of each column; their number.
+    /// Adds rows of numbers, with the least and largest of each column; their number.
     pub(super) fn floats<const N: usize>(&mut self, rows: &[[f32; N]], kind: &str, target: Option<u32>) -> usize {
         let bytes: Vec<u8> = rows.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
         let view = self.view(&bytes, target);

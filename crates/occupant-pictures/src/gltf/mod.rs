@@ -171,7 +171,7 @@ fn compartment(file: &mut File, model: &Model) -> BTreeMap<String, Vec<(String, 
     frames
 }
 
-/// The motion of nodes over the times; none where none of them moves.
+/// The motion of nodes over the times; none if none of them moves.
 fn animation(file: &mut File, name: &str, input: usize, moving: &[(usize, &[Isometry3<f64>])]) -> Option<Value> {
     let (mut samplers, mut channels) = (Vec::new(), Vec::new());
     let moves = |poses: &[Isometry3<f64>]| poses.iter().any(|pose| *pose != poses[0]);

@@ -1,4 +1,4 @@
-//! What a plot shows, before it has a place.
+//! Content of a plot, before layout.
 
 /// One plot.
 #[derive(Clone, Debug)]
@@ -26,7 +26,7 @@ pub struct Axis {
     pub unit: String,
     /// Words that stand at 0, 1, 2, …, instead of figures; empty for an axis of numbers. Upward they go down the page.
     pub words: Vec<String>,
-    /// Least and greatest value that an axis of numbers shows whatever the curves need.
+    /// Least and largest value that an axis of numbers shows whatever the curves need.
     pub includes: Option<[f64; 2]>,
     /// Whether points stand at the decimal logarithms of their values.
     pub is_of_powers: bool,
@@ -184,7 +184,7 @@ impl Figure {
         self.limits.iter().filter(|limit| drawable(&[0.0, limit.level]))
     }
 
-    /// Least and greatest of X and of Y, limits included; none without a point.
+    /// Least and largest of X and of Y, limits included; none without a point.
     pub fn extent(&self) -> Option<[[f64; 2]; 2]> {
         let mut extent: Option<[[f64; 2]; 2]> = None;
         for point in self.curves.iter().flat_map(Curve::drawn) {

@@ -13,7 +13,7 @@ const SAMPLE: f64 = 24.0;
 const GAP: f64 = 6.0;
 const BETWEEN: f64 = 16.0;
 
-/// An entry with its place in the legend.
+/// An entry with its position in the legend.
 struct Entry {
     label: String,
     style: Style,

@@ -5,7 +5,7 @@ use placed_text::trimmed;
 /// An axis' range, its ticks, and how they are written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scale {
-    /// Least and greatest value shown.
+    /// Least and largest value shown.
     pub range: [f64; 2],
     /// Ticks, increasing.
     pub ticks: Vec<f64>,

@@ -1,4 +1,4 @@
-//! Where the panels stand on the sheet.
+//! Positions of the panels on the sheet.
 
 use super::Strip;
 use super::projection::View;

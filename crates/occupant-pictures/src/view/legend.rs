@@ -101,7 +101,7 @@ impl Row<'_> {
     }
 }
 
-/// The greatest of 1, 2, 5 times a power of ten that is not above `most`.
+/// The largest of 1, 2, 5 times a power of ten that is not above `most`.
 fn round_length(most: f64) -> f64 {
     let power = 10.0_f64.powf(most.log10().floor());
     let steps = [5.0, 2.0, 1.0].map(|s| s * power);

@@ -34,7 +34,7 @@ pub struct Pen<'a> {
     pub parts: &'a [Part],
     /// User units a metre.
     pub scale: f64,
-    /// User units a newton; none where nothing touches.
+    /// User units a newton; none if nothing touches.
     pub per_n: Option<f64>,
 }
 

@@ -10,7 +10,7 @@ use crate::font::Weight;
 use crate::svg::{Anchor, Svg, Text};
 use placed_text::trimmed;
 
-/// Length of the arrow of the greatest contact force, user units.
+/// Length of the arrow of the largest contact force, user units.
 const LONGEST_FORCE: f64 = 70.0;
 
 /// The strip as SVG.
@@ -45,7 +45,7 @@ fn sheet(strip: &Strip<'_>, layout: &Layout, shown: Range<usize>) -> String {
     svg.finish()
 }
 
-/// User units a newton, for the greatest force of all moments; none without contacts.
+/// User units a newton, for the largest force of all moments; none without contacts.
 fn force_scale(strip: &Strip<'_>) -> Option<f64> {
     let contacts = strip.moments.iter().flat_map(|m| &m.contacts);
     let greatest = contacts.map(|c| c.force_n.norm()).fold(0.0, f64::max);

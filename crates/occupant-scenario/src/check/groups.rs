@@ -1,4 +1,4 @@
-//! The part of the check that looks at groups of keys: exactly one of them, at most one, all or none.
+//! The check of groups of keys: exactly one of them, at most one, all or none.
 
 use serde_json::{Map, Value as Json};
 
@@ -7,7 +7,8 @@ use super::{Checker, View};
 use placed_text::{Entry, Node, Problem, Table, one_of, quoted};
 
 impl Checker<'_> {
-    /// Keys that exclude or need each other; `meant` are absent by a slip that is reported already.
+    /// Keys that exclude or need each other. Keys in `meant` are absent because of a misspelling that is already
+    /// reported.
     pub(super) fn groups(&mut self, view: &View, node: &Node, path: &str, meant: &[&str]) {
         let (Some(object), Some(table)) = (view.object_with_groups(), node.as_table()) else { return };
         self.exclusive_groups(object, node, table, path, meant);

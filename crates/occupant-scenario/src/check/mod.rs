@@ -1,5 +1,5 @@
-//! Checks a tree against the schema of its sections and reports every problem at once. What it reads as a quantity it
-//! notes in the tree in SI units, so that no number is read twice.
+//! Checks a tree against the schema of its sections and reports every problem at once. Each quantity is converted to SI
+//! units once and stored in the tree.
 
 mod groups;
 mod references;
@@ -17,7 +17,7 @@ use placed_text::{
     Diagnostic, Diagnostics, Document, Node, Problem, Sources, Span, Value, did_you_mean, nearest, one_of, with_key,
 };
 
-/// All that is wrong with the words of a text; `what` is what messages call it.
+/// All problems of a text; `what` is its name in messages.
 pub fn check_words(document: &mut Document, schema: &'static Json, what: &'static str) -> Diagnostics {
     let units = units_of(document);
     let mut checker = Checker { sources: &document.sources, root: schema, what, units, problems: Diagnostics::new() };
@@ -27,7 +27,7 @@ pub fn check_words(document: &mut Document, schema: &'static Json, what: &'stati
     checker.problems
 }
 
-/// All that is wrong with the words of some sections of a document, as they stand by themselves.
+/// All problems of some sections of a document, without their context.
 pub(super) fn check_parts(document: &mut Document, schema: &'static Json, keys: &[&str]) -> Diagnostics {
     let units = units_of(document);
     let what = "the scenario";
@@ -83,7 +83,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A whole number not below the least that makes sense.
+    /// A whole number not below its minimum.
     fn count(&mut self, view: &View, number: i64, node: &Node, path: &str) {
         let least = view.get("minimum").and_then(Json::as_i64);
         if let Some(least) = least.filter(|least| number < *least) {
@@ -92,7 +92,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A value whose meaning another part of the document decides: here only its type is looked at.
+    /// A value whose meaning another part of the document decides: only its type is checked here.
     fn open(&mut self, view: &View, node: &Node, path: &str) {
         let fits = match &node.value {
             Value::Integer(_) => view.may_be("number") || view.may_be("integer"),
@@ -135,7 +135,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Points into the text of a quantity where the text stands letter by letter in the source.
+    /// Points into the text of a quantity if the text is unescaped in the source.
     fn unit_error(&mut self, error: UnitError, node: &Node, path: &str) {
         let literal = self.sources.slice(node.span);
         let text = node.as_str().unwrap_or("");
@@ -182,7 +182,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A table whose `kind` says which keys it has.
+    /// A table whose `kind` decides its keys.
     fn tagged(&mut self, cases: &[(&str, View)], node: &mut Node, path: &str) {
         let names: Vec<&str> = cases.iter().map(|(name, _)| *name).collect();
         let Some(table) = node.as_table() else {
@@ -219,7 +219,7 @@ impl Checker<'_> {
         self.groups(view, node, path, &meant);
     }
 
-    /// Keys that misspelt ones of a table mean: that these are absent follows from the slip.
+    /// Keys that misspelt ones probably mean: their absence follows from the misspelling.
     fn meant(&self, view: &View, node: &Node) -> Vec<&'static str> {
         let keys = view.keys();
         let all = node.as_table().into_iter().flatten().map(|(key, _)| key.as_str());
@@ -248,7 +248,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Reports a problem of a table as a whole; the root has no words of its own to point at.
+    /// Reports a problem of a table as a whole; the root has no text to point at.
     fn report_table(&mut self, node: &Node, problem: Problem) {
         if problem.path.is_empty() {
             let name = self.sources.name(node.span.source);

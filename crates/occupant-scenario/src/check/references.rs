@@ -3,7 +3,7 @@
 use indexmap::IndexSet;
 use placed_text::{Node, Problem, did_you_mean, follow, one_of, parse_path, targets, to_text};
 
-/// Where a name stands, what it names, and the tables that have things of that kind.
+/// Path of a name, its kind, and the tables that define names of this kind.
 const REFERENCES: [(&str, &str, &str); 35] = [
     ("joints.*.set", "joint set", "joint_sets"),
     ("muscles.trigger", "trigger", "triggers"),
@@ -42,11 +42,11 @@ const REFERENCES: [(&str, &str, &str); 35] = [
     ("initial_state.passed[*][1]", "surface", "surfaces"),
 ];
 
-/// So many problems are shown.
+/// Number of problems shown.
 const SHOWN: usize = 50;
 
-/// Names in an explicit scenario that lead nowhere; `spheres` are known besides those that it has. Without them those of
-/// spheres are left to whoever has the body.
+/// Unknown names in an explicit scenario; `spheres` are known in addition to its own. Without them, names of spheres
+/// are left to the code that has the body.
 pub(crate) fn references(explicit: &Node, spheres: Option<&[String]>) -> Vec<Problem> {
     let mut problems = Vec::new();
     for (pattern, what, tables) in REFERENCES.into_iter().filter(|of| of.1 != "sphere" || spheres.is_some()) {
@@ -74,7 +74,7 @@ pub(crate) fn references(explicit: &Node, spheres: Option<&[String]>) -> Vec<Pro
     problems
 }
 
-/// The keys of a table, without those of things that are taken away.
+/// The keys of a table, without removed entries.
 fn names_in<'n>(explicit: &'n Node, table: &str) -> impl Iterator<Item = &'n str> {
     let node = follow(explicit, &parse_path(table).unwrap_or_default());
     let entries = node.and_then(Node::as_table).into_iter().flatten();

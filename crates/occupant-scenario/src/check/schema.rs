@@ -59,7 +59,7 @@ fn drop_null(object: &mut Map<String, Value>) {
     object.retain(|key, value| !(key == "default" && value.is_null()));
 }
 
-/// Says `x-exactly-one` and its like in the words of the standard too, so that editors check them.
+/// Adds `x-exactly-one` and the like in standard keywords too, so that editors check them.
 #[derive(Clone)]
 struct StandardGroups;
 

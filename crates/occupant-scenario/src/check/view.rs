@@ -1,11 +1,11 @@
-//! A place in the schema, with what stands beside a `$ref` laid over what it refers to.
+//! A node of the schema, with the keywords beside a `$ref` merged over its target.
 
 use serde_json::{Map, Value as Json};
 
 use crate::kind::Kind;
 use placed_text::one_of;
 
-/// A place in the schema.
+/// A node of the schema.
 #[derive(Clone, Copy)]
 pub(crate) struct View {
     own: &'static Map<String, Json>,
@@ -22,7 +22,7 @@ impl View {
         Some(View { own, base })
     }
 
-    /// A word of the schema.
+    /// A keyword of the schema.
     pub(crate) fn get(&self, word: &str) -> Option<&'static Json> {
         self.own.get(word).or_else(|| self.base.and_then(|b| b.get(word)))
     }
@@ -41,7 +41,7 @@ impl View {
         cases.iter().map(|c| c.get("const")?.as_str()).collect()
     }
 
-    /// The cases of a table with a `kind`: its value and what the table then holds.
+    /// The cases of a table with a `kind`: the value of `kind` and the contents of the table.
     pub(crate) fn cases(&self, root: &'static Json) -> Option<Vec<(&'static str, View)>> {
         let cases = self.get("oneOf")?.as_array()?;
         cases
@@ -58,18 +58,18 @@ impl View {
         self.get("type").and_then(Json::as_str).unwrap_or("")
     }
 
-    /// Whether several types of value may stand here, among which another part of the document decides.
+    /// Whether several types of value are allowed here; another part of the document decides among them.
     pub(crate) fn is_open(&self) -> bool {
         self.get("type").is_some_and(Json::is_array)
     }
 
-    /// Whether an open place may hold this type of value.
+    /// Whether such a node allows this type of value.
     pub(crate) fn may_be(&self, name: &str) -> bool {
         let types = self.get("type").and_then(Json::as_array);
         types.is_some_and(|types| types.iter().any(|t| t.as_str() == Some(name)))
     }
 
-    /// What a table holds under a key.
+    /// The value of a table under a key.
     pub(crate) fn property(&self, root: &'static Json, key: &str) -> Option<View> {
         let named = self.get("properties").and_then(|p| p.get(key));
         View::of(root, named.or_else(|| self.get("additionalProperties"))?)
@@ -87,12 +87,12 @@ impl View {
         list.into_iter().flatten().filter_map(Json::as_str)
     }
 
-    /// What a list holds.
+    /// The items of a list.
     pub(crate) fn items(&self, root: &'static Json) -> Option<View> {
         View::of(root, self.get("items")?)
     }
 
-    /// The layer that carries rules about groups of keys.
+    /// The layer that contains rules about groups of keys.
     pub(crate) fn object_with_groups(&self) -> Option<&'static Map<String, Json>> {
         let has = |object: &Map<String, Json>| {
             ["x-exactly-one", "x-at-most-one", "x-together"].iter().any(|word| object.contains_key(*word))
@@ -100,7 +100,7 @@ impl View {
         [Some(self.own), self.base].into_iter().flatten().find(|o| has(o))
     }
 
-    /// What is expected here in two or three words.
+    /// The expected value in two or three words.
     pub(crate) fn noun(&self) -> &'static str {
         match (self.kind(), self.type_name()) {
             (Some(kind), _) => kind.noun,
@@ -114,7 +114,7 @@ impl View {
         }
     }
 
-    /// What is expected here, with examples.
+    /// The expected value, with examples.
     pub(crate) fn wanted(&self) -> String {
         if let Some(kind) = self.kind() {
             return kind.expected();
@@ -132,7 +132,7 @@ impl View {
         }
     }
 
-    /// How a value of an open place may be written.
+    /// How a value of such a node may be written.
     fn open_example(&self) -> &'static str {
         let example = self.get("x-example").and_then(Json::as_str);
         example.unwrap_or("a number, or a text in quotes")

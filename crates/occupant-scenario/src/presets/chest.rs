@@ -1,19 +1,20 @@
-//! Chests that give way, in the words of a scenario.
+//! Deformable chests, as keys of a scenario.
 //!
-//! `person`: breastbone and skin fitted to frontal hub tests (Lebarbé and Petit 2012, 4.3 and 6.7 m/s; the damper's linear part by
-//! Kent 2004), the share of a belt from Kent 2004; lower ribs and links to means of Shaw 2009. `dummy50`, `dummy05f`: fitted to 49
-//! CFR 572.34 and 572.134, the share of a belt to vehicle test NHTSA 7292. The mass of `dummy50` is a guess.
+//! `person`: sternum and skin fitted to frontal hub tests (Lebarbé and Petit 2012, 4.3 and 6.7 m/s; the damper's linear
+//! part by Kent 2004), the share of a belt from Kent 2004; lower ribs and links to means of Shaw 2009. `dummy50`,
+//! `dummy05f`: fitted to 49 CFR 572.34 and 572.134, the share of a belt to vehicle test NHTSA 7292. The mass of
+//! `dummy50` is a guess.
 
 use crate::sections::{ChestChoice, above};
 use occupant_core::body::Body;
 use occupant_core::body::people::Person;
 
-/// Height of the breastbone's plate above the upper torso's lower end, as a part of its length.
+/// Height of the sternum's plate above the upper torso's lower end, as a fraction of its length.
 const HEIGHT: f64 = 0.62;
-/// Exponent by which the stiffness of chests follows their depth: that of the two dummies.
+/// Exponent of the stiffness of chests over their depth, from the two dummies.
 const BY_DEPTH: f64 = 0.27;
 
-/// A breastbone in numbers of a man of medium size.
+/// Numbers of an average man's sternum.
 struct Breastbone {
     mass_kg: f64,
     /// m and N.
@@ -21,7 +22,7 @@ struct Breastbone {
     returned: f64,
     /// N·s/m, N·s²/m², and N·s/m outwards.
     damper: [f64; 3],
-    /// Of belts and of bags.
+    /// Shares of belts and of bags.
     share: f64,
 }
 
@@ -47,14 +48,14 @@ const DUMMY_05F: Breastbone = Breastbone {
     share: 0.20,
 };
 
-/// What a chest multiplies.
+/// Scale factors of a chest.
 struct Scale {
     mass: f64,
     force: f64,
     depth: f64,
 }
 
-/// Two masses and a spring at equal speed: forces go as √(R_m R_k), depths as √(R_m/R_k), times stay.
+/// From two masses and a spring at equal speed: forces scale as √(R_m R_k), depths as √(R_m/R_k), times stay.
 impl Scale {
     const NONE: Scale = Scale { mass: 1.0, force: 1.0, depth: 1.0 };
 
@@ -64,7 +65,7 @@ impl Scale {
     }
 }
 
-/// The keys under `[body]` of the chest of a body that differs from `reference` as a person of this size does from another.
+/// The keys under `[body]` of the chest of a body, scaled from `reference` as from one person to another.
 pub(super) fn words(
     choice: ChestChoice,
     body: &Body,
@@ -111,9 +112,9 @@ pub(super) fn words(
     lines
 }
 
-/// The keys under `[body]` of flesh between a lap belt and the pelvis: all of its numbers are guesses within a factor of two, from no curve
-/// of a lap belt on a pelvis. It is as deep as what lies before the iliac spines of a man of medium size, some 40 mm: 60 kN/m to 20 mm,
-/// then it is squeezed flat, and from 35 mm on the belt bears on bone with 1 MN/m.
+/// The keys under `[body]` of flesh between a lap belt and the pelvis. All values are guesses within a factor of two,
+/// not from any curve of a lap belt on a pelvis. Its depth is that of the flesh in front of an average man's iliac
+/// spines, some 40 mm: 60 kN/m to 20 mm, then it bottoms out, and from 35 mm on the belt bears on bone with 1 MN/m.
 pub(super) fn flesh(body: &Body) -> [String; 2] {
     let Some(pelvis) = body.tree.landmarks().pelvis else { return [String::new(), String::new()] };
     let radius_m = body.sphere("pelvis").map_or(0.1, |sphere| body.spheres[sphere].radius_m);
@@ -129,9 +130,9 @@ pub(super) fn flesh(body: &Body) -> [String; 2] {
     ["pelvis.ride = { belt = { flesh = 1 } }".to_owned(), plate.join("\n")]
 }
 
-/// The keys under `[body]` of an abdomen on the part of the trunk above the pelvis: those of its sphere, then those of its plate. 30 kN/m and
-/// 300 N·s/m: 2.7 kN at 49 mm and 4 m/s, 8 kN at 138 mm and 13 m/s, which are two corner figures of belt pretensioners on eight abdomens
-/// (Foster 2006); mass, place and size are guesses.
+/// The keys under `[body]` of an abdomen on the part of the trunk above the pelvis: those of its sphere, then those of
+/// its plate. 30 kN/m and 300 N·s/m: 2.7 kN at 49 mm and 4 m/s, 8 kN at 138 mm and 13 m/s, two corner figures of belt
+/// pretensioners on eight abdomens (Foster 2006); mass, position and size are guesses.
 pub(super) fn abdomen(body: &Body) -> Option<[String; 2]> {
     let pelvis = body.tree.landmarks().pelvis?;
     let above = above(body, pelvis).filter(|segment| Some(*segment) != body.tree.landmarks().chest)?;
@@ -155,7 +156,7 @@ pub(super) fn abdomen(body: &Body) -> Option<[String; 2]> {
     Some([sphere, plate.join("\n")])
 }
 
-/// How the sphere of the chest rides; the lines before are those of `[body.spheres]`.
+/// How the sphere of the chest rides; the preceding lines are those of `[body.spheres]`.
 fn ride(share: f64) -> String {
     format!(
         "chest.ride = {{ contact = {{ sternum = 1 }}, belt = {{ sternum = {share} }}, bag = {{ sternum = {share} }} }}"
@@ -174,7 +175,7 @@ impl Breastbone {
     }
 }
 
-/// A number, always as wide.
+/// A number with a fixed width.
 fn number(value: f64) -> String {
     format!("{value:.16e}")
 }
@@ -183,7 +184,7 @@ fn list(values: &[f64]) -> String {
     format!("[{}]", values.iter().map(|value| number(*value)).collect::<Vec<_>>().join(", "))
 }
 
-/// A link between the lower ribs of both sides: of their sum or their difference.
+/// A link between the lower ribs of both sides: their sum or their difference.
 fn link(name: &str, right: f64, stiffness: f64, damping: f64, scale: &Scale) -> Vec<String> {
     vec![
         format!("[body.plate_links.{name}]"),

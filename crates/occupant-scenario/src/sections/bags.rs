@@ -1,4 +1,4 @@
-//! `[bags]` and `[gases]`: their keys, and the [`Bag`]s they come to.
+//! `[bags]` and `[gases]`: their keys, converted to [`Bag`]s.
 
 use indexmap::IndexMap;
 use nalgebra::Vector3;
@@ -38,8 +38,8 @@ pub(crate) struct GasSection {
     "x-at-most-one" = [["dome", "sphere", "capsule"], ["leakage", "permeability"]],
 ))]
 pub(crate) struct BagSection {
-    /// Name of a bag of the library. It gives every key that is not said beside it except `trigger`, `mount` and, of a curtain or
-    /// side bag, `capsule`. Its numbers are made up.
+    /// Name of a bag of the library. It gives every absent key except `trigger`, `mount` and, for a curtain or side
+    /// bag, `capsule`. Its numbers are invented.
     #[schemars(extend("enum" = ["driver", "passenger", "curtain", "side"]))]
     pub(crate) library: Option<String>,
     /// Name of the trigger that fires it, by time or by the vehicle's motion.
@@ -74,12 +74,12 @@ pub(crate) struct BagSection {
     pub(crate) friction: Option<Ratio<NOT_NEGATIVE>>,
     /// Sliding speed at which friction reaches 71 % of its full value, as for a material.
     pub(crate) friction_speed: Option<Speed<POSITIVE>>,
-    /// Names of the body parts or spheres that it touches, at most 20 spheres. Where they overlap they count once.
+    /// Names of the body parts or spheres that it touches, at most 20 spheres. Overlapping volume counts once.
     pub(crate) spheres: Option<Vec<String>>,
-    /// The one of several occupants whom it touches; all in the first vehicle if absent.
+    /// With several occupants, the one that it touches; all in the first vehicle if absent.
     pub(crate) occupant: Option<String>,
-    /// Factor on the contact area of a part or sphere that represents more than itself; of a part, on that of its first sphere, to
-    /// which its others add. 1 if absent.
+    /// Factor on the contact area of a part or sphere that represents a larger body region; for a part, it applies to
+    /// the first sphere, to which the others add. 1 if absent.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) reach: IndexMap<String, Ratio<POSITIVE>>,
     /// Mass of cover and fabric that it throws ahead of it as it unfolds: the blow to a body in its way. 0 if absent.
@@ -114,7 +114,7 @@ pub(crate) struct BallSection {
     pub(crate) radius: Length<POSITIVE>,
 }
 
-/// All that is near a straight line.
+/// Everything within a radius of a straight line.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BagCapsuleSection {
@@ -124,7 +124,7 @@ pub(crate) struct BagCapsuleSection {
     pub(crate) radius: Length<POSITIVE>,
 }
 
-/// What blows gas into a bag: its flow over time.
+/// A source of gas for a bag: its flow over time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct InflatorSection {
@@ -251,7 +251,7 @@ impl Parts<'_> {
         frame
     }
 
-    /// When something is due that waits for a trigger.
+    /// The time of an event that waits for a trigger.
     fn due_s(&self, b: &mut Builder, path: &str, trigger: &str, delay: &Option<Time<NOT_NEGATIVE>>) -> f64 {
         let at = self.triggers.time_s(b, &format!("{path}.trigger"), trigger);
         at.map_or(NEVER, |at_s| at_s + si_or(delay, 0.0))
@@ -311,7 +311,7 @@ fn gas(s: &GasSection) -> Gas {
     Gas { r_j_kg_k: GAS_CONSTANT_J_MOL_K / s.molar_mass.si(), a_j_kg_k: s.cp.si(), b_j_kg_k2: si_or(&s.cp_slope, 0.0) }
 }
 
-/// What a bag says itself or has of the library.
+/// A value of a bag's own section or of the library.
 fn said<T>(b: &mut Builder, path: &str, key: &str, value: Option<T>) -> Option<T> {
     if value.is_none() {
         b.error(path, format!("a bag without {key}"), format!("{key}, or `library` with a bag that has it"));
@@ -319,7 +319,7 @@ fn said<T>(b: &mut Builder, path: &str, key: &str, value: Option<T>) -> Option<T
     value
 }
 
-/// The one shape of a section; where the library has a dome, the one that is said beside it.
+/// The shape of a section; a dome of the library is replaced by the section's own.
 fn shape(s: &BagSection) -> Option<Shape> {
     let dome = s.dome.as_ref().map(|dome| Shape::Dome {
         axis: Vector3::from(all_si(&dome.axis)),
@@ -345,7 +345,7 @@ fn leakage(b: &mut Builder, path: &str, s: &BagSection) -> Leakage {
     Leakage::Speed(table.pressure.iter().zip(&table.speed).map(|(p, v)| [p.si(), v.si()]).collect())
 }
 
-/// Its spheres, each with the reach of its own name or of that of its part.
+/// Its spheres, each with the `reach` of its own name or of its part.
 fn spheres(b: &mut Builder, path: &str, (s, names): (&BagSection, &[String]), body: &Body) -> Vec<(usize, f64)> {
     if names.is_empty() {
         b.error(&format!("{path}.spheres"), "0 spheres", "1 to 20 spheres that the bag can touch");
@@ -363,10 +363,10 @@ fn spheres(b: &mut Builder, path: &str, (s, names): (&BagSection, &[String]), bo
     list.into_iter().map(|sphere| (sphere, reach_of(sphere))).collect()
 }
 
-/// Points in the width of a sphere when areas are counted.
+/// Sampling points over the width of a sphere when areas are counted.
 const POINTS: i32 = 100;
 
-/// By how much the spheres of a part, seen from ahead, cover more together than the first of them alone.
+/// Ratio of the frontal area that the spheres of a part cover together to that of the first of them.
 fn widening(body: &Body, part: &[usize]) -> f64 {
     let Some(first) = part.first().map(|first| &body.spheres[*first]) else { return 1.0 };
     let own = part.iter().map(|sphere| &body.spheres[*sphere]).filter(|sphere| sphere.segment == first.segment);

@@ -1,4 +1,4 @@
-//! `[belts]`: the keys of a belt, and the [`Belt`]s that those with one sphere come to.
+//! `[belts]`: the keys of a belt; those with one sphere are converted to [`Belt`]s.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -85,7 +85,7 @@ impl BeltSection {
     }
 }
 
-/// More belts than this are a slip; a body that settles tries them in hundreds of postures.
+/// More belts than this are a mistake: settling evaluates them in hundreds of postures.
 pub(super) const MOST: usize = 100;
 
 /// All loops, in the order written.

@@ -1,4 +1,4 @@
-//! `[body]`: its keys, and the [`Body`] they come to.
+//! `[body]`: its keys, converted to a [`Body`].
 
 use indexmap::IndexMap;
 use nalgebra::{Point3, UnitQuaternion, Vector2, Vector3};
@@ -20,7 +20,7 @@ use placed_text::{Problem, with_key};
 /// More spheres than this are a slip: each meets every surface, and others of the body.
 const MOST_SPHERES: usize = 500;
 
-/// A preset, changes to it, or a whole body of one's own.
+/// A preset, changes to it, or a whole body of your own.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BodySection {
@@ -75,7 +75,7 @@ pub(crate) struct BodySection {
     /// those of the Hybrid III dummies; or "rigid". "rigid" if absent. A seat back bears on the spine, where the chest
     /// is always rigid.
     pub(crate) chest: Option<ChestChoice>,
-    /// "flesh": tissue under a lap belt gives way, with estimated values. "rigid" if absent.
+    /// "flesh": tissue under a lap belt yields, with estimated values. "rigid" if absent.
     pub(crate) pelvis: Option<PelvisChoice>,
     /// "person": an abdomen, as a sphere and a plate above the pelvis, which belts, rims and doors can load; fitted to
     /// two values of belt pretensioner tests. "rigid", no abdomen, if absent.

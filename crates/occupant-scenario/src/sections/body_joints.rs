@@ -1,4 +1,4 @@
-//! `[body.joints]`: how the segments of a body hang on each other.
+//! `[body.joints]`: the joints between the segments of a body.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -18,7 +18,7 @@ struct Hung<'a> {
     section: &'a BodyJointSection,
 }
 
-/// The tree of a body's joints, and their places in its order; none where they make no tree.
+/// The tree of a body's joints, with their positions in its order; none if they do not form a tree.
 pub(super) fn own_tree(b: &mut Builder, body: &BodySection, is_part: bool) -> Option<(&'static Tree, Vec<JointPlace>)> {
     let hung: Vec<Hung<'_>> = body.joints.iter().filter_map(|(name, section)| named(b, body, name, section)).collect();
     if hung.len() < body.joints.len() {
@@ -77,7 +77,7 @@ fn named<'a>(b: &mut Builder, body: &'a BodySection, name: &'a str, section: &'a
     Some(Hung { name, proximal: proximal?, distal: distal?, section })
 }
 
-/// Whether the kernel can carry so many.
+/// Whether the kernel supports this number of segments.
 fn fits(b: &mut Builder, rest: &[Hung<'_>]) -> bool {
     let axes = |joint: &Hung<'_>| match kind(joint.section) {
         JointKind::Hinge => 1,
@@ -93,7 +93,7 @@ fn fits(b: &mut Builder, rest: &[Hung<'_>]) -> bool {
     true
 }
 
-/// The joints, each behind the one that carries its proximal segment.
+/// The joints, each after the one that carries its proximal segment.
 fn ordered<'a>(b: &mut Builder, body: &'a BodySection, mut rest: Vec<Hung<'a>>) -> Option<Vec<Hung<'a>>> {
     if !fits(b, &rest) {
         return None;

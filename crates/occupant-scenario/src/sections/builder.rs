@@ -1,4 +1,4 @@
-//! What every section needs to become plain data: the text it comes from, and a list for what is wrong with it.
+//! Shared tools to convert sections to plain data: the text, and a list of problems.
 
 use serde::de::DeserializeOwned;
 
@@ -7,17 +7,17 @@ use super::quantity::Quantity;
 use occupant_core::body::Body;
 use placed_text::{Diagnostics, Document, Problem, did_you_mean, follow, one_of, parse_path, with_key};
 
-/// Collects problems while the plain data are put together.
+/// Collects problems during the conversion.
 pub(super) struct Builder<'a> {
     /// The explicit scenario.
     pub(super) document: &'a Document,
     pub(super) problems: Diagnostics,
-    /// What was driven; none while people are weighed, or where nothing drives.
+    /// The drive; none while occupants are weighed, or if nothing drives.
     pub(super) drives: Option<&'a Drives>,
 }
 
 impl Builder<'_> {
-    /// The value in SI units of a key that must be there.
+    /// The value in SI units of a required key.
     pub(super) fn needed<const KIND: usize, const RANGE: usize>(
         &mut self,
         path: &str,
@@ -31,13 +31,13 @@ impl Builder<'_> {
         quantity.as_ref().map_or(f64::NAN, Quantity::si)
     }
 
-    /// What the explicit scenario says at a path, which has passed the check; none if it says nothing.
+    /// The value of the explicit scenario at a path, which has passed the check; none if it has none.
     pub(super) fn section<T: DeserializeOwned>(&self, path: &str) -> Option<T> {
         let node = follow(&self.document.root, &parse_path(path).ok()?)?;
         T::deserialize(node).ok()
     }
 
-    /// Adds an error at each of `keys` that is written in the section at `path`.
+    /// Adds an error at each of `keys` that the section at `path` contains.
     pub(super) fn refuse_keys(&mut self, path: &str, keys: &[&str], found: impl Fn(&str) -> String, expected: &str) {
         let document = self.document;
         let section = parse_path(path).ok().and_then(|steps| follow(&document.root, &steps));
@@ -59,7 +59,7 @@ impl Builder<'_> {
         spheres
     }
 
-    /// The sphere that is named at `path`; a whole part is none.
+    /// The sphere that is named at `path`; none for a whole part.
     pub(super) fn sphere(&mut self, path: &str, name: &str, body: &Body) -> usize {
         body.sphere(name).unwrap_or_else(|| {
             let names: Vec<&str> = body.spheres.iter().map(|sphere| sphere.name.as_str()).collect();
@@ -68,7 +68,7 @@ impl Builder<'_> {
         })
     }
 
-    /// Adds an error about a name that leads nowhere; `names` are those that there are.
+    /// Adds an error about an unknown name; `names` are the known ones.
     pub(super) fn unknown(&mut self, path: &str, what: &str, name: &str, names: &[&str]) {
         let problem = Problem::error(path, format!("no {what} is named \"{name}\""), one_of(names, '"'));
         self.report(problem.with_hint(did_you_mean(name, names, '"')));
@@ -79,14 +79,14 @@ impl Builder<'_> {
         self.report(Problem::error(path, found, expected));
     }
 
-    /// Adds a problem at the words that its path points at.
+    /// Adds a problem at its path in the text.
     pub(super) fn report(&mut self, problem: Problem) {
         let document = self.document;
         self.problems.add(problem, |problem| document.place(problem));
     }
 }
 
-/// The index of a name among those that there are; the check of references has refused all others.
+/// The index of a name among the known ones; the check of references has refused all others.
 pub(super) fn index_of<'n>(name: &str, mut names: impl Iterator<Item = &'n str>) -> usize {
     names.position(|n| n == name).unwrap_or(0)
 }

@@ -1,4 +1,4 @@
-//! Belts with nodes: the [`Chain`]s they come to.
+//! Belts with nodes, converted to [`Chain`]s.
 
 use super::belts::{self, BeltSection};
 use super::builder::Builder;

@@ -1,4 +1,4 @@
-//! Steering columns and hinges among `[frames]`: the [`Column`]s they come to.
+//! Steering columns and hinges among `[frames]`, converted to [`Column`]s.
 
 use nalgebra::{Point3, Vector3};
 
@@ -12,7 +12,7 @@ use occupant_core::forces::function::{Function, Shape};
 use occupant_core::model::setup::OtherFrame;
 use placed_text::with_key;
 
-/// What columns and hinges have and a panel has not; what a column has and a hinge has not; the other way round.
+/// Keys of columns and hinges that a panel lacks; of columns that hinges lack; and the reverse.
 const OWN: [&str; 4] = ["axis", "mass", "shape", "beyond"];
 const SLIDES: [&str; 3] = ["stroke", "force", "unload_slope"];
 const TURNS: [&str; 5] = ["centre", "inertia", "angle", "moment", "unload_stiffness"];
@@ -49,12 +49,12 @@ fn column(b: &mut Builder, name: &str, s: &FrameSection, frame: usize) -> Column
 }
 
 impl FrameSection {
-    /// Whether it goes where it is pushed.
+    /// Whether it moves when pushed.
     pub(super) fn gives(&self) -> bool {
         matches!(self.kind, Some(FrameKind::Column | FrameKind::Hinge))
     }
 
-    /// Reports keys of the other kinds, and what the own lacks.
+    /// Reports keys of the other kinds, and missing keys of its own.
     pub(super) fn check_keys(&self, b: &mut Builder, path: &str) {
         let (keys, others, expected): (&[(&str, bool)], _, _) = match self.kind {
             Some(FrameKind::Column) => (

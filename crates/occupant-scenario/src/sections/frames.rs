@@ -1,4 +1,5 @@
-//! `[vehicles]`, `[ground]` and `[frames]`: frames besides the first vehicle and space, and who meets what is fixed to them.
+//! `[vehicles]`, `[ground]` and `[frames]`: frames besides the first vehicle and space, and which bodies can touch what
+//! is fixed to them.
 
 use nalgebra::{Point3, Vector3};
 use schemars::JsonSchema;
@@ -23,7 +24,7 @@ use placed_text::{Diagnostics, Document, Entry, Node, with_key};
 pub(crate) struct VehicleSection {
     /// Its motion. All vehicles share one vehicle-space and one clock.
     pub(crate) path: PathSection,
-    /// Its inside in words; names of what is written out begin with the vehicle's, as in `NAME_wheel_rim`.
+    /// Its interior; names of the expanded parts begin with the vehicle's, as in `NAME_wheel_rim`.
     pub(crate) car: Option<super::CarSection>,
 }
 
@@ -89,38 +90,38 @@ pub(crate) struct FrameSection {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum FrameKind {
-    /// It moves as it is told.
+    /// It moves along a given path.
     Panel,
-    /// It goes where it is pushed, and stays there.
+    /// It moves when pushed, and stays there.
     Column,
-    /// It turns where it is pushed, and stays there.
+    /// It turns when pushed, and stays there.
     Hinge,
 }
 
-/// Who meets a surface or solid.
+/// Which bodies can touch a surface or solid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Meets {
     /// Bodies that began in the vehicle that it belongs to.
     Own,
-    /// All but those.
+    /// All other bodies.
     Others,
     /// All.
     All,
 }
 
-/// What the ground is called as a frame and as a surface.
+/// Name of the ground as a frame and as a surface.
 pub(super) use occupant_core::model::setup::GROUND;
 /// The first vehicle.
 pub(super) const VEHICLE: &str = "vehicle";
 
 impl Scenario {
-    /// Vehicles besides the first, which is that of `path`, or of all the first.
+    /// Vehicles besides the first, which is that of `path` or the first of all.
     fn other_vehicles(&self) -> impl Iterator<Item = (&String, &VehicleSection)> {
         self.vehicles.iter().skip(usize::from(self.path.is_none()))
     }
 
-    /// The path of the first vehicle and where it stands; none where nothing moves.
+    /// The path of the first vehicle and its position in the text; none if nothing moves.
     pub(super) fn first_path(&self) -> Option<(Vec<&str>, &PathSection)> {
         let named = || self.vehicles.first().map(|(name, vehicle)| (vec!["vehicles", name, "path"], &vehicle.path));
         self.path.as_ref().map(|path| (vec!["path"], path)).or_else(named)
@@ -132,7 +133,7 @@ impl Scenario {
         vehicles.chain([GROUND]).chain(self.frames.keys().map(String::as_str)).collect()
     }
 
-    /// The frame of this name; a loose body's is that of its place among them, until its segment is known.
+    /// The frame of this name; for a loose body its index among them, until its segment is known.
     pub(super) fn frame_named(&self, name: &str) -> Option<Frame> {
         let is_first = self.path.is_none() && self.vehicles.get_index_of(name) == Some(0);
         match name {
@@ -146,7 +147,7 @@ impl Scenario {
         }
     }
 
-    /// The vehicle that a frame belongs to; none of the ground, of space and of loose bodies.
+    /// The vehicle that a frame belongs to; none for the ground, space and loose bodies.
     pub(super) fn vehicle_of(&self, frame: Frame) -> Option<Frame> {
         let vehicles = self.other_vehicles().count();
         match frame {
@@ -163,13 +164,13 @@ impl Scenario {
         }
     }
 
-    /// The home of a body that says this of its vehicle; none of one that there is not.
+    /// The home of a body with this `vehicle`; none if there is no such vehicle.
     pub(super) fn home(&self, vehicle: Option<&str>) -> Option<Frame> {
         let frame = self.frame_named(vehicle.unwrap_or(GROUND))?;
         (vehicle.is_none() || self.vehicle_of(frame) == Some(frame)).then_some(frame)
     }
 
-    /// Whether a body at home meets what is fixed to a frame.
+    /// Whether a body with a home can touch what is fixed to a frame.
     pub(super) fn is_met(&self, meets: Meets, frame: Frame, home: Frame) -> bool {
         let of = self.vehicle_of(frame);
         match meets {
@@ -199,7 +200,7 @@ impl Builder<'_> {
     }
 }
 
-/// The frames besides space and the first vehicle; none where nothing is fixed to any.
+/// The frames besides space and the first vehicle; none if nothing is fixed to any.
 pub(super) fn frames(b: &mut Builder, s: &Scenario, gravity_m_s2: f64) -> Vec<OtherFrame> {
     let is_needed = !s.vehicles.is_empty() || !s.frames.is_empty() || s.ground.is_some() || s.has_several();
     let names = s.surfaces.values().map(|own| own.frame.as_deref()).chain(s.solids.values().map(SolidSection::frame));
@@ -258,7 +259,7 @@ fn check_names(b: &mut Builder, s: &Scenario) {
     }
 }
 
-/// The path that stands at `at`.
+/// The path at `at`.
 pub(super) fn moving(b: &mut Builder, at: &[&str], section: &PathSection, gravity_m_s2: f64) -> Option<VehiclePath> {
     let root = with_path(&b.document.root, at)?;
     let document = Document { root, ..b.document.clone() };
@@ -283,7 +284,7 @@ pub(super) fn ground(s: &Scenario) -> Option<Surface> {
     })
 }
 
-/// The same tree with the path that stands at `of`.
+/// The same tree with the path at `of`.
 pub(super) fn with_path(root: &Node, of: &[&str]) -> Option<Node> {
     let mut whole = root.clone();
     let path = of.iter().try_fold(root, |node, key| node.get(key))?.clone();

@@ -1,4 +1,4 @@
-//! `[webbings]`, `[limiters]`, and how force functions are written everywhere: two lists, and what unloading returns.
+//! `[webbings]`, `[limiters]`, and the form of force functions everywhere: two lists, and what unloading returns.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -33,7 +33,7 @@ pub(crate) struct WebbingSection {
     pub(crate) viscous: Option<ViscousSection>,
 }
 
-/// A spring that gives way.
+/// A relaxing spring.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ViscousSection {

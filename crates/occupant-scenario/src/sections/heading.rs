@@ -1,11 +1,11 @@
-//! Headings of recorders, in words: "Delta-V, longitudinal" is what `dvx` is.
+//! Headings of recorders: "Delta-V, longitudinal" means `dvx`.
 
 use occupant_units::unit::{Dimension, Unit};
 
-/// Things that headings speak of, and the words that they have for them.
+/// Quantities in headings, and the words for them.
 type Sense = (&'static str, &'static [&'static str]);
 
-/// What is measured, which way, words that say both, and words that say neither.
+/// The quantity, the direction, words for both, and words that carry no information.
 const SENSES: [Sense; 25] = [
     ("t", &["time", "t", "zeit", "temps", "tiempo", "tempo", "times"]),
     ("d", &["delta", "deltav", "dv", "δv", "change", "cumulative", "änderung", "aenderung", "variation", "cambio"]),
@@ -87,14 +87,14 @@ const SENSES: [Sense; 25] = [
     ),
 ];
 
-/// What the unit of a column says that its words leave open: `X (g)` is an acceleration, `Roll (deg/s)` a rate.
+/// Meaning that the unit of a column adds to its words: `X (g)` is an acceleration, `Roll (deg/s)` a rate.
 const BY_UNIT: [(Unit, [&str; 3], &str); 3] = [
     (Unit::MetrePerSecondSquared, ["x", "y", "z"], "a"),
     (Unit::RadianPerSecond, ["x", "y", "z"], "w"),
     (Unit::RadianPerSecond, ["p", "q", "r"], "w"),
 ];
 
-/// The senses of a heading, sorted, and the column that they mean.
+/// The meanings of a heading, sorted, and the column that they denote.
 const COLUMNS: [(&str, &str); 26] = [
     ("t", "t"),
     ("x", "x"),
@@ -124,7 +124,7 @@ const COLUMNS: [(&str, &str); 26] = [
     ("dvy", "dvy"),
 ];
 
-/// The column of a path's table that a heading means, if every word of it is known.
+/// The column of a path's table that a heading denotes, if every word of it is known.
 pub fn heading(text: &str) -> Option<&'static str> {
     column_of(&senses(text)?)
 }
@@ -134,7 +134,8 @@ pub fn speed_named(text: &str) -> bool {
     senses(text).is_some_and(|senses| senses == "v")
 }
 
-/// The same of a column whose unit has this dimension, which settles what the words leave open; none where unit and words are at odds.
+/// The same for a column whose unit has this dimension, which resolves ambiguous words; none if unit and words
+/// contradict.
 pub fn heading_in(text: &str, measured: Dimension) -> Option<&'static str> {
     let rates = [("p", "wx"), ("q", "wy"), ("r", "wz")];
     if let Some((_, rate)) = rates.iter().find(|(name, _)| text.trim().eq_ignore_ascii_case(name)) {
@@ -149,7 +150,7 @@ pub fn heading_in(text: &str, measured: Dimension) -> Option<&'static str> {
     column_of(&senses).filter(|column| dimension(column) == measured)
 }
 
-/// What a column holds.
+/// The quantity of a column.
 fn dimension(column: &str) -> Dimension {
     match column {
         "t" => Unit::Second,
@@ -162,7 +163,7 @@ fn dimension(column: &str) -> Dimension {
     .dimension()
 }
 
-/// The senses of a heading, sorted; none where a word is not known. Numbers of channels and of filter classes say nothing.
+/// The meanings of a heading, sorted; none if a word is unknown. Numbers of channels and filter classes are ignored.
 fn senses(text: &str) -> Option<String> {
     let text = text.to_lowercase();
     let words = text.split(|c: char| !(c.is_alphanumeric() || c == '\'')).filter(|word| !word.is_empty());

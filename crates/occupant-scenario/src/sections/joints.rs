@@ -1,4 +1,4 @@
-//! `[joints]` and `[joint_sets]`: their keys, and the [`Joints`] they come to.
+//! `[joints]` and `[joint_sets]`: their keys, converted to [`Joints`].
 
 use indexmap::IndexMap;
 use schemars::JsonSchema;
@@ -13,8 +13,8 @@ use occupant_core::body::{JointKind, Tree};
 use occupant_core::forces::joint::{AngularSpring, BallJoint, HingeJoint, JointLaw, Joints, Stop};
 use placed_text::{Problem, with_key};
 
-/// The joints. What is said of one joint replaces what is said of its pair, that replaces what is said of `all`,
-/// and that replaces the preset. Every joint needs a damping from somewhere.
+/// The joints. A single joint overrides its pair, a pair overrides `all`, and `all` overrides the preset. Every joint
+/// needs a damping from one of them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub(crate) struct JointsSection {
     /// Joint set to start from: "male50", the viscous stops of the 1970 report; "gebod", the elastic limits of the
@@ -98,7 +98,7 @@ pub(super) fn joints(b: &mut Builder, section: &JointsSection, tree: &'static Tr
     joints.with_epsilon(si_or(&section.epsilon, Joints::EPSILON))
 }
 
-/// Refuses the living neck of a preset, and doubts that of a dead one, in a tree whose neck is one joint.
+/// Refuses the active neck of a preset, and warns of the passive one, in a tree whose neck is one joint.
 pub(super) fn check_neck(b: &mut Builder, preset: &str, tree: &Tree) {
     if !OF_PEOPLE.contains(&preset) || tree.joint_named("neck").is_none() || tree.joint_named("neck_base").is_some() {
         return;
@@ -110,17 +110,17 @@ pub(super) fn check_neck(b: &mut Builder, preset: &str, tree: &Tree) {
     b.report(problem("joints.preset".to_owned(), found, expected.to_owned()).with_hint(Some(why)));
 }
 
-/// What is said of a joint; nothing where its damping is missing, which is reported for all joints at once.
+/// The properties of a joint; none if its damping is missing, which is reported for all joints at once.
 fn given(b: &Builder, name: &str) -> Option<JointSection> {
     said_of(b, name).filter(|section| section.damping.is_some())
 }
 
-/// What is said of one joint by its own name.
+/// The properties given for one joint by its own name.
 pub(super) fn said_of(b: &Builder, name: &str) -> Option<JointSection> {
     b.section(&with_key("joints", name))
 }
 
-/// One message for all joints that nobody gave a damping.
+/// One message for all joints without a damping.
 fn report_undamped(b: &mut Builder, tree: &Tree) {
     let names = tree.joint_rows().iter().filter(|row| row.kind != JointKind::Fixed).map(|row| row.name);
     let undamped: Vec<&str> = names.filter(|name| given(b, name).is_none()).collect();

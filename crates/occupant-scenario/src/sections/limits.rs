@@ -1,4 +1,4 @@
-//! Elastic limits, dry friction and lock of a joint: their keys, and the [`Limits`] they come to.
+//! Elastic limits, dry friction and lock of a joint: their keys, converted to [`Limits`].
 
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -14,7 +14,7 @@ use occupant_core::forces::joint::limit::{Bend, Centre, Curve, Friction, Limits,
 use occupant_core::forces::spring::LEAST_FRACTION;
 use placed_text::{Problem, with_key};
 
-/// Speed of dry friction unless given, rad/s: 0.4 × 30 °/s.
+/// Default speed of dry friction, rad/s: 0.4 × 30 °/s.
 const FRICTION_RAD_S: f64 = 12.0 * std::f64::consts::PI / 180.0;
 
 /// A lock without a stiffness reaches its moment at this angle, rad: 2°.
@@ -92,8 +92,8 @@ pub(crate) struct FrictionSection {
     pub(crate) speed: Option<AngularVelocity<POSITIVE>>,
 }
 
-/// A lock: a spring in all directions to the posture of the start, which opens when a moment is reached. Without `until` it
-/// never does: a joint of rubber.
+/// A lock: a spring in all directions to the initial posture, which opens when a moment is reached. Without `until` it
+/// never opens, like a joint of rubber.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-at-most-one" = [["slips", "relock_below"]]))]
@@ -186,7 +186,7 @@ fn bend_limit(b: &mut Builder, path: &str, section: &BendLimitSection) -> Bend<f
     Bend::new(Curve::periodic(&points), torque)
 }
 
-/// The azimuths that go with angles of a limit all round.
+/// The azimuths for the angles of a limit.
 fn all_round(count: usize) -> String {
     let all: Vec<String> = (0..count).map(|i| placed_text::number(i as f64 * 360.0 / count as f64)).collect();
     format!("azimuths = [{}] go with {count} angles", all.join(", "))

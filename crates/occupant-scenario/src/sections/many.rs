@@ -106,7 +106,7 @@ pub(crate) struct LooseSphereSection {
     pub(crate) radius: Length<POSITIVE>,
 }
 
-/// Keys of an occupant's own, which stand at the top of a scenario of one.
+/// Keys of an occupant, which are at the top of a scenario with one.
 const OWN: [&str; 10] =
     ["body", "joints", "posture", "stance", "mount", "muscles", "markers", "belts", "retractors", "self_contact"];
 
@@ -275,7 +275,7 @@ fn joined(b: &mut Builder, s: &Scenario, mut world: Setup, members: Vec<(String,
     world.together(members, &pairs, &skins)
 }
 
-/// Tells who passes through surfaces of a vehicle that he is not in, of which nothing is said.
+/// Reports bodies that pass through surfaces of another vehicle because these do not say which bodies can touch them.
 fn warn_of_unmet(b: &mut Builder, s: &Scenario, world: &Setup, members: &[(String, Frame, Setup)]) {
     let surfaces = s.surfaces.iter().zip(&world.surfaces).filter(|((_, own), _)| own.meets.is_none());
     let surfaces: Vec<_> = surfaces.map(|((name, _), surface)| (name, surface.frame)).collect();
@@ -294,7 +294,7 @@ fn warn_of_unmet(b: &mut Builder, s: &Scenario, world: &Setup, members: &[(Strin
     }
 }
 
-/// Spheres of different bodies that can touch, by member and index, and the skins of members that have no other.
+/// Spheres of different bodies that can touch, by member and index, and the default skins of members.
 fn pairs(b: &mut Builder, s: &Scenario, members: &[Member]) -> (Vec<[(usize, usize); 2]>, Vec<usize>) {
     let contact = s.contact.as_ref();
     let material = |name: &str| index_of(name, s.materials.keys().map(String::as_str));

@@ -1,4 +1,4 @@
-//! `[markers]`: the keys of a marker, and the [`Marker`]s they come to.
+//! `[markers]`: the keys of a marker, converted to [`Marker`]s.
 
 use indexmap::IndexMap;
 use schemars::JsonSchema;
@@ -19,8 +19,8 @@ pub(crate) struct MarkerSection {
     pub(crate) segment: String,
     /// Its position from the segment's lower end, in segment axes (X forward, Y left, Z up when standing).
     pub(crate) place: [Length; 3],
-    /// Frame of the results. "vehicle": position, velocity and acceleration relative to the vehicle. "space": as seen
-    /// by a bystander. "segment": an accelerometer along the segment's SAE J211 axes. "vehicle" if absent.
+    /// Frame of the results. "vehicle": position, velocity and acceleration relative to the vehicle. "space": relative
+    /// to space. "segment": an accelerometer along the segment's SAE J211 axes. "vehicle" if absent.
     pub(crate) frame: Option<MarkerFrame>,
 }
 

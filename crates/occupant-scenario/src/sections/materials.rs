@@ -1,4 +1,4 @@
-//! `[materials]`: the keys of a material, and the [`Material`] they come to.
+//! `[materials]`: the keys of a material, converted to a [`Material`].
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -82,7 +82,8 @@ pub(crate) struct MaterialSection {
     pub(crate) memory: Option<Memory>,
 }
 
-/// The quadratic way back of the ATB program, which meets `r` only where the curve lets it: what it returns is said.
+/// The quadratic unloading of the ATB program. It returns `r` only as far as the curve allows; the program reports the
+/// actual value.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-exactly-one" = [["r", "r_each"], ["g", "g_each"]]))]
@@ -161,7 +162,7 @@ pub(crate) struct LoadSection {
     pub(crate) factor: Vec<Ratio<NOT_NEGATIVE>>,
 }
 
-/// Depth at which a damper is fully there, m.
+/// Depth from which a damper acts fully, m.
 const DAMPED_M: f64 = 0.025;
 
 /// All materials, in the order written.
@@ -239,7 +240,7 @@ fn deflection(b: &mut Builder, path: &str, s: &MaterialSection) -> ForceDeflecti
     }
 }
 
-/// ATB's way back, with R and G constant or over the greatest depth.
+/// ATB's unloading, with R and G constant or over the largest depth.
 fn by_quadratic(b: &mut Builder, path: &str, s: &AtbSection) -> Unloading {
     let path = with_key(path, "atb");
     let mut rows = |one: &Option<Ratio<FRACTION>>, each: &Option<Vec<Ratio<FRACTION>>>, key: &str| match one {
@@ -249,7 +250,7 @@ fn by_quadratic(b: &mut Builder, path: &str, s: &AtbSection) -> Unloading {
     Unloading::Quadratic { returned: rows(&s.r, &s.r_each, "r_each"), set: rows(&s.g, &s.g_each, "g_each") }
 }
 
-/// A bilinear spring; linear where no break is given.
+/// A bilinear spring; linear if no break is given.
 pub(super) fn spring(
     k1: &Stiffness<NOT_NEGATIVE>,
     k2: &Option<Stiffness<NOT_NEGATIVE>>,

@@ -1,7 +1,7 @@
-//! The sections of a scenario: for each its keys, as they are written, and the plain data they come to.
+//! The sections of a scenario: for each its keys, as written, and their conversion to plain data.
 //!
-//! The structs are the only declaration of the keys: the JSON Schema, and so the check, the overrides and the hints, come
-//! from them. Their doc comments are the descriptions of the schema, so they speak to the person who writes a scenario.
+//! The structs are the only declaration of the keys: the JSON Schema, and so the check, the overrides and the hints,
+//! come from them. Their doc comments are the descriptions in the schema, so they address the author of a scenario.
 
 mod bags;
 mod belts;

@@ -15,8 +15,8 @@ use occupant_core::forces::contact::surface::Frame;
 use occupant_core::model::seating::{InitialPosture, InitialVelocity, Mounting, Placing};
 use placed_text::{Problem, with_key};
 
-/// A rig that holds a segment, such as a pendulum or a sled with a head and neck on it, or a bench with a leg. The body hangs
-/// on that segment, which moves as the frame does: `path` is the path of the rig.
+/// A rig that holds a segment, such as a pendulum or a sled with a head and neck on it, or a bench with a leg. The body
+/// is attached to that segment, which moves with the frame: `path` is the path of the rig.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MountSection {
@@ -59,7 +59,7 @@ pub(crate) enum MountFrame {
     Space,
 }
 
-/// The body as it hangs on the mount, without what is left out; none where a name leads nowhere.
+/// The body on the mount, without omitted segments; none if a name is unknown.
 pub(super) fn held(b: &mut Builder, section: &MountSection, body: &Body) -> Option<Body> {
     let tree = body.tree;
     let names: Vec<&str> = tree.segment_rows().iter().map(|row| row.name).collect();
@@ -91,7 +91,7 @@ pub(super) fn held(b: &mut Builder, section: &MountSection, body: &Body) -> Opti
     Some(held)
 }
 
-/// How a body begins that hangs on a mount, or that it lets go.
+/// Initial state of a body that a mount holds or releases.
 pub(super) fn beginning(b: &mut Builder, section: &MountSection, body: &Body) -> (InitialPosture, InitialVelocity) {
     let at = mounting(b, section, body);
     tell_of_space(b, section);
@@ -102,7 +102,7 @@ pub(super) fn beginning(b: &mut Builder, section: &MountSection, body: &Body) ->
     (InitialPosture::Placed(Box::new(placing)), InitialVelocity::Given(all_si(velocity).into()))
 }
 
-/// Says which way is up where that is another way than everywhere else.
+/// Warns if up is in another direction than in all other frames.
 fn tell_of_space(b: &mut Builder, section: &MountSection) {
     let place = section.place.as_ref().map(|place| ("mount.place", point(place).z, "m"));
     let let_go = section.let_go.as_ref().map(|v| ("mount.let_go", all_si(v)[2], "m/s"));
@@ -116,7 +116,7 @@ fn tell_of_space(b: &mut Builder, section: &MountSection) {
     }
 }
 
-/// The mount of a body that hangs on it.
+/// The mount of a body.
 fn mounting(b: &mut Builder, section: &MountSection, body: &Body) -> Mounting {
     let root = body.tree.segment(0);
     let words = angle_words(body.tree, |segment| segment != root);

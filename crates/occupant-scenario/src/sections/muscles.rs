@@ -1,4 +1,4 @@
-//! `[muscles]`: the keys of a muscle, and the [`Muscle`]s they come to.
+//! `[muscles]`: the keys of a muscle, converted to [`Muscle`]s.
 
 use indexmap::IndexMap;
 use nalgebra::{UnitQuaternion, Vector3};
@@ -13,15 +13,15 @@ use occupant_core::body::{Body, Joint, Side, both_sides};
 use occupant_core::forces::joint::muscle::{Muscle, NEVER_S, Reflex};
 use placed_text::{Problem, did_you_mean, one_of, with_key};
 
-/// How ready someone is for what comes.
+/// Readiness for a crash.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Readiness {
-    /// Sits at ease and knows of nothing.
+    /// At ease and unaware.
     Unaware,
-    /// Knows that it comes, does not brace.
+    /// Aware, but does not brace.
     Aware,
-    /// Tenses all muscles of the neck before it comes.
+    /// Tenses all neck muscles in advance.
     Braced,
 }
 
@@ -34,9 +34,9 @@ pub(crate) struct MusclesSection {
     /// Name of the trigger of a volunteer's muscles; if absent, 0.5 g of vehicle acceleration in the plane of its
     /// floor.
     pub(crate) trigger: Option<String>,
-    /// Muscles by joint: active torques that hold its posture. `elbows` and the like stand for left and right, `all` for every
-    /// joint; what is said of one joint replaces what is said of its pair, and that what is said of `all`. A volunteer's neck has
-    /// muscles of its own, which only what names its joints replaces.
+    /// Muscles by joint: active torques that hold its posture. `elbows` and the like stand for left and right, `all`
+    /// for every joint. A single joint overrides its pair, and a pair overrides `all`. A volunteer's neck has its own
+    /// muscles; only entries for its joints override them.
     #[serde(flatten)]
     pub(crate) named: IndexMap<String, MuscleSection>,
 }
@@ -74,8 +74,8 @@ pub(crate) struct MuscleSection {
     pub(crate) tone: Option<Ratio<FRACTION>>,
 }
 
-/// Feedback of a muscle: torque per angle and rate, which follows them late. Like all that it does it is as strong as the muscle is
-/// active, and within its limit.
+/// Feedback of a muscle: a delayed torque per angle and rate. It is scaled by the activation and subject to the torque
+/// limit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ReflexSection {
@@ -103,7 +103,7 @@ fn mirrored_turn(side: Option<Side>, angles_rad: [f64; 3]) -> UnitQuaternion<f64
     UnitQuaternion::from_euler_angles(roll, pitch, yaw)
 }
 
-/// What turns about ahead, left and up on the right side, or its mirror image.
+/// A torque about the forward, left and upward axes on the right side, or its mirror image.
 fn mirrored(side: Option<Side>, about: [f64; 3]) -> Vector3<f64> {
     let hand = if side == Some(Side::Left) { -1.0 } else { 1.0 };
     Vector3::new(hand * about[0], about[1], hand * about[2])
@@ -139,7 +139,7 @@ pub(super) fn muscles(b: &mut Builder, scenario: &Scenario, body: &Body, trigger
 }
 
 impl MuscleSection {
-    /// That of a joint on a side of the body; `at` is where it is said.
+    /// The muscle of a joint on a side of the body; `at` is its position in the scenario.
     fn muscle(&self, b: &mut Builder, at: &str, joint: Joint, side: Option<Side>, triggers: &Triggers<'_>) -> Muscle {
         let trigger = self.trigger.as_deref();
         let fired_s = trigger.and_then(|trigger| triggers.time_s(b, &format!("{at}.trigger"), trigger));

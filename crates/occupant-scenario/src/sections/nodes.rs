@@ -1,4 +1,4 @@
-//! Nodes of belts: their keys, and the [`Node`]s they come to.
+//! Nodes of belts: their keys, converted to [`Node`]s.
 
 use indexmap::IndexMap;
 use nalgebra::Point3;
@@ -17,8 +17,8 @@ use occupant_core::forces::chain::{NEVER, Next, Node, Site, Track};
 /// Speed at which webbing slides across a track for each kN beyond friction, m/s: a drag of 100 N·s/m.
 const SLIDE_M_S: f64 = 10.0;
 
-/// A place that webbing passes: a point of the vehicle (`at`), of a segment (`on`, `at`), an arc of a segment (`on`, `track`) or
-/// a sphere of the body.
+/// A point that the webbing passes: a point of the vehicle (`at`), of a segment (`on`, `at`), an arc of a segment
+/// (`on`, `track`) or a sphere of the body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-exactly-one" = [["at", "track", "sphere", "wing"]], "x-at-most-one" = [["sphere", "on", "wing"], ["ride", "lies_on"]]))]
@@ -78,7 +78,7 @@ pub(crate) enum WingSide {
     Right,
 }
 
-/// A point of a segment that takes webbing over.
+/// A point of a segment that takes over the webbing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct NextSection {
@@ -93,7 +93,7 @@ pub(crate) struct NextSection {
 }
 
 impl NodeSection {
-    /// One of which nothing is said.
+    /// A node without any key.
     pub(super) fn none() -> Self {
         NodeSection {
             name: None,

@@ -1,9 +1,9 @@
 //! Tables of numbers, in a CSV file beside the scenario or in the scenario itself.
 //!
-//! The first line names the columns with their units, `t[s],x[m],yaw[deg]`, or as recorders do, `Time (ms)`; units may stand
-//! in a line of their own below it. Every further line holds one number for each column. Commas, semicolons, tabs or blanks
-//! separate them; blank lines and lines that start with `#` are skipped. Where the scenario names the columns of a file, its
-//! own headings do not count.
+//! The first line names the columns with their units, `t[s],x[m],yaw[deg]`, or in the style of recorders, `Time (ms)`;
+//! units may be in a separate line below it. Every further line has one number for each column. Commas, semicolons,
+//! tabs or blanks separate them; blank lines and lines that start with `#` are skipped. If the scenario names the
+//! columns of a file, the file's own headings are ignored.
 
 use super::heading::{heading, heading_in};
 use crate::kind::{KINDS, UnitSystem};
@@ -22,7 +22,7 @@ pub(super) struct Column {
     pub alias: &'static str,
     /// Index of its kind of quantity.
     pub kind: usize,
-    /// Whether it must be there; others are zero where they are not.
+    /// Whether it is required; other columns default to zero.
     pub required: bool,
 }
 
@@ -35,11 +35,11 @@ pub(super) const fn column(name: &'static str, kind: usize, required: bool) -> C
 pub(super) struct NumberTable {
     /// Lines of numbers.
     pub rows: Vec<Vec<f64>>,
-    /// Where each line stands.
+    /// The position of each line.
     pub row_spans: Vec<Span>,
-    /// Where the names of the columns stand.
+    /// The position of the column names.
     pub header: Span,
-    /// Which of the columns asked for are there.
+    /// Which of the requested columns exist.
     pub present: Vec<bool>,
 }
 
@@ -54,7 +54,7 @@ impl NumberTable {
     }
 }
 
-/// Reads a CSV text; `names` are those of its columns with their units, where its own headings do not count.
+/// Reads a CSV text; `names` are those of its columns with their units, which replace its own headings.
 ///
 /// # Errors
 /// Unknown, doubled and missing columns, wrong units, lines with too few or too many cells, cells that are no number.
@@ -99,7 +99,7 @@ pub(super) fn read_csv(
     reader.finish(table)
 }
 
-/// The names that `columns` of a section of the scenario gives to columns, and where.
+/// The names in `columns` of a section of the scenario, and their positions.
 pub(super) fn names_of(section: &Node) -> Option<(Vec<Cell<'_>>, Span)> {
     let columns = section.get("columns")?;
     let cells = columns.items().iter().filter_map(|node| Some(Cell { text: node.as_str()?, span: node.span }));
@@ -126,9 +126,9 @@ struct Reader<'a> {
     sources: &'a Sources,
     wanted: &'a [Column],
     separator: Separator,
-    /// For each column of the table, the wanted column and SI units in one of its own.
+    /// For each column of the table, the requested column and the SI units in one of its unit.
     columns: Vec<Option<(usize, f64)>>,
-    /// Those of the table that are not looked at.
+    /// The columns of the table that are not read.
     left_out: Vec<usize>,
     problems: Diagnostics,
 }
@@ -152,7 +152,7 @@ impl<'a> Reader<'a> {
         self.problems.add(problem, |problem| Diagnostic::at(self.sources, span, problem));
     }
 
-    /// Headings; `unit` gives the units that the table says of its columns.
+    /// Headings; `unit` gives the units that the table states for its columns.
     fn header<'u>(&mut self, cells: &[Cell], unit: impl Fn(usize) -> Option<&'u str>, span: Span) {
         for (i, cell) in cells.iter().enumerate() {
             let column = self.column(cell, unit(i));
@@ -174,7 +174,7 @@ impl<'a> Reader<'a> {
         self.wanted.iter().map(|column| column.name).collect()
     }
 
-    /// Which of the columns has this name, or this heading of a recorder.
+    /// The column that has this name, or this heading of a recorder.
     fn place(&self, name: &str) -> Option<usize> {
         let named =
             |name: &str| self.wanted.iter().position(|c| c.name == name || (c.alias == name && !name.is_empty()));

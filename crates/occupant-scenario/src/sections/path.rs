@@ -1,4 +1,4 @@
-//! `[path]`: its keys, and the [`VehiclePath`] they come to.
+//! `[path]`: its keys, converted to a [`VehiclePath`].
 
 use nalgebra::{Rotation3, Vector3};
 use schemars::JsonSchema;
@@ -23,7 +23,7 @@ use placed_text::{Diagnostic, Problem, SourceId, with_key};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub(crate) enum PathSection {
-    /// The vehicle stands still.
+    /// The vehicle is at rest.
     Fixed(Box<PoseSection>),
     /// Straight travel with a deceleration pulse.
     Pulse(Box<PulseSection>),
@@ -81,13 +81,13 @@ pub(crate) struct TableSection {
     pub(crate) after: Option<AfterEnd>,
 }
 
-/// In which order angles turn a vehicle, each about the axis that those before it have turned.
+/// Order of the rotations of a vehicle, each about the axis that the previous ones have turned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum AngleOrder {
     /// Yaw about the vertical, then pitch, then roll: ISO 8855, SAE J670, OpenSCENARIO.
     YawPitchRoll,
-    /// Roll about the line ahead, then pitch, then yaw.
+    /// Roll about the forward axis, then pitch, then yaw.
     RollPitchYaw,
 }
 
@@ -115,7 +115,7 @@ impl PathSection {
 }
 
 impl Scenario {
-    /// All paths and where they stand.
+    /// All paths and their places in the text.
     pub(crate) fn paths(&self) -> Vec<(String, &PathSection)> {
         let named = |key: &str, name: &str| with_key(&with_key(key, name), "path");
         let vehicles = self.vehicles.iter().map(|(name, own)| (named("vehicles", name), &own.path));
@@ -124,7 +124,7 @@ impl Scenario {
     }
 }
 
-/// The path of a vehicle or frame; `gravity_m_s2` is that of the scenario. The CSV text that it names is among those of the document.
+/// The path of a vehicle or frame; `gravity_m_s2` is that of the scenario. Its CSV text is among those of the document.
 pub(super) fn path(b: &mut Builder, section: &PathSection, gravity_m_s2: f64) -> Option<VehiclePath> {
     let table = section.file().and_then(|file| b.document.sources.named(file));
     match section {
@@ -165,7 +165,7 @@ fn table_path(b: &mut Builder, s: &TableSection, file: Option<SourceId>) -> Opti
 
 const SMOOTHED: &str = "three times or more that increase, and a frequency below half of their rate";
 
-/// The stations without what is faster than `cutoff_hz`.
+/// The stations, low-pass filtered at `cutoff_hz`.
 fn smoothed(stations: &[Station], cutoff_hz: f64) -> Result<Vec<Station>, String> {
     let time_s: Vec<f64> = stations.iter().map(|station| station.time_s).collect();
     let channel = |of: &dyn Fn(&Station) -> f64| -> Result<Vec<f64>, String> {
@@ -222,7 +222,7 @@ pub(super) fn direction(words: &Option<[Ratio; 3]>) -> TravelDirection {
     }
 }
 
-/// Reports what a path says is wrong with it, at the line of its table where it speaks of one.
+/// Reports the problems of a path, at the line of its table if it names one.
 pub(super) fn refuse(b: &mut Builder, problems: &[PathProblem], table: Option<&NumberTable>) {
     for PathProblem { station, found, expected } in problems {
         let problem = Problem::error("path", found, expected);

@@ -1,4 +1,4 @@
-//! Parts of the trunk that give way: `body.chest`, `body.plates`, `body.plate_links` and `ride`, and what they come to.
+//! Deformable parts of the trunk: `body.chest`, `body.plates`, `body.plate_links` and `ride`.
 
 use indexmap::IndexMap;
 use nalgebra::{Point3, Vector3};
@@ -20,23 +20,23 @@ use occupant_core::forces::plate::{Band, Damper};
 use occupant_core::model::seating::InitialPosture;
 use placed_text::with_key;
 
-/// How far beside a plate, and how far above or below it, webbing still presses it in, of the reference person, m.
+/// Distance beside a plate, and above or below it, at which webbing still presses it in, for the reference person, m.
 const TENT_M: [f64; 2] = [0.13, 0.15];
-/// How far above a plate's mass webbing presses it in most, of the reference person, m: with it a belt that lies as that of Shaw's sled
-/// tests bears on the breastbone with 0.35 of its force.
+/// Height above a plate's mass at which webbing presses it in most, for the reference person, m. A belt that lies as in
+/// Shaw's sled tests then bears on the sternum with 0.35 of its force.
 const TENT_ABOVE_M: f64 = 0.046;
 
 /// Whose chest it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum ChestChoice {
-    /// Does not give way.
+    /// Rigid.
     Rigid,
-    /// Of people: a breastbone fitted to hub tests, and lower ribs to both sides.
+    /// A person's: a sternum fitted to hub tests, and lower ribs on both sides.
     Person,
-    /// Of the Hybrid III that is a man of medium size.
+    /// That of the Hybrid III 50th-percentile male.
     Dummy50,
-    /// Of the Hybrid III that is a small woman.
+    /// That of the Hybrid III 5th-percentile female.
     Dummy05f,
 }
 
@@ -52,7 +52,7 @@ impl ChestChoice {
     }
 }
 
-/// Whether the pelvis gives way under a lap belt.
+/// Whether the pelvis deforms under a lap belt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum PelvisChoice {
@@ -68,7 +68,7 @@ pub(crate) enum PelvisChoice {
 pub(crate) enum AbdomenChoice {
     /// There is none.
     Rigid,
-    /// A sphere that gives way under all that meets it.
+    /// A sphere that deforms under everything that touches it.
     Person,
 }
 
@@ -131,7 +131,7 @@ pub(crate) struct BodySpringSection {
     pub(crate) returned_each: Option<Vec<Ratio<FRACTION>>>,
 }
 
-/// Damping, which only ever takes energy.
+/// Damping, which only dissipates energy.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BodyDamperSection {
@@ -143,7 +143,7 @@ pub(crate) struct BodyDamperSection {
     pub(crate) outward: Option<Damping<NOT_NEGATIVE>>,
 }
 
-/// A spring that gives way.
+/// A relaxing spring.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BodyViscousSection {
@@ -168,7 +168,7 @@ pub(crate) struct RideSection {
     pub(crate) bag: IndexMap<String, Ratio>,
 }
 
-/// What a node of a belt lies on: by its place there it goes along with plates.
+/// What a node of a belt lies on; its position there determines how far it follows the plates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum PlaceRide {
@@ -208,7 +208,7 @@ fn plate(b: &mut Builder, name: &str, s: &BodyPlateSection, body: &Body) -> Opti
     })
 }
 
-/// What resists the plates of a body that has them.
+/// Resistance of the plates of a body that has them.
 pub(super) fn bands(b: &mut Builder, section: &BodySection, body: &Body) -> Vec<Band> {
     if body.plates.is_empty() {
         return Vec::new();
@@ -229,7 +229,7 @@ pub(super) fn bands(b: &mut Builder, section: &BodySection, body: &Body) -> Vec<
     bands
 }
 
-/// What a band is made of.
+/// The components of a band.
 struct Parts<'a> {
     spring: &'a Option<BodySpringSection>,
     outward: &'a Option<BodySpringSection>,
@@ -238,7 +238,7 @@ struct Parts<'a> {
 }
 
 impl Parts<'_> {
-    /// None of a plate that links alone hold.
+    /// None for a plate that only links hold.
     fn band(&self, b: &mut Builder, path: &str, name: &str, of: Shares) -> Option<Band> {
         if self.spring.is_none() && self.damper.is_none() && self.viscous.is_none() {
             return None;
@@ -310,7 +310,7 @@ pub(super) fn node(b: &mut Builder, path: &str, s: &NodeSection, site: &Site, bo
     if s.lies_on.is_some() { by_place(body, segment, at) } else { shares(b, &with_key(path, "ride"), &s.ride, body) }
 }
 
-/// Shares that fall from 1 where a plate is to 0 at the edge of its tent.
+/// Shares that fall from 1 at a plate to 0 at the edge of its tent.
 fn by_place(body: &Body, segment: usize, at: Point3<f64>) -> Shares {
     let (reference, name) = (Body::male50(), body.tree[body.tree.segment(segment)].name);
     let length_m = |body: &Body| Some(body.segment(body.tree.segment_named(name)?).length_m);
@@ -324,7 +324,7 @@ fn by_place(body: &Body, segment: usize, at: Point3<f64>) -> Shares {
     own.map(|(i, plate)| (i, share(plate))).filter(|(_, share)| *share > 0.0).collect()
 }
 
-/// The chest that results tell of; none of a body whose chest is rigid.
+/// The chest that results report; none for a body whose chest is rigid.
 pub(super) fn chest(b: &mut Builder, section: &BodySection, body: &Body) -> Option<Chest> {
     let choice = section.chest.filter(|choice| *choice != ChestChoice::Rigid);
     let place = |name: &str| body.plates.iter().position(|plate| plate.name == name);
@@ -348,7 +348,8 @@ pub(super) fn chest(b: &mut Builder, section: &BodySection, body: &Body) -> Opti
     Some(Chest { of: String::new(), preset, breastbone, depth_m, viscous_scale, points: points.collect() })
 }
 
-/// Shares of breastbone and lower ribs in the deflection of the upper ribs of a side: fitted to means of eight sled tests (Shaw 2009).
+/// Shares of sternum and lower ribs in the deflection of the upper ribs of a side: fitted to means of eight sled tests
+/// (Shaw 2009).
 const UPPER: [f64; 2] = [0.65, 0.19];
 
 /// Surfaces, and solids behind them, that the spine leans on.

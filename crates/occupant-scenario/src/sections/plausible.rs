@@ -1,5 +1,5 @@
-//! Warnings about numbers that are possible but look like a slip of units: inches read as metres, radians as degrees,
-//! lbf/in as N/m, milliseconds as seconds.
+//! Warnings about possible numbers that look like a wrong unit: inches read as metres, radians as degrees, lbf/in as
+//! N/m, milliseconds as seconds.
 
 use std::ops::RangeInclusive;
 
@@ -11,9 +11,10 @@ use occupant_core::body::Tree;
 use occupant_core::model::setup::Setup;
 use placed_text::{Problem, Step, child, follow, number, parse_path, targets, to_text};
 
-/// What is usual of one kind of number, and what an unusual one is likely to be.
+/// The usual range of one kind of number, and the likely mistake of an unusual one.
 struct Usual {
-    /// Where such numbers stand in an explicit scenario, or what stands for a number made of several; of a list its norm.
+    /// Paths of such numbers in an explicit scenario, or of what represents a number made of several; for a list its
+    /// norm.
     paths: &'static [&'static str],
     values: RangeInclusive<f64>,
     unit: &'static str,
@@ -25,7 +26,7 @@ struct Usual {
 const LEAN: &str = "positive angles lean the top back; 0 is upright";
 const METRES: &str = "bare numbers are metres unless units = \"in-lbf-s\" says inches";
 
-/// Of angles; SI has radians.
+/// For angles; SI has radians.
 const DEGREES: &str = "°";
 
 const fn usual(
@@ -36,7 +37,7 @@ const fn usual(
     Usual { paths, values, unit, in_words, what, slip }
 }
 
-/// Where, from what to what, in which unit, in words, of what, and the slip.
+/// Path, lower and upper bound, unit, name, and the likely mistake.
 #[rustfmt::skip]
 const USUAL: [Usual; 11] = [
     usual(&["gravity"], 9.5..=10.1, ["m/s²", "9.5 to 10.1 m/s²", "gravity on earth",
@@ -60,7 +61,7 @@ const USUAL: [Usual; 11] = [
         "negative angles move the hands forward"]),
 ];
 
-/// Adds a warning for every kind of number that looks like a slip.
+/// Adds a warning for every kind of number that looks like a wrong unit.
 pub(super) fn check(b: &mut Builder, setup: &Setup, scenario: &Scenario) {
     for usual in &USUAL {
         let factor = if usual.unit == DEGREES { 1f64.to_degrees() } else { 1.0 };
@@ -73,7 +74,7 @@ pub(super) fn check(b: &mut Builder, setup: &Setup, scenario: &Scenario) {
     check_stop_angles(b, setup.body.tree);
 }
 
-/// SI values and the paths they stand at; a 0 that switches something off is none, nor is what is taken away.
+/// SI values and their paths, except zeros that switch something off and removed values.
 fn values(b: &Builder, setup: &Setup, path: &str) -> Vec<(String, f64)> {
     let root = &b.document.root;
     let of_place = |steps: Vec<Step>| {
@@ -90,7 +91,7 @@ fn values(b: &Builder, setup: &Setup, path: &str) -> Vec<(String, f64)> {
     }
 }
 
-/// One warning for all values of a kind that are out of the usual range, at the first of them.
+/// One warning for all values of a kind outside the usual range, at the first of them.
 fn warn_unless(b: &mut Builder, values: Vec<(String, f64)>, usual: &Usual) {
     let mut unusual = values.into_iter().filter(|(_, v)| !usual.values.contains(v));
     let Some((path, value)) = unusual.next() else { return };
@@ -104,8 +105,8 @@ fn warn_unless(b: &mut Builder, values: Vec<(String, f64)>, usual: &Usual) {
     b.report(Problem::warning(path, found, usual.in_words).with_hint(Some(usual.slip)));
 }
 
-/// Bare angles that are all below π, and not all whole or nearly nothing, were meant in radians. A text carries its unit
-/// and is what it says.
+/// Bare angles that are all below π, and not all whole or nearly zero, were probably meant in radians. A text carries
+/// its own unit.
 fn look_like_radians(angles: &[&Angle]) -> bool {
     let degrees: Option<Vec<f64>> = angles.iter().map(|a| a.bare()).collect();
     degrees.is_some_and(|all| {

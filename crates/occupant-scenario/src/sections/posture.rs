@@ -62,14 +62,14 @@ pub(crate) struct PostureSection {
     pub(crate) moves_with_vehicle: Option<bool>,
     /// Initial velocity of every point, vehicle axes, instead of that of the vehicle.
     pub(crate) velocity: Option<[Speed; 3]>,
-    /// Further angles by the names of segments, `neck`, or of pins; `left_upper_arm` and `right_upper_arm` stand for one each.
-    /// A segment of which nothing is said hangs as the one that carries it.
+    /// Further angles by the names of segments, `neck`, or of pins; `left_upper_arm` and `right_upper_arm` stand for
+    /// one each. Other segments are aligned with their parent.
     #[serde(flatten)]
     pub(crate) others: IndexMap<String, Angle>,
 }
 
 impl PostureSection {
-    /// The angles that a person who sits is known to need.
+    /// The angles that a seated person is known to need.
     fn usual(&self) -> [(&'static str, &Option<Angle>); 6] {
         [
             ("middle_torso", &self.middle_torso),
@@ -159,7 +159,7 @@ fn settling(b: &mut Builder, p: &PostureSection) -> Settling {
     }
 }
 
-/// Angles that are not said although the body asks for them, and said although it knows none of that name.
+/// Missing angles that the body requires, and given angles whose name the body does not have.
 fn check_angles(b: &mut Builder, p: &PostureSection, tree: &Tree) {
     let is_of_leg = |segment: Segment| tree.landmarks().legs().any(|leg| segment == leg.upper || segment == leg.lower);
     let words = angle_words(tree, |segment| !is_of_leg(segment));
@@ -171,7 +171,7 @@ fn check_angles(b: &mut Builder, p: &PostureSection, tree: &Tree) {
     unknown_angles(b, "posture", p.angles().map(|(name, _)| name), &words);
 }
 
-/// The words for angles of these segments: their names or those of the hinges that they hang on, and those of both sides.
+/// The names for angles of these segments: their own, those of their hinges, and those of both sides.
 pub(super) fn angle_words(tree: &Tree, is_asked: impl Fn(Segment) -> bool) -> Vec<String> {
     let words = tree.segments().filter(|segment| is_asked(*segment)).flat_map(|segment| {
         let joint = tree.bearer(segment).map(|joint| &tree[joint]);

@@ -1,4 +1,4 @@
-//! `[path]` of kind "pulse": its keys, and the [`PulsePath`] they come to.
+//! `[path]` of kind "pulse": its keys, converted to a [`PulsePath`].
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

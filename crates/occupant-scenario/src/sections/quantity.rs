@@ -20,11 +20,11 @@ pub const POSITIVE: usize = 2;
 /// Numbers from 0 to 1.
 pub const FRACTION: usize = 3;
 
-/// The words of the schema for each range.
+/// The schema keywords for each range.
 const RANGES: [&[(&str, i32)]; 4] =
     [&[], &[("minimum", 0)], &[("exclusiveMinimum", 0)], &[("minimum", 0), ("maximum", 1)]];
 
-/// A quantity of kind `KINDS[KIND]` in a range: as it was written, and what that is in SI units.
+/// A quantity of kind `KINDS[KIND]` in a range: its text, and its value in SI units.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(from = "Written")]
 pub struct Quantity<const KIND: usize, const RANGE: usize = ANY> {
@@ -33,7 +33,7 @@ pub struct Quantity<const KIND: usize, const RANGE: usize = ANY> {
 }
 
 impl<const KIND: usize, const RANGE: usize> From<Written> for Quantity<KIND, RANGE> {
-    /// One of a tree that has not passed the check is not a number.
+    /// A value of an unchecked tree is NaN.
     fn from(Written { value, si }: Written) -> Self {
         Quantity { written: value, si: si.unwrap_or(f64::NAN) }
     }
@@ -43,12 +43,12 @@ impl<const KIND: usize, const RANGE: usize> Quantity<KIND, RANGE> {
     /// What it measures.
     pub(super) const KIND: &'static Kind = &KINDS[KIND];
 
-    /// A number in SI units, angles in radians, that nobody wrote.
+    /// A number in SI units, angles in radians, without a source text.
     pub fn of_si(si: f64) -> Self {
         Quantity { written: Value::Float(si), si }
     }
 
-    /// The value in SI units, angles in radians; not a number in a tree that has not passed the check.
+    /// The value in SI units, angles in radians; NaN in an unchecked tree.
     pub fn si(&self) -> f64 {
         self.si
     }
@@ -59,7 +59,7 @@ impl<const KIND: usize, const RANGE: usize> Quantity<KIND, RANGE> {
     }
 }
 
-/// The value in SI units, or `default` where nothing is written.
+/// The value in SI units, or `default` if absent.
 pub(crate) fn si_or<const KIND: usize, const RANGE: usize>(
     quantity: &Option<Quantity<KIND, RANGE>>,
     default: f64,

@@ -5,7 +5,7 @@ use super::sensors::{COLUMNS, RECORDED};
 use occupant_core::vehicle::AccelerationRecord;
 use placed_text::{Diagnostic, Diagnostics, Problem, Separator, Sources, Span, table_text};
 
-/// Recorded accelerations and rates in SI, as the file's axes have them, with the places of its lines.
+/// Recorded accelerations and rates in SI, in the file's axes, with the positions of its lines.
 #[derive(Clone, Debug)]
 pub struct RecordFile {
     /// The record.
@@ -17,10 +17,10 @@ pub struct RecordFile {
 
 /// Reads a CSV file whose first line names `t` and any of `ax`, `ay`, `az`, `wx`, `wy`, `wz` (or `roll_rate`,
 /// `pitch_rate`, `yaw_rate`) with their units, such as `t[s],ax[g],wz[deg/s]`, or as recorders do; or `columns` names them so, `-` for one
-/// that is left out, in place of the file's own headings. `name` is what messages call it.
+/// that is left out, in place of the file's own headings. `name` is its name in messages.
 ///
 /// # Errors
-/// Everything that is wrong with it: bytes that are no text, unknown, doubled and missing columns, wrong units, cells that
+/// All problems of it: bytes that are no text, unknown, doubled and missing columns, wrong units, cells that
 /// are no number, lines that are too long or too short, times that do not increase, fewer than two lines, no channel.
 pub fn read_record(bytes: &[u8], name: &str, columns: Option<&str>) -> Result<RecordFile, Diagnostics> {
     let mut sources = Sources::new();

@@ -1,4 +1,4 @@
-//! `[retractors]` and the pretensioners of belts: their keys, and the [`Device`]s and [`Stroke`]s they come to.
+//! `[retractors]` and the pretensioners of belts: their keys, converted to [`Device`]s and [`Stroke`]s.
 
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -17,7 +17,7 @@ use placed_text::with_key;
 
 /// Time in which the force moves to a second limiter, s.
 const SWITCH_S: f64 = 5e-3;
-/// Greatest speed of webbing that a pretensioner of given force pulls in, m/s.
+/// Maximum pull-in speed of a pretensioner given by force, m/s.
 const PULL_M_S: f64 = 15.0;
 
 /// A retractor.
@@ -106,7 +106,7 @@ impl Parts<'_> {
         Some(self.scenario.limiters.get(name)?.function(b, &with_key("limiters", name)))
     }
 
-    /// What holds the first node; a retractor anywhere else is an error.
+    /// The device of the first node; a retractor anywhere else is an error.
     pub(super) fn device(&self, b: &mut Builder, path: &str, s: &BeltSection, nodes: &[NodeSection]) -> Device {
         for (i, _) in nodes.iter().enumerate().skip(1).filter(|(_, node)| node.retractor.is_some()) {
             let expected = "the retractor at the first node: reverse the order of the nodes";
@@ -177,7 +177,7 @@ impl Parts<'_> {
     }
 }
 
-/// A unit vector; one of no length stays so.
+/// A unit vector; a zero vector stays zero.
 pub(super) fn direction(along: [f64; 3]) -> Vector3<f64> {
     let along = Vector3::from(along);
     along.try_normalize(1e-12).unwrap_or(along)

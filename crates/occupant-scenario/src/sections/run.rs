@@ -1,5 +1,5 @@
-//! `[time]`, `[integrator]` and `[output]`: their keys, and the [`TimeSpan`], [`Integrator`] and [`OutputOptions`] they
-//! come to.
+//! `[time]`, `[integrator]` and `[output]`: their keys, converted to [`TimeSpan`], [`Integrator`] and
+//! [`OutputOptions`].
 
 use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! `[self_contact]`: its keys, and the [`SelfContact`] they come to.
+//! `[self_contact]`: its keys, converted to a [`SelfContact`].
 
 use indexmap::IndexMap;
 use schemars::JsonSchema;
@@ -10,7 +10,7 @@ use occupant_core::body::Body;
 use occupant_core::forces::contact::self_contact::SelfContact;
 use placed_text::with_key;
 
-/// Lets parts of the body touch each other. Absent: they go through each other, as in the report.
+/// Lets parts of the body touch each other. If absent, they pass through each other, as in the report.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SelfContactSection {
@@ -24,7 +24,7 @@ pub(crate) struct SelfContactSection {
     pub(crate) pairs: Option<Vec<[String; 2]>>,
 }
 
-/// What the body does to itself, if anything.
+/// The contact of the body with itself, if any.
 pub(super) fn self_contact(b: &mut Builder, scenario: &Scenario, body: &Body) -> Option<SelfContact> {
     let section = scenario.self_contact.as_ref()?;
     let material = |name: &str| index_of(name, scenario.materials.keys().map(String::as_str));

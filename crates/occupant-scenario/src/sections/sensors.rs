@@ -1,4 +1,4 @@
-//! `[path]` of kind "sensors": its keys, and the [`SensorPath`] they come to.
+//! `[path]` of kind "sensors": its keys, converted to a [`SensorPath`].
 
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -24,8 +24,8 @@ use placed_text::{Diagnostic, Problem, SourceId};
 pub(crate) struct SensorsSection {
     /// CSV file beside the scenario; its first line names the columns and their units: `t`, accelerations `ax`, `ay`,
     /// `az` and rates `wx`, `wy`, `wz` (or `roll_rate`, `pitch_rate`, `yaw_rate`), such as
-    /// `t[s],ax[g],ay[g],wz[deg/s]`; or velocity changes `dvx`, `dvy` with `wz`, such as `t[ms],dvx[km/h]`; or as
-    /// recorders do, such as `Time (ms),Delta-V longitudinal (km/h)`. Separators are commas, semicolons, tabs or
+    /// `t[s],ax[g],ay[g],wz[deg/s]`; or velocity changes `dvx`, `dvy` with `wz`, such as `t[ms],dvx[km/h]`; or in the
+    /// style of recorders, such as `Time (ms),Delta-V longitudinal (km/h)`. Separators are commas, semicolons, tabs or
     /// blanks. A missing acceleration, rate or velocity change counts as zero.
     pub(crate) file: Option<String>,
     /// Names and units of the columns of `rows`, such as `["t[ms]", "ax[g]"]`; or of those of `file`, instead of its
@@ -82,7 +82,7 @@ pub(crate) enum SensorAxes {
 }
 
 impl SensorAxes {
-    /// Signs of what is told along these axes, along axes forward, right, down.
+    /// Signs that convert these axes to forward, right, down.
     pub(super) fn signs(self) -> [f64; 3] {
         match self {
             SensorAxes::ZDown => [1.0; 3],
@@ -190,7 +190,7 @@ fn record(b: &mut Builder, s: &SensorsSection, table: &NumberTable) -> Option<Se
     }))
 }
 
-/// Whether a record of velocity changes is free of what has no meaning there.
+/// Whether a record of velocity changes has no keys that are meaningless for it.
 fn check_delta_v(b: &mut Builder, table: &NumberTable) -> bool {
     let before = b.problems.len();
     for i in [1, 2, 3, 4, 5].into_iter().filter(|&i| table.present[i]) {

@@ -1,7 +1,7 @@
-//! The sections of a checked scenario → the core's plain SI data.
+//! Converts the sections of a checked scenario to the core's plain SI data.
 //!
-//! Words, numbers and names have passed the check; here keys that only make sense together are put together. Numbers that
-//! contradict the physics are left to the model, which checks plain data whoever made it.
+//! Words, numbers and names have passed the check; keys that depend on each other are combined here. Physical
+//! contradictions are left to the model, which checks all plain data.
 
 use serde::Deserialize;
 
@@ -19,7 +19,7 @@ use occupant_core::model::setup::{STANDARD_GRAVITY_M_S2, Setup};
 use occupant_core::vehicle::VehiclePath;
 use placed_text::{Diagnostics, Document, Problem, locate, with_key};
 
-/// Builds the plain data; `written` is the scenario as it was written, `explicit` the one with presets written out, and
+/// Builds the plain data; `written` is the original scenario, `explicit` the one with presets written out, and
 /// `document` the tree of the latter.
 pub(crate) fn setup(
     written: &Scenario,
@@ -134,7 +134,7 @@ pub(crate) fn occupant(preset: &str, document: &Document) -> Option<(Body, Joint
     (!b.problems.has_errors()).then_some((body, joints))
 }
 
-/// Warns of provenance notes that speak of nothing in the scenario.
+/// Warns of provenance entries whose path does not exist in the scenario.
 fn check_provenance(b: &mut Builder, written: &Scenario) {
     for topic in written.provenance.keys() {
         let is_path = topic.contains('.') && !topic.contains(' ');

@@ -1,4 +1,4 @@
-//! `[solids]`: the keys of each kind of solid, and the [`Solid`] they come to.
+//! `[solids]`: the keys of each kind of solid, converted to [`Solid`]s.
 
 use nalgebra::{Point3, Vector3};
 use schemars::JsonSchema;
@@ -61,7 +61,7 @@ macro_rules! kinds {
                 }
             }
 
-            /// Who meets it: a solid holds off from all sides, so whoever comes there.
+            /// Bodies that can touch it: all by default, because a solid resists from all sides.
             pub(super) fn meets(&self) -> Meets {
                 let said = match self {
                     $(SolidSection::$Kind(s) => s.meets,)*
@@ -88,7 +88,7 @@ macro_rules! kinds {
     };
 }
 
-/// What every solid says.
+/// Keys of every solid.
 struct Common<'a> {
     material: &'a str,
     frame: Option<&'a str>,

@@ -1,4 +1,4 @@
-//! `[stance]`: its keys, and the posture that it comes to.
+//! `[stance]`: its keys, converted to a posture.
 
 use indexmap::IndexMap;
 use nalgebra::{Point3, Vector3};

@@ -1,4 +1,4 @@
-//! `[surfaces]` and `[contact]`: the keys of a surface, and the [`Surface`] they come to.
+//! `[surfaces]` and `[contact]`: the keys of a surface, converted to a [`Surface`].
 
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -81,7 +81,7 @@ pub(crate) struct PlaneSection {
     pub(crate) normal: [Ratio; 3],
 }
 
-/// How the open side is told.
+/// How the open side is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum FacingChoice {
@@ -119,7 +119,7 @@ pub(super) fn surfaces(b: &mut Builder, scenario: &Scenario, body: &Body) -> Vec
     surfaces.into_iter().chain(ground(scenario)).collect()
 }
 
-/// The surface that the section at `path` says.
+/// The surface of the section at `path`.
 pub(super) fn surface(
     b: &mut Builder,
     scenario: &Scenario,
@@ -170,7 +170,7 @@ fn disc(section: &DiscSection, frame: Frame) -> Outline {
     }
 }
 
-/// The open side: the surface's own word, else the scenario's `inside`, else a given normal.
+/// The open side: from the surface, otherwise the scenario's `inside`, otherwise a given normal.
 fn facing(
     b: &mut Builder,
     scenario: &Scenario,
@@ -195,7 +195,7 @@ fn facing(
     }
 }
 
-/// One message for all surfaces whose open side is not told.
+/// One message for all surfaces without an open side.
 pub(super) fn report_undecided(b: &mut Builder, paths: &[String]) {
     let Some((first, others)) = paths.split_first() else { return };
     let found = match others.len() {

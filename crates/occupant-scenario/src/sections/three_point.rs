@@ -1,6 +1,7 @@
-//! `belts.*.preset`: a three-point belt placed by the seat and the body.
+//! `belts.*.preset`: a three-point belt whose points follow from the seat and the body.
 //!
-//! All places are ours, of a usual car, seen from the pelvis of a body that sits on the seat: metres back, outboard and down.
+//! All positions are our estimates for an ordinary car, from the pelvis of the seated body: metres back, outboard and
+//! down.
 
 use nalgebra::{Matrix2, Vector2};
 use schemars::JsonSchema;
@@ -52,24 +53,24 @@ const RING_M: [f64; 3] = [0.40, 0.27, -0.64];
 const BUCKLE_M: [f64; 3] = [0.06, -0.19, 0.04];
 const SILL_M: [f64; 3] = [0.12, 0.25, 0.20];
 
-/// Length of the trunk of the man for whom the ring's height is, the notches of its height adjuster and how far that goes down and up, m.
+/// Trunk length of the man for whom the ring's height is given; steps and range of its height adjuster, down and up, m.
 const TRUNK_M: f64 = 0.4617;
 const NOTCH_M: f64 = 0.02;
 const ADJUSTS_M: [f64; 2] = [-0.06, 0.04];
 
-/// Friction of a tongue that clamps the webbing: round its bend it holds a thousandfold pull.
+/// Friction of a tongue that clamps the webbing: around its bend it holds a thousand times the tension.
 const CLAMPS: f64 = 3.0;
 
-/// Friction of webbing over a steel ring, over a tongue and over a clothed shoulder; ours, of the size of ATB's.
+/// Friction of webbing over a steel ring, a tongue and a clothed shoulder; our estimates, similar to ATB's.
 const FRICTION: [f64; 3] = [0.1, 0.15, 0.25];
 
-/// How far the plane of the track over the shoulder leans ahead; ours.
+/// Forward lean of the plane of the track over the shoulder; our estimate.
 const TRACK_LEANS_RAD: f64 = 40.0 * std::f64::consts::PI / 180.0;
 
-/// How deep a pelvis sinks into a cushion, m.
+/// Depth that a pelvis sinks into a cushion, m.
 const SINKS_M: f64 = 0.03;
 
-/// Webbing of a preset that names none.
+/// Default webbing of a preset.
 pub(super) fn webbing(b: &mut Builder) -> Function {
     let webbing: Option<WebbingSection> = presets::from_library("webbings", "webbing_atb");
     webbing.map_or_else(|| Function::lines(Vec::new(), 1.0), |webbing| webbing.function(b, "webbings").0)
@@ -132,8 +133,8 @@ pub(super) fn nodes(
     nodes
 }
 
-/// How far the ring's height adjuster is moved up for a body, m: to where the ring stands above the shoulder as it does for a man of
-/// medium size.
+/// Upward shift of the ring's height adjuster for a body, m: the ring is as far above the shoulder as for an average
+/// man.
 fn adjusted_m(body: &Body) -> f64 {
     let trunk = body.tree.segments().filter(|segment| body.tree.is_trunk(*segment));
     let trunk_m: f64 = trunk.map(|segment| body.segment(segment).length_m).sum();
@@ -141,8 +142,8 @@ fn adjusted_m(body: &Body) -> f64 {
     (NOTCH_M * ((trunk_m - TRUNK_M) / NOTCH_M).round()).clamp(down, up)
 }
 
-/// Across the shoulder on the outboard side, from beside the neck over the collarbone to below the arm's root, in a plane that
-/// leans ahead: webbing bears on the front of a shoulder rather than on its top.
+/// Track across the outboard shoulder, from beside the neck over the clavicle to below the root of the arm, in a plane
+/// that leans forward: webbing bears on the front of a shoulder rather than on its top.
 fn track(body: &Body, out: f64) -> NodeSection {
     let shoulder = &body.spheres[body.sphere(if out > 0.0 { "right_shoulder" } else { "left_shoulder" }).unwrap_or(0)];
     let (centre, r) = (shoulder.centre_from_lower_end_m, shoulder.radius_m);
@@ -159,7 +160,7 @@ fn track(body: &Body, out: f64) -> NodeSection {
     }
 }
 
-/// Where the pelvis of the seated body will be, about: beside the seat back and a little in the cushion.
+/// Approximate position of the pelvis of the seated body: at the seat back and slightly in the cushion.
 fn pelvis_m(scenario: &Scenario, body: &Body) -> Option<[f64; 3]> {
     let seat = scenario.seats.get(&scenario.posture.as_ref()?.seat)?;
     let r = body.spheres[body.sphere("pelvis")?].radius_m;
@@ -173,14 +174,14 @@ fn pelvis_m(scenario: &Scenario, body: &Body) -> Option<[f64; 3]> {
     Some([place.x, si_or(&seat.y, 0.0), place.y])
 }
 
-/// The normal of an edge that looks towards a direction.
+/// The normal of an edge towards a direction.
 fn normal([a, b]: [Vector2<f64>; 2], towards: Vector2<f64>) -> Vector2<f64> {
     let along = b - a;
     let normal = Vector2::new(-along.y, along.x).normalize();
     normal * normal.dot(&towards).signum()
 }
 
-/// The edge of a surface or solid seen from the side that looks most in a direction, as points x, z, m.
+/// The edge of the side of a surface or solid that faces a direction most, as points x, z, m.
 fn edge(scenario: &Scenario, name: &str, looks: Vector2<f64>) -> Option<[Vector2<f64>; 2]> {
     let point = |point: &[Length; 2]| Vector2::new(point[0].si(), point[1].si());
     if let Some(surface) = scenario.surfaces.get(name) {

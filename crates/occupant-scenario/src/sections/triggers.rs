@@ -1,4 +1,4 @@
-//! `[triggers]`: what sets something off, and when it does.
+//! `[triggers]`: conditions that fire devices, and their times.
 
 use std::collections::HashMap;
 
@@ -92,7 +92,7 @@ pub(crate) enum TriggerSection {
 }
 
 impl TriggerSection {
-    /// Whether it looks ahead along the path of the vehicle.
+    /// Whether it needs the path of the vehicle in advance.
     pub(crate) fn is_of_path(&self) -> bool {
         matches!(self, TriggerSection::VehicleAcceleration { .. } | TriggerSection::DeltaV { .. })
     }
@@ -101,12 +101,12 @@ impl TriggerSection {
 /// When triggers fire.
 pub(super) struct Triggers<'s>(IndexMap<&'s str, Fires>);
 
-/// Where vehicles go.
+/// Paths of the vehicles.
 #[derive(Clone, Copy)]
 pub(super) struct Paths<'p> {
-    /// Of the first.
+    /// Path of the first vehicle.
     pub(super) first: &'p VehiclePath,
-    /// Of the others, and of what else is a frame, in their order.
+    /// Paths of the others, and of other frames, in their order.
     pub(super) others: &'p [OtherFrame],
 }
 
@@ -115,12 +115,12 @@ pub(super) struct Paths<'p> {
 enum Fires {
     /// At a time, s.
     At(f64),
-    /// As soon as what a belt does has reached a threshold for so long, s.
+    /// When a quantity of a belt has exceeded a threshold for a duration, s.
     Watch(Watched, f64, f64),
 }
 
 impl Triggers<'_> {
-    /// When a trigger fires, s; none if it does not in this run. What belts watch is refused at `path`.
+    /// When a trigger fires, s; none if it does not fire in this run. Triggers by belts are refused at `path`.
     pub(super) fn time_s(&self, b: &mut Builder, path: &str, name: &str) -> Option<f64> {
         match self.0.get(name)? {
             Fires::At(at_s) => Some(*at_s),
@@ -135,7 +135,7 @@ impl Triggers<'_> {
         }
     }
 
-    /// What sets a device of a belt off `delay_s` after a trigger.
+    /// Condition for a device of a belt, `delay_s` after a trigger.
     pub(super) fn cue(&self, name: &str, delay_s: f64) -> Cue {
         match self.0.get(name) {
             None => Cue::NEVER,
@@ -147,12 +147,12 @@ impl Triggers<'_> {
     }
 }
 
-/// More triggers than this are a slip; so groups of groups are less deep.
+/// More triggers than this are a mistake; this also limits the depth of groups.
 const MOST: usize = 100;
-/// Vehicle's motion that is looked at for all triggers together, at most, s.
+/// Largest duration of vehicle motion evaluated for all triggers together, s.
 const MOST_MOTION_S: f64 = 500.0;
 
-/// When each trigger fires; one that never does is left out and warned about.
+/// When each trigger fires; one that never does is omitted, with a warning.
 pub(super) fn triggers<'s>(b: &mut Builder, scenario: &'s Scenario, paths: Paths<'_>, time: &TimeSpan) -> Triggers<'s> {
     let mut fires = IndexMap::new();
     if is_too_much(b, scenario, time) {
@@ -173,14 +173,14 @@ pub(super) fn triggers<'s>(b: &mut Builder, scenario: &'s Scenario, paths: Paths
     Triggers(fires)
 }
 
-/// Whether a trigger was written out with a car.
+/// Whether a trigger comes from an expanded `[car]`.
 fn is_of_car(b: &Builder, name: &str) -> bool {
     let document = b.document;
     let node = document.root.get("triggers").and_then(|all| all.get(name));
     node.is_some_and(|node| document.sources.name(node.span.source) == super::CAR_TITLE)
 }
 
-/// Refuses more triggers, or more motion to look at for them, than a run needs.
+/// Refuses more triggers, or more evaluated motion, than a run needs.
 fn is_too_much(b: &mut Builder, scenario: &Scenario, time: &TimeSpan) -> bool {
     use TriggerSection::{DeltaV, VehicleAcceleration};
     let count = scenario.triggers.len();
@@ -195,10 +195,10 @@ fn is_too_much(b: &mut Builder, scenario: &Scenario, time: &TimeSpan) -> bool {
     count > MOST || motion_s > MOST_MOTION_S
 }
 
-/// When one fires, and what is wrong with it.
+/// When a trigger fires, and its problems.
 type Found = Result<Option<Fires>, [&'static str; 2]>;
 
-/// Works out when triggers fire, each once.
+/// Computes when triggers fire, each once.
 struct Search<'s> {
     scenario: &'s Scenario,
     paths: Paths<'s>,
@@ -207,7 +207,7 @@ struct Search<'s> {
 }
 
 impl<'s> Search<'s> {
-    /// When the trigger of this name fires; others are followed at most `depth` deep.
+    /// When the trigger of this name fires; references to others are followed to `depth`.
     fn found(&mut self, name: &'s str, depth: usize) -> Found {
         if let Some(known) = self.known.get(name) {
             return *known;
@@ -257,7 +257,7 @@ impl<'s> Search<'s> {
         }
     }
 
-    /// The path of a vehicle; the first's where none is named.
+    /// The path of a vehicle; by default the first.
     fn path(&self, vehicle: Option<&str>) -> Result<&'s VehiclePath, [&'static str; 2]> {
         let frame = vehicle.map_or(Some(Frame::Vehicle), |name| self.scenario.frame_named(name));
         match frame {
@@ -267,10 +267,10 @@ impl<'s> Search<'s> {
             }
             _ => None,
         }
-        .ok_or(["a trigger by the motion of what is no vehicle", "\"vehicle\" or a name under `vehicles`"])
+        .ok_or(["a trigger by the motion of something that is not a vehicle", "\"vehicle\" or a name under `vehicles`"])
     }
 
-    /// When others fire, s; none of one that does not.
+    /// When other triggers fire, s; none for one that does not.
     fn times_s(&mut self, names: &'s [String], depth: usize) -> Result<Vec<Option<f64>>, [&'static str; 2]> {
         if depth == 0 {
             let found = "triggers that wait for one another in a loop";

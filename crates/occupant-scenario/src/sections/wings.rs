@@ -1,6 +1,6 @@
 //! `belts.*.nodes.wing`: the iliac wings of the pelvis, on which a lap belt bears, and the abdomen above them.
 //!
-//! All places are guesses, seen from the sphere of the pelvis: no drawing of a pelvis was at hand.
+//! All positions are guesses relative to the sphere of the pelvis: we had no drawing of a pelvis.
 
 use nalgebra::{Point3, Vector3};
 
@@ -11,13 +11,13 @@ pub(super) use occupant_core::forces::chain::wing::ACROSS;
 use occupant_core::forces::chain::wing::{ANGLES_RAD, DRAG_N_S_M};
 use occupant_core::forces::chain::{Next, Track, Wing};
 
-/// How far a wing is from the middle, as a part of the sphere's radius.
+/// Distance of a wing from the middle, as a fraction of the sphere's radius.
 const BESIDE: f64 = 0.95;
 
-/// Webbing begins at least so far from a wing's ends, rad.
+/// Minimum initial distance of webbing from a wing's ends, rad.
 const EDGE_RAD: f64 = 0.05;
 
-/// The segment of the pelvis and the wing of a side, which hands over to the abdomen.
+/// The segment of the pelvis and the wing of a side, whose webbing passes on to the abdomen.
 pub(super) fn track(
     b: &mut Builder,
     path: &str,
@@ -63,7 +63,7 @@ pub(super) fn track(
     ))
 }
 
-/// The part of the trunk that the pelvis carries or hangs on.
+/// The trunk segment adjacent to the pelvis.
 pub(crate) fn above(body: &Body, pelvis: Segment) -> Option<Segment> {
     let mut ends = body.tree.joint_rows().iter().filter_map(|row| match pelvis {
         _ if row.proximal == pelvis => Some(row.distal),
@@ -73,7 +73,7 @@ pub(crate) fn above(body: &Body, pelvis: Segment) -> Option<Segment> {
     ends.find(|segment| body.tree.is_trunk(*segment))
 }
 
-/// Where webbing lies that has come off a wing: on the plate of the abdomen, or where its front would be.
+/// Position of webbing that has come off a wing: on the plate of the abdomen, or where its front would be.
 fn abdomen(body: &Body, above: Segment, y: f64, radius_m: f64) -> Next {
     let plate = body.plates.iter().position(|plate| plate.name == "abdomen");
     let (segment, place, ride) = match plate {
@@ -83,7 +83,7 @@ fn abdomen(body: &Body, above: Segment, y: f64, radius_m: f64) -> Next {
     Next { segment: segment.index(), point_m: Point3::new(place.x, y, place.z), ride }
 }
 
-/// How a wing rides on the flesh before the pelvis, if that gives way.
+/// How a wing rides on the deformable flesh in front of the pelvis, if there is any.
 pub(super) fn flesh(body: &Body) -> Shares {
     let own = body
         .plates

@@ -1,4 +1,4 @@
-//! Bodies of 15 and 17 segments, and bodies of one's own.
+//! Bodies of 15 and 17 segments, and bodies of your own.
 
 use approx::assert_relative_eq;
 
@@ -72,7 +72,7 @@ joints.base = { proximal = \"trunk\", distal = \"stalk\", on_proximal = [0.02, 0
 spheres.head = { segment = \"skull\", centre = [0, 0, 0.1], radius = 0.1 }
 spheres.pelvis = { segment = \"trunk\", centre = [0, 0, 0], radius = 0.1 }";
 
-/// A scenario with a body of one's own.
+/// A scenario with a body of your own.
 fn own(body: &str) -> String {
     let posture = "middle_torso = 15\nupper_torso = 18\nhead = 5\nlower_torso = 20\nupper_arms = 35\nelbows = -60\nheels = [0.69, 0.33]";
     let text = body_of(body);

@@ -274,7 +274,7 @@ fn a_run_ends_where_a_curve_is_not_known_further() {
             };
             assert!(said.contains(why) && time_s > 0.0, "{curve} {integrator}: {said}");
             assert!(summarizer.summary(None).unwrap().caveats.iter().any(|caveat| caveat.name == "run_failed"));
-            // where the last line goes on the run does too, with a caveat
+            // where the last line continues the run does too, with a caveat
             let outcome = attempt(&short_curved(curve, "", integrator), &mut summarizer).unwrap();
             assert_eq!(outcome.status, Status::Completed, "{curve}");
             let caveats = summarizer.summary(None).unwrap().caveats;

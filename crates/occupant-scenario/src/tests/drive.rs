@@ -162,7 +162,7 @@ fn mistakes_are_told_with_their_places() {
         (
             "friction = 0.8",
             "section = { right = [0, 5, 4], height = [0, 0, 0] }",
-            "does not lie right of the one before",
+            "is not to the right of the previous one",
         ),
         ("friction = 0.8", "section = { right = [0, 5], height = [0] }", "2 distances and 1 heights"),
         ("friction = 0.8", "zones = [{ name = \"ice\", right = [3, 1], friction = 0.1 }]", "zone `ice`"),

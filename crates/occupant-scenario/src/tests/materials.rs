@@ -36,7 +36,7 @@ fn what_is_wrong_with_materials_is_said_at_its_place() {
         ("materials.foam={ friction = 0.4 }".to_owned(), "none of `k1`, `depth`, `polynomial`, `library`, `file`"),
         ("materials.foam={ library = \"dash_10\" }".to_owned(), "did you mean \"dash_s10\"?"),
         (foam("returned_each = [0.5]"), "one for each interval"),
-        (foam("unload_slope = 1e4"), "at least the greatest slope of loading"),
+        (foam("unload_slope = 1e4"), "at least the largest slope of loading"),
         (foam("atb = { r = 0.3, g = 0.6 }"), "ATB's quadratic makes"),
         (foam("atb = { depth = [0, 0.1], r_each = [0.6], g = 0.1 }"), "the same number in both"),
         (foam("atb = { depth = [0, 0.1], r_each = [0.6, 1.2], g = 0.1 }"), "1.2"),

@@ -56,7 +56,7 @@ fn build(text: &str) -> Setup {
     loaded.build().unwrap_or_else(|e| panic!("{e}")).0
 }
 
-/// What is wrong with a text, as a user reads it.
+/// Problems of a text, as a user reads it.
 fn complaint(text: &str) -> String {
     match load(text).and_then(|l| l.build()) {
         Ok(_) => String::new(),

@@ -40,7 +40,7 @@ fn what_is_wrong_with_plates_is_said_at_its_place() {
     for (changes, expected) in [
         (&[chest, "body.plates.sternum.segment=\"upper_torsos\""][..], "did you mean \"upper_torso\"?"),
         (&[chest, "body.plates.sternum.segment=\"head\""], "which is a part of another segment"),
-        (&[chest, "body.plates.sternum.inward=[0, 0, 0]"], "the way in which it gives way"),
+        (&[chest, "body.plates.sternum.inward=[0, 0, 0]"], "the direction in which it yields"),
         (&[chest, "body.plates.sternum.mass=0"], "body.plates.sternum.mass"),
         (&[chest, "body.plates.sternum.mass=8"], "at most a fifth of their segment's mass"),
         (&[chest, "body.plates.sternum.damper.linear=-1"], "body.plates.sternum.damper.linear"),

@@ -8,8 +8,8 @@ use crate::Draft;
 use occupant_core::results::channel::{Series, matching};
 use occupant_core::run::simulate::simulate;
 
-/// What 49 CFR 572.33 asks of a Hybrid III, to which the neck of `dummy50-like` was fitted: greatest rotation (deg), its time and
-/// that of its return (ms), greatest moment (lbf·ft), its time and that of its return.
+/// What 49 CFR 572.33 asks of a Hybrid III, to which the neck of `dummy50-like` was fitted: largest rotation (deg), its time and
+/// that of its return (ms), largest moment (lbf·ft), its time and that of its return.
 const FLEXION: [[f64; 2]; 6] =
     [[64.0, 78.0], [57.0, 64.0], [113.0, 128.0], [65.0, 80.0], [47.0, 58.000_1], [97.0, 107.0]];
 const EXTENSION: [[f64; 2]; 6] =
@@ -47,7 +47,7 @@ fn bent(set: &[&str], sense: f64) -> [Vec<f64>; 3] {
     [series.time_s, angle, moment]
 }
 
-/// The index of the greatest value.
+/// The index of the largest value.
 fn top(of: &[f64]) -> usize {
     (0..of.len()).max_by(|i, j| of[*i].total_cmp(&of[*j])).unwrap()
 }
@@ -126,7 +126,7 @@ fn the_neck_of_the_reports_time_bends_when_it_must() {
     assert!(greatest(g.of("head.acceleration.resultant").unwrap()) < 26.0 * 9.80665);
 }
 
-/// Greatest turn of the head in space and against T1 (deg) with their times (ms), greatest turn of the neck, greatest moments at the
+/// Largest turn of the head in space and against T1 (deg) with their times (ms), largest turn of the neck, largest moments at the
 /// condyles and at T1 (N·m) of a person driven at T1.
 fn driven(rows: &str) -> [f64; 7] {
     let set: Vec<&str> = if rows.is_empty() { vec![] } else { vec![rows] };

@@ -8,8 +8,8 @@
 //! STᵢ = mean (f_A − f_ABᵢ)² / 2V               M. J. W. Jansen, Comput. Phys. Commun. 117 (1999)
 //! ```
 //!
-//! Sᵢ is the part of the variance that parameter i explains alone, STᵢ the part in which it has a hand. An estimate may lie
-//! a little outside 0 to 1; the interval says by how much that can be chance.
+//! Sᵢ is the part of the variance that parameter i explains alone, STᵢ the part in which it is involved. An estimate
+//! may lie slightly outside 0 to 1; the interval shows how much of that can be chance.
 
 use super::{AnalysisError, Estimate, at_rows, bootstrap, complete_rows, mean};
 

@@ -1,7 +1,7 @@
-//! What a finished study says: which parameter matters, how much, and how sure that is.
+//! Analysis of a finished study: which parameters matter, how much, and how certain this is.
 //!
-//! All functions take plain slices of one number for each run, NaN where a run has no such figure, and drop what is not
-//! complete, counted. Intervals are 95 % and by bootstrap unless said otherwise; the random numbers of a bootstrap follow
+//! All functions take plain slices with one number per run, NaN if a run has no such figure. They drop incomplete rows
+//! and count them. Intervals are 95 % and by bootstrap unless said otherwise; the random numbers of a bootstrap follow
 //! from its seed.
 
 mod bootstrap;

@@ -1,8 +1,9 @@
 //! Morris's screening: elementary effects along trajectories.
 //!
-//! The effect of a parameter at one place is the change of the figure over the change of the parameter in units of its range.
-//! With r trajectories: μ the mean effect, μ* the mean of its magnitude (F. Campolongo et al., Environ. Model. Softw. 22
-//! (2007)), σ the standard deviation. A large μ* matters; a large σ beside it acts in company or not in proportion.
+//! The effect of a parameter at one place is the change of the figure over the change of the parameter in units of its
+//! range. With r trajectories: μ the mean effect, μ* the mean of its magnitude (F. Campolongo et al., Environ. Model.
+//! Softw. 22 (2007)), σ the standard deviation. A large μ* means that the parameter matters; a large σ as well means
+//! interaction or nonlinearity.
 
 use super::{AnalysisError, Estimate, bootstrap, deviation};
 

@@ -1,5 +1,5 @@
-//! Puts the ends of every parameter into the base scenario and looks whether it still stands, so that a stiffness below
-//! zero or two keys that exclude each other are reported once, before the first run.
+//! Sets every parameter of the base scenario to its bounds and checks the result, so that a negative stiffness or two
+//! exclusive keys are reported once, before the first run.
 
 use super::Binder;
 use crate::law::{Distribution, Law, Value};
@@ -36,7 +36,7 @@ fn tell(binder: &mut Binder, at: &str, parameter: &Parameter, wrong: Diagnostics
     let found = format!("`{name}` makes the scenario invalid: {}", words.found);
     let problem = Problem::error(at, found, words.expected.clone());
     binder.report(if rare {
-        let hint = "a \"truncated_normal\" distribution stays within what is possible";
+        let hint = "a \"truncated_normal\" distribution stays within the possible range";
         Problem { severity: Severity::Warning, ..problem }.with_hint(Some(hint))
     } else {
         problem.with_hint(words.hint.clone())

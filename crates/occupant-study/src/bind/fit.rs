@@ -22,7 +22,7 @@ impl StudyText {
     /// What the study says of a fit; what stands there for none is the same as an empty `[fit]`.
     ///
     /// # Errors
-    /// Everything that is wrong with it, as far as that can be seen without tests and scenarios.
+    /// All problems of it, as far as that can be seen without tests and scenarios.
     pub fn fit(&self) -> Result<Fit, Diagnostics> {
         let empty = FitSection::default();
         let section = self.section.fit.as_ref().unwrap_or(&empty);

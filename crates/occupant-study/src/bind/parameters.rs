@@ -189,7 +189,7 @@ impl Binder<'_> {
     }
 }
 
-/// The paths of a section at `at`, each with its place in the study.
+/// The paths of a section at `at`, each with its position in the study.
 pub(super) fn paths_at<'s>(
     path: &'s Option<String>,
     paths: &'s Option<Vec<String>>,

@@ -1,7 +1,8 @@
-//! What the errors of sensors make of measures: the same signals many times, each time with other errors within their bounds.
+//! Effect of sensor errors on measures: the same signals many times, each time with other errors within their bounds.
 //!
-//! A Monte Carlo study: every error is drawn evenly between minus and plus its bound, independently of the others and of time. The numbers depend on
-//! the member alone, so that the same record gives the same intervals. Member 0 is the record itself.
+//! A Monte Carlo study: every error is uniform between minus and plus its bound, independent of the others and constant
+//! in time. The numbers depend only on the member, so the same record gives the same intervals. Member 0 is the record
+//! itself.
 
 use nalgebra::{Rotation3, Vector3};
 

@@ -1,4 +1,4 @@
-//! Occupant risk from the vehicle's motion alone: what roadside safety tests are judged by.
+//! Occupant risk from the vehicle's motion alone: the criteria of roadside safety tests.
 //!
 //! ```text
 //! record ─ prepare ─┐
@@ -6,8 +6,8 @@
 //! path  ─ sampled ──┘
 //! ```
 //!
-//! Axes are those of SAE J211 and J670: x forward, y right, z down. A measure whose channels are not there is left out with
-//! its reason, never computed from zeros. The formulas are those of [`crash_measures::measure`].
+//! Axes are those of SAE J211 and J670: x forward, y right, z down. A measure without its channels is omitted with the
+//! reason, never computed from zeros. The formulas are those of [`crash_measures::measure`].
 
 mod angles;
 mod errors;

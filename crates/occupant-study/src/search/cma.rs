@@ -317,7 +317,7 @@ impl Cma {
     }
 }
 
-/// Greatest less least.
+/// Largest less least.
 fn spread<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
     let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(*v), h.max(*v)]);
     high - low

@@ -1,12 +1,12 @@
-//! Where a function on the unit cube is least, and how sharply: the work of a fit.
+//! Minimisation of a function on the unit cube, with the curvature at the minimum: the work of a fit.
 //!
 //! ```text
 //! descend (global) ─ refine (local) ─ scan ─ Shape (curvature, correlations) ─ profile (intervals)
 //! ```
 //!
-//! Nothing here asks for a derivative. Each stage hands out whole batches of points, so that a caller can evaluate them side
-//! by side, and is deterministic: the same values bring the same points, whatever computed them and in whatever order. A
-//! caller that remembers values can therefore go through an interrupted search again without computing anything twice.
+//! No derivatives are needed. Each stage requests whole batches of points, which a caller can evaluate in parallel. It
+//! is deterministic: the same values lead to the same points, in any order of evaluation. So a caller that stores
+//! values can repeat an interrupted search without computing anything twice.
 
 mod bounds;
 mod cma;

@@ -1,9 +1,9 @@
-//! How far each coordinate can go while all others follow, until the value has risen by a given amount: the ends of a
-//! profile interval, by values that were met and not by a bowl's promise.
+//! How far each coordinate can move while all others adapt, until the value has risen by a given amount: the ends of a
+//! profile interval, from evaluated values and not from the quadratic model.
 //!
-//! All coordinates and both sides go on side by side. Each chain sets its own coordinate, lets the others walk to their
-//! lowest point (a Newton step with the curvature of the least value and slopes by differences), and moves on or back until
-//! the rise there is the wanted one.
+//! All coordinates and both sides advance in parallel. Each chain sets its own coordinate, moves the others to their
+//! minimum (a Newton step with the curvature at the optimum and slopes by differences), and moves forward or back until
+//! it has the required rise.
 
 use nalgebra::DMatrix;
 

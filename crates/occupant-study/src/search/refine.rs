@@ -1,6 +1,6 @@
-//! From near the least value to it: bowls through ever closer points, and a step to the bottom of each.
+//! Local refinement to the minimum: quadratic models through ever closer points, and a step to the minimum of each.
 //!
-//! What counts is the value met, never the bowl's promise: a point is taken only if it is lower.
+//! Only evaluated values count, never the model's prediction: a point is accepted only if it is lower.
 
 use super::quadratic::{explore, lowest_step};
 use super::{Evaluate, Point, Stage, evaluated};

@@ -1,4 +1,4 @@
-//! How far each coordinate can go alone until the value has risen by a given amount.
+//! How far each coordinate can move alone until the value has risen by a given amount.
 
 use super::bounds::{SIDES, room};
 use super::{Evaluate, Point, Stage, evaluated};

@@ -79,7 +79,7 @@ fn rastrigin(x: &[f64]) -> f64 {
 
 #[test]
 fn smooth_bowls_take_as_many_evaluations_as_published_code() {
-    // λ = 4 + ⌊3 ln 8⌋ = 10; (f, start, least and greatest median allowed, pycma)
+    // λ = 4 + ⌊3 ln 8⌋ = 10; (f, start, least and largest median allowed, pycma)
     type Case = (fn(&[f64]) -> f64, f64, [u64; 2]);
     let cases: [Case; 3] = [
         (sphere, 1.0, [1100, 1350]),             // pycma 1220

@@ -1,4 +1,4 @@
-//! What a model is built of and starts from, and how that changes with a parameter.
+//! The constants and the start of a model, and how they change with a parameter.
 //!
 //! Masses, planes, force laws, the seated body, unstretched belts, the vehicle's motion at an instant: all are smooth
 //! closed functions of the numbers of a scenario, so their slopes are taken by extrapolated differences of models
@@ -38,7 +38,7 @@ pub struct Built {
     /// Times at which steps end and how they shift, s and s per unit, in increasing order.
     shifts: Vec<[f64; 2]>,
     path: Option<Path>,
-    /// Greatest distance of two extrapolations, as a part of the number or of its change.
+    /// Largest distance of two extrapolations, as a part of the number or of its change.
     pub doubt: f64,
     /// What a user should know.
     pub notes: Vec<String>,
@@ -51,7 +51,7 @@ struct Path {
     models: Vec<Model>,
     cursors: Vec<PathCursor>,
     size: f64,
-    /// Greatest distance of two extrapolations, and when.
+    /// Largest distance of two extrapolations, and when.
     doubt: (f64, f64),
 }
 
@@ -151,7 +151,7 @@ impl Built {
         here.last().map_or(0.0, |[_, shift]| *shift)
     }
 
-    /// Greatest distance of two extrapolations of the vehicle's motion and its time, s; none if the parameter leaves the
+    /// Largest distance of two extrapolations of the vehicle's motion and its time, s; none if the parameter leaves the
     /// path alone.
     pub fn path_doubt(&self) -> Option<(f64, f64)> {
         self.path.as_ref().map(|p| p.doubt)
@@ -165,7 +165,7 @@ fn in_order(times_s: Vec<f64>, shifts: Vec<f64>) -> Vec<[f64; 2]> {
     list
 }
 
-/// Whether the run of a model goes on across a time.
+/// Whether the run of a model continues across a time.
 fn is_within(base: &Model, time_s: f64) -> bool {
     let time = &base.setup().time;
     time.start_s < time_s && time_s < time.end_s
@@ -263,7 +263,7 @@ fn next<const N: usize>(value: f64, at: &Cell<usize>, slope: impl Fn(usize, usiz
     Dual::new(value, from_fn(|k| slope(k, place)))
 }
 
-/// The system of `model` in duals; direction k is that of `built[k]`, directions beyond stand still.
+/// The system of `model` in duals; direction k is that of `built[k]`, directions beyond are at rest.
 pub(super) fn dual_system<const N: usize>(model: &Model, built: &[Built]) -> Result<System<Dual<N>>, Trouble> {
     let at = Cell::new(0);
     let slope = |k: usize, i: usize| built.get(k).map_or(0.0, |b| b.system[i]);

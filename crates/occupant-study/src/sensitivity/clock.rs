@@ -28,7 +28,7 @@ impl<const N: usize> Clock<N> {
     }
 
     /// The time at which something comes to its level, of which this number, at the free end of a step, is what is left, as a part
-    /// of a way that goes on.
+    /// of a way that continues.
     pub fn of_level(left: &Dual<N>) -> Option<Self> {
         let rate = left.slopes[N - 1];
         let shift = |k: usize| if k + 1 == N { 0.0 } else { -left.slopes[k] / rate };

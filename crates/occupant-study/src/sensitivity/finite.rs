@@ -1,6 +1,8 @@
-//! Finite changes of a parameter, run in full and beside the run itself, at tolerances that leave no steps to be seen.
+//! Finite changes of a parameter, run in full and compared with the run itself, at tolerances for which step errors are
+//! negligible.
 
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
@@ -41,7 +43,7 @@ pub struct Seen {
     pub figures: Vec<f64>,
     /// When each was reached, s; not a number where that is not told.
     pub times_s: Vec<f64>,
-    /// Sphere and surface of first touches, in their order.
+    /// Sphere and surface of first contacts, in their order.
     pub touches: Vec<[usize; 2]>,
 }
 
@@ -75,6 +77,17 @@ pub fn changes(parameter: &Parameter<'_>, step_s: f64) -> Vec<f64> {
 /// Runs `model` and the models beside the values of the parameters, on all threads of rayon's pool; `figures` are the names
 /// asked for, `step_s` the mean step. The same bits for any number of threads.
 pub fn neighbours(model: &Model, parameters: &[Parameter<'_>], step_s: f64, figures: &[String]) -> Neighbours {
+    neighbours_watched(model, parameters, step_s, figures, &|_, _| ())
+}
+
+/// The same; `ran` is called with the number of finished runs and of all runs, from any thread.
+pub fn neighbours_watched(
+    model: &Model,
+    parameters: &[Parameter<'_>],
+    step_s: f64,
+    figures: &[String],
+    ran: &(dyn Fn(usize, usize) + Sync),
+) -> Neighbours {
     let beside = |size: f64, part: f64| Finite { part, change: part * size, sides: [Beside::Refused, Beside::Refused] };
     let of = |of: &Parameter<'_>| changes(of, step_s).into_iter().map(|part| beside(of.size, part)).collect();
     let mut all = Neighbours { here: Beside::Broken, finite: parameters.iter().map(of).collect() };
@@ -87,9 +100,12 @@ pub fn neighbours(model: &Model, parameters: &[Parameter<'_>], step_s: f64, figu
             }
         }
     }
-    let on_a_thread = jobs.len().div_ceil(rayon::current_num_threads()).max(1);
-    let ran: Vec<_> = jobs.into_par_iter().chunks(on_a_thread).flat_map_iter(|jobs| run(jobs, figures)).collect();
-    for (place, seen) in ran {
+    let (count, done) = (jobs.len(), AtomicUsize::new(0));
+    let on_a_thread = count.div_ceil(rayon::current_num_threads()).max(1);
+    let ended = || ran(done.fetch_add(1, Ordering::Relaxed) + 1, count);
+    let jobs = jobs.into_par_iter().chunks(on_a_thread);
+    let results: Vec<_> = jobs.flat_map_iter(|jobs| run(jobs, figures, &ended)).collect();
+    for (place, seen) in results {
         match place {
             None => all.here = seen,
             Some((number, i, side)) => all.finite[number][i].sides[side] = seen,
@@ -136,7 +152,7 @@ fn tight(own: &Integrator) -> Integrator {
 }
 
 /// What there is to see of the runs.
-fn run<T>(jobs: Vec<Job<T, Summarizer>>, figures: &[String]) -> Vec<(T, Beside)> {
+fn run<T>(jobs: Vec<Job<T, Summarizer>>, figures: &[String], ran: &impl Fn()) -> Vec<(T, Beside)> {
     let mut all = Vec::with_capacity(jobs.len());
     let times: Vec<String> = figures.iter().map(|name| format!("{name}_time")).collect();
     simulate_many(Kernel::best(), jobs, |ended: Ended<T, Summarizer>| {
@@ -148,6 +164,7 @@ fn run<T>(jobs: Vec<Job<T, Summarizer>>, figures: &[String]) -> Vec<(T, Beside)>
             Seen { figures: pick(&list, figures), times_s: pick(&list, &times), touches }
         });
         all.push((tag, seen.map_or(Beside::Broken, Beside::Ran)));
+        ran();
         ControlFlow::Continue(())
     });
     all

@@ -10,7 +10,7 @@ use placed_text::Problem;
 /// factor on all of them.
 ///
 /// # Errors
-/// A path that leads nowhere, to no number, or to numbers that a factor does not change.
+/// A path that does not exist, to no number, or to numbers that a factor does not change.
 pub fn parameter<'a>(draft: &'a Draft, path: &str, resolver: Resolver<'a>) -> Result<Parameter<'a>, Problem> {
     let places = draft.places(path)?;
     let refuse =

@@ -17,7 +17,7 @@ use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_core::run::{Run, Step};
 
-/// Directions carried side by side; those beyond the last parameter stand still. One width is compiled, as each is a whole
+/// Directions carried side by side; those beyond the last parameter are at rest. One width is compiled, as each is a whole
 /// kernel in the build and in the binary. A product of duals is 4 floating-point operations in one direction; in four it is
 /// 13, 7 instructions with two slopes in a register, 4 with four: a parameter alone takes at most 1.75 times as long as in a
 /// kernel of its own.
@@ -54,12 +54,27 @@ struct Displacement {
 /// # Errors
 /// What was built of another model; a run that does not come to its end.
 pub fn follow(model: &Model, built: &mut [Built]) -> Result<Trajectory, Trouble> {
+    follow_watched(model, built, &mut |_, _| ())
+}
+
+/// The same; `computed` is called with the number of computed outputs and of all outputs, those of every pass.
+///
+/// # Errors
+/// As [`follow`].
+pub fn follow_watched(
+    model: &Model,
+    built: &mut [Built],
+    computed: &mut dyn FnMut(usize, usize),
+) -> Result<Trajectory, Trouble> {
     if built.iter().any(|built| !built.is_of(model)) {
         return Err(Trouble::Parameter("derivatives of another model; expected `Built::new` of this one".to_owned()));
     }
     let mut whole: Option<Trajectory> = None;
-    for some in built.chunks_mut(OF_PARAMETERS) {
-        let pass = pass::<SIDE_BY_SIDE>(model, some)?;
+    let (outputs, passes) = (model.output_count(), built.len().div_ceil(OF_PARAMETERS));
+    for (number, some) in built.chunks_mut(OF_PARAMETERS).enumerate() {
+        let pass = pass::<SIDE_BY_SIDE>(model, some, &mut |output| {
+            computed(number * outputs + output, passes * outputs);
+        })?;
         match &mut whole {
             None => whole = Some(pass),
             Some(whole) => {
@@ -82,7 +97,11 @@ impl Recorder for Keeper {
 }
 
 /// The plain run and beside it, step by step, that in duals.
-fn pass<const N: usize>(model: &Model, built: &mut [Built]) -> Result<Trajectory, Trouble> {
+fn pass<const N: usize>(
+    model: &Model,
+    built: &mut [Built],
+    computed: &mut dyn FnMut(usize),
+) -> Result<Trajectory, Trouble> {
     let count = built.len().min(N - 1);
     let mut run = Run::new(model);
     run.follow_steps(steps_to_an_output(model));
@@ -101,6 +120,7 @@ fn pass<const N: usize>(model: &Model, built: &mut [Built]) -> Result<Trajectory
         for (k, slopes) in slopes.iter_mut().enumerate() {
             slopes.push(Displacement::of(&tangent, k));
         }
+        computed(keeper.0.len());
         let Some(target_s) = run.next_output_s() else { break };
         run.advance_to(target_s).map_err(|e| failed(&e))?;
         taken = run.take_steps(taken);
@@ -153,13 +173,13 @@ impl Trajectory {
     }
 
     /// Derivatives of the state by parameter `k` at an output, in the order of [`State::numbers`]; none of a parameter or an
-    /// output that there is not.
+    /// output that does not exist.
     pub fn state_slopes(&self, k: usize, output: usize) -> &[f64] {
         self.slopes.get(k).and_then(|slopes| slopes.get(output)).map_or(&[], |slopes| &slopes.state)
     }
 
     /// How far the state goes with a unit of parameter `k`, at most: m, rad, and tenths of m/s and rad/s. Infinite where a
-    /// derivative is too large for a number, 0 of a parameter that there is not.
+    /// derivative is too large for a number, 0 of a parameter that does not exist.
     pub fn reach(&self, k: usize) -> f64 {
         // places, quaternions and hinges come first, then speeds, then work sums, which move nothing
         let (places, moving) = (self.shape.places(), self.shape.moving());

@@ -1,4 +1,4 @@
-//! How far a derivative can be relied upon: it is held against the secants of finite changes.
+//! Range of a derivative: it is compared with the secants of finite changes.
 //!
 //! Of two secants of one change, to either side, the mean is free of curvature, and half their difference is nothing but
 //! curvature, in proportion to the change, unless the figure has a corner. So the derivative holds if it is the mean at all
@@ -23,7 +23,7 @@ pub enum Verdict {
     /// The slopes to both sides are the derivative's within a part `off`, and those of straight lines within [`HOLDS`] for
     /// changes of the parameter up to a part `up_to` of its size; beyond, or at once where that is 0, the figure is curved.
     Holds {
-        /// Greatest distance of a slope from the derivative, as a part of the derivative.
+        /// Largest distance of a slope from the derivative, as a part of the derivative.
         off: f64,
         /// Largest change looked at that is straight.
         up_to: f64,
@@ -95,7 +95,7 @@ impl Why {
 pub struct Comparison {
     /// By change, in the order of the changes: slopes of the secants below and above; not a number without a run.
     pub secants: Vec<[f64; 2]>,
-    /// By change: the greatest distance of a secant from the derivative, as a part of the derivative.
+    /// By change: the largest distance of a secant from the derivative, as a part of the derivative.
     pub off: Vec<f64>,
     /// What follows.
     pub verdict: Verdict,
@@ -158,7 +158,7 @@ struct Found {
     means: Vec<f64>,
     /// How far the two sides are apart at a change of nothing.
     apart: f64,
-    /// Greatest distance of two means.
+    /// Largest distance of two means.
     spread: f64,
 }
 

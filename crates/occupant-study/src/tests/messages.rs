@@ -218,7 +218,7 @@ distribution = { kind = \"normal\", mean = 0.3, sd = 0.1 }
   | ^^^^^^^^^^^^^^
   = in: parameters[0]
   = expected: a plain number of at least 0
-  = help: a "truncated_normal" distribution stays within what is possible"#
+  = help: a "truncated_normal" distribution stays within the possible range"#
     );
 }
 

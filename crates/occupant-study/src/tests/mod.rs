@@ -35,7 +35,7 @@ fn study(text: &str) -> Study {
     bind(text).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// What is wrong with a study, as a user reads it.
+/// Problems of a study, as a user reads it.
 fn complaint(text: &str) -> String {
     bind(text).err().map_or(String::new(), |e| e.to_string())
 }

@@ -235,7 +235,7 @@ pub(crate) const ALL: [Unit; 30] = [
 ];
 
 impl Unit {
-    /// What it measures, in words.
+    /// What it measures, as text.
     pub const fn quantity(self) -> &'static str {
         TABLE[self as usize].quantity
     }

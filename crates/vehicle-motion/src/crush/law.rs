@@ -5,7 +5,7 @@ use crate::body::{Reading, Stiffness};
 /// A face: force per width p over crush x, straight between knots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Law {
-    /// Crush, m, and force per width, N/m; from (0, 0), both rising; the last slope goes on.
+    /// Crush, m, and force per width, N/m; from (0, 0), both rising; the last slope continues.
     knots: Vec<[f64; 2]>,
     /// Shares of energy that come back, below the toe and above.
     returned: [f64; 2],
@@ -15,7 +15,7 @@ pub struct Law {
     elastic_m: f64,
 }
 
-/// Knots end here; the last slope goes on.
+/// Knots end here; the last slope continues.
 const FAR_M: f64 = 10.0;
 
 impl Law {
@@ -47,7 +47,7 @@ impl Law {
         0.5 * slope * depth_m * depth_m
     }
 
-    /// Residual crush after a greatest force per width, m.
+    /// Residual crush after a largest force per width, m.
     pub fn residual_m(&self, force_n_per_m: f64) -> f64 {
         (self.crush_m(force_n_per_m) / self.stretch - self.elastic_m).max(0.0)
     }
@@ -79,7 +79,7 @@ pub struct Pressure {
     pub force_n_per_m: f64,
     /// Share of the first face.
     pub first: f64,
-    /// Whether the depth is the greatest so far.
+    /// Whether the depth is the largest so far.
     pub is_loading: bool,
 }
 

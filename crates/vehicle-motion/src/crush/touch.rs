@@ -1,7 +1,8 @@
 //! Nodes of one body against the outline of another.
 //!
-//! A node keeps the face through which it came in. Its depth under that face, and the greatest force per width that it has felt,
-//! give its force, along the normal of the face. Both bodies feel it at the same place, so momenta stay.
+//! A node remembers the face through which it entered. Its depth under that face, and its largest force per width so
+//! far, give its force, along the normal of the face. The force acts on both bodies at the same point, so momenta are
+//! conserved.
 
 use crate::V3;
 use crate::crush::law::Series;
@@ -26,7 +27,7 @@ pub(crate) struct Pose {
 }
 
 impl Pose {
-    /// Of what stands still with its axes along those of space.
+    /// Of what is at rest with its axes along those of space.
     pub fn standing(at_m: V3) -> Self {
         Pose { at_m, axes: Matrix3::identity(), velocity_m_s: V3::zeros(), turning_rad_s: V3::zeros() }
     }
@@ -62,7 +63,7 @@ pub(crate) struct Pass {
     pub nodes_of: usize,
     /// Body whose outline counts.
     pub outline_of: usize,
-    /// Number of the list of greatest forces of the nodes.
+    /// Number of the list of largest forces of the nodes.
     pub memory: usize,
     /// ½ where both bodies' nodes count.
     pub weight: f64,
@@ -79,7 +80,7 @@ pub(crate) struct Pass {
 /// No face: the node never came in.
 pub(crate) const NO_FACE: u8 = u8::MAX;
 
-/// The nodes' memory: the face through which each came in, and its greatest force per width, N/m.
+/// The nodes' memory: the face through which each came in, and its largest force per width, N/m.
 pub(crate) struct Marks<'a> {
     pub faces: &'a [u8],
     pub most: &'a [f64],
@@ -185,7 +186,7 @@ impl Pass {
         size
     }
 
-    /// Remembers the faces through which nodes came in, and their greatest forces.
+    /// Stores the faces through which nodes came in, and their largest forces.
     pub fn commit(&self, faces: &mut [u8], most: &mut [f64], shapes: &[Shape], poses: &[Pose], before: &[Pose]) {
         if self.is_apart(shapes, poses, 0.0) {
             return;

@@ -1,6 +1,7 @@
 //! Overlap of a disc with ground that is cut by its plane.
 //!
-//! The disc has its centre at the origin; x runs ahead in its plane and z up. The ground fills what lies below a polyline.
+//! The disc has its centre at the origin; x points forward in its plane and z up. The ground is everything below a
+//! polyline.
 
 use libm::{acos, asin};
 

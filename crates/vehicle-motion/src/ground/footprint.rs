@@ -1,9 +1,9 @@
-//! Where and how a wheel meets the ground.
+//! Contact of a wheel with the ground.
 //!
-//! The plane of the wheel cuts the ground in a polyline. Its overlap with the wheel's disc gives the depth that level ground
-//! would have, and the direction in which the stored energy ½k_tΔ² grows fastest: a plane gives back its own depth and
-//! normal, a curb pushes back and aside. A crown across the tread lets a leaning wheel touch where a real one does; on planes the
-//! depth is exact.
+//! The plane of the wheel cuts the ground in a polyline. Its overlap with the wheel's disc gives the depth that level
+//! ground would have, and the direction in which the stored energy ½k_tΔ² grows fastest: for a plane these are its own
+//! depth and normal; a curb pushes back and sideways. A crown across the tread makes a leaning wheel touch where a real
+//! one does; on planes the depth is exact.
 
 use super::Ground;
 use super::disc::{Overlap, level_depth, overlap};
@@ -320,7 +320,7 @@ mod tests {
                     most = most.max(work.abs());
                 }
             }
-            // measured 7e-5, 3e-7, 2e-7 of the greatest with 4000 pieces of way; four times as many leave a quarter
+            // measured 7e-5, 3e-7, 2e-7 of the largest with 4000 pieces of way; four times as many leave a quarter
             assert!(work.abs() < 1e-4 * most, "{yaw}: {work} of {most}");
         }
     }

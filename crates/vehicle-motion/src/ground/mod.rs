@@ -47,7 +47,7 @@ pub struct Curb {
     pub face_rad: f64,
 }
 
-/// What is wrong with a ground.
+/// Problems of a ground.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum GroundError {
     /// Too few corners.
@@ -177,7 +177,7 @@ impl Ground {
         inner.partition_point(|corner| corner[0] <= right_m)
     }
 
-    /// The plane at a distance right of the X axis, if it goes on for a way to both sides.
+    /// The plane at a distance right of the X axis, if it continues for a way to both sides.
     pub(crate) fn lone_plane(&self, right_m: f64, way_m: f64) -> Option<usize> {
         let plane = self.plane_at(right_m);
         let last = self.normals.len() - 1;
@@ -213,7 +213,7 @@ impl Ground {
         self.normals[self.plane_at(right_m)]
     }
 
-    /// Normal and a point of the plane at a distance right of the X axis, if it goes on for a way to both sides.
+    /// Normal and a point of the plane at a distance right of the X axis, if it continues for a way to both sides.
     pub(crate) fn lone(&self, right_m: f64, way_m: f64) -> Option<(V3, V3)> {
         self.lone_plane(right_m, way_m).map(|plane| (self.normals[plane], self.point_m(plane)))
     }

@@ -1,4 +1,4 @@
-//! A contact between two bodies from its first touch to its end, and what it did to each vehicle.
+//! A contact between two bodies from its start to its end, and its effect on each vehicle.
 
 use crate::V3;
 use crate::ride::Station;
@@ -28,7 +28,7 @@ pub struct Contact {
     pub until_s: f64,
     /// Impulse on the vehicle, vehicle-space, N·s.
     pub impulse_n_s: V3,
-    /// Greatest force, N.
+    /// Largest force, N.
     pub peak_n: f64,
     /// What it did to the vehicle, and to its partner if that is a vehicle.
     pub struck: [Option<Struck>; 2],
@@ -37,7 +37,7 @@ pub struct Contact {
 /// What a contact did to a vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Struck {
-    /// Greatest change of velocity of the centre of gravity within the contact, in the vehicle's axes at first touch, m/s.
+    /// Largest change of velocity of the centre of gravity within the contact, in the vehicle's axes at first contact, m/s.
     /// Tyres and gravity have their share in it.
     pub delta_v_m_s: V3,
     /// Change of velocity by the contact's impulse alone, same axes, m/s.
@@ -50,9 +50,9 @@ pub struct Struck {
     pub ees_m_s: f64,
     /// Velocity at the end of the contact, vehicle-space, m/s.
     pub leaves_m_s: V3,
-    /// Yaw rate at first touch and at the end, rad/s.
+    /// Yaw rate at first contact and at the end, rad/s.
     pub yaw_rates_rad_s: [f64; 2],
-    /// Greatest acceleration within it, m/s².
+    /// Largest acceleration within it, m/s².
     pub peak_m_s2: f64,
 }
 

@@ -32,7 +32,7 @@ pub struct Dent {
     pub place_m: V3,
     /// Normal.
     pub normal: V3,
-    /// Greatest crush while it lasted, m.
+    /// Largest crush while it lasted, m.
     pub depth_m: f64,
 }
 
@@ -85,7 +85,7 @@ impl Damage {
 }
 
 impl Damage {
-    /// Greatest crush of the front while it lasted, m.
+    /// Largest crush of the front while it lasted, m.
     pub fn front_m(&self) -> f64 {
         self.dents.iter().filter(|dent| dent.side == Side::Front).map(|dent| dent.depth_m).fold(0.0, f64::max)
     }

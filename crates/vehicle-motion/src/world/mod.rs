@@ -1,4 +1,4 @@
-//! All that is driven together: vehicles, ground, barriers, impacts. One integrator takes all of it.
+//! Everything in one simulation: vehicles, ground, barriers, impacts, with one integrator.
 
 mod contact;
 mod damage;
@@ -94,15 +94,15 @@ pub struct Wrench {
 pub struct Impact {
     /// The vehicle that is counted first, and its partner.
     pub between: (usize, Partner),
-    /// When, s; none: when their outlines first touch.
+    /// When, s; none: when their outlines first contact.
     pub time_s: Option<f64>,
-    /// Where, X and Y, m; none: where they first touch.
+    /// Where, X and Y, m; none: where they first contact.
     pub at_m: Option<[f64; 2]>,
     /// Direction of the line of contact's normal, clockwise from X, rad; either sense.
     pub normal_rad: f64,
     /// Restitution.
     pub restitution: f64,
-    /// Greatest ratio of the impulse along the contact to that across it.
+    /// Largest ratio of the impulse along the contact to that across it.
     pub friction: f64,
     /// How long it takes, s; 0: at once.
     pub duration_s: f64,
@@ -113,7 +113,7 @@ pub struct Impact {
 pub struct Outcome {
     /// The motion of each vehicle.
     pub rides: Vec<Ride>,
-    /// Contacts in the order of their first touches.
+    /// Contacts in the order of their first contacts.
     pub contacts: Vec<Contact>,
     /// Damage of each vehicle.
     pub damage: Vec<Damage>,
@@ -125,14 +125,14 @@ pub struct Outcome {
     pub evaluations: u64,
     /// Steps that were tried and rejected.
     pub rejected: u64,
-    /// Error of the energy balance over the greatest kinetic energy.
+    /// Error of the energy balance over the largest kinetic energy.
     pub balance: f64,
 }
 
 /// How far a barrier slid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slid {
-    /// Greatest way, m.
+    /// Largest way, m.
     pub most_m: f64,
     /// Direction, clockwise from X, rad.
     pub direction_rad: f64,
@@ -145,9 +145,9 @@ pub struct Slid {
 pub struct Bent {
     /// Number of the barrier.
     pub barrier: usize,
-    /// Greatest deflection while it lasted, m.
+    /// Largest deflection while it lasted, m.
     pub deflection_m: f64,
-    /// Greatest tension, N.
+    /// Largest tension, N.
     pub tension_n: f64,
     /// Posts that let go.
     pub released: usize,
@@ -158,7 +158,7 @@ pub struct Bent {
 /// Why a world could not be driven.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum WorldError {
-    /// What is wrong with a vehicle.
+    /// Problems of a vehicle.
     #[error("vehicle {}: {what}", car + 1)]
     Car {
         /// Its number.

@@ -1,4 +1,4 @@
-//! What a run leaves: stations at every step, and the outcome at its end.
+//! Results of a run: stations at every step, and the outcome at its end.
 
 use crate::V3;
 use crate::rail::BeamMemory;

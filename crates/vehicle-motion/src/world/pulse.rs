@@ -1,4 +1,4 @@
-//! An impact of a run: an impulse at once, or spread over a time.
+//! An impact of a run: an instantaneous impulse, or one spread over a time.
 
 use crate::V3;
 use crate::crush::touch::{Pose, Push};
@@ -31,7 +31,7 @@ pub(crate) struct Pulse {
 }
 
 impl Pulse {
-    /// The impulse of an impact that begins now; nothing where the bodies part.
+    /// The impulse of an impact that begins now; nothing if the bodies part.
     pub fn of(setup: &Setup, impact: &Impact, time_s: f64, stack: &Stack, poses: &[Pose]) -> Self {
         let (car, partner) = impact.pair();
         let body = match partner {

@@ -1,4 +1,4 @@
-//! The run of a world: steps, first touches, what is remembered.
+//! The run of a world: steps, first contacts, memory.
 
 use crate::chassis::Report;
 use crate::crush::touch::Pose;
@@ -15,7 +15,7 @@ use crate::world::{Outcome, Partner, World, WorldError, Wrench};
 
 /// Shortest step, s: what needs shorter ones has no solution here.
 const SHORTEST_S: f64 = 1e-9;
-/// Steps end at most this deep behind a first touch, m.
+/// Steps end at most this deep behind a first contact, m.
 const TOUCH_M: f64 = 1e-4;
 /// Way of a step where there are curbs, m.
 const CURB_M: f64 = 0.02;
@@ -27,7 +27,7 @@ const NEAR_S: f64 = 0.002;
 struct Touch {
     gap_m: f64,
     has_touched: bool,
-    /// The contact that goes on.
+    /// The contact that continues.
     open: Option<usize>,
 }
 
@@ -54,7 +54,7 @@ impl World {
     /// Drives for `end_s` s.
     ///
     /// # Errors
-    /// What is wrong with the vehicles, their starts or the barriers; steps that become too short.
+    /// Problems of the vehicles, their starts or the barriers; steps that become too short.
     pub fn run(&self, end_s: f64) -> Result<Outcome, WorldError> {
         let setup = Setup::new(self)?;
         let cars = setup.begin();
@@ -222,7 +222,7 @@ impl<'a> Runner<'a> {
         near_s
     }
 
-    /// If a first touch lies well within a step of `h` s, a step that ends just behind it, s.
+    /// If a first contact lies well within a step of `h` s, a step that ends just behind it, s.
     fn first_touch_s(&self, poses: &[Pose], h: f64) -> Option<f64> {
         let mut earliest = None;
         for (pair, touch) in self.setup.pairs.iter().zip(&self.touches) {
@@ -251,7 +251,7 @@ impl<'a> Runner<'a> {
         sinks
     }
 
-    /// Remembers what the step did; true if the rates jump.
+    /// Stores what the step did; true if the rates jump.
     fn commit(&mut self) -> bool {
         let mut jumps = false;
         if !self.setup.pairs.is_empty() {
@@ -279,7 +279,7 @@ impl<'a> Runner<'a> {
         jumps
     }
 
-    /// Drivers learn of a first touch; true if there is one.
+    /// Drivers learn of a first contact; true if there is one.
     fn touch(&mut self) -> bool {
         let mut jumps = false;
         for (pair, touch) in self.setup.pairs.iter().zip(&mut self.touches) {

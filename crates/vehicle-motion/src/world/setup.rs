@@ -1,4 +1,4 @@
-//! A world made ready: vehicles, bodies in contact and what is remembered of them.
+//! A world ready to run: vehicles, bodies in contact and their memory.
 
 use crate::V3;
 use crate::barrier::Barrier;
@@ -46,7 +46,7 @@ pub(crate) struct Setup<'a> {
     pub solids: Vec<Solid>,
     pub hulls: Vec<Hull>,
     pub rails: Vec<Rails>,
-    /// Lengths of the lists of greatest forces.
+    /// Lengths of the lists of largest forces.
     lists: Vec<usize>,
 }
 
@@ -71,9 +71,9 @@ pub(crate) struct Memories {
     pub vehicles: Vec<Memory>,
     /// By pass and node: the face through which it came in.
     pub faces: Vec<Vec<u8>>,
-    /// By list and node: the greatest force per width, N/m.
+    /// By list and node: the largest force per width, N/m.
     pub most: Vec<Vec<f64>>,
-    /// By barrier: greatest way and its direction.
+    /// By barrier: largest way and its direction.
     pub slides: Vec<crate::slider::SlideMemory>,
     /// Rails.
     pub rails: Vec<BeamMemory>,

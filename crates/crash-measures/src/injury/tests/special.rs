@@ -75,7 +75,7 @@ fn a_chest_that_gives_way_is_judged_by_its_dummy() {
     assert_eq!(of(&thor, "viscous_criterion").remark.as_deref(), Some("the THOR 50M has no such criterion"));
     assert!((of(&thor, "chest_deflection").risks[0].probability - 0.277_687).abs() < 1e-6);
     assert_eq!(of(&thor, "cti").value, None);
-    // nor has a dummy of the side a breastbone, nor a frontal one ribs
+    // nor has a dummy of the side a sternum, nor a frontal one ribs
     let side = judged_by(Dummy::WorldSid50M, &signals);
     assert_eq!((of(&side, "viscous_criterion").value, of(&side, "chest_compression").value), (None, None));
     let ribs = judged_by(Dummy::HybridIii50M, &reads([(Special::Rib(0), pulse(0.03))]));

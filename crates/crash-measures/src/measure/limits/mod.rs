@@ -52,7 +52,7 @@ pub enum Grade {
 }
 
 impl Grade {
-    /// What it is, in words.
+    /// What it is, as text.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -90,7 +90,7 @@ pub enum Basis {
 pub struct Limit {
     /// The rule.
     pub rule: Rule,
-    /// The dummy it holds for; none where it holds for any of the rule's blow, or where no dummy is involved.
+    /// The dummy it holds for; none if it holds for any of the rule's blow, or where no dummy is involved.
     pub dummy: Option<Dummy>,
     /// The quantity.
     pub quantity: Quantity,

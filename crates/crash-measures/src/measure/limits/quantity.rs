@@ -17,7 +17,7 @@ pub enum Quantity {
     NeckCompression,
     /// Cumulative 3 ms level of the chest, m/s².
     ChestThreeMsCumulative,
-    /// Deflection of the breastbone, or of the deepest point of a chest, m.
+    /// Deflection of the sternum, or of the deepest point of a chest, m.
     ChestDeflection,
     /// Viscous criterion of the chest from the front, m/s.
     ViscousCriterion,
@@ -43,7 +43,7 @@ pub enum Quantity {
     Roll,
     /// Largest pitch angle, rad.
     Pitch,
-    /// Greatest rate of deflection of the breastbone, m/s.
+    /// Largest rate of deflection of the sternum, m/s.
     DeflectionRate,
     /// Tibia index.
     TibiaIndex,
@@ -63,7 +63,7 @@ pub enum Quantity {
     PubicForce,
     /// Force of the pelvis: sum of acetabulum and ilium, N.
     PelvisForce,
-    /// Greatest resultant acceleration of the lower spine, m/s².
+    /// Largest resultant acceleration of the lower spine, m/s².
     LowerSpinePeak,
     /// Cumulative 3 ms level of the lower spine (T12), m/s².
     LowerSpineThreeMsCumulative,

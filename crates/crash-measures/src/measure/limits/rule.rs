@@ -125,7 +125,7 @@ impl Rule {
         }
     }
 
-    /// The blow of its test; none where no dummy is asked.
+    /// The blow of its test; none if no dummy is asked.
     #[must_use]
     pub fn blow(self) -> Option<Blow> {
         match self {

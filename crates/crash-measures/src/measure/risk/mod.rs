@@ -77,7 +77,7 @@ pub fn neck_axial_risk(force_n: f64, dummy: Dummy) -> Option<f64> {
     Some(logistic(a, b * force_n / 1000.0))
 }
 
-/// Chest AIS 3+ risk from a deflection, m: of the breastbone of a Hybrid III, of the deepest point of a THOR (its resultant).
+/// Chest AIS 3+ risk from a deflection, m: of the sternum of a Hybrid III, of the deepest point of a THOR (its resultant).
 #[must_use]
 pub fn chest_deflection_risk(deflection_m: f64, dummy: Dummy) -> Option<f64> {
     if dummy == Thor50M {
@@ -93,7 +93,7 @@ pub fn chest_deflection_risk_at_age(deflection_m: f64, age_years: f64) -> f64 {
     logistic(12.597 - 0.058_61 * age_years, 1.568 * libm::pow(1000.0 * deflection_m.max(0.0), 0.4612))
 }
 
-/// Chest risk from the deflection of a Hybrid III's breastbone, m, as NHTSA gave it in 1999; AIS 2+ to 5+. It does not vanish
+/// Chest risk from the deflection of a Hybrid III's sternum, m, as NHTSA gave it in 1999; AIS 2+ to 5+. It does not vanish
 /// without deflection (AIS 3+: 2.4 %).
 #[must_use]
 pub fn chest_deflection_risk_1999(deflection_m: f64, severity: Severity) -> Option<f64> {
@@ -151,7 +151,7 @@ pub fn joint_risk(risks: &[f64]) -> f64 {
 /// same, of head, chest, abdomen and pelvis.
 ///
 /// The relative risk is the joint risk over 0.15; five stars below 0.67, four below 1.00, three below
-/// 1.33, two below 2.67. None where the risk is not a probability.
+/// 1.33, two below 2.67. None if the risk is not a probability.
 #[must_use]
 pub fn us_ncap_frontal_stars(joint_risk: f64) -> Option<u8> {
     if !(0.0..=1.0).contains(&joint_risk) {

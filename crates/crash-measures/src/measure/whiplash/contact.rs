@@ -30,7 +30,7 @@ pub struct HeadContact {
     pub end_s: f64,
 }
 
-/// The first contact that counts, of the force between head and restraint, N (amounts); none where there is no such contact.
+/// The first contact that counts, of the force between head and restraint, N (amounts); none if there is no such contact.
 ///
 /// # Errors
 /// No sample, a sample that is not finite, an interval or force that is not positive, a duration that is negative.

@@ -32,7 +32,7 @@ pub struct LowerNeckLoads<'a> {
     pub moment_nm: [&'a [f64]; 2],
 }
 
-/// Greatest lower neck load index, without unit.
+/// Largest lower neck load index, without unit.
 ///
 /// # Errors
 /// No sample, different lengths, a sample that is not finite, an interval or intercept that is not positive.

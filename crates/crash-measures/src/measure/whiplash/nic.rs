@@ -1,7 +1,7 @@
 //! Neck injury criterion of Boström et al. (1996).
 //!
 //! NIC(t) = 0.2 m · a_rel + v_rel², with a_rel = a_T1 − a_head along X and v_rel its integral from rest; m²/s². The length
-//! stands for that of the neck. Euro NCAP takes the greatest value up to the end of the head's contact with its restraint.
+//! stands for that of the neck. Euro NCAP takes the largest value up to the end of the head's contact with its restraint.
 
 use super::contact::HeadContact;
 use super::travel::greatest_until;
@@ -14,7 +14,7 @@ const NECK_M: f64 = 0.2;
 /// The criterion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nic {
-    /// NIC_max, m²/s²: the greatest value up to the end of contact, or of the whole record where there is none.
+    /// NIC_max, m²/s²: the largest value up to the end of contact, or of the whole record where there is none.
     pub greatest: Peak,
     /// The value where the head begins to touch, m²/s²; none without contact.
     pub at_contact: Option<f64>,
@@ -33,7 +33,7 @@ pub fn nic_history(t1_mps2: &[f64], head_mps2: &[f64], dt_s: f64) -> Result<Vec<
     Ok(relative_mps2.iter().zip(relative_mps).map(|(a, v)| NECK_M * a + v * v).collect())
 }
 
-/// The criterion with its greatest value and that at the head's first contact.
+/// The criterion with its largest value and that at the head's first contact.
 ///
 /// # Errors
 /// As [`nic_history`]; a contact that begins or ends outside of the record.
@@ -79,7 +79,7 @@ mod tests {
 
     #[test]
     fn half_a_sine_of_relative_acceleration() {
-        // a = A sin(πt/T), v = (A T/π)(1 − cos): greatest where 0.2 A (π/T) cos + 2 v A sin = 0, here by a fine scan
+        // a = A sin(πt/T), v = (A T/π)(1 − cos): largest where 0.2 A (π/T) cos + 2 v A sin = 0, here by a fine scan
         let (a, t) = (60.0, 0.080);
         let closed = |time: f64| {
             let x = PI * time / t;

@@ -1,4 +1,4 @@
-//! How fast the head comes back, how far the pelvis travels in the seat, and greatest values up to a time.
+//! How fast the head comes back, how far the pelvis travels in the seat, and largest values up to a time.
 
 use crate::measure::{Peak, peak::maximum, peak::peak_towards};
 use crate::signal::{SignalError, require_same_length, require_samples};
@@ -17,7 +17,7 @@ pub fn greatest_until(values: &[f64], dt_s: f64, end_s: f64) -> Result<Peak, Sig
     maximum(&values[..=last], dt_s)
 }
 
-/// Greatest speed ahead of the head against the vehicle from `from_s` (its contact with the restraint) on, m/s; 0 if it never
+/// Largest speed ahead of the head against the vehicle from `from_s` (its contact with the restraint) on, m/s; 0 if it never
 /// comes back. Both speeds are along the vehicle's X.
 ///
 /// # Errors
@@ -34,7 +34,7 @@ pub fn rebound_speed(head_mps: &[f64], vehicle_mps: &[f64], dt_s: f64, from_s: f
     Ok(Peak { time_s: peak.time_s + first as f64 * dt_s, ..peak })
 }
 
-/// Greatest travel of one point against another, from where they were at the start.
+/// Largest travel of one point against another, from where they were at the start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Travel {
     /// Ahead, m.

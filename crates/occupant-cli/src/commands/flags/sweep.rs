@@ -1,4 +1,4 @@
-//! What flags and environment choose for a sweep.
+//! Choices of flags and environment for a sweep.
 
 use std::ffi::OsStr;
 use std::num::NonZeroUsize;

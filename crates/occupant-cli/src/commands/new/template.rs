@@ -1,4 +1,4 @@
-//! The templates of `occupant new`: a driver's scenario, and what the others change of it, section by section.
+//! The templates of `occupant new`: a driver's scenario, and the changes of the others, section by section.
 
 use super::STARTER;
 

@@ -251,7 +251,7 @@ fn doubt_of_gravity(record: &AccelerationRecord, included: bool) -> Option<Strin
     Some(format!("az begins at {mean_g:.2} g; {remedy}"))
 }
 
-/// The greatest class that fits samples with half the rate `nyquist_hz`.
+/// The largest class that fits samples with half the rate `nyquist_hz`.
 fn remedy(nyquist_hz: f64) -> String {
     // the corner of one pass of two lies at 2.08 times the class
     let fits = ChannelClass::ALL.into_iter().rev().find(|class| 2.1 * class.hertz() < nyquist_hz);

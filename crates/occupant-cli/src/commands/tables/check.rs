@@ -218,7 +218,7 @@ fn friction(d: &Diagnosis, units: Units) -> String {
         [f.material.clone(), trimmed(f.coefficient, 3), speed(f.speed_m_s), creeps]
     });
     let note = "friction grows with slip and never sticks; a smaller `friction_speed` is closer to sticking, but needs shorter steps\n";
-    table(&[(Left, &["material that rubs"]), (Right, &heads)], rows) + note
+    table(&[(Left, &["material"]), (Right, &heads)], rows) + note
 }
 
 /// Corners that a sphere may come round.

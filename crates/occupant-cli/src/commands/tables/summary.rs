@@ -125,7 +125,7 @@ fn acceleration(name: &str, part: &Acceleration, marks: &Marks) -> [String; 6] {
     ]
 }
 
-/// What happened to belts, in order; none where nothing did.
+/// What happened to belts, in order; none if nothing did.
 fn events(events: &[Event], more: u64) -> Option<String> {
     let rows = events.iter().map(|event| [ms(event.time_s), format!("{} {}", shown(&event.name), event.what)]);
     let rest = if more > 0 { format!("and {more} more events\n") } else { String::new() };
@@ -147,7 +147,7 @@ fn first_contacts(summary: &Summary, marks: &Marks, units: Units) -> String {
     table(&[(Left, &["contact", "surface"]), (Right, &heads)], rows)
 }
 
-/// A row for each surface that a part touched; the greatest force of the whole run stands in that of the surface that gave it.
+/// A row for each surface that a part touched; the largest force of the whole run stands in that of the surface that gave it.
 fn rows_of(summary: &Summary, first: &FirstContact, marks: &Marks, units: Units) -> Vec<[String; 8]> {
     let peak = summary.sphere_forces.iter().find(|p| p.sphere == first.sphere);
     let none = || NONE.to_owned();

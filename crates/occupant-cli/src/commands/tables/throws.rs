@@ -8,13 +8,13 @@ use crate::base::Units;
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, facts, number, table};
 
-/// Where bodies went that were struck; none where nothing was.
+/// Where bodies went that were struck; none if nothing was.
 pub(super) fn throws(summary: &Summary, marks: &Marks, units: Units) -> Option<String> {
     let all = summary.throws.iter().map(|(name, throw)| one(name, throw, marks, units));
     (!summary.throws.is_empty()).then(|| all.collect::<Vec<_>>().join("\n"))
 }
 
-/// What left the compartment of a vehicle; none where nothing did.
+/// What left the compartment of a vehicle; none if nothing did.
 pub(super) fn ejections(summary: &Summary, marks: &Marks) -> Option<String> {
     let all = summary.ejections.iter().map(|(name, ejection)| {
         let of = if name.is_empty() { "occupant".to_owned() } else { shown(name).to_string() };

@@ -1,6 +1,9 @@
-//! The generator's 15 segments as a body of their own, 17 with hands, and 19 with clavicles.
+//! The generator's 15 segments as a body, 17 with hands, and 19 with clavicles.
 //!
-//! Principal axes and joints are as the generator has them, but for what lies beside the middle plane, which is that of the
+//! Principal axes and joints are the generator's, except lateral positions, which are those of the 12. A hand is a
+//! share of the forearm's mass beyond a wrist, so that both together keep mass, centre of gravity and inertia (the
+//! splits are ours). A clavicle is a share of the upper torso's mass, with shoulder blade and flesh. It turns about the
+//! sternoclavicular joint and carries the arm, so that a belt on one shoulder restrains that shoulder before the trunk.
 //! 12. A hand is a share of the forearm's mass beyond a wrist, so that both together keep mass, centre of gravity and
 //! inertia (the splits are ours). So is a clavicle one of the upper torso's mass, with shoulder blade and flesh: it turns about
 //! the sternoclavicular joint and carries the arm, so that a belt on one shoulder holds back that shoulder before the trunk.

@@ -1,4 +1,4 @@
-//! The generator's 15 segments joined to the report's 12 by the parallel-axis theorem, products of inertia left out.
+//! The generator's 15 segments merged to the report's 12 by the parallel-axis theorem, products of inertia neglected.
 
 use nalgebra::Vector3;
 

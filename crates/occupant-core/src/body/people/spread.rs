@@ -1,4 +1,4 @@
-//! How far people of one sex, stature and mass differ in the lengths of their segments: the residuals of the regressions.
+//! Variation of segment lengths among people of one sex, stature and mass: the residuals of the regressions.
 
 use super::{CT, F, H, LA, LL, LT, MEASURES, N, PARTS, Person, Sex, UA, UL, UT};
 

@@ -1,4 +1,4 @@
-//! What is wrong with a bag: with its data, and with where the body is at the start.
+//! Checks of a bag: its data, and the initial position of the body.
 
 use super::data::{Bag, FOLDED, Gas, Inflator, Leakage, Shape};
 use super::{BagLaw, MOST_SPHERES, MOST_VENTS};
@@ -248,7 +248,7 @@ impl Bag {
 }
 
 impl Shape {
-    /// Greatest area across the way in which it is pressed, m².
+    /// Largest area across the way in which it is pressed, m².
     fn cross_section_m2(&self) -> f64 {
         use std::f64::consts::PI;
         match *self {

@@ -1,18 +1,18 @@
 //! The envelope of a bag and the spheres of the body in it.
 //!
-//! The envelope holds V_e, of which the spheres displace V together, the volume of `union`. With X = V/V_e the gas has
-//! V_free = V_e φ(X), φ = 1 − X as far as X = 0.8 and 0.2 e^((0.8 − X)/0.2) beyond: a body in a bag that has hardly unfolded
-//! would leave it less than nothing. With κ = −φ′
+//! The envelope has the volume V_e, of which the spheres together displace V, the volume of `union`. With X = V/V_e the
+//! gas has V_free = V_e φ(X), φ = 1 − X up to X = 0.8 and 0.2 e^((0.8 − X)/0.2) beyond: a body in a bag that has hardly
+//! unfolded would otherwise leave it a negative volume. With κ = −φ′
 //!
 //! ```text
 //! V̇_free = V̇_e (φ + κX) − κV̇,   force on a sphere = −κ (p − p_a) ∂V/∂x
 //! ```
 //!
-//! so that the work of the gas is that of the forces exactly.
+//! so that the work of the gas is exactly that of the forces.
 //!
-//! While it unfolds it throws cover and fabric ahead of it, of the mass m, which lie evenly along the way from the mount:
-//! m/(3V_f λ²(1 − λ_folded)) of each volume that it takes next. What meets a sphere stays there and leaves it its momentum,
-//! the force m/(3V_f λ²(1 − λ_folded)) A_k δ̇_k².
+//! While it unfolds a bag throws cover and fabric of the mass m ahead of it. The mass is distributed evenly along the
+//! way from the mount: m/(3V_f λ²(1 − λ_folded)) per volume that the bag takes next. The part that meets a sphere stays
+//! there and gives it its momentum, the force m/(3V_f λ²(1 − λ_folded)) A_k δ̇_k².
 
 use super::MOST_SPHERES;
 use super::data::{Bag, FOLDED};

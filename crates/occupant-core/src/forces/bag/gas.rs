@@ -3,9 +3,9 @@
 //! With c_p = a + bT of each part: h = aT + ½bT², u = h − RT. Of all parts together, B = Σm(a − R) and C = Σmb,
 //! U = BT + ½CT², so that T = 2U/(B + √(B² + 2CU)).
 //!
-//! A bag's state holds E = U + p_aV and not U, with p_a the pressure outside: its rate does not jump where gas comes to fill
-//! the bag or no longer does. Gas that does not fill V_free has p = p_a and the enthalpy E; if it would take more than V_free
-//! then, it fills V_free and has U = E − p_aV_free. At mRT = p_aV_free both are the same.
+//! A bag's state is E = U + p_aV and not U, with p_a the pressure outside: its rate does not jump where gas begins or
+//! ceases to fill the bag. Gas that does not fill V_free has p = p_a and the enthalpy E. If it would then take more
+//! than V_free, it fills V_free and has U = E − p_aV_free. At mRT = p_aV_free both are the same.
 
 use super::data::Gas;
 use crate::forces::decay::{decay, logarithm};

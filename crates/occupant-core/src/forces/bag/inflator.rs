@@ -1,4 +1,4 @@
-//! What blows gas into a bag and what lets it out: inflators, vents, fabric.
+//! Sources and outlets of a bag's gas: inflators, vents, fabric.
 
 use super::data::{Bag, Inflator, Leakage, Vent};
 use super::gas::{GasLaw, Mixture};
@@ -129,7 +129,7 @@ impl<S: Copy> OutletLaw<S> {
 }
 
 impl<S: Scalar> OutletLaw<S> {
-    /// Remembers the vents that the gauge pressure opens.
+    /// Stores the vents that the gauge pressure opens.
     #[inline(always)]
     pub(super) fn commit(&self, fired: S::Mask, gauge: S, past: &mut BagPast<S>) {
         for (vent, open) in self.vents.iter().zip(&mut past.open) {

@@ -1,6 +1,6 @@
 //! The gas of a bag at one instant, and its balance.
 //!
-//! It has one pressure and temperature. With E = U + p_aV of `gas` and V̇_free of `envelope`
+//! The gas has one pressure and temperature. With E = U + p_aV of `gas` and V̇_free of `envelope`
 //!
 //! ```text
 //! Ė = Σ ṁ_in h(T_in) − ṁ_out h(T) − q A_f (T − T_a) − (p − p_a) V̇_free
@@ -86,7 +86,7 @@ impl BagLaw<f64> {
 }
 
 impl<S: Scalar<Mask = bool>> BagLaw<S> {
-    /// Where between two times it was due to fire or its first vent to open; none where a sphere came to the middle or left.
+    /// Where between two times it was due to fire or its first vent to open; none if a sphere came to the middle or left.
     pub(super) fn due(&self, before: &BagPast<S>, now: &BagPast<S>, times_s: [S; 2]) -> Option<S> {
         let is_held = |depth: &S| depth.gt(S::zero());
         let held = before.held.iter().zip(&now.held).all(|(a, b)| is_held(a) == is_held(b));
@@ -170,7 +170,7 @@ impl<S: Scalar> BagLaw<S> {
         Now { unfolded, envelope, gas }
     }
 
-    /// Remembers the spheres that have come to the middle, and the vents that open; where a sphere is held anew or let go.
+    /// Stores the spheres that have come to the middle, and the vents that open; where a sphere is held anew or let go.
     #[inline(always)]
     pub(super) fn commit(&self, now: &Now<S>, past: &mut BagPast<S>) -> S::Mask {
         let (mut changes, fired) = (S::truth(false), now.unfolded.fired);

@@ -1,8 +1,9 @@
-//! Air bags: gas of one pressure in an envelope that unfolds, and the spheres of the body that press it in.
+//! Air bags: gas of one pressure in an envelope that unfolds, and the spheres of the body that displace part of it.
 //!
-//! The state owns the gas of each bag (`law`): its energy, the masses of its parts, its sums. Inflators and outlets
-//! (`inflator`) change it, and so does the volume that the body displaces (`envelope`); the forces on the body follow from that
-//! volume, so that the work of the gas is theirs. What a bag remembers (`past`) changes at accepted steps alone.
+//! The state contains the gas of each bag (`law`): its energy, the masses of its components, its sums. Inflators and
+//! outlets (`inflator`) change it, and so does the volume that the body displaces (`envelope`). The forces on the body
+//! follow from that volume, so that the work of the gas equals theirs. A bag's memory (`past`) changes only at accepted
+//! steps.
 
 mod check;
 mod data;

@@ -1,4 +1,4 @@
-//! What a bag remembers between steps: plain numbers that change only at accepted steps.
+//! Memory of a bag between steps: plain numbers that change only at accepted steps.
 
 use super::{MOST_SPHERES, MOST_VENTS};
 use crate::motion::scalar::Scalar;
@@ -11,7 +11,7 @@ pub struct BagPast<S> {
     /// p − p_a, Pa, and V, m³, of the last accepted step.
     pub(super) gauge: S,
     pub(super) volume: S,
-    /// ∫(p − p_a)dV over accepted steps, J; greatest residual of it and greatest U so far, J.
+    /// ∫(p − p_a)dV over accepted steps, J; largest residual of it and largest U so far, J.
     pub(super) pressed: S,
     pub(super) residual: S,
     pub(super) greatest: S,

@@ -39,7 +39,7 @@ pub struct BagAction<S> {
     taken: S,
     /// Work of the body on it since the start, J.
     pub(super) work: S,
-    /// Greatest residual of the gas's book over its greatest energy.
+    /// Largest residual of the gas's book over its largest energy.
     pub(super) residual: S,
     /// 1 once it has fired, g, and λ.
     pub(crate) fired: S,
@@ -301,7 +301,7 @@ impl Reported for Bags {
 
 const FIRES: &str = "fires";
 const OPENS: &str = "opens a vent";
-const BOTTOMS: &str = "is pressed in as far as its mount or its middle";
+const BOTTOMS: &str = "bottoms out at its mount or its middle";
 const TOUCHED: &str = "is touched";
 const UNFOLDED: &str = "is unfolded";
 const LEFT: &str = "is left";

@@ -1,14 +1,14 @@
-//! Signed distance from the envelope of a bag, and what a sphere displaces of it.
+//! Signed distance from the envelope of a bag, and the part of it that a sphere displaces.
 //!
-//! A dome reaches from its mount plane along its axis: at the height h and the distance ϱ from the axis, with
-//! f = √(ϱ² + (h + R_f − H)²) − R_f and g = ϱ − a,
+//! A dome extends from its mount plane along its axis: at the height h and the distance ϱ from the axis, with f = √(ϱ² +
+//! (h + R_f − H)²) − R_f and g = ϱ − a,
 //!
 //! ```text
 //! s = hypot(max(f + e, 0), max(g + e, 0)) + min(max(f, g) + e, 0) − e
 //! ```
 //!
-//! It has no lower end, so that it pushes nothing towards its mount. Of balls and capsules s is the distance from
-//! their middle less R. While a bag unfolds all its lengths are λ times the full ones, seen from the mount.
+//! It has no lower end, so it pushes nothing towards its mount. For balls and capsules s is the distance from their
+//! middle minus R. While a bag unfolds all its lengths, measured from the mount, are λ times the full ones.
 
 use super::data::{Bag, Shape};
 use crate::motion::scalar::Scalar;

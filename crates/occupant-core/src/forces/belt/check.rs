@@ -1,4 +1,4 @@
-//! What is wrong with belts: with their data, and with how they lie at the start.
+//! Checks of belts: their data and their initial course.
 
 use crate::body::Body;
 use crate::forces::belt::law::BeltLaw;
@@ -41,7 +41,8 @@ pub(super) fn laid(law: &BeltLaw<f64>, belt: &Belt, body: &Body, centres: &[V3<f
             );
             let problem = if index == belt.sphere {
                 let problem = Problem::error(&path, found, "an anchor outside the sphere that the belt goes round");
-                problem.with_hint(Some("move the anchor, or check the seat's lateral place and the anchor's sign of y"))
+                problem
+                    .with_hint(Some("move the anchor, or check the seat's lateral position and the anchor's sign of y"))
             } else {
                 let hint = "check the anchor's height and its sign of y";
                 Problem::warning(&path, found, "an anchor outside the body").with_hint(Some(hint))
@@ -101,7 +102,7 @@ fn holds(belt: &Belt, body: &Body, centre: Vector3<f64>, path: &str, problems: &
                 sphere.name
             ),
             "an anchor on either side",
-            "check the seat's lateral place and the anchors' signs of y",
+            "check the seat's lateral position and the anchors' signs of y",
         );
     } else if Some(sphere.segment) == body.tree.landmarks().pelvis {
         let slopes = to_anchors.map(|to| trig::atan2(to.z, -to.x).to_degrees());
@@ -110,8 +111,8 @@ fn holds(belt: &Belt, body: &Body, centre: Vector3<f64>, path: &str, problems: &
                 format!(
                     "the belt goes from the pelvis to an anchor at {slope:.0}° below the level, counted from straight back"
                 ),
-                "20° to 80°: a flatter belt slides up to the belly, a steeper one lets the pelvis go ahead",
-                "move the anchor, or check the seat's place",
+                "20° to 80°: a flatter belt slides up onto the abdomen, a steeper one lets the pelvis move forward",
+                "move the anchor, or check the seat's position",
             );
         }
     }

@@ -5,7 +5,7 @@ use nalgebra::{Point3, Vector3};
 use super::Belt;
 use super::law::BeltAction;
 
-/// Greatest angle between two points of the arc, rad.
+/// Largest angle between two points of the arc, rad.
 const ARC_STEP_RAD: f64 = 0.15;
 
 /// Points of the belt from the first anchor to the second, vehicle axes; a straight line for a belt off the body.

@@ -32,7 +32,7 @@ pub struct BeltLaw<S> {
 pub struct BeltHistory<S> {
     /// Normal of the belt's plane, vehicle axes; keeps its sense when the centre crosses the anchors' line.
     pub normal: V3<S>,
-    /// Greatest elongation of the run, m.
+    /// Largest elongation of the run, m.
     pub greatest: S,
 }
 
@@ -128,7 +128,7 @@ impl<S: Scalar> BeltLaw<S> {
         }
     }
 
-    /// Remembers an accepted step.
+    /// Stores an accepted step.
     #[inline(always)]
     pub fn commit(&self, action: &BeltAction<S>, history: &mut BeltHistory<S>) {
         history.normal = action.normal;

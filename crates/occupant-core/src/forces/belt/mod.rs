@@ -27,7 +27,7 @@ use placed_text::Problems;
 pub const STRETCH: usize = 3;
 
 /// Other belts, or belts round other spheres.
-pub(crate) const OTHER_BELTS: Unlike = Unlike("the belts are others or go round other spheres");
+pub(crate) const OTHER_BELTS: Unlike = Unlike("the belts differ or go round other spheres");
 
 /// How the unstretched length L₀ is given.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,4 +1,4 @@
-//! What is wrong with belts over several nodes: with their data, and with how they lie at the start.
+//! Checks of belts over several nodes: their data and their initial course.
 
 use super::data::{Chain, Cue, NEVER, Node, Rest, Site, Stroke, Track};
 use super::law::Lies;
@@ -15,7 +15,7 @@ use placed_text::{Problem, Problems, with_key};
 const TURNED: [f64; 2] = [std::f64::consts::FRAC_1_SQRT_2, 0.965_925_826_289_068_3];
 /// Shortest strap that is not warned of, m.
 const SHORT_M: f64 = 0.05;
-/// Greatest friction and tension at the start that are not warned of.
+/// Largest friction and tension at the start that are not warned of.
 const MOST_FRICTION: f64 = 0.6;
 const MOST_START_N: f64 = 100.0;
 
@@ -59,7 +59,7 @@ fn nodes(chain: &Chain, body: &Body, path: &str, problems: &mut Problems) {
         }
         let is_sphere_at = |k: usize| chain.nodes.get(k).is_some_and(|node| matches!(node.site, Site::Sphere(_)));
         if is_sphere && node.friction > 0.0 && (is_sphere_at(i.wrapping_sub(1)) || is_sphere_at(i + 1)) {
-            let expected = "a point, such as a ring or a guide, on either side of a sphere on which webbing rubs";
+            let expected = "a point, such as a ring or a guide, on either side of a sphere with friction";
             problems.error(format!("{at}.friction"), "friction on a sphere beside a sphere", expected);
         }
         spheres = usize::from(is_sphere) + if node.friction > 0.0 { 0 } else { spheres };
@@ -67,7 +67,7 @@ fn nodes(chain: &Chain, body: &Body, path: &str, problems: &mut Problems) {
             problems.error(
                 &at,
                 format!("{spheres} spheres of one strap"),
-                format!("at most {MOST_ARCS} between places that rub"),
+                format!("at most {MOST_ARCS} between points with friction"),
             );
         }
         one(node, body, &at, problems);
@@ -310,7 +310,7 @@ fn slope(
             let expected = format!(
                 "{LEAST_SLOPE_DEG}° or more: a flatter belt slides up to the belly, and this one cannot: submarining does not show"
             );
-            let hint = "move the anchor, or check the seat's place";
+            let hint = "move the anchor, or check the seat's position";
             problems.push(Problem::warning(path, found, expected).with_hint(Some(hint)));
             return;
         }

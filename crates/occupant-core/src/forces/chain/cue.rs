@@ -1,4 +1,4 @@
-//! What sets a device of a belt off: a time known before the run, or something that the belt watches at accepted steps.
+//! Conditions that fire a device of a belt: a time known before the run, or a quantity of the belt at accepted steps.
 
 use super::data::{Cue, NEVER, Watched};
 use crate::forces::element::passes;
@@ -27,7 +27,7 @@ impl CueLaw<f64> {
 }
 
 impl<S: Scalar<Mask = bool>> CueLaw<S> {
-    /// Where between two commits its condition was due to begin to hold, or to have held for long enough; none where neither
+    /// Where between two commits its condition was due to begin to hold, or to have held for long enough; none if neither
     /// happened or where it cannot be told.
     pub(super) fn due(&self, before: &Cued<S>, now: &Cued<S>) -> Option<S> {
         let (of, [threshold, lasting, _]) = self.watch?;

@@ -56,7 +56,7 @@ pub struct Node {
     pub friction: f64,
     /// Force at which the webbing comes out of it, N.
     pub strength_n: f64,
-    /// Of a node of a segment: how it rides on parts of it that give way; a sphere says so itself.
+    /// Of a node of a segment: how it rides on parts of it that yield; a sphere says so itself.
     pub ride: Shares,
 }
 
@@ -112,12 +112,12 @@ pub struct Next {
     pub segment: usize,
     /// From its lower end, segment axes, m.
     pub point_m: Point3<f64>,
-    /// How it rides on parts of that segment that give way.
+    /// How it rides on parts of that segment that yield.
     pub ride: Shares,
 }
 
 impl Track {
-    /// The same among several bodies, whose segments and plates begin at these.
+    /// The same among several bodies; segments and plates of this body begin at these indices.
     pub(crate) fn of_member(&self, segment: usize, plate: usize) -> Self {
         let moved = |shares: &Shares| shares.iter().map(|(on, share)| (plate + on, *share)).collect();
         let then = self.then.as_ref().map(|next| Next {
@@ -175,7 +175,7 @@ pub struct Pull {
     pub cue: Cue,
     /// Time since it fired, s, and what it gives then: webbing pulled in, m, or force, N.
     pub table: Vec<[f64; 2]>,
-    /// The greatest speed of webbing that it pulls in, m/s, where it gives a force.
+    /// The largest speed of webbing that it pulls in, m/s, where it gives a force.
     pub by_force: Option<f64>,
     /// Tension at which it stops, N.
     pub stall_n: f64,

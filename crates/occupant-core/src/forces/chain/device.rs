@@ -1,8 +1,8 @@
-//! What holds the first node of a belt: an anchor, a limiter, or a spool with its phases.
+//! The device at the first node of a belt: an anchor, a limiter, or a spool with its phases.
 //!
-//! The march has one unknown x at the first node: its tension T₀ where the spool is held, the deformation δ of the limiter
-//! (T₀ = Q(δ), p = p_L + δ), or the webbing Δp that has left since the last commit where the tension is given. Webbing fed
-//! and tension never fall with x.
+//! The march has one unknown x at the first node: its tension T₀ if the spool is fixed, the deformation δ of the
+//! limiter (T₀ = Q(δ), p = p_L + δ), or the webbing Δp that has left since the last commit if the tension is given.
+//! Webbing fed and tension never fall with x.
 
 use std::array::from_fn;
 
@@ -58,7 +58,7 @@ impl DeviceLaw<f64> {
         }
     }
 
-    /// What has gone beyond the end of its curve, in words.
+    /// What has gone beyond the end of its curve, as text.
     pub(super) fn overrun(&self, of: &str, greatest: f64) -> Option<String> {
         let laws = self.limiter.iter().chain(self.second.iter().map(|second| &second.0));
         laws.filter_map(|law| law.overrun(of, greatest, |way| format!("{:.1} mm", 1e3 * way))).next()
@@ -123,7 +123,7 @@ impl<S: Scalar<Mask = bool>> DeviceLaw<S> {
 
 impl<S: Scalar<Mask = bool>> DeviceLaw<S> {
     /// Where between two commits the second limiter was due to begin or to end to take over; the step behind that, or behind a
-    /// lock, tells at once how the payout goes on.
+    /// lock, tells at once how the payout continues.
     fn takes_over(&self, before: &Moment<'_, S>, now: &Moment<'_, S>) -> Option<S> {
         match [before, now].map(|of| of.first.pays_anew()) {
             [true, false] => Some(S::zero()),

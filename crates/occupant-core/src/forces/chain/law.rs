@@ -1,4 +1,4 @@
-//! A chain at one instant: its places, its tensions, and what it remembers of an accepted step.
+//! A chain at one instant: its positions, its tensions, and its memory of an accepted step.
 
 use super::MOST_NODES;
 use super::data::Chain;
@@ -68,7 +68,7 @@ impl ChainLaw<f64> {
         ChainLaw { straps: Straps::new(chain, starts), nodes, belt, frame: chain.frame.index(&[]) }
     }
 
-    /// Length of the webbing where the body is, m, and what is remembered of its way there.
+    /// Length of the webbing where the body is, m, and the memory of its way there.
     pub(super) fn lie(&self, at: &Instant<'_, f64>) -> (f64, ChainPast<f64>) {
         let mut past = ChainPast::none();
         past.device.time = at.frames.time;
@@ -92,7 +92,7 @@ impl ChainLaw<f64> {
         (bends.iter().fold(0.0, |sum, bend| sum + bend.span + bend.arc), past)
     }
 
-    /// What is remembered of a belt that lies so, `whole` long in all its parts, m.
+    /// Memory of a belt that lies so, `whole` long in all its parts, m.
     pub(super) fn start(&self, at: &Instant<'_, f64>, whole: f64, past: &ChainPast<f64>) -> ChainPast<f64> {
         let (mut lies, mut past) = (Lies::nowhere(), *past);
         self.lay(at, &past, &mut lies);
@@ -129,7 +129,7 @@ impl ChainLaw<f64> {
 }
 
 impl ChainLaw<f64> {
-    /// What has gone beyond the end of its curve, in words.
+    /// What has gone beyond the end of its curve, as text.
     pub(super) fn overrun(&self, belt: &str, past: &ChainPast<f64>) -> Option<String> {
         let strain = past.nodes.iter().fold(0.0, |most: f64, node| most.max(node.greatest));
         self.straps.overrun(belt, strain, past.device.greatest)
@@ -145,7 +145,7 @@ impl ChainLaw<f64> {
 }
 
 impl<S: Scalar<Mask = bool>> ChainLaw<S> {
-    /// Where between two commits the first switch was due; none where what they remember does not tell.
+    /// Where between two commits the first switch was due; none if what they remember does not tell.
     pub(super) fn due(&self, before: &ChainPast<S>, now: &ChainPast<S>) -> Option<S> {
         let mut first = self.straps.due(before, now);
         for (k, node) in self.nodes.iter().enumerate() {
@@ -257,7 +257,7 @@ impl<S: Scalar> ChainLaw<S> {
         lies.bends[k].normal * (lies.places[k].radius * (straps[strap - 1].tension - straps[strap].tension))
     }
 
-    /// Remembers an accepted step.
+    /// Stores an accepted step.
     #[inline(always)]
     pub(super) fn commit(&self, at: &Instant<'_, S>, now: &Now<'_, S>, past: &mut ChainPast<S>) -> Committed<S> {
         let mut next = *past;

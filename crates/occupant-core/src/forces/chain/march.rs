@@ -1,4 +1,4 @@
-//! Tensions of a chain: one number at the first node gives all of them.
+//! Tensions of a chain: one number at the first node determines all of them.
 //!
 //! From x at the first node follow T₀ and Δs₀ = Δp ([`super::device`]); along the straps N_i = ℓ_i/(1 + ε_i(T_i)),
 //! Δs_{i+1} = Δs_i + N_iᶜ − N_i, and T_{i+1} = T_i exp(μθ z) with z = clamp(zᶜ + Δs/x_s, −1, 1): Coulomb friction with a play
@@ -23,7 +23,7 @@ pub(super) struct Run<S> {
     pub(super) length: S,
     /// Nᶜ.
     pub(super) before: S,
-    /// Greatest loading strain, and the strain that stays.
+    /// Largest loading strain, and the strain that stays.
     pub(super) greatest: S,
     pub(super) set: S,
     /// μθ and exp(−μθ).

@@ -1,13 +1,15 @@
-//! Where webbing rubs on a sphere: the mark at which its two straps meet.
+//! Friction of webbing on a sphere: the mark at which its two straps meet.
 //!
-//! The straps before and behind meet at a mark on the surface, the arc σ behind the point where the webbing comes onto the
-//! sphere: ℓ₋ = S₋ + σ, ℓ₊ = S₊ + rW − σ. The mark is fixed to the segment, so that σ falls by what the touching point goes
-//! along the webbing over the surface: with its direction τ from the centre and the normal m of the webbing's plane in segment
-//! axes σ̇ = r m·(τ × τ̇), exact over a step in one plane, to second order where the plane turns. Turning across the webbing moves
-//! it sideways and is free (our decision). With T₋û₋ + T₊û₊ at the centre and the moment −r(T₊ − T₋)m, Σ T ℓ̇ is the power of
-//! the webbing. All friction of the arc is in the mark, over which webbing slips as over a ring with the angle W.
+//! The straps before and behind meet at a mark on the surface, at the arc σ behind the point where the webbing comes
+//! onto the sphere: ℓ₋ = S₋ + σ, ℓ₊ = S₊ + rW − σ. The mark is fixed to the segment, so σ falls by the travel of the
+//! touching point along the webbing over the surface: with its direction τ from the centre and the normal m of the
+//! webbing's plane in segment axes σ̇ = r m·(τ × τ̇), exact over a step in one plane, to second order where the plane
+//! turns. Rotation across the webbing moves it sideways without resistance (our decision). With T₋û₋ + T₊û₊ at the
+//! centre and the moment −r(T₊ − T₋)m, Σ T ℓ̇ is the power of the webbing. All friction of the arc acts at the mark,
+//! over which webbing slips as over a ring with the angle W.
 //!
-//! The mark does not leave the arc: where the surface carries it to an end, the straps exchange webbing there without slip.
+//! The mark does not leave the arc: where the surface carries it to an end, the straps exchange webbing there without
+//! slip.
 
 use super::past::NodePast;
 use super::path::{Bend, Place};
@@ -51,7 +53,7 @@ impl<S: Scalar> NodeLaw<S> {
         Mark { way, beyond: free - way }
     }
 
-    /// Remembers how the webbing lies on a sphere; the mark of one that it comes onto begins in the middle.
+    /// Stores how the webbing lies on a sphere; the mark of one that it comes onto begins in the middle.
     #[inline(always)]
     pub(super) fn remember(
         &self,

@@ -1,8 +1,9 @@
 //! Belts over several nodes: anchors, rings, guides, spheres, with retractors, limiters and pretensioners.
 //!
-//! Webbing without mass runs from node to node (`path`). Where it is held or rubs, a strap ends; each has one tension, and
-//! one number at the first node gives all of them (`march`). The device at that node has phases (`device`). All that a
-//! belt remembers changes at accepted steps alone (`past`): within a step the forces are a function of place and time.
+//! Massless webbing runs from node to node (`path`). A strap ends where webbing is fixed or has friction; each has one
+//! tension, and one number at the first node determines all of them (`march`). The device at that node has phases
+//! (`device`). A belt's memory changes only at accepted steps (`past`): within a step the forces are a function of
+//! position and time.
 
 mod check;
 mod cue;
@@ -295,7 +296,7 @@ fn bear<S: Scalar>(
     }
 }
 
-/// A force on a place of a segment, which may ride on parts of it that give way, and its power; space axes.
+/// A force on a place of a segment, which may ride on parts of it that yield, and its power; space axes.
 #[inline(always)]
 fn pull<S: Scalar>(
     at: &Instant<'_, S>,

@@ -1,4 +1,4 @@
-//! What a chain remembers between steps: plain numbers that change only at accepted steps.
+//! Memory of a chain between steps: plain numbers that change only at accepted steps.
 
 use super::MOST_NODES;
 use super::data::NEVER;
@@ -51,7 +51,7 @@ macro_rules! numbers {
 }
 
 numbers! {
-    /// What is remembered of a node and of the strap that begins there.
+    /// Memory of a node and of the strap that begins there.
     NodePast {
         /// 1 while the webbing passes it, 2 once it has come off a track and lies where that says.
         on,
@@ -67,7 +67,7 @@ numbers! {
         touch_z,
         /// N of the strap, m.
         unstretched,
-        /// Greatest loading strain x* of the strap.
+        /// Largest loading strain x* of the strap.
         greatest,
         /// Strain of the strap, and that of its viscous branch.
         strain,
@@ -87,8 +87,8 @@ numbers! {
         /// Way of a node along its track or its stroke, or of the mark on a sphere, m, and its speed, m/s.
         way,
         speed,
-        /// Force of the webbing along a track, N; of other nodes what decides on a switch: W of a sphere, rad, the pull away
-        /// from the body or against a stroke, N.
+        /// Force of the webbing along a track, N; for other nodes the quantity that decides a switch: W of a sphere,
+        /// rad, the pull away from the body or against a stroke, N.
         across,
         /// Lost here since the start, J: friction along and across, limiter and spool, and the webbing of the strap.
         lost,
@@ -96,7 +96,7 @@ numbers! {
 }
 
 numbers! {
-    /// What is remembered of the belt's device.
+    /// Memory of the belt's device.
     DevicePast {
         /// Of the last accepted step, s.
         time,
@@ -106,7 +106,7 @@ numbers! {
         phase,
         /// p − δ of a locked spool, m.
         base,
-        /// Greatest loading deformation of the limiter, m.
+        /// Largest loading deformation of the limiter, m.
         greatest,
         /// Average speed of the payout, and its last, m/s.
         average,
@@ -136,7 +136,7 @@ numbers! {
     }
 }
 
-/// What a chain remembers. Nodes beyond its own are 0.
+/// Memory of a chain. Nodes beyond its own are 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChainPast<S> {
     pub(super) device: DevicePast<S>,
@@ -154,7 +154,7 @@ impl<S> ChainPast<S> {
 }
 
 impl ChainPast<f64> {
-    /// Greatest loading deformation of the limiter, m.
+    /// Largest loading deformation of the limiter, m.
     pub(crate) fn limiter_m(&self) -> f64 {
         self.device.greatest
     }
@@ -203,7 +203,7 @@ impl<S: Scalar> ChainPast<S> {
 
 impl<S: Scalar> NodePast<S> {
     /// How the mean speed along a track over a time h after the last commit differs from that at the commit: half of what it
-    /// changes by, if it goes on as in the step before. So the way is of second order.
+    /// changes by, if it continues as in the step before. So the way is of second order.
     #[inline(always)]
     pub(super) fn half_change(&self, h: S) -> S {
         let [change, lasted] = [self.touch_x, self.touch_y];
@@ -229,7 +229,7 @@ impl<S: Scalar> NodePast<S> {
         mean + S::select(lasted.gt(S::zero()), (mean - before) * (h / (h + lasted)), S::zero())
     }
 
-    /// Where the payout goes on otherwise: its speed is not known.
+    /// Where the payout continues otherwise: its speed is not known.
     #[inline(always)]
     pub(super) fn pay_anew(&mut self, anew: S::Mask) {
         self.normal_y = S::select(anew, S::of(ANEW), self.normal_y);
@@ -241,14 +241,14 @@ impl<S: Scalar> NodePast<S> {
         self.normal_y.lt(S::zero())
     }
 
-    /// Whether the limiter goes back: δ falls, or has fallen and is not the greatest again.
+    /// Whether the limiter goes back: δ falls, or has fallen and is not the largest again.
     #[inline(always)]
     pub(super) fn goes_back(&self) -> S::Mask {
         self.normal_z.gt(S::zero())
     }
 
     /// Notes at an accepted step of length h whether the strap goes back, whose webbing has this strain: it falls, or has fallen and is
-    /// not the greatest again.
+    /// not the largest again.
     #[inline(always)]
     pub(super) fn turn(&mut self, strain: S, h: S) {
         let (o, mean) = (S::zero(), (strain - self.strain) / h);

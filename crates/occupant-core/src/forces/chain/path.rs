@@ -1,13 +1,13 @@
-//! Where the webbing of a chain runs, how long it is, and the gradient of that length.
+//! Course and length of the webbing of a chain, and the gradient of that length.
 //!
-//! With centres x and radii r of the nodes (0 of points), D = |x₊ − x₋|, a = r₋ − r₊, a span is S = √(D² − a²) long. A sphere
-//! with p and q from its centre to the nodes on either side wraps the webbing by
-//! W = 2π − θ − acos((r − r₋)/|p|) − acos((r − r₊)/|q|), θ the angle from p to q about the normal m = ±p × q/|p × q| with the
-//! sense that it had before; the length is Σ S + Σ r W. Forces are −T times its gradient, so that no energy comes of the
-//! approximation in it: each sphere wraps in the plane of the three centres. Nodes that the webbing has left are passed over.
+//! With centres x and radii r of the nodes (0 of points), D = |x₊ − x₋|, a = r₋ − r₊, a span has the length S = √(D² −
+//! a²). A sphere with p and q from its centre to the nodes on either side wraps the webbing by W = 2π − θ − acos((r −
+//! r₋)/|p|) − acos((r − r₊)/|q|), with θ the angle from p to q about the normal m = ±p × q/|p × q|, which keeps its
+//! sense; the length is Σ S + Σ r W. Forces are −T times its gradient, so the approximation in it (each sphere wraps in
+//! the plane of the three centres) creates no energy. Nodes that the webbing has left are skipped.
 //!
-//! Where webbing rubs on a sphere, its gradient is parted: the webbing before pulls along its free span, and so does that
-//! behind.
+//! Where webbing has friction on a sphere, its gradient is divided: the webbing before pulls along its free span, and
+//! so does the webbing behind.
 
 use std::f64::consts::TAU;
 

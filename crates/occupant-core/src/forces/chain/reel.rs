@@ -1,4 +1,4 @@
-//! A spool: when it locks, and what its pretensioner pulls.
+//! A spool: its lock and its pretensioner.
 
 use super::cue::CueLaw;
 use super::data::{Pull, Reel};

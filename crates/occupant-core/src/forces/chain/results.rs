@@ -19,7 +19,7 @@ use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 use crate::quantity::{Axes, FieldWords, Quantity};
 
-/// Greatest angle between two points of a drawn arc, rad.
+/// Largest angle between two points of a drawn arc, rad.
 const ARC_STEP_RAD: f64 = 0.15;
 
 /// What one strap does at one instant.
@@ -201,12 +201,16 @@ impl Reported for Chains {
             "strain",
             "length over unstretched length, less 1; in slack where tension begins",
         ),
-        Of::number(Metre, |s| s.length).channel("length", "length of the {}").field(4, "length", "length that it lies at"),
+        Of::number(Metre, |s| s.length).channel("length", "length of the {}").field(
+            4,
+            "length",
+            "length that it lies at",
+        ),
         Of::number(Metre, |s| s.unstretched).field(5, "unstretched", "unstretched length"),
         Of::number(Metre, |s| s.fed).channel("payout", "webbing that has come into the {} where it begins").field(
             6,
             "payout",
-            "unstretched webbing that has come into it where it begins since the start: off the spool, through the ring",
+            "unstretched webbing that has entered at its first node since the start: off the spool, through the ring",
         ),
         Of::number(Unit::MetrePerSecond, |s| s.fed_speed).field(
             7,
@@ -216,25 +220,40 @@ impl Reported for Chains {
         Of::number(One, |s| s.phase).channel("phase", "phase of the device of the {}").field(
             8,
             "phase",
-            "of the device where it begins: 1 open spool, 2 locking, 3 pulled in, 4 locked or fixed; 0 of a ring",
+            "of the device at its first node: 1 open spool, 2 locking, 3 pulled in, 4 locked or fixed; 0 of a ring",
         ),
-        Of::number(Radian, |s| s.turn).field(9, "turn", "angle by which the webbing turns in the ring where it begins"),
+        Of::number(Radian, |s| s.turn).field(
+            9,
+            "turn",
+            "angle by which the webbing turns in the ring at its first node",
+        ),
         Of::vector(Newton, Axes::Vehicle, |s| s.node_force.to_vector())
             .channel("node_force", "force of the webbing on the node where the {} begins")
-            .field(10, "node_force", "force of the webbing on the node where it begins")
+            .field(10, "node_force", "force of the webbing on its first node")
             .resultant(11, "node_force", "its magnitude"),
         Of::vector(Metre, Axes::Vehicle, |s| s.ends[0].to_vector()).field(12, "start", "where it begins"),
         Of::number(Radian, |s| s.bone_angle)
-            .channel("pelvis_angle", "angle of the belt's force against the bone where the {} begins, positive towards the abdomen")
-            .field(16, "bone_angle", "of its force on a track where it begins against the bone's normal, positive outwards"),
+            .channel(
+                "pelvis_angle",
+                "angle of the belt's force against the bone where the {} begins, positive towards the abdomen",
+            )
+            .field(
+                16,
+                "bone_angle",
+                "of its force on a track where it begins against the bone's normal, positive outwards",
+            ),
         Of::number(Newton, |s| s.bone_force)
             .channel("bone_force", "force of the webbing on the bone where the {} begins")
-            .field(17, "bone_force", "its force on a track where it begins; 0 once it has come off"),
-        Of::number(Joule, |s| s.stored).field(13, "stored", "recoverable energy, with that of the limiter where it begins"),
+            .field(17, "bone_force", "its force on a track at its first node; 0 once it has come off"),
+        Of::number(Joule, |s| s.stored).field(
+            13,
+            "stored",
+            "recoverable energy, with that of the limiter at its first node",
+        ),
         Of::number(Joule, |s| s.lost).field(
             14,
             "lost",
-            "lost in it and where it begins since the start: webbing, friction, limiter and spool",
+            "lost in it and at its first node since the start: webbing, friction, limiter and spool",
         ),
         Of::number(Metre, |s| s.residual).field(
             15,
@@ -422,7 +441,7 @@ impl Reported for Chains {
 
 const LEAVES_LEFT: &str = "leaves the left iliac wing";
 const LEAVES_RIGHT: &str = "leaves the right iliac wing";
-const LOSES: &str = "loses the node where it begins";
+const LOSES: &str = "comes off its first node";
 const COMES_ONTO: &str = "comes onto a sphere of the body";
 const LEAVES: &str = "leaves a sphere of the body";
 const TIGHTENS: &str = "tightens";

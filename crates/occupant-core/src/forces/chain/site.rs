@@ -1,4 +1,4 @@
-//! Nodes of a chain: where they are, how they slide or are pulled, and when the webbing comes out of them.
+//! Nodes of a chain: positions, sliding, pulling, and release of the webbing.
 
 use super::data::{NEVER, Next, Node, Site, Stroke, Track, Wing};
 use super::past::{DevicePast, NodePast, STALLED};
@@ -80,7 +80,7 @@ impl<S: Copy> NextLaw<S> {
 }
 
 impl TrackLaw<f64> {
-    /// The circle through three points, seen from the joint; nothing where they are in line. `joint` gives that of a segment.
+    /// The circle through three points, seen from the joint; nothing if they are in line. `joint` gives that of a segment.
     pub(super) fn new(track: &Track, segment: usize, joint: &dyn Fn(usize) -> Vector3<f64>) -> Option<Self> {
         let from = joint;
         let joint = from(segment);
@@ -181,7 +181,7 @@ impl NodeLaw<f64> {
 }
 
 impl<S: Scalar<Mask = bool>> NodeLaw<S> {
-    /// Where between two memories the webbing was due to come onto the node or off it, or its stroke to stall; none where they
+    /// Where between two memories the webbing was due to come onto the node or off it, or its stroke to stall; none if they
     /// do not tell.
     pub(super) fn due(&self, before: &NodePast<S>, now: &NodePast<S>) -> Option<S> {
         let is_torn = self.strength.lt(S::of(NEVER));
@@ -315,7 +315,7 @@ impl<S: Scalar> NodeLaw<S> {
         matches!(self.site, SiteLaw::Sphere(_))
     }
 
-    /// How it rides on parts of its segment that give way.
+    /// How it rides on parts of its segment that yield.
     #[inline(always)]
     pub(super) fn riding<'s>(&'s self, spheres: &'s [Sphere<S>]) -> Option<&'s Riding<S>> {
         self.sphere(spheres).map_or(self.ride.as_ref(), |sphere| sphere.riding(Use::Belt))
@@ -375,7 +375,7 @@ impl<S: Scalar> NodeLaw<S> {
         Place { centre, radius, is_sphere: self.is_sphere(), rubs: self.rubs, may_leave: self.may_leave, sense }
     }
 
-    /// How it goes on from an accepted step with this force (space axes) of the webbing on it: its way and speed, whether the
+    /// How it continues from an accepted step with this force (space axes) of the webbing on it: its way and speed, whether the
     /// webbing still passes it, and the work of what pulls it; `since` is the time of the step before. A stroke that has stalled has a speed below 0.
     #[inline(always)]
     pub(super) fn commit(

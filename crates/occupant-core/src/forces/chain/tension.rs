@@ -1,7 +1,7 @@
-//! Straps with given lengths: their tensions, and what they and the device at the first node remember.
+//! Straps with given lengths: their tensions, and the memory of straps and first node.
 //!
-//! A metre of unstretched webbing carries P = T(1 + ε) − w away from a strap, w its recoverable energy. What is lost where
-//! webbing passes is the difference of P on both sides times what passes.
+//! A metre of unstretched webbing carries P = T(1 + ε) − w away from a strap, w its recoverable energy. The loss where
+//! webbing passes is the difference of P on both sides times the webbing that passes.
 
 use super::MOST_NODES;
 use super::data::{Chain, NEVER, Rest};
@@ -148,7 +148,7 @@ impl Straps<f64> {
         }
     }
 
-    /// What is remembered of straps that lie with this strain.
+    /// Memory of straps that lie with this strain.
     pub(super) fn start(&self, time_s: f64, strain: f64, lengths: &[f64; MOST_NODES], past: &mut ChainPast<f64>) {
         let greatest = strain.max(0.0);
         let response = self.webbing.curve.respond(strain, greatest);
@@ -321,7 +321,7 @@ impl<S: Scalar> Straps<S> {
         tense.tension * (S::one() + tense.strain) - self.stored_per_metre(taut, strap)
     }
 
-    /// Remembers in `next` an accepted step that began with `past`.
+    /// Stores in `next` an accepted step that began with `past`.
     #[inline(always)]
     pub(super) fn commit(&self, time: S, taut: &Taut<'_, S>, past: &ChainPast<S>, next: &mut ChainPast<S>) {
         let (straps, half) = (&taut.solved.straps, S::of(0.5));

@@ -1,6 +1,6 @@
-//! The iliac wings of a pelvis: where webbing lies on them, and how it slides up on them.
+//! The iliac wings of a pelvis: where webbing lies on them, and how it slides up.
 //!
-//! All numbers are guesses: no drawing of a pelvis was at hand.
+//! All numbers are guesses: we had no drawing of a pelvis.
 
 /// Friction of webbing across a wing.
 pub const ACROSS: f64 = 0.25;

@@ -1,4 +1,4 @@
-//! What is wrong with a column by itself.
+//! Checks of a column.
 
 use super::data::Column;
 use crate::forces::function::Goes;
@@ -37,7 +37,7 @@ pub(super) fn data(column: &Column, problems: &mut Problems) {
         problems.error(at(law), format!("a {what} that never rises"), expected);
     } else if slope < steepest * (1.0 - 1e-9) {
         let found = format!("{} {unit}, the {what} rises by {} {unit}", number(slope), number(steepest));
-        let expected = format!("no less than the greatest slope of the {what}: unloading would make energy");
+        let expected = format!("no less than the largest slope of the {what}: otherwise unloading would create energy");
         problems.error(at(slope_key), found, expected);
     }
 }

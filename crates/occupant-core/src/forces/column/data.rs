@@ -1,4 +1,4 @@
-//! A frame that gives way along an axis or about one, as data.
+//! A frame that yields along an axis or about one, as data.
 
 use nalgebra::{Point3, Vector3};
 
@@ -10,7 +10,7 @@ use crate::forces::function::Function;
 pub struct Column {
     /// Its name, that of the frame.
     pub name: String,
-    /// The frame (index in [`Setup::frames`](crate::model::setup::Setup::frames)), whose own path stands still in its parent.
+    /// The frame (index in [`Setup::frames`](crate::model::setup::Setup::frames)), whose own path is at rest in its parent.
     pub frame: usize,
     /// â, the way that it gives or the axis about which it turns by the right hand, along the parent's axes; any length.
     pub axis: Vector3<f64>,
@@ -20,7 +20,7 @@ pub struct Column {
     pub hub_m: Point3<f64>,
     /// f over the stroke (N over m) or the angle (N·m over rad): where it yields. What it says of unloading does not count.
     pub force: Function,
-    /// K, slope of unloading, N/m or N·m/rad; the greatest slope of f if none.
+    /// K, slope of unloading, N/m or N·m/rad; the largest slope of f if none.
     pub unload_n_per_m: Option<f64>,
     /// Where it turns, if it does not go along the axis.
     pub hinge: Option<Hinge>,

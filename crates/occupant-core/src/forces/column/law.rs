@@ -1,19 +1,20 @@
-//! How a column or a hinge moves, and what holds it.
+//! Motion and resistance of a column or a hinge.
 //!
 //! ```text
 //! m_h ẍ = Q·â − S(x) − m_h â·(a_P − g)
-//! S = f(x_m) − K (x_m − x),   x_m the greatest stroke, the present one included
+//! S = f(x_m) − K (x_m − x),   x_m the largest stroke, the present one included
 //! ```
 //!
-//! Q is the force of bodies and bags on the frame, a_P the acceleration of the parent's axes where the hub is. S²/2K is stored,
-//! ∫f − f²/2K at x_m is lost. A hinge at h with its mass at r from there turns by θ for x, against a moment:
+//! Q is the force of bodies and bags on the frame, a_P the acceleration of the parent's axes at the hub. S²/2K is
+//! stored, ∫f − f²/2K at x_m is lost. A hinge at h with its mass at r from there turns by θ for x, against a moment:
 //!
 //! ```text
 //! (m_h |â × r|² + J) θ̈ = M·â − S(θ) − m_h â·(r × (a_h − g + α × r + (ω × âθ̇) × r + ω' × (ω' × r))) − J â·α
 //! ```
 //!
-//! M is the moment about h of what pushes it, a_h, ω, α are those of the parent, ω' = ω + âθ̇. J is all the inertia that it has about
-//! its own middle [D]: of a vehicle that turns about another axis than â no other counts.
+//! M is the moment about h of everything that pushes it, a_h, ω, α are those of the parent, ω' = ω + âθ̇. J is the only
+//! inertia about its own centre [D]; for a vehicle that turns about another axis than â the other components are
+//! neglected.
 
 use super::data::{Column, ColumnData};
 use super::past::ColumnPast;
@@ -32,7 +33,7 @@ const UNITS: [f64; 3] = [1.0, 100.0, 1000.0];
 /// Constants of a column.
 #[derive(Clone, Debug)]
 pub struct ColumnLaw<S> {
-    /// Its place among all that give way.
+    /// Its place among all that yield.
     pub(super) place: usize,
     /// Where its numbers stand among those that force elements own.
     first: usize,

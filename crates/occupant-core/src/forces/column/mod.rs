@@ -1,8 +1,8 @@
-//! Frames that give way: one with a mass, which bodies and bags push along an axis, a steering column, or about one, a hinge.
+//! Yielding frames with a mass, which bodies and bags push along an axis (a steering column) or about one (a hinge).
 //!
-//! The state owns place and speed of each (`law`), and the work that it takes up. A column carries its frame before anything
-//! acts on it; what pushes that frame is gathered by body (`Load::push`) and acts on the column after all others. What it
-//! remembers (`past`) is its greatest stroke, which stays.
+//! The state contains position and speed of each (`law`), and its absorbed work. A column moves its frame before any
+//! force is computed; forces on that frame are gathered by body (`Load::push`) and act on the column after all others.
+//! Its memory (`past`) is its largest stroke, which stays.
 
 mod check;
 mod data;
@@ -32,7 +32,7 @@ const WORK: usize = 6;
 
 const OTHER_COLUMNS: Unlike = Unlike("the columns carry other frames or have other numbers of points of their force");
 
-/// A kind of force element: frames that give way along an axis, or about one.
+/// A kind of force element: frames that yield along an axis, or about one.
 #[derive(Clone, Copy, Debug)]
 pub struct Giving<const TURNS: bool>;
 /// Steering columns.
@@ -155,12 +155,12 @@ impl<const TURNS: bool> Element for Giving<TURNS> {
 }
 
 impl<S> Forces<S> {
-    /// Whether any frame gives way.
+    /// Whether any frame yields.
     pub(crate) fn gives(&self) -> bool {
         !(self.columns.is_empty() && self.hinges.is_empty())
     }
 
-    /// Frames that give way, in the order of their places.
+    /// Frames that yield, in the order of their places.
     pub(crate) fn giving(&self) -> impl Iterator<Item = usize> {
         let all = || self.columns.iter().chain(&self.hinges);
         (0..MOST_GIVING).filter_map(move |place| all().find(|one| one.place == place).map(|one| one.frame))

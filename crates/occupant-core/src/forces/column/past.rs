@@ -1,13 +1,13 @@
-//! What a column remembers between steps.
+//! Memory of a column between steps.
 
 use crate::motion::scalar::Scalar;
 
-/// What a column remembers.
+/// Memory of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ColumnPast<S> {
-    /// x_m, the greatest stroke, m.
+    /// x_m, the largest stroke, m.
     pub(super) greatest: S,
-    /// Greatest residual of its book and greatest work that it took up so far, J.
+    /// Largest residual of its book and largest work that it took up so far, J.
     pub(super) residual: S,
     pub(super) taken: S,
 }

@@ -31,7 +31,7 @@ pub struct ColumnAction<S> {
     set: S,
     /// 1 from the end of its stroke on.
     bottoms: S,
-    /// Greatest residual of its book over the greatest work taken up.
+    /// Largest residual of its book over the largest work taken up.
     residual: S,
 }
 
@@ -99,9 +99,9 @@ impl<const TURNS: bool> Giving<TURNS> {
         Of::number(MetrePerSecond, |c| c.speed).channel("speed", "speed of stroke of the {}").field(3, "speed", "speed along its axis"),
         Of::number(Newton, |c| c.force).channel("force", "force that holds the {}").field(4, "force", "force that holds it, against the stroke"),
         Of::number(Newton, |c| c.push).channel("push", "push of bodies and bags on the {}").field(5, "push", "forces of bodies and bags on it, along its axis"),
-        Of::number(Joule, |c| c.taken).channel("work", "work taken up by the {}").field(6, "work", "work that it took up since the start"),
-        Of::number(Joule, |c| c.stored).channel("stored", "energy of the {}").field(7, "stored", "kinetic energy of its stroke and what it would give back"),
-        Of::number(Joule, |c| c.lost).channel("lost", "energy lost in the {}").field(8, "lost", "what it does not give back"),
+        Of::number(Joule, |c| c.taken).channel("work", "work taken up by the {}").field(6, "work", "work absorbed since the start"),
+        Of::number(Joule, |c| c.stored).channel("stored", "energy of the {}").field(7, "stored", "kinetic energy of its stroke and its recoverable energy"),
+        Of::number(Joule, |c| c.lost).channel("lost", "energy lost in the {}").field(8, "lost", "energy that it does not return"),
     ];
 
     #[rustfmt::skip]
@@ -110,9 +110,9 @@ impl<const TURNS: bool> Giving<TURNS> {
         Of::number(RadianPerSecond, |c| c.speed).channel("rate", "rate of turn of the {}").field(3, "rate", "rate of turn about its axis"),
         Of::number(NewtonMetre, |c| c.force).channel("moment", "moment that holds the {}").field(4, "moment", "moment that holds it, against the turn"),
         Of::number(NewtonMetre, |c| c.push).channel("push", "moment of bodies and bags on the {}").field(5, "push", "moments of bodies and bags on it, about its axis"),
-        Of::number(Joule, |c| c.taken).channel("work", "work taken up by the {}").field(6, "work", "work that it took up since the start"),
-        Of::number(Joule, |c| c.stored).channel("stored", "energy of the {}").field(7, "stored", "kinetic energy of its turn and what it would give back"),
-        Of::number(Joule, |c| c.lost).channel("lost", "energy lost in the {}").field(8, "lost", "what it does not give back"),
+        Of::number(Joule, |c| c.taken).channel("work", "work taken up by the {}").field(6, "work", "work absorbed since the start"),
+        Of::number(Joule, |c| c.stored).channel("stored", "energy of the {}").field(7, "stored", "kinetic energy of its rotation and its recoverable energy"),
+        Of::number(Joule, |c| c.lost).channel("lost", "energy lost in the {}").field(8, "lost", "energy that it does not return"),
     ];
 
     #[rustfmt::skip]
@@ -211,7 +211,7 @@ impl<const TURNS: bool> Reported for Giving<TURNS> {
         if begins(|c| c.bottoms, 0.5) {
             return Some((BOTTOMS, None));
         }
-        begins(|c| c.set, GIVEN_M).then_some(("gives way", None))
+        begins(|c| c.set, GIVEN_M).then_some(("yields", None))
     }
 }
 

@@ -1,11 +1,11 @@
-//! What a sphere flies at: no step may carry it past something unseen, or into it past its middle.
+//! The path of a fast sphere: no step may carry it through an object or past its middle.
 //!
-//! A contact begins at the end of a step. Where a sphere moves by less than its radius in a step its centre is then still
-//! outside, and on the side from which it came. A step in which it would move farther ends where it first touches: from the
-//! place of the commit its centre is led straight ahead, relative to what it may meet, by its distance from there, which
-//! comes to the place of touch from below whatever the shape. In touch it comes closer by at most half its radius at a
-//! step, so that it does not leap past the axis of a bar. What is slower for its size is not looked at: it costs nothing,
-//! and its steps are those of the integrator.
+//! A contact begins at the end of a step. If a sphere moves by less than its radius in a step, its centre is then still
+//! outside, on the side from which it came. A step in which it would move farther ends at first contact: from the
+//! position at the commit its centre is projected straight ahead, relative to what it may meet, by its distance from
+//! there. This approaches the point of contact from below, whatever the shape. In contact it approaches by at most half
+//! its radius per step, so that it does not jump past the axis of a bar. Slower spheres are not checked: they cost
+//! nothing, and their steps are those of the integrator.
 
 use super::encounter::Sphere;
 use super::hints::Near;

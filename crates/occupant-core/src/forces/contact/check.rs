@@ -1,4 +1,4 @@
-//! What is wrong with materials and surfaces by themselves.
+//! Checks of materials and surfaces.
 
 use std::collections::HashMap;
 
@@ -136,10 +136,8 @@ fn warn_of_concave(solids: &[Solid], problems: &mut Problems) {
     let pairs = near.pairs.iter().map(|pair| pair.map(|i| &solids[i]));
     for ([other, solid], angle_rad) in pairs.filter_map(|pair| Some((pair, concave_rad(pair[0], pair[1])?))) {
         let turn = angle_rad.to_degrees();
-        let found = format!(
-            "a concave corner or a gap to {} of the same group, of which the sides differ by {turn:.0}°",
-            other.name
-        );
+        let found =
+            format!("a concave corner or a gap to {} of the same group; the sides differ by {turn:.0}°", other.name);
         let expected =
             "solids of a group that bend inwards by 30° at most: the nearest alone pushes; without `group` all do";
         problems.warning(format!("solids.{}.group", solid.name), found, expected);
@@ -215,7 +213,7 @@ pub(super) fn beneath(
         let more = if count > 1 { format!(", and {} more are behind it", count - 1) } else { String::new() };
         let found = format!("the centre of {name} is {:.1} mm behind it at the start{more}", 1e3 * behind_m);
         let (path, most) = (with_key("surfaces", &data.surfaces[surface].name), 2 * count > all.len());
-        let expected = "a body in front of a plane, which does not hold what begins behind it";
+        let expected = "a body in front of the plane, which does not push a body that begins behind it";
         let problem =
             if most { Problem::error(path, found, expected) } else { Problem::warning(path, found, expected) };
         problems.push(problem.with_hint(Some("move the body or the plane; of `space` z is up, of all else down")));

@@ -119,7 +119,7 @@ fn outside<S: Scalar>(distance: S, away: V2<S>) -> Offset<S> {
 #[inline(always)]
 fn from_polygon<S: Scalar>(edges: &[Edge<S>], p: V2<S>) -> Offset<S> {
     let o = S::zero();
-    // greatest signed distance outside any side: ≤ 0 inside the polygon
+    // largest signed distance outside any side: ≤ 0 inside the polygon
     let mut greatest = S::of(f64::NEG_INFINITY);
     for edge in edges {
         greatest = greatest.max(edge.outward(p));

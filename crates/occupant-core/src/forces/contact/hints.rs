@@ -1,10 +1,10 @@
-//! Which pairs are worth looking at.
+//! Which pairs to evaluate.
 //!
-//! Nearly all pairs of a sphere and a face are far apart, or have passed each other for good. A commit looks at all pairs
-//! of a group, keeps in mind those that touch or may soon come near or open, and how far the nearest of the others is from
-//! that. As long as the sphere has not moved as far, nothing can have happened to the others: later commits leave them
-//! alone. Among the watched pairs those that can exert a force before the next commit are near; evaluations within a step
-//! look at no others. No result depends on it.
+//! Nearly all pairs of a sphere and a face are far apart, or have passed each other for good. A commit checks all pairs
+//! of a group. It stores those that touch or may soon come near or open, and the distance of the nearest of the others.
+//! Until the sphere has moved that far, nothing can have happened to the others, and later commits skip them. Among the
+//! watched pairs those that can exert a force before the next commit are near; evaluations within a step use no others.
+//! Results do not depend on it.
 
 use std::ops::Range;
 
@@ -20,7 +20,7 @@ const MARGIN_M: f64 = 1e-9;
 /// shorter one more looks.
 pub(super) const LEAST_WAY_M: f64 = 0.02;
 
-/// Which pairs are worth looking at.
+/// Which pairs to evaluate.
 #[derive(Clone, Debug)]
 pub struct ContactHints<S: Scalar> {
     /// Pairs that a commit must look at: those of each group in ascending order, from the place of its first pair on.
@@ -255,7 +255,7 @@ impl Nearing {
         }
     }
 
-    /// Remembers the near pairs of group `g`.
+    /// Stores the near pairs of group `g`.
     #[inline(always)]
     pub(super) fn end<S: Scalar>(self, g: usize, hints: &mut ContactHints<S>) {
         hints.looks[g].near = self.count;
@@ -297,7 +297,7 @@ impl<S: Scalar> Looking<S> {
         }
     }
 
-    /// Remembers the look at group `g` from `centre`, of spheres that go no farther than `reach` before it counts.
+    /// Stores the look at group `g` from `centre`, of spheres that go no farther than `reach` before it counts.
     #[inline(always)]
     pub(super) fn end(self, g: usize, centre: V3<S>, reach: S, hints: &mut ContactHints<S>) {
         let way = (self.least - reach - S::of(MARGIN_M)).max(S::zero());

@@ -1,4 +1,4 @@
-//! What a material does where a sphere meets it: normal force, and friction at the point of contact.
+//! Forces of a material on a sphere: normal force, and friction at the point of contact.
 //!
 //! With (F, U) of the material's force law and the weight w the normal force is wF; friction is −f φ ψ wF v_t/√(v_t² + v_s²),
 //! φ and ψ tables over the slip speed and the normal force (6.11).
@@ -52,7 +52,7 @@ impl<S: Scalar> Approach<S> {
     }
 }
 
-/// What a material does where it is met.
+/// Forces of a material on a sphere.
 pub(super) struct Law<S> {
     /// wF, N.
     pub force: S,

@@ -1,4 +1,4 @@
-//! What a surface is made of.
+//! Materials of surfaces.
 
 use serde::{Deserialize, Serialize};
 

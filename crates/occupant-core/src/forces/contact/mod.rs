@@ -329,7 +329,7 @@ impl ContactSystem<f64> {
         self.own.get(touch.pair).is_some()
     }
 
-    /// The solid of a part of a pair and its place in what is remembered.
+    /// The solid of a part of a pair and its position in what is remembered.
     pub(crate) fn member_of(&self, pair: usize, part: usize) -> Option<&Member> {
         let union = self.solids.pairs.get(pair.checked_sub(self.pairs.len())?)?;
         union.members.get(part)

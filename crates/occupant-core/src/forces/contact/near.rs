@@ -1,4 +1,4 @@
-//! Which of many bounded things are near each other: boxes along the axes, swept along the axis on which they are spread most.
+//! Which of many bounded objects are near each other: axis-aligned boxes, swept along the axis of largest spread.
 
 use nalgebra::{Point3, Vector3};
 

@@ -1,4 +1,4 @@
-//! How result files keep what pairs of a sphere and a face remember: the few that are not open and whole, by their numbers.
+//! Storage of the memory of sphere–face pairs in result files: only pairs that are not open and undeformed, by number.
 
 use super::{Contacts, FACE, OPEN, PASSED, PairHistory, TOUCHING, Touch};
 use crate::forces::shown::{Reported, Tracker};

@@ -1,8 +1,8 @@
-//! What contacts remember of a body that stands where it is, as if it began there.
+//! Initial memory of contacts for a body at rest in its position.
 //!
-//! A body that settles is tried in hundreds of postures, each a little beside the last. A sphere looks at all pairs of a group
-//! once and keeps in mind those that it is near; until it has moved as far as it is from touching any other, the others are
-//! left alone.
+//! Settling evaluates a body in hundreds of postures, each slightly different from the last. A sphere checks all pairs
+//! of a group once and stores those that are near. Until it has moved as far as its distance from touching any other,
+//! the others are skipped.
 
 use super::hints::{ContactHints, LEAST_WAY_M, Looking};
 use super::{ContactSystem, Contacts, OPEN, PASSED, PairHistory, TOUCHING, weight};

@@ -1,7 +1,7 @@
 //! Bounded plane surfaces of the compartment and of the surroundings, as data.
 //!
-//! Report: "The Idealized Passenger Compartment". The report's planes have no edges in print; bounded faces
-//! are our decision (see the theory manual).
+//! Report: "The Idealized Passenger Compartment". The report prints no edges of its planes; bounded faces are our
+//! decision (see the theory manual).
 
 use nalgebra::{Point3, Vector3};
 use occupant_units::trig;
@@ -20,7 +20,7 @@ pub enum Frame {
     Vehicle,
     /// Space: x forward, y left, z up.
     Space,
-    /// Another vehicle, the ground or a panel, by its place in [`crate::model::setup::Setup::frames`].
+    /// Another vehicle, the ground or a panel, by its position in [`crate::model::setup::Setup::frames`].
     #[serde(skip)]
     Other(usize),
     /// A segment (index), from its joint and in its own axes: the surface belongs to a body.

@@ -1,13 +1,14 @@
 //! Contact of spheres with bounded plane surfaces: pair states, normal force, edge band, friction.
 //!
-//! Report: Figs 15 and 16. L = G − N̂·x_c, Δ = r + L; Δ > 0 is contact and Δ the deformation. Our decisions:
-//! bounded faces with weight w = clamp01(1 − d/r); the states open, touching and passed; coplanar faces that share an
-//! edge act as one; regularised friction. With (F, U) of the spring at Δ, the sphere gets the normal force wF N̂, the edge
+//! Report: Figs 15 and 16. L = G − N̂·x_c, Δ = r + L; Δ > 0 is contact and Δ the deformation. Our decisions: bounded
+//! faces with weight w = clamp01(1 − d/r); the states open, touching and passed; coplanar faces that share an edge act
+//! as one; regularised friction. With (F, U) of the spring at Δ, the sphere receives the normal force wF N̂, the edge
 //! force (U/r) ê, and at A = centre − r N̂ the friction −f·wF·v_t/√(v_t² + v_s²).
 //!
-//! The edge force is minus the gradient of wU over the centre's place, so it is conservative if it acts at the centre, as
-//! any frictionless force on a sphere must. At A, with the rest of the contact force, it has the moment −U N̂×ê about the
-//! centre, which is work done on a turning segment that nothing stores. [`EdgeForce`] names both readings.
+//! The edge force is minus the gradient of wU over the position of the centre. It is conservative if it acts at the
+//! centre, as any frictionless force on a sphere must. At A, with the rest of the contact force, it has the moment −U
+//! N̂×ê about the centre. That moment does work on a turning segment that no potential stores. [`EdgeForce`] names both
+//! versions.
 
 use serde::{Deserialize, Serialize};
 
@@ -102,7 +103,7 @@ pub struct Group {
 pub struct PairHistory<S> {
     /// [`OPEN`], [`TOUCHING`] or [`PASSED`], or the remembered face of a solid.
     pub phase: S,
-    /// Δ_m, greatest committed deformation, m.
+    /// Δ_m, largest committed deformation, m.
     pub greatest: S,
 }
 

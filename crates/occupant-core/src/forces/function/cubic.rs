@@ -1,4 +1,4 @@
-//! Cubics of which curves are made: c₀ + c₁s + c₂s² + c₃s³ in s = x − x₀.
+//! Cubic pieces of curves: c₀ + c₁s + c₂s² + c₃s³ in s = x − x₀.
 
 use crate::motion::scalar::Scalar;
 
@@ -75,7 +75,7 @@ impl Cubic<f64> {
         points.windows(2).enumerate().map(cubic).collect()
     }
 
-    /// Least and greatest slope between x₀ and x.
+    /// Least and largest slope between x₀ and x.
     pub(crate) fn slopes(&self, x: f64) -> [f64; 2] {
         let [_, _, c2, c3] = self.c;
         // the slope is a parabola with its vertex here

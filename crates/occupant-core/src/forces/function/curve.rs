@@ -1,8 +1,8 @@
-//! A loading curve with its way back by stretch.
+//! A loading curve with unloading by stretch.
 //!
-//! Loading follows f. Unloading returns the share μ of what each interval took: with M(x) = ∫₀ˣ μ the force at x after a
-//! greatest x_m is f(x*), M(x*) = M(x_m) − (x_m − x), and 0 where the right side is negative; loading again goes back the same
-//! way. ∫₀^{x*} μ f is recoverable. With two intervals this is the spring of contacts ([`crate::forces::spring`]). What is lost,
+//! Loading follows f. Unloading returns the share μ of each interval's work: with M(x) = ∫₀ˣ μ the force at x after a
+//! maximum x_m is f(x*), M(x*) = M(x_m) − (x_m − x), and 0 where the right side is negative; reloading retraces it.
+//! ∫₀^{x*} μ f is recoverable. With two intervals this is the spring of contacts ([`crate::forces::spring`]). The loss,
 //! ∫(1 − μ) f up to x_m, never falls.
 
 use super::cubic::Cubic;
@@ -62,7 +62,7 @@ impl FunctionLaw<f64> {
         law
     }
 
-    /// The greatest slope of loading and unloading up to x, and whether f falls anywhere on the way.
+    /// The largest slope of loading and unloading up to x, and whether f falls anywhere on the way.
     pub(crate) fn steepness(&self, x: f64) -> (f64, bool) {
         let ends = self.pieces.iter().skip(1).map(|next| next.f.from.min(x)).chain([x]);
         let slopes =
@@ -160,7 +160,7 @@ impl<S: Scalar> FunctionLaw<S> {
         found
     }
 
-    /// Nothing to add; no number where the greatest deformation is beyond the end of what is known.
+    /// Nothing to add; no number where the largest deformation is beyond the end of what is known.
     #[inline(always)]
     pub(crate) fn unknown(&self, greatest: S) -> S {
         S::select(greatest.gt(self.stop), S::of(f64::NAN), S::zero())
@@ -178,7 +178,7 @@ impl<S: Scalar> FunctionLaw<S> {
         self.piece(|next| next.f.from.lt(loading)).returned_to(loading)
     }
 
-    /// Force at `x` after a greatest x_m.
+    /// Force at `x` after a largest x_m.
     #[inline(always)]
     pub(crate) fn respond(&self, x: S, greatest: S) -> Response<S> {
         let o = S::zero();
@@ -194,13 +194,13 @@ impl<S: Scalar> FunctionLaw<S> {
         Response { force: S::select(pulls, f.value(loading), o), slope: S::select(pulls, slope, o), loading }
     }
 
-    /// Recoverable energy at `x` after a greatest x_m.
+    /// Recoverable energy at `x` after a largest x_m.
     #[inline(always)]
     pub(crate) fn stored(&self, x: S, greatest: S) -> S {
         self.returned_to(self.respond(x, greatest).loading)[1]
     }
 
-    /// x at which straight lines have the force `force` after a greatest x_m, dx/dforce, and x*; the least where there are many.
+    /// x at which straight lines have the force `force` after a largest x_m, dx/dforce, and x*; the least where there are many.
     #[inline(always)]
     pub(crate) fn reach(&self, force: S, greatest: S, set: S) -> (S, S, S) {
         let piece = self.piece(|next| next.f.c[0].lt(force));

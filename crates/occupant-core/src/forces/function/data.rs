@@ -1,4 +1,4 @@
-//! Force functions as data, and what can be wrong with them by themselves.
+//! Force functions as data, and their checks.
 
 use serde::{Deserialize, Serialize};
 
@@ -79,9 +79,9 @@ pub enum Unloading {
     },
     /// By the quadratic of the ATB program.
     Quadratic {
-        /// R, the share that is to come back, over the greatest deformation; one row: everywhere.
+        /// R, the share that is to come back, over the largest deformation; one row: everywhere.
         returned: Vec<[f64; 2]>,
-        /// G, the deformation that stays, as a share of the greatest, over that.
+        /// G, the deformation that stays, as a share of the largest, over that.
         set: Vec<[f64; 2]>,
     },
 }
@@ -159,28 +159,28 @@ impl Function {
         self.points.last().map_or(0.0, |point| point[0])
     }
 
-    /// The greatest force within its points, N.
+    /// The largest force within its points, N.
     pub(crate) fn greatest_n(&self) -> f64 {
         self.points.iter().fold(0.0, |most, point| most.max(point[1]))
     }
 
-    /// The greatest slope between its points.
+    /// The largest slope between its points.
     pub(crate) fn steepest_loading(&self) -> f64 {
         self.slopes().fold(0.0, |most: f64, (slope, _)| most.max(slope))
     }
 
-    /// The greatest slope of loading and unloading.
+    /// The largest slope of loading and unloading.
     pub(crate) fn steepest(&self) -> f64 {
         self.slopes().fold(0.0, |most: f64, (slope, mu)| most.max(slope / mu.max(LEAST_FRACTION)))
     }
 
-    /// The greatest slope of each interval, and its μ.
+    /// The largest slope of each interval, and its μ.
     fn slopes(&self) -> impl Iterator<Item = (f64, f64)> {
         let ends = self.points.iter().skip(1);
         self.pieces().zip(ends).map(|((cubic, mu), end)| (cubic.slopes(end[0])[1], mu))
     }
 
-    /// Reports what is wrong with it; `falls`: how to mend a force that falls.
+    /// Reports problems of it; `falls`: how to mend a force that falls.
     pub(crate) fn check(&self, path: &str, goes: Goes, falls: &str, problems: &mut Problems) {
         check_points(&self.points, path, goes, falls, problems);
         if let (Shape::Polynomial(_), Some((cubic, _))) = (self.shape, self.pieces().next()) {
@@ -202,7 +202,7 @@ impl Function {
 /// Places in which a curve is looked at.
 pub(super) const PLACES: u32 = 200;
 
-/// Reports what is wrong with points of a curve.
+/// Reports problems of points of a curve.
 pub(super) fn check_points(points: &[[f64; 2]], path: &str, goes: Goes, falls: &str, problems: &mut Problems) {
     if points.len() < 2 || points[0] != [0.0, 0.0] {
         problems.error(path, format!("{} points, the first not (0, 0)", points.len()), "(0, 0) and at least one more");

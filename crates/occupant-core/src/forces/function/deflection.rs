@@ -1,17 +1,17 @@
-//! Force–deflection of contact: a loading curve, a way back, a spike of the first loading, and factors of speed.
+//! Force–deflection of contact: a loading curve, unloading, a spike of the first loading, and factors of speed.
 //!
-//! With δ_m the greatest deformation (the present one counts), F_m = f(δ_m) and A = ∫₀^{δ_m} f, the way back is one of
+//! With δ_m the largest deformation (including the present one), F_m = f(δ_m) and A = ∫₀^{δ_m} f, unloading is one of
 //!
 //! - *stretch*: [`super::curve`];
 //! - *slope*: F = max(g(δ), F_m − K(δ_m − δ), 0), with K above all slopes of f and g;
-//! - *quadratic*, that of the ATB program, R and G over δ_m: 0 below Gδ_m, then a₁y + a₂y² with y = δ − Gδ_m, L = δ_m − Gδ_m,
-//!   a₁ = max(0, 2(3RA/L − F_m)/L), a₂ = (F_m/L − a₁)/L, and where a₂ < 0 instead a₁ = F_m/L, a₂ = 0. These cuts let the share
-//!   that comes back be R only between F_mL/3A and F_mL/2A.
+//! - *quadratic*, that of the ATB program, R and G over δ_m: 0 below Gδ_m, then a₁y + a₂y² with y = δ − Gδ_m, L = δ_m −
+//!   Gδ_m, a₁ = max(0, 2(3RA/L − F_m)/L), a₂ = (F_m/L − a₁)/L, and where a₂ < 0 instead a₁ = F_m/L, a₂ = 0. Because of
+//!   these cuts the returned share is R only between F_mL/3A and F_mL/2A.
 //!
-//! The spike adds s(δ_m) clamp01(1 − (δ_m − δ)/l), l = min(2 mm, δ_m): full while the deformation grows, gone 2 mm after it
-//! turned, so that nothing jumps (our decision). All this is a function of δ and δ_m alone, of which U is recoverable; what
-//! is lost, ∫f + ∫s − U at δ_m, must not fall with δ_m (`dissipation`). Factors of speed c(δ̇) with c(0) = 1 and a
-//! damper C δ̇ clamp01(δ/δ_f) only ever take energy away; the whole force is cut at 0.
+//! The spike adds s(δ_m) clamp01(1 − (δ_m − δ)/l), l = min(2 mm, δ_m): full while the deformation grows, gone 2 mm
+//! after it reversed, so that nothing jumps (our decision). All this is a function of δ and δ_m alone. U is
+//! recoverable; the loss, ∫f + ∫s − U at δ_m, must not fall with δ_m (`dissipation`). Factors of speed c(δ̇) with c(0)
+//! = 1 and a damper C δ̇ clamp01(δ/δ_f) only dissipate energy; the whole force is cut at 0.
 
 use super::curve::FunctionLaw;
 use super::data::{ForceDeflection, Function, Unloading};
@@ -84,7 +84,7 @@ impl DeflectionLaw<f64> {
         self.loading.end()
     }
 
-    /// What ended a run, if the greatest depth is beyond the end of what is known.
+    /// What ended a run, if the largest depth is beyond the end of what is known.
     pub(crate) fn overrun(&self, of: &str, greatest: f64) -> Option<String> {
         self.loading.overrun(of, greatest, |depth| format!("{:.1} mm", 1e3 * depth))
     }
@@ -98,7 +98,7 @@ impl DeflectionLaw<f64> {
 }
 
 impl<S: Copy> DeflectionLaw<S> {
-    /// The same number by number with another; none where that has other parts or numbers of points.
+    /// The same number by number with another; none if that has other parts or numbers of points.
     pub(crate) fn zip<A: Copy, T>(&self, other: &DeflectionLaw<A>, f: &impl Fn(S, A) -> T) -> Option<DeflectionLaw<T>> {
         let unloading = match (&self.unloading, &other.unloading) {
             (Back::Stretch, Back::Stretch) => Back::Stretch,
@@ -124,7 +124,7 @@ impl<S: Copy> DeflectionLaw<S> {
 }
 
 impl<S: Scalar> DeflectionLaw<S> {
-    /// Force (N) and recoverable energy (J) at a depth (m) after a greatest depth, while the depth grows by `closing` (m/s).
+    /// Force (N) and recoverable energy (J) at a depth (m) after a largest depth, while the depth grows by `closing` (m/s).
     #[inline(always)]
     pub(crate) fn respond(&self, depth: S, greatest: S, closing: S) -> (S, S) {
         if S::IS_WIDE { self.within(depth, greatest, closing) } else { self.apart(depth, greatest, closing) }

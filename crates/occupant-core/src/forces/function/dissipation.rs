@@ -1,8 +1,8 @@
-//! What can be wrong with a force–deflection law: a curve that a way back cannot follow, or one that makes energy.
+//! Checks of a force–deflection law: a curve that unloading cannot follow, or one that creates energy.
 //!
-//! What is lost up to δ_m, D = ∫f + ∫s − U(δ_m), must not fall with δ_m; everything else is reversible. By stretch
-//! D′ = (1 − μ)f, by slope D′ = (K − f′)(δ_m − δ*) with δ* where the way back ends; both are sure by their conditions.
-//! For all, and so for the quadratic and for spikes, D is looked at in many places.
+//! The loss up to δ_m, D = ∫f + ∫s − U(δ_m), must not fall with δ_m; everything else is reversible. By stretch D′ = (1
+//! − μ)f, by slope D′ = (K − f′)(δ_m − δ*) where δ* is the end of unloading; both are safe by their conditions. D is
+//! evaluated at many points for all laws, and so for the quadratic and for spikes.
 
 use super::cubic::Cubic;
 use super::data::{ForceDeflection, Function, Goes, PLACES, Unloading, check_points};
@@ -16,7 +16,7 @@ impl ForceDeflection {
         ForceDeflection { loading, unloading: Unloading::Stretch, spike: Vec::new(), rate: Vec::new(), viscous: None }
     }
 
-    /// Reports what is wrong with it.
+    /// Reports problems of it.
     pub(crate) fn check(&self, path: &str, all: &mut Problems) {
         let problems = &mut Problems::new();
         let by_slope = matches!(self.unloading, Unloading::Slope { .. });
@@ -68,7 +68,7 @@ impl ForceDeflection {
         let (found, place) = (format!("{slope:.6} N/m"), format!("{path}.unload_slope"));
         let own = self.loading.steepest_loading();
         if slope.is_nan() || slope < own {
-            problems.error(place, found, format!("at least the greatest slope of loading, {own:.6} N/m"));
+            problems.error(place, found, format!("at least the largest slope of loading, {own:.6} N/m"));
             return;
         }
         if least.is_empty() {
@@ -110,22 +110,18 @@ impl ForceDeflection {
             && (share - returned).abs() > 0.01
         {
             let found = format!("r = {returned}, of which ATB's quadratic makes {share:.3} at the last point");
-            problems.warning(
-                format!("{path}.atb.r"),
-                found,
-                "an r that it can meet, or `returned`, which is met exactly",
-            );
+            problems.warning(format!("{path}.atb.r"), found, "an r within its range, or `returned`, which is exact");
         }
     }
 
-    /// The greatest damping that factors of speed and the damper make up to the last point, N·s/m.
+    /// The largest damping that factors of speed and the damper make up to the last point, N·s/m.
     pub(crate) fn damping(&self) -> f64 {
         let slope = |rows: &[[f64; 2]]| (rows[1][1] - rows[0][1]) / (rows[1][0] - rows[0][0]);
         let steepest = self.rate.windows(2).map(slope).fold(0.0, f64::max);
         self.loading.greatest_n() * steepest + self.viscous.map_or(0.0, |[damping, _]| damping)
     }
 
-    /// The greatest slope of loading and unloading up to its last point, N/m, by differences.
+    /// The largest slope of loading and unloading up to its last point, N/m, by differences.
     pub(crate) fn steepest(&self) -> f64 {
         let law = DeflectionLaw::new(self, 1.0);
         let (end, step) = (self.loading.end(), 1e-6 * self.loading.end());

@@ -1,7 +1,7 @@
-//! Force functions: a force over a deformation x ≥ 0, with a memory of the greatest x alone.
+//! Force functions: a force over a deformation x ≥ 0, with a memory of only the largest x.
 //!
-//! One curve ([`Function`]) serves webbing, limiters, stops of joints and contact; contact adds other ways back, a spike, and
-//! factors of speed ([`ForceDeflection`]). Tables that are no curves of force are `steps::Steps`.
+//! One curve ([`Function`]) is used for webbing, limiters, stops of joints and contact. Contact adds other ways of
+//! unloading, a spike, and factors of speed ([`ForceDeflection`]). Tables that are not force curves are `steps::Steps`.
 
 pub(crate) mod cubic;
 mod curve;

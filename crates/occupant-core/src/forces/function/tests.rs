@@ -24,7 +24,7 @@ fn two_intervals_are_the_bilinear_spring_and_reach_inverts_it() {
         let greatest = most.max(x);
         let (force, energy) = old.respond(x, greatest);
         let found = law.respond(x, greatest);
-        // greatest measured difference: 1.2e-13 N
+        // largest measured difference: 1.2e-13 N
         assert!((found.force - force).abs() < 1e-11, "{} {force}", found.force);
         assert!((law.returned_to(found.loading)[1] - energy).abs() < 1e-12);
         if force > 0.0 {
@@ -103,7 +103,7 @@ fn said(law: &ForceDeflection) -> Vec<String> {
     problems.iter().map(ToString::to_string).collect()
 }
 
-/// U is the antiderivative of the force at a constant greatest deformation, and what is lost grows with that alone: so the work
+/// U is the antiderivative of the force at a constant largest deformation, and what is lost grows with that alone: so the work
 /// of every path is what is stored and lost.
 #[test]
 fn the_force_is_the_slope_of_the_recoverable_energy() {
@@ -240,7 +240,7 @@ fn a_smooth_curve_rises_with_its_points_and_passes_them() {
     }
     let values: Vec<f64> = (0..=700).map(|i| law.value(1e-4 * f64::from(i))).collect();
     assert!(values.windows(2).all(|pair| pair[1] >= pair[0]));
-    // beyond the last point the last slope goes on
+    // beyond the last point the last slope continues
     assert!((values[700] - 2.0 * values[600] + values[500]).abs() < 1e-9);
 }
 
@@ -252,7 +252,7 @@ fn laws_that_make_energy_or_cannot_be_followed_are_refused() {
     let steep = vec![[0.0, 0.0], [1e-3, 0.0], [2e-3, 5000.0], [0.01, 0.0]];
     for (law, expected) in [
         (ForceDeflection::lines(falling.clone(), 0.5), "needs `unload_slope`"),
-        (ForceDeflection { unloading: slope(30e3, &[]), ..plain.clone() }, "at least the greatest slope of loading"),
+        (ForceDeflection { unloading: slope(30e3, &[]), ..plain.clone() }, "at least the largest slope of loading"),
         (
             ForceDeflection { unloading: slope(60e3, &[[0.0, 0.0], [0.01, 400.0]]), ..plain.clone() },
             "below that of loading",
@@ -289,7 +289,7 @@ fn a_polynomial_is_one_cubic_up_to_its_end() {
         let [_, back, lost] = law.returned_to(x);
         assert!((back - 0.4 * work).abs() < 1e-12 && (lost - 0.6 * work).abs() < 1e-12, "{x}");
     }
-    // beyond the end its last slope goes on
+    // beyond the end its last slope continues
     let slope = 2e3 - 6e4 * 0.05 + 27e5 * 0.0025;
     assert!((law.value(0.06) - exact(0.05) - 0.01 * slope).abs() < 1e-9);
     let scaled = FunctionLaw::new(&Function::polynomial([2e3, -3e4, 9e5], 0.05, 0.4).times(0.5));
@@ -330,7 +330,7 @@ fn a_law_that_ends_gives_no_number_beyond_its_end() {
     let points = vec![[0.0, 0.0], [0.04, 4e3]];
     let ends = Function { beyond: Beyond::Limits, ..Function::lines(points, 0.5) };
     let law = DeflectionLaw::new(&ForceDeflection { loading: ends, ..ForceDeflection::lines(Vec::new(), 1.0) }, 1.0);
-    // within a step it goes on; what an accepted step has brought beyond the end is not known
+    // within a step it continues; what an accepted step has brought beyond the end is not known
     assert!((law.respond(0.041, 0.04, 0.0).0 - 4.1e3).abs() < 1e-9);
     assert!(law.respond(0.03, 0.0401, 0.0).0.is_nan());
     let why = law.overrun("it", 0.0401).unwrap();

@@ -1,8 +1,8 @@
 //! Moments in the joints: viscous dampers, stops, springs in β, resistance to twist.
 //!
-//! Report: "The Viscous Damper", "Joint Stops", Figs 9–11. For a ball joint between segments k and l: Z_k and Z_l are the Z
-//! axes of its triads, in the report's body of the segments, n = Z_k × Z_l, s = |n|, ω = ω_l − ω_k. Our decision: β = atan2(√(s² + ε²), Z_k·Z_l), which has no singular posture; then
-//! β̇ = n·ω/√(s² + ε²), exactly.
+//! Report: "The Viscous Damper", "Joint Stops", Figs 9–11. For a ball joint between segments k and l: Z_k and Z_l are
+//! the Z axes of its triads (in the report's body those of the segments), n = Z_k × Z_l, s = |n|, ω = ω_l − ω_k. Our
+//! decision: β = atan2(√(s² + ε²), Z_k·Z_l), which has no singular posture; then β̇ = n·ω/√(s² + ε²), exactly.
 
 use crate::body::{Joint, Segment};
 use nalgebra::Vector3;
@@ -65,7 +65,7 @@ pub struct Ball<S> {
     pub joint: Joint,
     /// Proximal and distal segment.
     pub segments: (usize, usize),
-    /// Z of the triads in axes of these segments; none where they are theirs.
+    /// Z of the triads in axes of these segments; none if they are theirs.
     z: Option<[V3<S>; 2]>,
     damping: S,
     twist: S,

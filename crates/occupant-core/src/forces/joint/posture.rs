@@ -1,4 +1,4 @@
-//! The posture of a joint: where the outer segment stands to the inner one, and how far it has turned from there.
+//! The posture of a joint: the orientation of the outer segment relative to the inner one, and the rotation from there.
 
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{M3, V3};

@@ -1,4 +1,4 @@
-//! Joints that come with the program.
+//! Built-in joints.
 
 use super::data::{AngularSpring, BallJoint, HingeJoint, Joints, Stop};
 use crate::body::tti12::*;

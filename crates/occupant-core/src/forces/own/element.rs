@@ -1,4 +1,4 @@
-//! The kind of force element that a program brings itself.
+//! The kind of force element that a program defines itself.
 
 use std::any::Any;
 use std::fmt;
@@ -22,9 +22,7 @@ use crate::quantity::{FieldWords, Quantity, energy};
 use placed_text::Problems;
 
 /// Why a model with an own force has no place beside others and no derivatives.
-pub(crate) const PLAIN: Unlike = Unlike(
-    "a program's own forces are computed in plain numbers: side by side with other runs, or with derivatives, there are none",
-);
+pub(crate) const PLAIN: Unlike = Unlike("a program's own forces support neither lanes nor derivatives");
 
 /// The number of the state that says what a force has taken is so many J.
 const SCALE_J: f64 = 100.0;
@@ -73,7 +71,7 @@ impl fmt::Debug for OwnPlain {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OwnAction {
     segment: usize,
-    /// The greatest of its forces, N.
+    /// The largest of its forces, N.
     force: f64,
     /// What it has taken from the bodies since the start, stored or lost, J; below 0 what it gave.
     taken: f64,
@@ -133,7 +131,7 @@ impl Element for OwnForces {
             20,
             "own_forces",
             "taken by the program's own forces",
-            "taken from the bodies by a program's own forces since the start, stored or lost; below 0 what they gave",
+            "taken from the bodies by a program's own forces since the start, stored or lost; negative if they gave energy",
         ),
         held_by: None,
     }];
@@ -256,24 +254,25 @@ type Of = Quantity<OneOf<OwnForces>>;
 impl Reported for OwnForces {
     const MESSAGE: &'static str = "OwnForceState";
 
-    const QUANTITIES: &'static [Of] =
-        &[
-            Of::number(Newton, |own| own.force).channel("force", "greatest of the forces of the {}").field(
-                2,
-                "force",
-                "greatest of its forces",
+    const QUANTITIES: &'static [Of] = &[
+        Of::number(Newton, |own| own.force).channel("force", "largest of the forces of the {}").field(
+            2,
+            "force",
+            "greatest of its forces",
+        ),
+        Of::number(Joule, |own| own.taken)
+            .channel("taken", "energy that the {} has taken from the bodies, stored or lost")
+            .field(
+                3,
+                "taken",
+                "energy taken from the bodies since the start, stored or lost; negative if it gave energy",
             ),
-            Of::number(Joule, |own| own.taken)
-                .channel("taken", "energy that the {} has taken from the bodies, stored or lost")
-                .field(
-                    3,
-                    "taken",
-                    "energy that it has taken from the bodies since the start, stored or lost; below 0 what it gave",
-                ),
-            Of::number(Joule, |own| own.stored)
-                .channel("stored", "energy that the {} could give back, as it says")
-                .field(4, "stored", "energy that it could give back, as it says"),
-        ];
+        Of::number(Joule, |own| own.stored).channel("stored", "recoverable energy of the {}, as it reports").field(
+            4,
+            "stored",
+            "recoverable energy, as it reports",
+        ),
+    ];
 
     fn keep(past: &mut Vec<[f64; MOST_MEMORY]>, like: Option<&[[f64; MOST_MEMORY]]>, file: &mut dyn Archive) {
         let number = if like.is_some() { 68 } else { 67 };

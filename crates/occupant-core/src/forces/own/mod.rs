@@ -1,11 +1,10 @@
 //! A program's own forces: anything that acts on segments, spheres and frames, written in plain numbers. Ours.
 //!
-//! A [`Force`] sees a [`Scene`] and says what it does with [`Pushes`]. It is a part of the derivative like every force element:
-//! error control sees it, the energy balance counts what it takes from the bodies, stored or lost, and its channels stand
-//! among all others. What it remembers changes at accepted steps alone.
+//! A [`Force`] receives a [`Scene`] and returns its action as [`Pushes`]. It is a part of the derivative like every
+//! force element: error control includes it, the energy balance counts the energy that it takes from the bodies, stored
+//! or lost, and its channels are among all others. Its memory changes only at accepted steps.
 //!
-//! It knows no dual numbers and no lanes: there are no derivatives of a model that has one, and it is run alone where others
-//! run side by side.
+//! It supports neither dual numbers nor lanes: a model with one has no derivatives and always runs alone.
 
 mod element;
 mod scene;
@@ -19,18 +18,18 @@ use placed_text::{Problems, with_key};
 pub use element::{OwnAction, OwnData, OwnForces, OwnLaw};
 pub use scene::{Place, PointMotion, Pushes, Scene};
 
-/// Most numbers that a force remembers.
+/// Maximum count of numbers in a force's memory.
 pub const MOST_MEMORY: usize = 16;
 /// Most channels of a force.
 pub const MOST_CHANNELS: usize = 8;
 /// Most forces of a setup.
 pub const MOST_FORCES: usize = 8;
 
-/// A force of a program's own.
+/// Your own force.
 ///
-/// An evaluation within a step asks it several times, in any order, from any thread: what it does must follow from the scene
-/// and from what it remembers, **to the bit**. Forces must be continuous in place, velocity and time, or error control takes
-/// short steps round each jump.
+/// Each step evaluates it several times, in any order, from any thread: its result must follow from the scene and its
+/// memory alone, **to the bit**. Forces must be continuous in position, velocity and time; otherwise error control
+/// takes short steps around each jump.
 ///
 /// A spring of 1000 N/m between a hand and a knob of the vehicle:
 ///
@@ -52,16 +51,17 @@ pub const MOST_FORCES: usize = 8;
 /// }
 /// ```
 pub trait Force: Debug + Send + Sync {
-    /// Adds what it does at one instant to `pushes`.
+    /// Adds its forces at one instant to `pushes`.
     fn apply(&self, scene: &Scene<'_>, memory: &[f64], pushes: &mut Pushes<'_, '_>);
 
-    /// What it remembers at the start of the run: at most [`MOST_MEMORY`] numbers.
+    /// Its initial memory: at most [`MOST_MEMORY`] numbers.
     fn start(&self, _scene: &Scene<'_>) -> Vec<f64> {
         Vec::new()
     }
 
-    /// Takes over the place at an accepted step: what it remembers may change here, and nowhere else. One place may be taken over
-    /// more than once, at an output as well: the second time must change nothing. So it may keep a greatest value, not a count.
+    /// Updates the memory at an accepted step; it must not change anywhere else. The same position may be committed
+    /// more than once, also at an output, and the second time must change nothing. So the memory may keep a maximum,
+    /// but not a count.
     fn accept(&self, _scene: &Scene<'_>, _memory: &mut [f64]) {}
 
     /// Numbers that it shows with [`Pushes::show`]: at most [`MOST_CHANNELS`].
@@ -113,7 +113,7 @@ fn is_plain(name: &str) -> bool {
     !name.is_empty() && name.chars().all(is_letter)
 }
 
-/// Reports what is wrong with names and counts.
+/// Reports problems of names and counts.
 fn check(forces: &[OwnForce], problems: &mut Problems) {
     let expected = "small letters, digits and `_`";
     problems.check_unique("own_forces", "force", forces.iter().map(|own| own.name.as_str()));

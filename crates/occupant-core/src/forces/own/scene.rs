@@ -1,4 +1,4 @@
-//! What a force of a program's own sees, and what it does.
+//! Input and output of a program's own force.
 
 use nalgebra::{Point3, Vector3};
 
@@ -35,7 +35,7 @@ pub struct PointMotion {
 }
 
 impl PointMotion {
-    /// Of what there is not.
+    /// For something that does not exist.
     fn nowhere() -> Self {
         PointMotion { place_m: Vector3::repeat(f64::NAN), velocity_m_s: Vector3::repeat(f64::NAN) }
     }
@@ -73,7 +73,7 @@ impl Scene<'_> {
         }
     }
 
-    /// Velocity of a point of a segment, or of a sphere, which may ride on a part that gives way.
+    /// Velocity of a point of a segment, or of a sphere, which may ride on a part that yields.
     fn velocity(&self, place: &Place, segment: usize, arm: V3<f64>) -> V3<f64> {
         match place {
             Place::Sphere(sphere) => self.law.spheres[*sphere].place(self.k, Use::Contact).2,
@@ -118,7 +118,7 @@ impl Scene<'_> {
 pub struct Pushes<'s, 'l> {
     pub(super) scene: Scene<'s>,
     pub(super) load: &'l mut Load<f64>,
-    /// The first segment that was pushed, in whose body's books all stands.
+    /// The first pushed segment, whose body's ledger contains everything.
     pub(super) home: Option<usize>,
     /// Power that goes into the force, W.
     pub(super) taken_w: f64,
@@ -128,7 +128,7 @@ pub struct Pushes<'s, 'l> {
 }
 
 impl Pushes<'_, '_> {
-    /// A force on a point, N. On a frame it moves nothing but one that gives way; its work is the vehicle's.
+    /// A force on a point, N. On a frame it moves nothing but one that yields; its work is the vehicle's.
     pub fn force(&mut self, on: &Place, force_n: Vector3<f64>) {
         let motion = self.scene.motion(on);
         let power_w = force_n.dot(&motion.velocity_m_s);
@@ -184,12 +184,12 @@ impl Pushes<'_, '_> {
         }
     }
 
-    /// Energy that the force could give back, J, of what it has taken.
+    /// Energy that the force has absorbed and could return, J.
     pub fn stored_j(&mut self, energy_j: f64) {
         self.stored_j += energy_j;
     }
 
-    /// The present value of one of its channels, by its place in [`Force::channels`](super::Force::channels).
+    /// The present value of one of its channels, by its position in [`Force::channels`](super::Force::channels).
     pub fn show(&mut self, channel: usize, value: f64) {
         if let Some(shown) = self.shown.get_mut(channel) {
             *shown = value;

@@ -1,4 +1,4 @@
-//! What is wrong with plates by themselves.
+//! Checks of plates.
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
@@ -39,7 +39,7 @@ fn plate(plate: &Plate, body: &Body, problems: &mut Problems) {
     }
     let size = plate.inward.norm();
     if !(size > 1e-12 && size.is_finite()) {
-        problems.error(at("inward"), "no direction", "the way in which it gives way, in axes of its segment");
+        problems.error(at("inward"), "no direction", "the direction in which it yields, in axes of its segment");
     }
     if plate.place_from_lower_end_m.iter().any(|c| !c.is_finite()) {
         problems.error(at("at"), "not finite numbers", "where its mass is, from the segment's lower end");

@@ -1,4 +1,4 @@
-//! Plates as data: what resists their deflections.
+//! Plates as data: the resistance to their deflections.
 
 use crate::body::{Plate, Shares};
 use crate::forces::function::Function;

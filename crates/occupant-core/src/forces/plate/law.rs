@@ -1,12 +1,12 @@
-//! How plates are resisted.
+//! Resistance of plates.
 //!
 //! ```text
 //! x = Σ a s     f = f_e(x) + f_d(ẋ) + κ(x − e)     ė = (x − e)/τ     S_k = Σ a_k f
 //! f_d = c₁ẋ + c₂ẋ² for ẋ ≥ 0, c₀ẋ for ẋ < 0
 //! ```
 //!
-//! f_e has the way back of [`crate::forces::function`], stretch, with a memory x_m for each sign of x; that of one sign is
-//! forgotten once x has the other.
+//! f_e unloads by the stretch of [`crate::forces::function`], with a memory x_m for each sign of x; each memory is
+//! cleared when x has the other sign.
 
 use super::data::{Band, PlateData};
 use super::past::BandPast;

@@ -1,8 +1,8 @@
-//! Plates: parts of the trunk that give way, point masses on slides of a segment.
+//! Plates: deformable parts of the trunk, point masses on slides of a segment.
 //!
-//! Each owns two numbers of the state, s and ṡ, the first of all ([`crate::motion::skeleton::Slide`] moves them). Bands (`law`)
-//! resist their deflections; what rides on them hands its forces over with its shares (`Load::ride`). The kernel's sweep finds s̈
-//! from the difference.
+//! Each has two state variables, s and ṡ, before all others ([`crate::motion::skeleton::Slide`] moves them). Bands
+//! (`law`) resist their deflections; what rides on them passes on its forces with its shares (`Load::ride`). The
+//! kernel's sweep finds s̈ from the difference.
 
 mod check;
 mod data;

@@ -1,11 +1,11 @@
-//! What a band remembers between steps.
+//! Memory of a band between steps.
 
 use crate::motion::scalar::Scalar;
 
-/// What a band remembers.
+/// Memory of a band.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BandPast<S> {
-    /// x_m: the greatest x, and the greatest −x, of the present sign alone, m.
+    /// x_m: the largest x, and the largest −x, of the present sign alone, m.
     pub(super) greatest: [S; 2],
 }
 

@@ -45,7 +45,7 @@ pub(super) fn check_body(body: &Body, problems: &mut Problems) {
     for (joint, row) in body.tree.joints().zip(body.tree.joint_rows()) {
         let place = body.place(joint);
         if !place.proximal.point_m.sum().is_finite() || !place.distal.point_m.sum().is_finite() {
-            problems.error(format!("body.joints.{}", row.name), "a place that is not finite", "finite coordinates");
+            problems.error(format!("body.joints.{}", row.name), "a position that is not finite", "finite coordinates");
         }
     }
     for (key, value) in [
@@ -56,7 +56,7 @@ pub(super) fn check_body(body: &Body, problems: &mut Problems) {
         problems.check_at_least_zero(&format!("body.{key}"), value, "m");
     }
     if body.condyles_m.is_some_and(|condyles| !condyles.sum().is_finite()) {
-        problems.error("body.condyles", "a place that is not finite", "finite coordinates");
+        problems.error("body.condyles", "a position that is not finite", "finite coordinates");
     }
     problems.check_unique("body.spheres", "sphere", body.spheres.iter().map(|s| s.name.as_str()));
     check_spheres(body, problems);

@@ -1,4 +1,4 @@
-//! Frames that columns carry and that bags are mounted on.
+//! Frames of columns and mounts of bags.
 
 use crate::forces::MOST_GIVING;
 use crate::forces::column::Column;
@@ -10,7 +10,7 @@ use placed_text::{Problems, with_key};
 pub(super) fn check(setup: &Setup, problems: &mut Problems) {
     let Setup { columns, frames, bags, .. } = setup;
     if columns.len() > MOST_GIVING {
-        problems.error("frames", format!("{} columns", columns.len()), format!("at most {MOST_GIVING} that give way"));
+        problems.error("frames", format!("{} columns", columns.len()), format!("at most {MOST_GIVING} that yield"));
     }
     for (i, column) in columns.iter().enumerate() {
         let path = with_key("frames", &column.name);
@@ -24,14 +24,14 @@ pub(super) fn check(setup: &Setup, problems: &mut Problems) {
         } else if !parent.is_some_and(|parent| is_carrier(parent) && !own(parent)) {
             problems.error(format!("{path}.parent"), "no vehicle and no panel", "a vehicle, or a panel");
         } else if is_without_acceleration(setup, column) {
-            let found = "straight lines between the places of what carries it, which have no acceleration";
+            let found = "a parent that moves along straight lines between positions, without acceleration";
             let expected = "`interpolation = \"spline\"` of its table: the weight of the hub counts nothing";
             problems.warning(&path, found, expected);
         }
     }
     for frame in frames.iter().filter(|frame| columns.iter().any(|one| hangs_on(frame, one))) {
         let path = format!("{}.parent", with_key("frames", &frame.name));
-        problems.error(path, "a frame that hangs on a column", "a vehicle, or a panel");
+        problems.error(path, "a frame carried by a column", "a vehicle, or a panel");
     }
     for bag in
         bags.iter().filter(|bag| matches!(bag.frame, Frame::Other(i) if i >= frames.len()) || !is_carrier(bag.frame))

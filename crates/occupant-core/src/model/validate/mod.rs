@@ -49,7 +49,7 @@ fn check_gravity(setup: &Setup, problems: &mut Problems) {
     }
 }
 
-/// What is wrong with the force elements of several bodies together, each of which is right alone.
+/// Problems of the force elements of several bodies together, each of which is right alone.
 pub(super) fn check_whole(setup: &Setup, problems: &mut Problems) {
     let mut found = Problems::new();
     setup.forces(&[]).check(&setup.body, &mut found);
@@ -80,15 +80,13 @@ fn check_together(setup: &Setup, problems: &mut Problems) {
         // a body that stands at the top of a scenario has no name
         if !is_first || !(is_plain || i == 0 && name.is_empty()) {
             let found = format!("{} body named {name:?}", if is_first { "a" } else { "a second" });
-            let expected =
-                "a small letter, then small letters, digits and `_`; each name once, as results are told by it";
+            let expected = "a small letter, then small letters, digits and `_`; each name once, because results use it";
             problems.error(member.path(), found, expected);
         }
         if let InitialVelocity::Given(velocity) = &member.alone.velocity
             && velocity.norm() > FASTEST_M_S
         {
-            let expected =
-                format!("at most {FASTEST_M_S} m/s: what goes faster is felt from the step after it touches");
+            let expected = format!("at most {FASTEST_M_S} m/s: contact of a faster body begins one step late");
             problems.warning(member.path(), format!("{:.0} m/s at the start", velocity.norm()), expected);
         }
     }

@@ -1,4 +1,4 @@
-//! Place and pace of the vehicle during the run.
+//! Position and speed of the vehicle during the run.
 
 use crate::forces::contact::surface::Frame;
 use crate::model::setup::{STANDARD_GRAVITY_M_S2, Setup, TimeSpan};
@@ -101,7 +101,7 @@ fn check_leaps(setup: &Setup, motions: &[(f64, FrameMotion)], problems: &mut Pro
             a.velocity_m_s.norm(),
             b.velocity_m_s.norm()
         );
-        problems.error("path", found, "a place that changes as its velocity says");
+        problems.error("path", found, "a position that changes as its velocity requires");
     }
 }
 
@@ -160,7 +160,7 @@ fn check_jumps(setup: &Setup, problems: &mut Problems) {
         problems.error_with_hint(
             "path",
             format!("the velocity of the mount jumps by {:.3} m/s or rad/s at t = {t_s} s", jump(t_s)),
-            "a velocity without jumps: what is mounted cannot give way",
+            "a velocity without jumps: a mounted segment cannot yield",
             "splines between the times of a table, `after = \"coast\"`, or an end of the run before",
         );
     }

@@ -1,4 +1,4 @@
-//! Whether all that points at something else points at what there is: frames, segments, spheres, names.
+//! Whether all references exist: frames, segments, spheres, names.
 
 use crate::forces::chain::Site;
 use crate::forces::contact::surface::Frame;
@@ -42,8 +42,8 @@ fn check_frames(setup: &Setup, problems: &mut Problems) {
     for frame in frames.iter().filter(|frame| frame.path.is_live()) {
         problems.error(
             with_key("frames", &frame.name),
-            "a path that is told on the way",
-            "one that is known beforehand: only that of the vehicle is told",
+            "a path that is given during the run",
+            "one that is known in advance: only that of the vehicle can be given during the run",
         );
     }
     for (i, frame) in frames.iter().enumerate() {
@@ -56,7 +56,7 @@ fn check_frames(setup: &Setup, problems: &mut Problems) {
         };
         if !is_before {
             let found = if parent == Frame::Other(i) { "the frame itself".to_owned() } else { format!("{parent:?}") };
-            problems.error(&path, found, "space, the vehicle, or a frame that stands before it in the list");
+            problems.error(&path, found, "space, the vehicle, or a frame that precedes it in the list");
         }
         if !origin_m.coords.sum().is_finite() {
             problems.error(path, "a point that is not finite", "finite coordinates");
@@ -125,14 +125,14 @@ fn check_markers(setup: &Setup, problems: &mut Problems) {
     for marker in markers {
         let path = with_key("output.markers", &marker.name);
         if marker.name.is_empty() {
-            problems.error(&path, "a marker without a name", "a name, by which results are told");
+            problems.error(&path, "a marker without a name", "a name, which results use");
         }
         if marker.segment.index() >= segments {
             let found = format!("segment {} of {segments}", marker.segment.index());
             problems.error(format!("{path}.segment"), found, "a segment of the body");
         }
         if !marker.place_from_lower_end_m.coords.sum().is_finite() {
-            problems.error(path, "a place that is not finite", "finite coordinates");
+            problems.error(path, "a position that is not finite", "finite coordinates");
         }
     }
 }

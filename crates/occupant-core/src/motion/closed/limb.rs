@@ -1,9 +1,9 @@
 //! Limbs and leaves of the tree (arms and legs; the head) in the inward sweep, in closed form.
 //!
-//! The lower segment l of a limb turns about Y of the upper segment m, and everything in the limb lies in its X–Z plane, so
-//! in axes of m the matrices of [`super`] have few elements: J and M̃ couple X with Z only, B couples Y with X
-//! and Z only. With P, Q, R the inertias of l about the hinge, σ = M·cg of l, c = cos α, s = sin α, X_l = (c, 0, −s):
-//! the hinge takes the moment about Y, α̈ = −(ŷ·n + Q α_y + σ X_l·a_E)/Q, and leaves the matrix m − (σ²/Q) X_l X_lᵀ.
+//! The lower segment l of a limb turns about Y of the upper segment m, and everything in the limb lies in its X–Z
+//! plane, so in axes of m the matrices of [`super`] have few elements: J and M̃ couple X with Z only, B couples Y with
+//! X and Z only. With P, Q, R the inertias of l about the hinge, σ = M·cg of l, c = cos α, s = sin α, X_l = (c, 0, −s):
+//! the hinge releases the moment about Y, α̈ = −(ŷ·n + Q α_y + σ X_l·a_E)/Q, and leaves the matrix m − (σ²/Q) X_l X_lᵀ.
 
 use super::{Demand, LIMBS, Links, SEGMENTS, Seen};
 use crate::motion::dynamics::Wrench;

@@ -1,17 +1,18 @@
 //! The report's body of 12 segments, its tree written out.
 //!
-//! A ball joint hands on a force but no moment, so a whole subtree shows its parent only a symmetric matrix and a vector:
-//! the force that the subtree needs at the joint is f = M̃ a + b̃, a the joint's acceleration. For a body with joint P,
-//! moment of inertia J about P, c.g. at r, and subtrees (M̃ₖ, b̃ₖ) hung at cₖ, with α its angular acceleration:
+//! A ball joint transmits a force but no moment, so a symmetric matrix and a vector represent a whole subtree at its
+//! parent: the force that the subtree requires at the joint is f = M̃ a + b̃, a the joint's acceleration. For a body
+//! with joint P, moment of inertia J about P, c.g. at r, and subtrees (M̃ₖ, b̃ₖ) attached at cₖ, with α its angular
+//! acceleration:
 //!
 //! ```text
 //! force    f = A a − B α + β_f     A = m1 + ΣM̃ₖ     B = m[r]× + ΣM̃ₖ[cₖ]×
 //! moment   τ = J α − Bᵀ a + β_τ
 //! ```
 //!
-//! so α = J⁻¹(τ − β_τ) + (BJ⁻¹)ᵀ a, M̃ = A − BJ⁻¹Bᵀ, b̃ = β_f − BJ⁻¹(τ − β_τ). The root T1 carries subtrees and no mass.
-//! No matrix larger than 3 × 3 is ever formed, and all loops have constant bounds; `limb` treats limbs and leaves. Other
-//! bodies, and this one where its joints or centres of gravity lie off the axes, are left to [`super::articulated`].
+//! so α = J⁻¹(τ − β_τ) + (BJ⁻¹)ᵀ a, M̃ = A − BJ⁻¹Bᵀ, b̃ = β_f − BJ⁻¹(τ − β_τ). The root T1 carries subtrees and no
+//! mass. No matrix larger than 3 × 3 is ever formed, and all loops have constant bounds; `limb` treats limbs and
+//! leaves. Other bodies, and this one if its joints or centres of gravity are off the axes, use [`super::articulated`].
 
 mod limb;
 

@@ -1,8 +1,8 @@
-//! The embedded 3(2) pair of Bogacki and Shampine (Appl. Math. Lett. 2, 1989, 321–325), with the error of a step in units
-//! of the tolerance, and the course of the state within a step.
+//! The embedded 3(2) pair of Bogacki and Shampine (Appl. Math. Lett. 2, 1989, 321–325), with the error of a step in
+//! units of the tolerance, and interpolation within a step.
 //!
-//! The forces of a crash have a corner every millisecond or two, where a contact begins or turns, and friction that sticks
-//! bounds the step of any explicit method. A pair of higher order spends its stages in vain there: at equal error the one of
+//! The forces of a crash have a corner every millisecond or two, where a contact begins or turns, and sticking friction
+//! limits the step of any explicit method. A pair of higher order wastes its stages there: at equal error the one of
 //! Dormand and Prince takes more evaluations at every tolerance (measured in `docs/accuracy.md`).
 
 use crate::motion::scalar::Scalar;
@@ -200,7 +200,7 @@ mod tests {
     use crate::motion::state::Quat;
     use crate::motion::vector::v3;
 
-    /// T1 swings about the origin with 1 rad/s; all else stands still.
+    /// T1 swings about the origin with 1 rad/s; all else is at rest.
     fn swing(state: &State<f64>) -> State<f64> {
         let mut rate = State::zero(state.shape());
         rate.set_t1(state.velocity());

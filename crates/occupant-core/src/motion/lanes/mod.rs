@@ -1,8 +1,8 @@
 //! Several runs side by side: a scalar of four or eight lanes, each with the bits that an `f64` would have.
 //!
-//! Sums, products, quotients and square roots are rounded by the processor's vector unit as one by one, nothing is contracted,
-//! and arcs and sines follow the very operations of the scalar library ([`trig`]). All of them may only be made where the
-//! processor has their instructions; tests compare them with an array.
+//! The vector unit rounds sums, products, quotients and square roots like scalars, nothing is contracted, and arcs and
+//! sines use the same operations as the scalar library ([`trig`]). Values may only be created if the processor has
+//! their instructions; tests compare them with an array.
 
 #[cfg(target_arch = "x86_64")]
 mod processor;

@@ -1,7 +1,7 @@
 //! Lanes in the wide registers of x86-64: four doubles with AVX2, eight with AVX-512 (F and DQ).
 //!
-//! Every `unsafe` here is the call of an instruction; values of [`Avx2`] and [`Avx512`] are made only where the processor has
-//! theirs ([`has_avx2`](super::has_avx2), [`has_avx512`](super::has_avx512)).
+//! Every `unsafe` here is the call of an instruction; values of [`Avx2`] and [`Avx512`] are created only if the
+//! processor has theirs ([`has_avx2`](super::has_avx2), [`has_avx512`](super::has_avx512)).
 #![allow(
     unsafe_code,
     unused_unsafe,

@@ -42,7 +42,7 @@ pub(super) const SEGMENT: &[Of] = &[
     Of::vector(MetrePerSecond, Axes::Vehicle, |(s, n)| s.vehicle.vector_to_frame(s.cg_velocity_m_s(*n)))
         .channel("velocity", "absolute velocity of the centre of gravity of the {}"),
     Of::vector(Metre, Axes::Vehicle, |(s, n)| s.cg_m(*n).coords)
-        .channel("position", "place of the centre of gravity of the {}")
+        .channel("position", "position of the centre of gravity of the {}")
         .field(4, "cg", "centre of gravity"),
     Of::vector(Metre, Axes::Vehicle, |(s, n)| s.end_points_m(*n)[0].coords).field(2, "upper_end", "upper end (item 1)"),
     Of::vector(Metre, Axes::Vehicle, |(s, n)| s.end_points_m(*n)[1].coords).field(

@@ -1,4 +1,4 @@
-//! Chests that give way: deflections, their share of the depth, the viscous response.
+//! Deformable chests: deflections, their share of the depth, the viscous response.
 
 use occupant_units::unit::Unit;
 
@@ -23,10 +23,10 @@ impl Catalogue {
     pub(super) fn chest(&mut self, chest: &Chest) {
         let breastbone = vec![(chest.breastbone, 1.0)];
         let (depth_m, scale) = (chest.depth_m, chest.viscous_scale);
-        self.of_chest(chest, "deflection", Unit::Metre, "deflection of the breastbone", &breastbone, |[s, _]| s);
-        let share = "deflection of the breastbone as a share of the chest's depth";
+        self.of_chest(chest, "deflection", Unit::Metre, "deflection of the sternum", &breastbone, |[s, _]| s);
+        let share = "deflection of the sternum as a share of the chest's depth";
         self.of_chest(chest, "compression", Unit::One, share, &breastbone, move |[s, _]| s / depth_m);
-        let viscous = "scale factor times speed times share of depth of the breastbone's deflection, unfiltered";
+        let viscous = "scale factor times speed times share of depth of the sternum's deflection, unfiltered";
         self.of_chest(chest, "viscous", Unit::MetrePerSecond, viscous, &breastbone, move |[s, speed]| {
             scale * speed * s / depth_m
         });

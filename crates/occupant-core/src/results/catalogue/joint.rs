@@ -1,4 +1,4 @@
-//! Angles of the joints and what they carry.
+//! Angles and loads of the joints.
 
 use occupant_units::unit::Unit::{Newton, NewtonMetre, Radian};
 

@@ -1,7 +1,7 @@
 //! Motion of markers: points of segments that a scenario names.
 //!
-//! With the vehicle's origin O, velocity V, acceleration A and angular velocity Ω, a point at r from O has there
-//! v′ = v − V − Ω × r and a′ = a − A − Ω̇ × r − Ω × (Ω × r) − 2Ω × v′.
+//! With the vehicle's origin O, velocity V, acceleration A and angular velocity Ω, a point at r from O has v′ = v − V −
+//! Ω × r and a′ = a − A − Ω̇ × r − Ω × (Ω × r) − 2Ω × v′.
 
 use nalgebra::Vector3;
 use occupant_units::unit::Unit::{Metre, MetrePerSecond, MetrePerSecondSquared};

@@ -27,7 +27,7 @@ pub(super) const QUANTITIES: &[Of] = &[
     Of::vector(Newton, Axes::Vehicle, |(s, i)| s.pull_n(*i, |pull| pull.of == "belt"))
         .channel("belt_force", "belt forces on the {}")
         .field(5, "belt_force", "sum of the forces of belts"),
-    Of::number(Metre, |(s, i)| s.penetration_m(*i)).channel("penetration", "greatest contact penetration of the {}"),
+    Of::number(Metre, |(s, i)| s.penetration_m(*i)).channel("penetration", "largest contact penetration of the {}"),
     Of::perhaps(Metre, Axes::Segment, |(s, i)| s.application_point_m(*i)).field(
         6,
         "application_point",

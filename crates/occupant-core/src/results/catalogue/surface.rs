@@ -23,6 +23,6 @@ pub(super) fn quantities(carrier: Frame) -> [Of; 2] {
         Of::vector(Newton, axes, |(s, i, carrier)| s.surface_force_n(*i, *carrier))
             .channel("force", "sum of the contact and friction forces of the {} on all bodies"),
         Of::number(Metre, |(s, i, _)| s.surface_depth_m(*i))
-            .channel("depth", "greatest deformation where a body is in the {}; 0 without contact"),
+            .channel("depth", "largest deformation where a body is in the {}; 0 without contact"),
     ]
 }

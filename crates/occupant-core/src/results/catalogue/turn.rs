@@ -1,7 +1,7 @@
-//! How segments and joints are turned, and places along axes that do not turn.
+//! Rotations of segments and joints, and positions along axes that do not turn.
 //!
-//! A turn is a rotation vector: its direction is the axis, its length the angle, 0 to π rad. In a plane it is the angle. Nothing
-//! here counts from the start of a run, so that derivatives by the start hold.
+//! A rotation is a rotation vector: its direction is the axis, its length the angle, 0 to π rad. In a plane it is the
+//! angle. Nothing here is relative to the start of a run, so derivatives by the initial state are valid.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use occupant_units::unit::Unit::{Metre, Radian};

@@ -84,7 +84,7 @@ const QUANTITIES: [Of; 7] = [
         .channel("angular_velocity", "angular velocity of the {}")
         .field(10, "angular_velocity", "angular velocity along the vehicle's axes"),
     Of::vector(Metre, Axes::VehicleSpace, |v| v.pose.position_m)
-        .channel("position", "place of the {}'s centre of gravity")
+        .channel("position", "position of the {}'s centre of gravity")
         .field(2, "position", "centre of gravity as the path gives it: forward, right, down"),
     Of::number(Radian, |v| v.pose.attitude.roll_rad).channel("roll", "roll of the {}").field(
         3,

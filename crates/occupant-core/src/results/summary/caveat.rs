@@ -1,4 +1,4 @@
-//! Caveats: which figures of a run are not to be quoted as they stand, and why. All their words stand here.
+//! Caveats: which figures of a run should not be quoted, and why. All their texts are here.
 
 use crash_measures::injury::Measure;
 use crash_measures::measure::Dummy;
@@ -22,14 +22,14 @@ const RIGID_N_M: f64 = 5e6;
 /// The figures that are such peaks.
 const PEAKS: [&str; 6] = ["belts.*", "straps.*", "joints.*", "muscles.*", "contacts.*", "head_excursion.*"];
 
-/// Why some figures of a run are not to be quoted as they stand.
+/// Why some figures of a run should not be quoted.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Caveat {
     /// A word for tables of many runs, such as `neck_beyond_stop`.
     pub name: String,
     /// What was seen, and which figures it spoils.
     pub text: String,
-    /// Their names, of figures and of measures; one that ends with `*` stands for all that begin like it.
+    /// Names of the figures and measures; a name that ends with `*` matches all that begin like it.
     pub figures: Vec<String>,
 }
 
@@ -38,7 +38,7 @@ impl Caveat {
     pub const BALANCE_LOST: &str = "energy_balance_lost";
     /// Name of the one on figures of a part of a run.
     pub const PART: &str = "part_of_a_run";
-    /// Name of the one on ejections of which one run alone tells.
+    /// Name of the caveat on ejections, which applies to a single run.
     pub const CHANCE: &str = "ejection_by_chance";
 
     fn new(name: impl Into<String>, text: String, figures: Vec<String>) -> Self {
@@ -50,7 +50,7 @@ impl Caveat {
         self.figures.iter().any(|of| of.strip_suffix('*').map_or(of == figure, |stem| figure.starts_with(stem)))
     }
 
-    /// The same of one of several occupants, whose name stands before those of its figures.
+    /// The same for one of several occupants, whose name precedes those of its figures.
     pub(super) fn of_occupant(self, name: &str) -> Self {
         let figures =
             self.figures.iter().map(|figure| if name.is_empty() { figure.clone() } else { format!("{name}.{figure}") });
@@ -200,7 +200,7 @@ impl Caveat {
         Caveat::of_sphere(body, sphere, "passed", seen)
     }
 
-    /// A sphere that went deeper into a surface than anything gives way.
+    /// A sphere that went deeper into a surface than anything yields.
     pub(super) fn too_deep(body: &Body, sphere: usize, surface: &str, depth: Peak, most_m: f64) -> Self {
         let seen = format!(
             "{} deep in {surface} {}; {} is the most that is meaningful",
@@ -316,7 +316,7 @@ impl Caveat {
         Caveat::new(format!("{plate}_too_deep"), text, figures)
     }
 
-    /// How far a chest that gives way may be believed. It is told of every run, so that it marks no figure by itself.
+    /// How far results of a deformable chest can be trusted. It appears in every such run, so it marks no figure.
     pub(super) fn of_chest(chest: &Chest) -> Self {
         let of = match chest.preset.as_str() {
             "own" => return Caveat::own_chest(chest),
@@ -324,13 +324,13 @@ impl Caveat {
             _ => "of a dummy, fitted to one hub test",
         };
         let text = format!(
-            "chest {of}. Under belts and bags, a constant share of their force (0.2 to 0.5 is plausible) bears on the breastbone, and the deflection depends on it. Not valid for loads from the side or from behind, or for broken ribs"
+            "chest {of}. Under belts and bags, a constant share of their force (0.2 to 0.5 is plausible) bears on the sternum, and the deflection depends on it. Not valid for loads from the side or from behind, or for broken ribs"
         );
         Caveat::new("chest_of_one_share", text, Vec::new()).with_subject(&chest.of)
     }
 
     fn own_chest(chest: &Chest) -> Self {
-        let text = "chest with the scenario's own values; under belts and bags, a constant share of their force bears on the breastbone";
+        let text = "chest with the scenario's own values; under belts and bags, a constant share of their force bears on the sternum";
         Caveat::new("chest_of_one_share", text.to_owned(), Vec::new()).with_subject(&chest.of)
     }
 
@@ -367,7 +367,7 @@ impl Caveat {
         Caveat::of_sphere(body, sphere, sign, seen)
     }
 
-    /// A sphere that touched what stands behind a bag, while that was between.
+    /// A sphere that touched a part behind a bag while the bag was between them.
     pub(super) fn touched_through(body: &Body, sphere: usize, bag: &str, what: &str, time_s: f64) -> Self {
         let seen = format!("touched {what} through the bag {bag} at {:.1} ms", 1e3 * time_s);
         let caveat = Caveat::of_sphere(body, sphere, "through_bag", seen.clone());
@@ -391,7 +391,7 @@ impl Caveat {
         Caveat::of_sphere(body, sphere, "left_compartment", seen)
     }
 
-    /// Measures whose greatest value stands in a window that ends with the run; none if there are none.
+    /// Measures whose largest value stands in a window that ends with the run; none if there are none.
     pub(super) fn cut_off(reached_s: f64, cut: &[&Measure]) -> Option<Self> {
         let worst = cut.first()?;
         let (label, of) = (worst.label, cut.len());

@@ -1,8 +1,8 @@
-//! What leaves the compartment of a vehicle: which part, when, to which side, past what.
+//! Parts that leave the compartment of a vehicle: which part, when, to which side, past what.
 //!
-//! The compartment is the least box, in the axes of the vehicle, that holds the bounded surfaces which face the body at its start, the
-//! solids of the vehicle, and the body itself as it starts. A sphere has left it once all of it is beyond one side. Where nothing is
-//! modelled on that side, what it would have met outside is not known.
+//! The compartment is the smallest box, in the axes of the vehicle, that contains the bounded surfaces facing the body
+//! at the start, the solids of the vehicle, and the initial body. A sphere has left it once all of it is beyond one
+//! side. If nothing is modelled on that side, what it would have struck outside is unknown.
 
 use nalgebra::Point3;
 use serde::Serialize;

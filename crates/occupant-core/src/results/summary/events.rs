@@ -1,4 +1,4 @@
-//! What happens to force elements in a run: spools lock, webbing leaves a node.
+//! Events of force elements in a run: spools lock, webbing leaves a node.
 
 use serde::Serialize;
 

@@ -1,10 +1,10 @@
-//! How far the head went.
+//! Excursion of the head.
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::Peak;
 
-/// Greatest displacements of the centre of the head sphere from its place at the start, vehicle axes, m; never negative.
+/// Largest displacements of the centre of the head sphere from its place at the start, vehicle axes, m; never negative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excursion {
     /// Along X_v.

@@ -86,7 +86,7 @@ impl Summary {
         }
     }
 
-    /// The greatest force on every part of the body, zero where it touched nothing, and its first contact.
+    /// The largest force on every part of the body, zero where it touched nothing, and its first contact.
     fn list_contacts(&self, list: &mut List, model: &Model) {
         for part in model.body().parts() {
             let name = format!("contacts.{}", word(part));

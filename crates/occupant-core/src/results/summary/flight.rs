@@ -1,7 +1,7 @@
 //! A body that may be thrown, followed from output to output.
 //!
-//! What touches it is the ground, or what carries or strikes it: its own vehicle, another one, faces on another body. Its own parts
-//! and the parts of other bodies are neither: a hand on the head is no landing.
+//! Contacts are with the ground, or with what carries or strikes it: its own vehicle, another one, faces on another
+//! body. Its own parts and the parts of other bodies do not count: a hand on the head is not a landing.
 
 use nalgebra::Vector3;
 
@@ -27,7 +27,7 @@ const WINDOW_S: f64 = 0.02;
 pub(super) struct Flight {
     of: usize,
     pub name: &'static str,
-    /// Frames that stand still: space, the ground and what belongs to them.
+    /// Frames that are at rest: space, the ground and what belongs to them.
     still: Vec<usize>,
     /// Frames of the vehicle that is its home; none of a body that stands, walks or lies on the ground.
     homes: Vec<usize>,
@@ -44,7 +44,7 @@ pub(super) struct Flight {
     was_carried: bool,
     /// The longest flight from a carrier to the ground.
     flown: Option<(Moment, Touchdown)>,
-    /// The first touch of the ground, and its friction.
+    /// The first contact of the ground, and its friction.
     grounded: Option<Moment>,
     friction: Option<f64>,
     now: Option<Moment>,

@@ -1,7 +1,7 @@
-//! What one run came to: peaks with their times, 3 ms levels, first contacts, energy balance, work of the integrator.
+//! Summary of one run: peaks with their times, 3 ms levels, first contacts, energy balance, work of the integrator.
 //!
-//! A [`Summarizer`] is a [`crate::results::recorder::Recorder`]; it keeps little. Peaks are those of the accepted steps; levels and measures
-//! with windows are those of readings at 10 kHz, straight lines between them. Nothing is filtered.
+//! A [`Summarizer`] is a [`crate::results::recorder::Recorder`]; it needs little memory. Peaks are taken at the
+//! accepted steps; levels and measures with windows from readings at 10 kHz, linear in between. Nothing is filtered.
 
 mod caveat;
 mod compartment;
@@ -37,7 +37,7 @@ pub use searle::Searle;
 pub use summarizer::Summarizer;
 pub use throw::{Landing, Launch, Throw, ThrowStart};
 
-/// What one run came to. Serialised, it is the answer of `occupant run --json`; every name carries its unit.
+/// Summary of one run. Serialised, it is the output of `occupant run --json`; every name carries its unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
     /// The scenario's title.
@@ -66,9 +66,9 @@ pub struct Summary {
     pub more_events: u64,
     /// First contacts of the parts of the body after the start.
     pub first_contacts: Vec<FirstContact>,
-    /// Every first touch of a part of the body with a surface, in the order in which they happened.
+    /// Every first contact of a part of the body with a surface, in the order in which they happened.
     pub contacts: Vec<ContactBegin>,
-    /// Greatest contact force on each part of the body that touched anything, in the body's order.
+    /// Largest contact force on each part of the body that touched anything, in the body's order.
     pub sphere_forces: Vec<SpherePeak>,
     /// How far the head's centre went from where it was at the start; absent without a sphere `head`.
     pub head_excursion: Option<Excursion>,
@@ -224,7 +224,7 @@ pub struct FirstContact {
     pub contact: Option<ContactBegin>,
 }
 
-/// The first touch of a part of the body with a surface.
+/// The first contact of a part of the body with a surface.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ContactBegin {
     /// Name of the part of the body.
@@ -243,23 +243,23 @@ pub struct ContactBegin {
     pub at_start: bool,
 }
 
-/// The greatest contact force on a part of the body: normal, edge and friction forces of all surfaces on all its spheres
+/// The largest contact force on a part of the body: normal, edge and friction forces of all surfaces on all its spheres
 /// together, as vectors; other elements apart.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpherePeak {
     /// Name of the part; without a full set of spheres that of its one sphere.
     pub sphere: String,
-    /// Greatest force.
+    /// Largest force.
     pub force_n: f64,
     /// Its time.
     pub time_s: f64,
-    /// The surface with the greatest normal force then.
+    /// The surface with the largest normal force then.
     pub surface: String,
-    /// Greatest contact penetration Δ, whenever it occurred. No deflection of the body: that is rigid.
+    /// Largest contact penetration Δ, whenever it occurred. No deflection of the body: that is rigid.
     pub penetration_m: f64,
     /// Its time.
     pub penetration_time_s: f64,
-    /// Greatest penetration of a solid as a fraction of its thickness there; 0 where no solid with an end was touched.
+    /// Largest penetration of a solid as a fraction of its thickness there; 0 where no solid with an end was touched.
     pub thickness_used: f64,
 }
 

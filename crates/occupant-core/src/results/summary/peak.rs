@@ -1,9 +1,9 @@
-//! The greatest value so far and when it was.
+//! The maximum so far and its time.
 
-/// The greatest value so far and when it was; the first of equals.
+/// The maximum so far and its time; the first of equals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peak {
-    /// Greatest value; minus infinity before the first.
+    /// Largest value; minus infinity before the first.
     pub value: f64,
     /// Its time.
     pub time_s: f64,
@@ -13,7 +13,7 @@ impl Peak {
     /// Nothing seen yet.
     pub(crate) const NONE: Peak = Peak { value: f64::NEG_INFINITY, time_s: f64::NAN };
 
-    /// Looks at a value; true if it is the greatest so far.
+    /// Looks at a value; true if it is the largest so far.
     pub(crate) fn see(&mut self, value: f64, time_s: f64) -> bool {
         let greater = value > self.value;
         if greater {

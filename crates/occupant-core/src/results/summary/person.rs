@@ -1,4 +1,4 @@
-//! What is seen of the instruments of one body in a run.
+//! Readings of the instruments of one body in a run.
 
 use super::{Acceleration, Accelerations, Excursion, Level, Peak, Person};
 use crate::model::Model;
@@ -8,7 +8,7 @@ use crate::results::peaks::{EXCURSIONS, FELT, Peaks};
 use crash_measures::injury::{self, ChestPoint, Options, Readings, Signals, Special};
 use crash_measures::measure::{Peak as Extreme, ThreeMs};
 
-/// What is seen of the instruments of a body.
+/// Readings of the instruments of one body in a run.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Watched {
     /// Its place among the bodies.

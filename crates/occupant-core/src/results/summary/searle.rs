@@ -1,13 +1,14 @@
-//! Searle's bounds: how far a body goes that is thrown with a speed, whatever the angle and however it bounces.
+//! Searle's bounds: the distance of a body thrown with a speed, whatever the angle and the bounces.
 //!
-//! J. A. Searle, A. Searle: "The Trajectories of Pedestrians, Motorcycles, Motorcyclists, etc., Following a Road Accident",
-//! SAE 831622 (1983). All the way from the launch to rest the ground's force has a horizontal part of μ times the vertical one.
-//! Then, with the fall H of the centre of gravity from the launch to rest and the angle θ of the launch, the distance is
+//! J. A. Searle, A. Searle: "The Trajectories of Pedestrians, Motorcycles, Motorcyclists, etc., Following a Road
+//! Accident", SAE 831622 (1983). From the launch to rest the horizontal force of the ground is μ times the vertical
+//! one. Then, with the fall H of the centre of gravity from the launch to rest and the angle θ of the launch, the
+//! distance is
 //!
 //! s = v² (cos θ + μ sin θ)² / (2 μ g) + μ H
 //!
-//! for any number of bounces. The bracket is 1 at θ = 0 and has its greatest value, √(1 + μ²), at tan θ = μ: a speed has a least
-//! and a greatest distance, a distance a least and a greatest speed.
+//! for any number of bounces. The bracket is 1 at θ = 0 and has its maximum, √(1 + μ²), at tan θ = μ: a speed has a
+//! minimum and a maximum distance, and a distance has a minimum and a maximum speed.
 
 use serde::Serialize;
 
@@ -18,9 +19,9 @@ pub struct Searle {
     pub friction: f64,
     /// H: fall of the centre of gravity from the launch to rest, m.
     pub fall_m: f64,
-    /// Least and greatest speed that the throw distance gives back, m/s.
+    /// Least and largest speed that the throw distance gives back, m/s.
     pub speeds_m_s: [f64; 2],
-    /// Least and greatest distance from the launch to rest that the speed of the launch allows, m.
+    /// Least and largest distance from the launch to rest that the speed of the launch allows, m.
     pub distances_m: [f64; 2],
     /// The μ with which the formula gives the distance from the launch to rest: less than that of the ground where a body rolls;
     /// none if no μ does.

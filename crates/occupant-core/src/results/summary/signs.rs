@@ -1,4 +1,4 @@
-//! What the outputs of a run show that no body does: the signs from which caveats are made.
+//! Implausible signs in the outputs of a run, from which caveats are made.
 
 use super::caveat::{Caveat, Turned};
 use super::elements::Elements;
@@ -175,7 +175,7 @@ impl Signs {
         }
     }
 
-    /// The same with the greatest values of steps, which elements track.
+    /// The same with the largest values of steps, which elements track.
     pub(super) fn with_steps(&self, elements: &Elements, all: &Peaks, body: &Body) -> Self {
         let (mut signs, peaks) = (self.clone(), &all.elements);
         for (part, own) in body.parts().zip(&all.parts) {

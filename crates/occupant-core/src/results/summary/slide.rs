@@ -1,4 +1,4 @@
-//! Lap belts that go round the sphere of a pelvis, off which they cannot slide: whether they would have slid off its wings.
+//! Lap belts round the sphere of a pelvis, which cannot slide off it: whether they would have slid off its wings.
 
 use super::caveat::Caveat;
 use super::word;

@@ -1,4 +1,4 @@
-//! Columns and plates that were pushed beyond the last points of their forces, and chests deeper than anything that is known.
+//! Columns and plates pushed beyond the last points of their forces, and chests deeper than any test.
 
 use super::caveat::Caveat;
 use super::peak::Peak;
@@ -8,8 +8,8 @@ use crate::forces::plate::{Band, DEEP};
 use crate::model::Model;
 use crate::results::sample::Sample;
 
-/// By column, then by hinge: which it is, the last point of its force, m or rad, and the greatest stroke beyond it. By plate: its name, how far it is known,
-/// and the greatest deflection, m.
+/// By column, then by hinge: which it is, the last point of its force, m or rad, and the largest stroke beyond it. By plate: its name, how far it is known,
+/// and the largest deflection, m.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Strokes(Vec<(Beyond, f64, Peak)>, Vec<(String, Known, Peak)>);
 
@@ -72,7 +72,7 @@ impl Strokes {
         }
     }
 
-    /// Takes over the greatest strokes of steps.
+    /// Takes over the largest strokes of steps.
     pub(super) fn see_steps<'p>(&mut self, peaks: impl Iterator<Item = &'p [Peak]>) {
         for ((_, last_m, beyond), own) in self.0.iter_mut().zip(peaks) {
             beyond.see(own[0].value - *last_m, own[0].time_s);

@@ -39,7 +39,7 @@ pub struct Summarizer {
     compartments: Vec<Compartment>,
     elements: Elements,
     events: Events,
-    /// Greatest values at all accepted steps, of a run whose steps nobody has looked at those at its outputs; and those at the latest
+    /// Largest values at all accepted steps, of a run whose steps nobody has looked at those at its outputs; and those at the latest
     /// output.
     seen: Peaks,
     now: Peaks,
@@ -63,7 +63,7 @@ struct Case {
     meets_itself: bool,
     chains: Vec<Chain>,
     bags: Vec<Bag>,
-    /// Whether there is anything that stands still outside of vehicles.
+    /// Whether there is anything that is at rest outside of vehicles.
     has_ground: bool,
     /// Whether parts of the body may be left out, as on a rig.
     is_on_rig: bool,
@@ -263,7 +263,7 @@ impl Summarizer {
     }
 }
 
-/// The greatest forces on the parts that touched anything.
+/// The largest forces on the parts that touched anything.
 fn sphere_forces(case: &Case, peaks: &Peaks) -> Vec<SpherePeak> {
     let named = case.body.parts().zip(&peaks.parts).filter(|(_, track)| track.force.value > 0.0);
     let one = |(part, track): (&str, &PartPeak)| SpherePeak {
@@ -351,20 +351,20 @@ fn touchable(setup: &Setup) -> Vec<String> {
     setup.surface_names().take(fixed).chain(parts).map(str::to_owned).collect()
 }
 
-/// Whether any surface or solid stands still.
+/// Whether any surface or solid is at rest.
 fn has_ground(setup: &Setup) -> bool {
     let frames = setup.surfaces.iter().map(|own| own.frame).chain(setup.solids.iter().map(|own| own.frame));
     frames.into_iter().any(|frame| setup.is_ground(setup.belongs_to(frame)))
 }
 
-/// Whether the window of a measure's greatest value ends after `last_s`, and that value is of any size beside its limits.
+/// Whether the window of a measure's largest value ends after `last_s`, and that value is of any size beside its limits.
 fn is_cut_off(measure: &Measure, last_s: f64) -> bool {
     let is_window = measure.from_s.zip(measure.to_s).is_some_and(|(from_s, to_s)| from_s < to_s && to_s > last_s);
     let value = measure.value.unwrap_or(0.0);
     is_window && measure.limits.iter().any(|limit| value > COARSE * limit.most)
 }
 
-/// First touches part by part; two parts of the body touch each other.
+/// First contacts part by part; two parts of the body touch each other.
 fn contacts(outcome: &Outcome, case: &Case) -> Vec<ContactBegin> {
     let spheres = &case.body.spheres;
     let mut list: Vec<ContactBegin> = Vec::new();

@@ -1,4 +1,5 @@
 use super::*;
+use crate::body::Body;
 use crate::body::tti12::HEAD;
 use crate::model::Model;
 use crate::model::setup::Integrator;

@@ -1,9 +1,10 @@
 //! How a body is thrown: from the blow, through the air, over the ground, to where it rests.
 //!
-//! The terms are those of accident reconstruction. The *throw distance* is the horizontal distance of the centre of gravity of
-//! the whole body from its place at the blow to its place at rest; the *launch* is when it leaves what struck or carried it; from
-//! there to the first touch of the ground it is *airborne*, from there on it *slides*, whether it slides, rolls or bounces.
-//! [`Flight`](super::flight::Flight) finds these moments in a run. Places and velocities are those of space.
+//! The terms are those of accident reconstruction. The *throw distance* is the horizontal distance of the centre of
+//! gravity of the whole body from its position at the blow to its position at rest. The *launch* is when it leaves what
+//! struck or carried it. From there to the first contact with the ground it is *airborne*; from then on it *slides*,
+//! whether it slides, rolls or bounces. [`Flight`](super::flight::Flight) finds these moments in a run. Positions and
+//! velocities are in space.
 
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -27,7 +28,7 @@ pub struct Throw {
     pub airborne_s: Vec<[f64; 2]>,
     /// Horizontal distance from the launch to the landing.
     pub airborne_m: Option<f64>,
-    /// The first touch of the ground after the launch, of a body that flew between.
+    /// The first contact of the ground after the launch, of a body that flew between.
     pub landing: Option<Landing>,
     /// Horizontal distance from the landing to the end; from the launch of a body that was never in the air.
     pub slide_m: Option<f64>,
@@ -35,7 +36,7 @@ pub struct Throw {
     pub distance_m: f64,
     /// Horizontal distance from the launch to the end.
     pub from_launch_m: Option<f64>,
-    /// Greatest height of its centre of gravity over that at the blow.
+    /// Largest height of its centre of gravity over that at the blow.
     pub height_m: f64,
     /// Its speed at the end.
     pub end_speed_m_s: f64,
@@ -49,13 +50,13 @@ pub struct Throw {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ThrowStart {
-    /// The first touch of a vehicle that is not its own.
+    /// The first contact of a vehicle that is not its own.
     Struck,
     /// The blow on the vehicle that carried it.
     Blow,
     /// The launch: no blow on the vehicle that carried it was found.
     Launch,
-    /// The first touch of the ground: neither was found.
+    /// The first contact of the ground: neither was found.
     Ground,
 }
 
@@ -99,7 +100,7 @@ pub(super) struct Moment {
     pub velocity_m_s: Vector3<f64>,
 }
 
-/// The first touch of the ground at the end of a flight.
+/// The first contact of the ground at the end of a flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Touchdown {
     pub at: Moment,

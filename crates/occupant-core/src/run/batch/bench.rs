@@ -1,4 +1,4 @@
-//! What the runs side by side are computed from: a lane of numbers for each.
+//! Inputs of the runs in lanes: one lane of numbers for each.
 
 use super::place::Place;
 use crate::forces::{History, Memory};
@@ -74,7 +74,7 @@ impl<L: Lanes> Bench<L> {
 
 /// Moves the frames of lane `i` to a time of its step, whose middle is told too.
 pub(super) fn move_frames<L: Lanes>(i: usize, place: &mut Place, lanes: &mut Frames<L>, [t_s, middle_s]: [f64; 2]) {
-    // space stands still
+    // space is at rest
     let Place { frames, model, run, .. } = place;
     model.move_frames(frames, t_s, middle_s, &mut run.cursor);
     lanes.time.set_lane(i, t_s);

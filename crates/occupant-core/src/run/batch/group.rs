@@ -1,7 +1,7 @@
-//! The runs side by side: each has its place, with a lane of numbers of its own.
+//! The runs in lanes: each has its place, with its own lane of numbers.
 //!
-//! All take their next step together, each with its own times. A run that reaches an output is looked at alone, with the
-//! scalar kernel, as [`crate::run::simulate::simulate`] does; one that ends leaves its place to the next job.
+//! All take their next step together, each with its own times. A run that reaches an output is evaluated alone, with
+//! the scalar kernel, as in [`crate::run::simulate::simulate`]; one that ends leaves its place to the next job.
 
 use std::ops::ControlFlow;
 
@@ -105,7 +105,7 @@ impl<L: Machine> Group<L> {
         };
         let mut h = L::zero();
         for (i, place) in self.places.iter_mut().enumerate() {
-            // an idle lane stands still: h = 0
+            // an idle lane is at rest: h = 0
             let Some(place) = place else { continue };
             let Some(step) = place.next_step() else {
                 continue;

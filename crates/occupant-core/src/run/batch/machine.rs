@@ -1,7 +1,7 @@
 //! The step of all lanes, compiled for the instructions of the lanes.
 //!
-//! The kernel is generic and inlined whole; here it gets into functions that may use wide registers. Values of `Avx2` and
-//! `Avx512` may only be made where [`has_avx2`](crate::motion::lanes::has_avx2) and
+//! The kernel is generic and fully inlined; here it is compiled into functions that may use wide registers. Values of
+//! `Avx2` and `Avx512` may only be created if [`has_avx2`](crate::motion::lanes::has_avx2) and
 //! [`has_avx512`](crate::motion::lanes::has_avx512) say so.
 
 use super::bench::{Around, Bench};

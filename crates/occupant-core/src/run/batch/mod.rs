@@ -1,14 +1,15 @@
-//! Many runs on one thread, several at once side by side: the work of a sweep.
+//! Many runs on one thread, several at once in lanes: the work of a sweep.
 //!
-//! [`simulate_many`] pulls its runs one by one, whenever one has ended, so that it holds a handful of models however long
-//! the list is. What every recorder sees, and every outcome, is to the bit what [`attempt`] gives for
-//! that model alone, whichever [`Kernel`] computed it and whatever ran beside it.
+//! [`simulate_many`] requests its runs one by one, whenever one has ended, so it holds only a few models however long
+//! the list is. Every sample and every outcome has the bits that [`attempt`] gives for that model alone, whichever
+//! [`Kernel`] computed it and whatever ran beside it.
 //!
-//! Side by side run models with the same kind of integrator and the same structure: the same spheres on the same segments, the
-//! same surfaces by kind and corners, in the same seams and for the same spheres, belts round the same spheres, springs in the
-//! same joints ([`Unlike`] names what differs). All numbers may differ: masses, places, stiffnesses, paths, times,
-//! steps, tolerances, outputs. A model that has no place beside those under way is run alone at once; one with forces of a
-//! program's own, with a path that is told on the way, or with air bags under error control, always is.
+//! Models run side by side if they have the same kind of integrator and the same structure: the same spheres on the
+//! same segments, the same surfaces by kind and corners, in the same seams and for the same spheres, belts round the
+//! same spheres, springs in the same joints ([`Unlike`] names what differs). All numbers may differ: masses, positions,
+//! stiffnesses, paths, times, steps, tolerances, outputs. A model that does not fit beside those in progress is run
+//! alone at once. So is every model with a program's own forces, with a live path, or with air bags under error
+//! control.
 
 #[cfg(any(target_arch = "x86_64", test))]
 mod bench;
@@ -37,7 +38,7 @@ use crate::run::simulate::attempt;
 /// A run to be done.
 #[derive(Clone, Debug)]
 pub struct Job<T, R> {
-    /// Whatever tells the caller which run this is.
+    /// The caller's tag of this run.
     pub tag: T,
     /// What is run.
     pub model: Model,
@@ -45,7 +46,7 @@ pub struct Job<T, R> {
     pub recorder: R,
 }
 
-/// A run that has ended, with all that its [`Job`] brought.
+/// A finished run, with everything of its [`Job`].
 #[derive(Debug)]
 pub struct Ended<T, R> {
     /// The tag of its job.

@@ -1,5 +1,5 @@
-//! The runs side by side under error control. Each tries steps of its own, which are judged by what judges those of a run
-//! alone; only the evaluations of the trials are made together.
+//! The runs in lanes under error control. Each tries steps of its own, with the same acceptance as a single run; only
+//! the evaluations of the trials are shared.
 
 use std::ops::ControlFlow;
 
@@ -141,7 +141,7 @@ impl<L: Machine> Group<L> {
         self.places[i].take()
     }
 
-    /// Brings the run of `place`, which was in lane `i`, to where it goes on alone.
+    /// Brings the run of `place`, which was in lane `i`, to where it continues alone.
     pub(super) fn fetch_ahead(&mut self, i: usize, place: &mut Place) {
         let Some(Bench { ahead: Some(ahead), .. }) = self.bench.as_deref_mut() else { return };
         place.fetch_step(i, ahead);

@@ -1,5 +1,5 @@
-//! When a pulse has taken a given speed from the vehicle: exact on straight lines and half sines, by bisection down to
-//! the last bit on a haversine.
+//! The time at which a pulse has removed a given speed: exact for straight lines and half sines, by bisection to the
+//! last bit for a haversine.
 
 use std::f64::consts::{PI, TAU};
 

@@ -1,7 +1,7 @@
 //! The deceleration of a pulse and its two integrals, in closed form.
 //!
-//! Time here is τ, counted from the beginning of the pulse. "Lost" speed and distance are ∫a dτ and ∫∫a dτ²: what the
-//! vehicle falls short of its undisturbed travel.
+//! Time here is τ, counted from the beginning of the pulse. "Lost" speed and distance are ∫a dτ and ∫∫a dτ²: the
+//! difference from undisturbed travel.
 
 use std::f64::consts::PI;
 
@@ -87,7 +87,7 @@ impl Profile {
         }
     }
 
-    /// The deceleration of greatest size, with its sign, m/s².
+    /// The deceleration of largest size, with its sign, m/s².
     pub(crate) fn peak_m_s2(&self) -> f64 {
         match self {
             Profile::HalfSine { peak_m_s2, .. } | Profile::Haversine { peak_m_s2, .. } => *peak_m_s2,
@@ -98,7 +98,7 @@ impl Profile {
         }
     }
 
-    /// The greatest speed gained at the end of a ramp between `from_s` and `until_s`, m/s; zero where there is none, and
+    /// The largest speed gained at the end of a ramp between `from_s` and `until_s`, m/s; zero where there is none, and
     /// for the sines, which never both give and take.
     pub(crate) fn greatest_gain_m_s(&self, from_s: f64, until_s: f64) -> f64 {
         let Profile::Ramps(ramps) = self else {

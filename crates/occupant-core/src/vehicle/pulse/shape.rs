@@ -1,4 +1,4 @@
-//! Shapes of deceleration pulses and how strong they are.
+//! Shapes of deceleration pulses and their strength.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! The zero errors of sensors: what they read at rest, at the beginning of a record and perhaps at its end.
+//! The zero offsets of sensors: their readings at rest, at the start of a record and optionally at its end.
 
 use crate::vehicle::problem::PathProblem;
 

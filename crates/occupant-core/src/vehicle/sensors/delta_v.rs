@@ -1,7 +1,7 @@
 //! From velocity changes to accelerations: the derivative of the monotone cubic through the recorded points.
 //!
-//! Monotone cubics neither overshoot nor give an acceleration where the recorded velocity is level, and their integral is
-//! the record again. What happens between two points, 10 ms apart in most recorders, they cannot know.
+//! Monotone cubics do not overshoot and give no acceleration where the recorded velocity is constant, and their
+//! integral is the record again. The motion between two points, 10 ms apart in most recorders, is unknown.
 
 use nalgebra::Vector3;
 

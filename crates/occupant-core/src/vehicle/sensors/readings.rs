@@ -1,4 +1,4 @@
-//! From a record to the readings that are integrated: zero errors taken away, filtered, cut to the start.
+//! From a record to the integrated readings: zero offsets subtracted, filtered, cut to the start.
 
 use nalgebra::Vector3;
 

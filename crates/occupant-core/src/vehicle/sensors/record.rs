@@ -1,4 +1,4 @@
-//! What was recorded, and what can be wrong with it.
+//! A record, and its checks.
 
 use std::f64::consts::FRAC_PI_2;
 

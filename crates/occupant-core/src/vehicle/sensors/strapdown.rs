@@ -1,4 +1,4 @@
-//! Strapdown integration: from readings along the turning axes of the vehicle to its place and attitude.
+//! Strapdown integration: from readings along the turning axes of the vehicle to its position and attitude.
 //!
 //! In an interval of length h the rate is a straight line ω = ω₀ + b s. The attitude is A(s) = A₀ exp[u(s)]× with
 //!
@@ -6,9 +6,9 @@
 //! u(s) = ω₀ s + ½ b s² + (s³/12) ω₀ × b
 //! ```
 //!
-//! the first two terms of the Magnus series; the third is of the order h⁵ and is left out. Its second term is what coning
-//! motion adds. Accelerations are turned into vehicle-space axes at both ends and in the middle, and a parabola goes
-//! through the three: velocity and place are its integrals.
+//! the first two terms of the Magnus series; the third is of the order h⁵ and is neglected. The second term accounts
+//! for coning motion. Accelerations are transformed to vehicle-space axes at both ends and in the middle, and a
+//! parabola goes through the three: velocity and position are its integrals.
 
 use nalgebra::{Matrix3, Vector3};
 

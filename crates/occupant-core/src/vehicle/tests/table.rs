@@ -38,7 +38,7 @@ fn fresh(path: &TablePath, t_s: f64) -> FrameMotion {
     path.motion(t_s, t_s, &mut PathCursor::default())
 }
 
-/// Greatest errors of place and velocity over the middle of a steady turn of 2 s with this many steps.
+/// Largest errors of place and velocity over the middle of a steady turn of 2 s with this many steps.
 fn turn_errors(steps: usize) -> (f64, f64) {
     let stations = (0..=steps).map(|i| turn(2.0 * i as f64 / steps as f64)).collect();
     let path = table(stations, Interpolation::Spline, AfterEnd::Error);

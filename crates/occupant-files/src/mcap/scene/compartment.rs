@@ -16,7 +16,7 @@ use crate::mcap::wire::Wire;
 const OPACITY: f64 = 0.3;
 /// Half side of the square that stands for an unbounded plane, m.
 const PATCH_M: f64 = 2.5;
-/// Corners of the polygon that stands for a disc.
+/// Corners of the polygon that represents a disc.
 const DISC_CORNERS: usize = 48;
 const EDGE_M: f64 = 0.006;
 /// The road and all else that is drawn alone: by the last word of its name, or its first.

@@ -56,7 +56,7 @@ fn longest(values: &[f64]) -> Option<(usize, usize)> {
     best
 }
 
-/// Whether a column holds one value from `a` to `b` while it is alive elsewhere, and jumps where it goes on.
+/// Whether a column holds one value from `a` to `b` while it is alive elsewhere, and jumps where it continues.
 fn is_held(values: &[f64], (a, b): (usize, usize)) -> bool {
     let mut steps: Vec<f64> = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     let equal = steps.iter().filter(|step| **step == 0.0).count() - (b - a);

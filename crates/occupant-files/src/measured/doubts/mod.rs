@@ -1,5 +1,5 @@
-//! What speaks against a record: sensors at the end of their range, units and signs that cannot be, zero errors, drift, rounding. Each is said
-//! with the option that mends it; nothing is mended unasked.
+//! Doubts about a record: clipped sensors, impossible units and signs, zero offsets, drift, rounding. Each names the
+//! option that corrects it; nothing is corrected without being asked.
 
 mod lost;
 mod places;

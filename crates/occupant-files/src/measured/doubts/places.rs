@@ -1,4 +1,4 @@
-//! What speaks against places and angles: rounding, times out of step, axes.
+//! Doubts about positions and angles: rounding, times out of step, axes.
 
 use crash_measures::signal::{STANDARD_GRAVITY_MPS2 as G, resolution, rounding_noise, smooth, usual_interval};
 use occupant_core::vehicle::{Interpolation, Station, VehiclePath};

@@ -124,7 +124,7 @@ fn fitted(span: &[f64], pattern: &[f64; SPAN]) -> (f64, f64, f64) {
     (dot / square, explained, (whole - explained).max(0.0))
 }
 
-/// The root mean square of what stands beside a span; none where that is little.
+/// The root mean square of what stands beside a span; none if that is little.
 fn around(fourth: &[f64], from: usize) -> Option<f64> {
     let before = &fourth[from.saturating_sub(SURROUNDINGS)..from];
     let after = &fourth[from + SPAN..(from + SPAN + SURROUNDINGS).min(fourth.len())];

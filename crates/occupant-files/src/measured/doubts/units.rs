@@ -51,7 +51,7 @@ pub(super) fn wrong_unit(column: &Column, time_s: &[f64]) -> Option<String> {
     })
 }
 
-/// The greatest magnitude of a mean over 10 ms, in the column's unit.
+/// The largest magnitude of a mean over 10 ms, in the column's unit.
 fn strongest(column: &Column, time_s: &[f64]) -> f64 {
     let whole: Vec<f64> = std::iter::once(0.0)
         .chain(time_s.windows(2).zip(column.values.windows(2)).scan(0.0, |sum, (t, v)| {

@@ -1,7 +1,7 @@
-//! What the files of a folder were when they were complete: `SHA256SUMS`, as `sha256sum -c` reads it.
+//! Hashes of the complete files of a folder: `SHA256SUMS`, as `sha256sum -c` reads it.
 //!
-//! A line is appended as soon as a file has its name; of two lines for one file the later holds. A file without a line was
-//! not complete when its process was killed, and is made again; one that is not what its line says is damaged.
+//! A line is appended as soon as a file has its name; of two lines for one file the later counts. A file without a line
+//! was incomplete when its process was killed, and is made again; a file that differs from its line is damaged.
 
 use std::collections::BTreeMap;
 use std::fs::{self, OpenOptions};
@@ -38,7 +38,7 @@ impl Checksums {
     /// Reads the list of a folder and looks at those of its files whose names `wanted` says.
     ///
     /// # Errors
-    /// The operating system refuses.
+    /// An error of the operating system.
     pub fn open(folder: &Path, wanted: impl Fn(&str) -> bool) -> Result<Checksums, Problem> {
         let path = folder.join(SUMS);
         let text = match fs::read(&path) {
@@ -84,7 +84,7 @@ impl Checksums {
     /// Lists a file that is complete.
     ///
     /// # Errors
-    /// The operating system refuses.
+    /// An error of the operating system.
     pub fn add(&self, path: &Path) -> Result<(), Problem> {
         let sum = sha256(&fs::read(path).map_err(Problem::io("read", path))?);
         let (name, list) = (self.name(path), self.folder.join(SUMS));
@@ -101,7 +101,7 @@ impl Checksums {
     /// Puts a damaged file aside, under a name that nobody reads: what it held is computed again.
     ///
     /// # Errors
-    /// The operating system refuses.
+    /// An error of the operating system.
     pub fn put_aside(&self, path: &Path) -> Result<(), Problem> {
         match fs::rename(path, path.with_extension("damaged")) {
             // another process was quicker
@@ -115,7 +115,7 @@ impl Checksums {
     /// Writes the list anew, a line for each file that is there.
     ///
     /// # Errors
-    /// Files that are damaged still; the operating system refuses.
+    /// Files that are damaged still; an error of the operating system.
     pub fn close(self) -> Result<(), Problem> {
         if let Some(path) = self.damaged().into_iter().next() {
             return Err(Problem::Unmended { path });

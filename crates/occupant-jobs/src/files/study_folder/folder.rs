@@ -1,4 +1,4 @@
-//! The folder of a sweep: manifest, copies of what it was made from, journal, table, kept runs, and who is at work in it.
+//! The folder of a sweep: manifest, copies of its inputs, journal, table, kept runs, and locks of working processes.
 //!
 //! ```text
 //! sweep.json               what the folder is the sweep of
@@ -126,7 +126,7 @@ impl Folder {
     /// The bytes of a copy.
     ///
     /// # Errors
-    /// The operating system refuses.
+    /// An error of the operating system.
     pub fn copy_of(&self, text: &Text) -> Result<Vec<u8>, Problem> {
         let path = self.path.join(&text.copy);
         input_file::bytes(&path).map_err(Problem::io("read", &path))
@@ -135,7 +135,7 @@ impl Folder {
     /// The manifest, if there is one.
     ///
     /// # Errors
-    /// The operating system refuses; a file that is no manifest.
+    /// An error of the operating system; a file that is no manifest.
     pub fn manifest(&self) -> Result<Option<Manifest>, Problem> {
         let path = self.manifest_path();
         let bytes = match input_file::bytes(&path) {
@@ -159,7 +159,7 @@ impl Folder {
     /// Makes the folder that of this sweep, or finds that it is, and takes part `shard` of it.
     ///
     /// # Errors
-    /// It holds something else; another process is at work on it; the operating system refuses.
+    /// It holds something else; another process is at work on it; an error of the operating system.
     pub fn claim(&self, manifest: &Manifest, texts: &[Vec<u8>], shard: Shard, restart: bool) -> Result<Held, Problem> {
         fs::create_dir_all(&self.path).map_err(Problem::io("create", &self.path))?;
         let _one_at_a_time = self.wait()?;
@@ -191,7 +191,7 @@ impl Folder {
     /// The right to write the table.
     ///
     /// # Errors
-    /// Another process has it; the operating system refuses.
+    /// Another process has it; an error of the operating system.
     pub fn claim_table(&self) -> Result<Held, Problem> {
         self.lock(&self.path.join("table.lock"))?.ok_or_else(|| self.busy("writes the table".to_owned()))
     }
@@ -336,7 +336,7 @@ impl Folder {
 /// The names in a folder, sorted.
 ///
 /// # Errors
-/// The operating system refuses.
+/// An error of the operating system.
 pub fn names_in(folder: &Path) -> Result<Vec<String>, Problem> {
     let entries = input_file::entries(folder).map_err(Problem::io("read", folder))?;
     Ok(entries.iter().map(|path| file_name(path)).collect())

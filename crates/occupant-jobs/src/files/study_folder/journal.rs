@@ -1,8 +1,8 @@
-//! The journal: every finished sample, in pieces that are only ever appended to.
+//! The journal: every finished sample, in files that are only appended to.
 //!
-//! A piece holds rows of one process in the order in which they were finished, as JSON Lines with checksums: the first line
-//! says of which sweep, each other line holds a [`Row`]. What a killed process or a full disk has left of its last row has no
-//! line end and is not read; the sample is computed again.
+//! A file contains rows of one process in the order in which they were finished, as JSON Lines with checksums: the
+//! first line names the sweep, each other line is a [`Row`]. An incomplete last row, left by a killed process or a full
+//! disk, has no line end and is not read; the sample is computed again.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
@@ -103,7 +103,7 @@ impl JournalWriter {
     /// Begins after the pieces that the shard has. The shard's lock must be held.
     ///
     /// # Errors
-    /// The operating system refuses.
+    /// An error of the operating system.
     pub fn new(folder: &Folder, manifest_sha256: &str, shard: Shard) -> Result<Self, Problem> {
         let folder = folder.journal();
         let number = |name: &String| {
@@ -124,7 +124,7 @@ impl JournalWriter {
     /// Appends a row.
     ///
     /// # Errors
-    /// The operating system refuses, e.g. because the disk is full; all rows before stand.
+    /// An error of the operating system, e.g. because the disk is full; all rows before stand.
     pub fn append(&mut self, row: &Row) -> Result<(), Problem> {
         let mut piece = match self.open.take() {
             Some(open) => open,
@@ -144,7 +144,7 @@ impl JournalWriter {
     /// Makes everything safe against a loss of power.
     ///
     /// # Errors
-    /// The operating system refuses.
+    /// An error of the operating system.
     pub fn close(self) -> Result<(), Problem> {
         self.open.map_or(Ok(()), |piece| piece.sync())
     }
@@ -178,14 +178,14 @@ pub struct Journal {
 #[derive(Clone, Debug)]
 struct Piece {
     path: PathBuf,
-    /// From the least to after the greatest sample.
+    /// From the least to after the largest sample.
     samples: Range<u64>,
 }
 
 /// Whether some piece of a folder's journal names this manifest.
 ///
 /// # Errors
-/// The operating system refuses.
+/// An error of the operating system.
 pub fn is_named_by_rows(folder: &Folder, manifest: &Manifest) -> Result<bool, Problem> {
     let (journal, sha256) = (folder.journal(), manifest.sha256().unwrap_or_default());
     let names = if journal.exists() { names_in(&journal)? } else { Vec::new() };
@@ -203,7 +203,7 @@ impl Journal {
     /// samples are not finished.
     ///
     /// # Errors
-    /// The operating system refuses.
+    /// An error of the operating system.
     pub fn mend(folder: &Folder, manifest: (&str, u64), sums: &Checksums) -> Result<(Self, Vec<PathBuf>), Problem> {
         let mut aside: Vec<PathBuf> = sums.damaged();
         aside.retain(|path| path.starts_with(folder.journal()));
@@ -222,7 +222,7 @@ impl Journal {
     /// Lists the pieces of a shard that has ended.
     ///
     /// # Errors
-    /// The operating system refuses.
+    /// An error of the operating system.
     pub fn list(folder: &Folder, shard: Shard, sums: &Checksums) -> Result<(), Problem> {
         let own = |name: &String| name.ends_with(".rows") && Shard::of_file(name) == Some(shard);
         let pieces = names_in(&folder.journal())?.into_iter().filter(own).map(|name| folder.journal().join(name));
@@ -232,7 +232,7 @@ impl Journal {
     /// Reads through the journals of folders that hold parts of one sweep of `samples`.
     ///
     /// # Errors
-    /// The operating system refuses; a file that is no piece, or of another sweep.
+    /// An error of the operating system; a file that is no piece, or of another sweep.
     pub fn read(folders: &[Folder], manifest_sha256: &str, samples: u64) -> Result<Self, Problem> {
         let mut journal = Journal {
             manifest_sha256: manifest_sha256.to_owned(),
@@ -311,7 +311,7 @@ impl Journal {
     /// two processes have computed one sample its results must agree.
     ///
     /// # Errors
-    /// Results that disagree; the operating system refuses; what `see` says.
+    /// Results that disagree; an error of the operating system; what `see` says.
     pub fn each_row(&self, mut see: impl FnMut(Row) -> Result<(), Failure>) -> Result<(), Failure> {
         let mut starts = (0..self.samples).step_by(AT_ONCE as usize);
         starts.try_for_each(|start| self.rows(start..start + AT_ONCE)?.into_iter().try_for_each(&mut see))

@@ -1,6 +1,6 @@
-//! What a folder of results is the sweep of: study, scenario, changes, program, columns.
+//! The manifest of a folder of results: study, scenario, changes, program, columns.
 //!
-//! The manifest is written once, when the sweep begins. A process whose own manifest differs does not touch the folder.
+//! It is written once, when the sweep begins. A process with a different manifest does not touch the folder.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,7 @@
-//! The folder of a sweep or a fit: manifest, copies of what was read, the journal of finished runs, the tables made of it.
+//! The folder of a sweep or a fit: manifest, copies of the inputs, the journal of finished runs, and their tables.
 //!
-//! Runs nothing: jobs hand rows in and read them back. What a folder holds stands in [`folder`], what a piece of the journal
-//! is in [`journal`].
+//! This module runs nothing: jobs pass rows in and read them back. [`folder`] describes the folder, [`journal`] a file
+//! of the journal.
 
 pub mod checksums;
 pub mod finished;

@@ -42,7 +42,7 @@ pub enum Problem {
         folder: PathBuf,
         /// What it holds.
         holds: &'static Holds,
-        /// In what, in words.
+        /// In what, as text.
         differences: Vec<String>,
     },
     /// A file of the folder is not what it should be.

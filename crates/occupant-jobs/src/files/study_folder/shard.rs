@@ -17,7 +17,7 @@ impl Shard {
     /// Reads `3/8`.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// Problems of it.
     pub fn parse(text: &str) -> Result<Shard, String> {
         let form = "part/number of parts, such as 3/8";
         let (number, count) =

@@ -21,7 +21,7 @@ impl StudyTable {
     /// Begins the files.
     ///
     /// # Errors
-    /// A file is there and may not be replaced; the operating system refuses.
+    /// A file is there and may not be replaced; an error of the operating system.
     pub fn create(
         files: impl IntoIterator<Item = (PathBuf, Form)>,
         existing: Existing,
@@ -48,7 +48,7 @@ impl StudyTable {
     /// Adds a row.
     ///
     /// # Errors
-    /// The operating system refuses.
+    /// An error of the operating system.
     pub fn row(&mut self, row: &Row) -> Result<(), Failure> {
         let (inputs, figures) = row.cells.split_at_checked(self.inputs).unwrap_or((&[], &[]));
         let [reason, caveats] =
@@ -63,7 +63,7 @@ impl StudyTable {
     /// Gives the complete files their names.
     ///
     /// # Errors
-    /// The operating system refuses.
+    /// An error of the operating system.
     pub fn publish(self) -> Result<Vec<PathBuf>, Failure> {
         self.files.into_iter().map(TableFile::publish).collect()
     }
@@ -95,7 +95,7 @@ fn described(manifest: &Manifest) -> impl Iterator<Item = Vec<Cell>> {
 /// Writes names, units and roles of the columns.
 ///
 /// # Errors
-/// The operating system refuses.
+/// An error of the operating system.
 pub fn write_columns(path: PathBuf, manifest: &Manifest) -> Result<PathBuf, Failure> {
     let mut table = TableFile::create(path, Form::Csv, Existing::Replace, &COLUMNS, &[])?;
     described(manifest).try_for_each(|row| table.row(row))?;

@@ -1,4 +1,4 @@
-//! Everything that a sweep reads, read once and remembered, from where it was named or from the copies in a folder.
+//! Inputs of a sweep, read once, from their original files or from the copies in a folder.
 
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
@@ -103,7 +103,7 @@ impl Texts {
         }
     }
 
-    /// Remembers what was read, or what stands for something that is no single file.
+    /// Stores what was read, or what stands for something that is no single file.
     pub fn add(&self, by: NamedBy, name: &str, bytes: Vec<u8>) {
         let mut read = self.read.borrow_mut();
         let copy = format!("inputs/{}-{}", read.len(), file_name(Path::new(name)));

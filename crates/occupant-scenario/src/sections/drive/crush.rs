@@ -12,7 +12,7 @@ use super::super::{Angle, Length, Pressure, Ratio, Speed, Stiffness, Time};
 use super::DriveSection;
 use placed_text::with_key;
 
-/// How a vehicle crushes. What is not said is its preset's.
+/// How a vehicle crushes. Keys that are absent take the values of the preset.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-at-most-one" = [["front", "test"]]))]
@@ -38,9 +38,10 @@ pub(crate) struct CrushSection {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum CrushReading {
-    /// The greatest crush is the residual crush and A/B: for damage and reconstruction. The pulse is too short for people.
+    /// The maximum crush is the residual crush plus A/B: for damage and reconstruction. The pulse is too short for
+    /// people.
     Residual,
-    /// The greatest crush is longer, at the same energy and residual crush: for pulses that people feel.
+    /// The maximum crush is larger, at the same energy and residual crush: for pulses that act on people.
     Dynamic,
 }
 
@@ -89,11 +90,11 @@ pub(crate) struct ImpactSection {
     pub(crate) duration: Option<Time<NOT_NEGATIVE>>,
 }
 
-/// Greatest crush of people's vehicles beyond that of residual reading.
+/// Maximum crush of vehicles with occupants beyond that of the residual reading, as a fraction.
 const LONGER: f64 = 0.2;
 
 impl CrushSection {
-    /// Puts what is written in the place of a preset's crush; reports a test that gives no stiffness.
+    /// Replaces the crush of a preset by the scenario's; reports a test that gives no stiffness.
     pub(super) fn fit(&self, b: &mut Builder, at: &str, car: &mut Car, has_people: bool) {
         let (mass_kg, width_m) = (car.mass_kg, car.body.width_m);
         let crush: &mut Crush = &mut car.body.crush;
@@ -135,7 +136,7 @@ impl CrushSection {
 }
 
 impl ImpactSection {
-    /// The impact; reports names that lead nowhere.
+    /// The impact; reports unknown names.
     pub(super) fn impact(&self, b: &mut Builder, at: &str, drive: &DriveSection) -> Option<Impact> {
         let [first, second] = &self.between;
         let cars: Vec<&str> = drive.vehicles.keys().map(String::as_str).collect();

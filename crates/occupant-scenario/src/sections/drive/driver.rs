@@ -1,4 +1,4 @@
-//! Who drives: tables of steering, brake, drive and speed, a line to follow, wheels that lock.
+//! The driver: tables of steering, brake, drive and speed, a line to follow, wheels that lock.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -104,16 +104,16 @@ pub(crate) enum AfterImpact {
     Hold,
     /// He brakes with a full pedal.
     Brake,
-    /// He goes on as if nothing had happened.
+    /// He continues as if nothing had happened.
     Continue,
 }
 
-/// Brake torque of a full pedal brakes so much, g.
+/// Deceleration of a full pedal, g.
 const FULL_PEDAL_G: f64 = 1.2;
 /// Angle of the steering wheel over that of the front wheels.
 const STEERING_RATIO: f64 = 16.0;
 
-/// The driver of a vehicle; what is wrong is reported.
+/// The driver of a vehicle; mistakes are reported.
 pub(super) fn driver(b: &mut Builder, at: &str, s: &DrivenSection, car: &Car) -> Option<Driver> {
     let ratio = si_or(&s.steering_ratio, STEERING_RATIO);
     let mut driver = Driver::coasting();

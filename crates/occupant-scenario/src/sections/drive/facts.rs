@@ -1,4 +1,4 @@
-//! What a drive comes to in figures, for the tables of studies.
+//! Figures of a drive, for the tables of studies.
 
 use vehicle_motion::run::Station;
 use vehicle_motion::world::{Contact, Partner, Struck};
@@ -34,7 +34,7 @@ fn of(drives: &Drives, number: usize) -> Vec<Fact> {
     figures.into_iter().map(fact).collect()
 }
 
-/// What a contact did to a vehicle.
+/// The effects of a contact on a vehicle.
 fn side(contact: &Contact, number: usize) -> Option<Struck> {
     let [first, second] = contact.struck;
     if contact.car == number { first } else { second.filter(|_| contact.partner == Partner::Car(number)) }

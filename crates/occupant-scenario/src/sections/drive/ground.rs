@@ -1,4 +1,4 @@
-//! `[drive.ground]`: its keys, and the ground they come to.
+//! `[drive.ground]`: its keys, converted to the ground.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -88,7 +88,7 @@ pub(crate) struct ZoneSection {
     pub(crate) rolling: Option<Ratio<NOT_NEGATIVE>>,
 }
 
-/// Friction of a road of which nothing is said.
+/// Friction of a road if none is given.
 const DRY_ASPHALT: f64 = 0.76;
 const AT: &str = "drive.ground";
 
@@ -116,7 +116,7 @@ impl DitchSection {
     }
 }
 
-/// A level corner stands so far beside a slope, m; it goes on beyond.
+/// Distance of a level corner beside a slope, m; the ground continues beyond it.
 const LEVEL_M: f64 = 5.0;
 
 /// The ground and its friction outside of zones.
@@ -138,7 +138,7 @@ pub(super) fn ground(b: &mut Builder, section: Option<&RoadSection>) -> (Ground,
             Ok(own) => ground = own,
             Err(GroundError::Order { number, .. }) => {
                 let last = format!("{at}.right[{}]", number - 1);
-                let found = format!("corner {number} does not lie right of the one before it");
+                let found = format!("corner {number} is not to the right of the previous one");
                 b.error(&last, found, "distances that rise from left to right");
             }
             Err(error) => refused.push((at, error)),

@@ -1,4 +1,4 @@
-//! `[drive]`: vehicles that move by themselves before people are looked at, and what they come to: the drives of all.
+//! `[drive]`: vehicles that are simulated before the people, and their motion.
 
 mod barriers;
 mod crush;
@@ -68,7 +68,7 @@ pub(crate) struct DrivenPathSection {
     pub(crate) vehicle: Option<String>,
 }
 
-/// What was driven. Clones share it.
+/// The results of a drive. Clones share them.
 #[derive(Clone, Debug)]
 pub struct Drives(Arc<Solved>);
 
@@ -124,7 +124,7 @@ impl Solved {
 }
 
 impl DriveSection {
-    /// Vehicles, ground and barriers; what is wrong is reported.
+    /// Vehicles, ground and barriers; mistakes are reported.
     fn world(&self, b: &mut Builder, s: &Scenario, people: &[Option<People>]) -> (World, Vec<DrivenVehicle>) {
         let (ground, friction) = ground::ground(b, self.ground.as_ref());
         let usual = World::default();
@@ -169,10 +169,10 @@ impl DriveSection {
     }
 }
 
-/// Drives all vehicles; `people` are those in each. None if nothing is driven.
+/// Drives all vehicles; `people` are the occupants of each. None if nothing is driven.
 ///
 /// # Errors
-/// What is wrong with vehicles, ground and drivers, with its place; warnings are among the others.
+/// Problems of vehicles, ground and drivers, with its place; warnings are among the others.
 pub(crate) fn solve(
     s: &Scenario,
     document: &Document,
@@ -207,7 +207,7 @@ pub(crate) fn solve(
     Ok((Some(Drives(Arc::new(solved))), std::mem::take(&mut b.problems)))
 }
 
-/// Longest step of a drive, s: between its stations people feel polynomials.
+/// Longest step of a drive, s: between its stations the occupants' frame moves along polynomials.
 const LONGEST_S: f64 = 0.01;
 
 /// Reports why vehicles could not be driven.
@@ -281,7 +281,7 @@ pub(super) fn check_names(b: &mut Builder, s: &Scenario) {
     }
 }
 
-/// Warns of what a load does that moves with the vehicle.
+/// Warns if a load that moves with the vehicle is a large part of its mass.
 fn warn_of_load(b: &mut Builder, at: &str, load_kg: f64, mass_kg: f64) {
     if load_kg > 0.1 * mass_kg {
         let found = format!("a fixed load of {load_kg:.0} kg in a vehicle of {mass_kg:.0} kg");

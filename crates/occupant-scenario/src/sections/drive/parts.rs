@@ -82,7 +82,7 @@ pub(crate) struct BrakesSection {
     pub(crate) shares: Option<[Ratio<NOT_NEGATIVE>; 4]>,
 }
 
-/// Puts what is written in the place of a number.
+/// Replaces a number by the scenario's, if there is one.
 pub(super) fn put<const KIND: usize, const RANGE: usize>(to: &mut f64, written: &Option<Quantity<KIND, RANGE>>) {
     *to = si_or(written, *to);
 }

@@ -1,4 +1,4 @@
-//! Those who sit in driven vehicles: their mass, and whether the crush reaches them.
+//! Occupants of driven vehicles: their mass, and whether the crush reaches them.
 
 use vehicle_motion::V3;
 use vehicle_motion::world::Partner;
@@ -11,7 +11,7 @@ use super::{DrivenSection, Solved};
 use occupant_core::model::Model;
 use placed_text::{Diagnostics, Document, Problem, with_key};
 
-/// Those in a vehicle: mass, and their centre of gravity in its axes, from its own without load.
+/// The occupants of a vehicle: mass, and their centre of gravity in its axes, from its own without load.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct People {
     pub(crate) mass_kg: f64,
@@ -19,20 +19,20 @@ pub(crate) struct People {
     balls: Vec<Ball>,
 }
 
-/// A sphere of one of them at the start, vehicle axes.
+/// A sphere of an occupant at the start, vehicle axes.
 #[derive(Clone, Debug, PartialEq)]
 struct Ball {
-    /// Where he stands in the scenario, and its name.
+    /// The occupant's place in the scenario, and the sphere's name.
     who: String,
     name: String,
     place_m: V3,
     radius_m: f64,
 }
 
-/// Crush that reaches less deep into a sphere is let be, m.
+/// Crush that reaches less deep into a sphere is ignored, m.
 const REACHES_M: f64 = 0.05;
 
-/// Whether a load depends on who sits in a vehicle, or whether the crush of a vehicle may reach them.
+/// Whether a load depends on a vehicle's occupants, or its crush may reach them.
 pub(crate) fn asks_for_people(s: &Scenario) -> bool {
     let Some(drive) = &s.drive else { return false };
     let may_crush = drive.vehicles.len() > 1 || !drive.barriers.is_empty();
@@ -41,7 +41,7 @@ pub(crate) fn asks_for_people(s: &Scenario) -> bool {
 }
 
 impl Scenario {
-    /// The vehicle of `drive` that a vehicle of the scenario is.
+    /// The vehicle of `drive` to which a vehicle of the scenario refers.
     pub(super) fn driven(&self, vehicle: &str) -> Option<usize> {
         let own = self.vehicles.get(vehicle).map(|own| &own.path);
         let path = own.or_else(|| (vehicle == VEHICLE).then(|| self.first_path().map(|(_, path)| path)).flatten())?;
@@ -51,7 +51,7 @@ impl Scenario {
         }
     }
 
-    /// Bodies: where each stands in the scenario, and the vehicle in which it begins.
+    /// Bodies: the place of each in the scenario, and the vehicle in which it begins.
     fn homes(&self) -> impl Iterator<Item = (String, Option<&str>)> {
         let first = self.body.is_some().then_some(("body".to_owned(), Some(VEHICLE)));
         let others = self.occupants.iter().map(|(name, own)| (with_key("occupants", name), own.vehicle.as_deref()));
@@ -64,7 +64,7 @@ impl Scenario {
         self.homes().any(|(_, home)| home.and_then(|home| self.driven(home)) == Some(number))
     }
 
-    /// Those who begin in each vehicle of `drive`; `model` has them in vehicles that stand at the origin.
+    /// The occupants that begin in each vehicle of `drive`; `model` has them in vehicles at rest at the origin.
     pub(crate) fn weighed(&self, model: &Model) -> Vec<Option<People>> {
         let mut people = vec![None; self.drive.as_ref().map_or(0, |drive| drive.vehicles.len())];
         let bodies = if model.alone().is_empty() { std::slice::from_ref(model) } else { model.alone() };
@@ -79,7 +79,7 @@ impl Scenario {
         people
     }
 
-    /// Reports whoever begins within the crush of his vehicle: no wall of his compartment moves with it.
+    /// Reports occupants that begin within the crush of their vehicle without a panel that moves with it.
     pub(crate) fn check_crush(&self, document: &Document, solved: &Solved) -> Diagnostics {
         let b = &mut Builder { document, problems: Diagnostics::new(), drives: None };
         for number in 0..solved.vehicles.len() {
@@ -134,7 +134,8 @@ impl People {
 }
 
 impl Solved {
-    /// The sphere into which the crush of a vehicle before a time reaches deepest, and how deep, m; none if it reaches none.
+    /// The sphere that the crush of a vehicle before a time enters most deeply, and the depth, m; none if it reaches
+    /// none.
     fn reached(&self, number: usize, end_s: f64) -> Option<(&Ball, f64)> {
         let meets = |contact: &&vehicle_motion::world::Contact| {
             contact.from_s < end_s && (contact.car == number || contact.partner == Partner::Car(number))
@@ -147,7 +148,7 @@ impl Solved {
         reached.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, reach_m)| *reach_m > REACHES_M)
     }
 
-    /// Warns of crush that goes deeper than a front is long.
+    /// Warns of crush that is deeper than the front is long.
     pub(super) fn warn_of_crush(&self, b: &mut Builder) {
         for (own, damage) in self.vehicles.iter().zip(&self.outcome.damage) {
             let front_m = own.car.body.front_m - own.car.front.ahead_m;

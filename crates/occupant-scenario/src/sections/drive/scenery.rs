@@ -13,7 +13,7 @@ use occupant_core::model::setup::Scenery;
 
 pub(super) type Polygons = Vec<Vec<Point3<f64>>>;
 
-/// The road reaches as far beyond what was driven, m.
+/// Distance that the road extends beyond the drive, m.
 const BEYOND_M: f64 = 12.0;
 /// Corners of a wheel.
 const ROUND: usize = 24;
@@ -45,7 +45,7 @@ pub(super) fn on_ground(drives: &Drives, x_m: f64, right_m: f64, over_m: f64) ->
     Point3::new(x_m, -right_m, drives.world.ground.height_m(x_m, right_m) + over_m)
 }
 
-/// The planes of the cross-section along what was driven.
+/// The planes of the cross-section along the drive.
 fn road(drives: &Drives) -> Polygons {
     let places = || drives.outcome.rides.iter().flat_map(|ride| ride.stations()).map(|station| station.position_m);
     let least = |axis: usize| places().map(|p| p[axis]).fold(f64::INFINITY, f64::min) - BEYOND_M;

@@ -8,17 +8,17 @@ use vehicle_motion::barrier::{Barrier, Rail, Slider, Wall};
 use super::Drives;
 use super::scenery::{Polygons, on_ground};
 
-/// Heights of what has none of its own, m.
+/// Heights of barriers that have none of their own, m.
 const WALL_M: f64 = 0.9;
 const POLE_M: f64 = 2.4;
-/// A wall is drawn so far beyond what was driven, m.
+/// Distance that a wall is drawn beyond the drive, m.
 const BEYOND_M: f64 = 5.0;
 /// Half the breadth of a post, m.
 const POST_M: f64 = 0.06;
 /// Sides of a pole.
 const ROUND: usize = 12;
 
-/// A barrier by its number: a rail and a cushion as they are at the end.
+/// A barrier by its number; a rail and a cushion in their final state.
 pub(super) fn polygons(drives: &Drives, number: usize) -> Polygons {
     match &drives.world.barriers[number] {
         Barrier::Wall(wall) => vec![face(drives, wall)],
@@ -38,7 +38,7 @@ fn round([x, y]: [f64; 2], radius_m: f64) -> Vec<[f64; 2]> {
     (0..ROUND).map(corner).collect()
 }
 
-/// The part of a wall's face along which something was driven.
+/// The part of a wall's face beside the drive.
 fn face(drives: &Drives, wall: &Wall) -> Vec<Point3<f64>> {
     let (sine, cosine) = wall.normal_rad.sin_cos();
     let along = |x: f64, y: f64| (y - wall.point_m[1]) * cosine - (x - wall.point_m[0]) * sine;
@@ -63,7 +63,7 @@ fn upright(drives: &Drives, corners: &[[f64; 2]], [foot, top]: [f64; 2]) -> Poly
     (0..corners.len()).map(side).chain([roof]).collect()
 }
 
-/// The strip of a rail as it is bent at the end, and its posts as they stood.
+/// The strip of a rail, bent as at the end, and its posts in their initial position.
 fn of_rail(drives: &Drives, number: usize, rail: &Rail) -> Polygons {
     let bent = drives.outcome.rails.iter().find(|bent| bent.barrier == number);
     let line = bent.map_or(&rail.line_m[..], |bent| &bent.line_m);
@@ -82,7 +82,7 @@ fn of_rail(drives: &Drives, number: usize, rail: &Rail) -> Polygons {
     line.windows(2).map(strip).chain((0..=posts).map(post)).collect()
 }
 
-/// A cushion from its nose, where that was pushed, to its back; a sign where it stood.
+/// A cushion from its final nose to its back; a sign in its initial position.
 fn of_slider(drives: &Drives, number: usize, slider: &Slider) -> Polygons {
     let Some(direction_rad) = slider.direction_rad else { return upright(drives, &slider.corners_m, [0.0, POLE_M]) };
     let (sine, cosine) = direction_rad.sin_cos();

@@ -133,7 +133,7 @@ impl DrivenSection {
         self.payload.is_some()
     }
 
-    /// The vehicle on a road of a friction; what is wrong is reported.
+    /// The vehicle on a road with a friction; mistakes are reported.
     pub(super) fn vehicle(
         &self,
         b: &mut Builder,

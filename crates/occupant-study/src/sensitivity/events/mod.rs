@@ -1,4 +1,4 @@
-//! Where a motion is not differentiable: what begins, ends or changes its law along a run.
+//! Points where a motion is not differentiable: forces that begin, end or change their law.
 //!
 //! The derivative of a run is that of the branches taken. Where a force only changes its slope (a contact begins, a spring
 //! unloads, a belt tightens) the derivative of the motion stays right and its own derivative jumps: the straight line
@@ -6,8 +6,8 @@
 //! from one material onto another, a belt slips off the body) the derivative lacks the jump times the shift of its
 //! instant.
 //!
-//! A kind of force element tells its events itself ([`occupant_core::forces::shown::Reported::event`]); those of contacts and joints, which need more than
-//! two looks at one element, have files of their own.
+//! A kind of force element reports its events itself ([`occupant_core::forces::shown::Reported::event`]); those of
+//! contacts and joints, which need more than two looks at one element, have files of their own.
 
 mod contact;
 mod joint;

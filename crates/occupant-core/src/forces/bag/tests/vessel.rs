@@ -1,4 +1,4 @@
-//! Vessels whose walls stand still.
+//! Vessels whose walls are at rest.
 
 use super::*;
 

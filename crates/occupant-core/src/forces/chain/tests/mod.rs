@@ -94,7 +94,7 @@ impl Rig {
         straps.map(|strap| strap.tension)
     }
 
-    /// A step of h to these lengths, and what is remembered of it.
+    /// A step of h to these lengths, and the memory of it.
     fn step(&mut self, h: f64, lengths: &[f64]) {
         let before = self.course.lengths;
         self.course.lengths[..lengths.len()].copy_from_slice(lengths);

@@ -108,7 +108,7 @@ fn a_thousand_random_belts_find_their_root() {
             let taut = rig.straps.taut(rig.past.device.time, &rig.course, &rig.past);
             let found = &taut.solved;
             assert_eq!(found.unsolved, 0.0, "{number}");
-            // greatest measured: 1.8e-9 m, five rings within their play
+            // largest measured: 1.8e-9 m, five rings within their play
             assert!(found.residual.abs() <= 1e-13 * all || rig.is_last_bit(&taut), "{number}: {}", found.residual);
             assert!(rig.pulls.iter().all(|t| *t >= 0.0), "{number}: {:?}", rig.pulls);
         }

@@ -1,4 +1,4 @@
-//! The law of pairs of spheres, and who remembers what.
+//! The law of pairs of spheres, and the owner of each pair's memory.
 
 use super::SelfContact;
 use super::series::series;

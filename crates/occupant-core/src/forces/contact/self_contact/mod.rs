@@ -4,8 +4,8 @@
 //!
 //! Δ = r₁ + r₂ − |c₂ − c₁|,   P = c₁ + (r₁ − Δ/2) n̂                                                                (6.4)
 //!
-//! and both get, at the same P, forces that are opposite: so linear and angular momentum are kept. The skins of both deform
-//! in series (`series`). Segments that share a joint are held apart by its stops and never meet here.
+//! and both receive, at the same P, opposite forces: so linear and angular momentum are conserved. The skins of both
+//! deform in series (`series`). Segments that share a joint never touch here, because its stops hold them apart.
 
 mod law;
 mod series;

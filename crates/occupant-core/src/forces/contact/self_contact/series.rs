@@ -1,14 +1,14 @@
-//! Two skins that are pressed together as one spring.
+//! Two skins in series as one spring.
 //!
 //! Given loading curves F₁(Δ₁) and F₂(Δ₂), Δ = Δ₁ + Δ₂ at F₁ = F₂: the inverse functions add. One bilinear spring has the
 //! same curve up to the first knee of the two, at F_b, and meets it again at 3F_b:
 //!
 //! 1/K₁ = 1/K₁₁ + 1/K₁₂,   F_b = min(K₁ᵢ Δ_bᵢ),   Δ_b = F_b/K₁,   K₂ = 2F_b/(Δ(3F_b) − Δ(F_b))
 //!
-//! Unloading compliances μ/K add too, so μ₁ = (μ₁₁/K₁₁ + μ₁₂/K₁₂) K₁ is exact; μ₂ is what both return of the work between
-//! F_b and 3F_b. Where one of the two is a force function of straight lines that rise, both are taken as such, and nothing is
-//! approximated: between two forces at which one of them bends Δ is straight in F, and what is returned of it,
-//! (μ₁ΔΔ₁ + μ₂ΔΔ₂)/ΔΔ, is constant.
+//! Unloading compliances μ/K add too, so μ₁ = (μ₁₁/K₁₁ + μ₁₂/K₁₂) K₁ is exact; μ₂ is the share that both return of the
+//! work between F_b and 3F_b. If one of the two is a force function of rising straight lines, both are treated as such,
+//! and nothing is approximated: between two forces at which one of them has a corner Δ is linear in F, and the returned
+//! share, (μ₁ΔΔ₁ + μ₂ΔΔ₂)/ΔΔ, is constant.
 
 use crate::forces::contact::material::Force;
 use crate::forces::function::{Beyond, ForceDeflection, Function, Shape, Unloading};

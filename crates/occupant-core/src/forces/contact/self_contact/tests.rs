@@ -89,7 +89,7 @@ fn skins_without_knees_have_a_pair_without_one() {
     assert_relative_eq!(pair.returned_1 / pair.k1_n_per_m, 1.5e-5, max_relative = 1e-12);
 }
 
-/// A function and a spring in series give way, and go back, as both do under one force.
+/// A function and a spring in series yield, and go back, as both do under one force.
 #[test]
 fn skins_of_lines_are_two_functions_with_one_force() {
     let lines = ForceDeflection::lines(vec![[0.0, 0.0], [0.01, 100.0], [0.02, 900.0], [0.03, 1200.0]], 0.3);

@@ -1,4 +1,4 @@
-//! From what a solid is said to be to its distance function, whole and without the faces that are far from each face.
+//! Builds the distance function of a solid, whole and without the faces that are far from each face.
 
 use nalgebra::{Point3, Vector3};
 
@@ -19,7 +19,7 @@ const FLAT: f64 = 1e-6;
 /// Cosine of the angle beyond which the normals of two faces look away from each other: 120°.
 const AWAY: f64 = -0.5 - 1e-9;
 
-/// What is wrong with a shape, and what was expected.
+/// Problems of a shape, and what was expected.
 pub(crate) type Wrong = (String, &'static str);
 
 type V = Vector3<f64>;
@@ -77,7 +77,7 @@ fn along(centre: Point3<f64>, axis: V, section: Section<f64>, ends: [f64; 2]) ->
         return Err(("an axis of length zero".to_owned(), "a direction"));
     };
     if !centre.iter().all(|c| c.abs() < FAR_M) {
-        return Err(("a place that is not finite".to_owned(), "finite coordinates"));
+        return Err(("a position that is not finite".to_owned(), "finite coordinates"));
     }
     let (u, v) = plane_axes(&axis);
     let axes = M3 { x: V3::of(&u), y: V3::of(&v), z: V3::of(&axis) };

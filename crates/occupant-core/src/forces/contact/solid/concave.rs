@@ -1,7 +1,7 @@
-//! Groups of solids that a sphere does not meet as one body: concave corners and gaps between them.
+//! Groups of solids that do not act as one body: concave corners and gaps between them.
 //!
-//! Of a group only the nearest solid pushes. A sphere that touches two of them from different sides at once is held by one
-//! alone, and goes into the other until that one is the deeper.
+//! Only the nearest solid of a group pushes. If a sphere touches two of them from different sides at once, only one
+//! resists, and the sphere sinks into the other until that one is deeper.
 
 use nalgebra::{Point3, Vector3};
 
@@ -17,7 +17,7 @@ pub(crate) const CONCAVE_WITHIN_M: f64 = 2.1 * AWAY_M;
 /// Normals of two solids that push in directions nearer to each other than this are one, rad: 30°.
 const ONE_RAD: f64 = std::f64::consts::FRAC_PI_6;
 
-/// The greatest angle between the normals of two solids at places that are equally near to both, rad; none if it is small.
+/// The largest angle between the normals of two solids at places that are equally near to both, rad; none if it is small.
 pub(crate) fn concave_rad(one: &Solid, other: &Solid) -> Option<f64> {
     let [Ok(a), Ok(b)] = [&one.shape, &other.shape].map(build) else { return None };
     let angles = one.outline().into_iter().flat_map(|polygon| angles(&polygon, &a, &b));

@@ -1,15 +1,15 @@
 //! Signed distance φ of a point from a body with thickness, and its gradient N̂.
 //!
-//! Ours; the report has planes alone. φ is positive outside, the distance to the nearest point, and negative inside, less
-//! the depth to the nearest surface. One form is enough: a section along an axis between two ends, and all that is within ρ
-//! of it. With φ₂ the distance from the section and s that beyond the nearer end
+//! Ours; the report has only planes. φ is positive outside, the distance to the nearest point, and negative inside,
+//! minus the depth below the nearest surface. One form covers all: a section along an axis between two ends, and
+//! everything within ρ of it. With φ₂ the distance from the section and s the distance beyond the nearer end
 //!
 //! φ = hypot(φ₂⁺, s⁺) + min(max(φ₂, s), 0) − ρ                                                                      (6.1)
 //!
 //! The section is a convex polygon (prism, box, plate; half space: one without sides, with one end), a circle (disc; with
 //! radius 0 a capsule) or the line of a circle, whose φ₂ is never negative (rim).
 //!
-//! Where φ has a kink, N̂ is a unit vector by rule: that of the first of the faces that are equally near.
+//! Where φ has a kink, N̂ is by rule the unit normal of the first of the equally near faces.
 
 use crate::forces::contact::face::V2;
 use crate::motion::scalar::Scalar;
@@ -122,7 +122,7 @@ impl<S: Scalar> Section<S> {
     }
 }
 
-/// Greatest distance from a side's line inside the polygon, distance from the nearest side outside.
+/// Largest distance from a side's line inside the polygon, distance from the nearest side outside.
 #[inline(always)]
 fn from_sides<S: Scalar>(sides: &[Side<S>], p: V2<S>) -> Distance2<S> {
     let o = S::zero();

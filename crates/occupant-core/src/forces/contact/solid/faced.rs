@@ -1,10 +1,11 @@
 //! A solid with the face that each sphere remembers.
 //!
-//! Past the middle of a body N̂ flips, and a sphere that is deep inside would be thrown out on the far side. So from first
-//! touch on a sphere remembers a face k, the one whose normal is nearest to N̂, and φ is replaced by φ_k, the distance from
-//! K_k: the body without the faces that are far from k, those that share no corner with it and look away from it by more
-//! than 120°. k is chosen anew at a commit only where φ = φ_k, so force and stored energy do not jump there, and between
-//! commits φ_k is a function of the centre alone: a frictionless sphere gets back all that it has put in.
+//! Past the middle of a body N̂ flips, and a sphere deep inside would be thrown out on the far side. So from first
+//! contact on a sphere remembers a face k, the one whose normal is nearest to N̂, and φ is replaced by φ_k, the
+//! distance from K_k. K_k is the body without the faces far from k: those that share no corner with it and face away
+//! from it by more than 120°. k is chosen again at a commit only where φ = φ_k, so force and stored energy do not jump
+//! there. Between commits φ_k is a function of the centre alone: a frictionless sphere gets back all the energy that it
+//! has put in.
 
 use super::distance::{Distance, Form};
 use crate::forces::contact::{FACE, OPEN, TOUCHING};

@@ -1,7 +1,8 @@
-//! Solids: bodies with thickness, which hold spheres off from all sides.
+//! Solids: bodies with thickness, which resist spheres from all sides.
 //!
-//! A bounded face is met from in front alone, and a sphere that comes over an edge may pass it. A solid has a signed
-//! distance φ, and Δ = r − φ is a function of the sphere's centre, round its edges and corners too. The report has none.
+//! A bounded face acts only from its front, and a sphere that comes over an edge may pass it. A solid has a signed
+//! distance φ, and Δ = r − φ is a function of the sphere's centre, including around its edges and corners. The report
+//! has none.
 
 mod build;
 mod concave;

@@ -1,8 +1,8 @@
-//! Spheres against solids: who meets whom, what is remembered, and the force.
+//! Spheres against solids: pairs, memory, and force.
 //!
-//! A sphere meets the solids of a group as one body: φ = min over them of φ_k (6.2), each with the face that is remembered
-//! of it, and one Δ_m. With (F, U) of the spring at Δ = r − φ the sphere gets F N̂ and, at A = c − max(r − Δ/2, 0) N̂ (6.3),
-//! the friction; U is a function of the centre alone.
+//! The solids of a group act on a sphere as one body: φ = min over them of φ_k (6.2), each with its remembered face,
+//! and one Δ_m. With (F, U) of the spring at Δ = r − φ the sphere receives F N̂ and, at A = c − max(r − Δ/2, 0) N̂
+//! (6.3), the friction; U is a function of the centre alone.
 
 use std::collections::HashMap;
 

@@ -262,7 +262,7 @@ fn shapes_without_thickness_are_refused() {
 }
 
 /// Leads a sphere of radius `r` along a closed path with commits; returns the work that an elastic force of 1 N/m takes and
-/// the greatest jump of φ at a commit, and whether φ_k was ever another than φ.
+/// the largest jump of φ at a commit, and whether φ_k was ever another than φ.
 fn led(shape: &Faced<f64>, r: f64, steps: usize, path: impl Fn(f64) -> V) -> (f64, f64, bool) {
     let (mut phase, mut work, mut jump, mut was_other) = (OPEN, 0.0, 0.0f64, false);
     let mut at = path(0.0);

@@ -1,4 +1,4 @@
-//! What can be wrong with limits and friction of a joint, by themselves and where the body begins.
+//! Checks of limits and friction of a joint, alone and in the initial posture.
 
 use std::f64::consts::PI;
 
@@ -90,7 +90,7 @@ impl LimitLaw<f64> {
         [self.bend.as_ref().map(|bend| &bend.stop), self.turn.as_ref().map(|turn| &turn.stop)]
     }
 
-    /// What has gone beyond the end of its curve, in words.
+    /// What has gone beyond the end of its curve, as text.
     pub(super) fn overrun(&self, joint: &str, past: &LimitHistory<f64>) -> Option<String> {
         let words = |x: f64| format!("{:.1}°", x.to_degrees());
         let of = format!("the joint {joint} beyond its limit");

@@ -78,7 +78,7 @@ impl Curve<f64> {
         Curve { pieces: (0..count).map(piece).collect() }
     }
 
-    /// Least and greatest value of a periodic curve, on a fine grid.
+    /// Least and largest value of a periodic curve, on a fine grid.
     pub(super) fn bounds(&self) -> [f64; 2] {
         let angles = (-720..720).map(|i| f64::from(i) * TAU / 1440.0);
         let values = angles.map(|angle| self.around(angle).0);

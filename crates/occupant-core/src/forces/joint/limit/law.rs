@@ -1,7 +1,7 @@
 //! Elastic limits of joints: torques that are gradients, with loss on unloading, and dry friction.
 //!
-//! With the excess χ, what a joint is bent or turned beyond its limit, and χ_m the greatest committed since it was last
-//! inside, the torque is that of a force function with its way back by stretch ([`crate::forces::function`]).
+//! With the excess χ, the bend or rotation of a joint beyond its limit, and χ_m the largest committed since it was last
+//! inside, the torque is a force function with unloading by stretch ([`crate::forces::function`]).
 
 use super::curve::Curve;
 use super::lock::{Lock, LockPast, Pair};

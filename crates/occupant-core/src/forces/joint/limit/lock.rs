@@ -1,8 +1,9 @@
 //! Locks: a joint keeps its posture until a moment is reached.
 //!
-//! A rotational spring to the posture at locking: with ρ, the rotation vector from it, the torque is −Kρ and its potential
-//! ½K|ρ|². Where K|ρ| has reached T_y at an accepted step the lock opens, and what it stored is lost; one that slips keeps
-//! its torque at T_y and its posture follows along ρ so that K|ρ| = T_y, which loses T_y for each radian.
+//! A rotational spring to the posture at locking: with ρ, the rotation vector from it, the torque is −Kρ and its
+//! potential ½K|ρ|². When K|ρ| has reached T_y at an accepted step, the lock opens and its stored energy is lost. A
+//! lock that slips keeps its torque at T_y, and its posture follows along ρ so that K|ρ| = T_y; it loses T_y for each
+//! radian.
 
 use super::super::posture::{Posture, length};
 use super::LimitAction;
@@ -166,7 +167,7 @@ impl<S: Scalar> Lock<S> {
         past.speed = S::select(stays, o, speed);
     }
 
-    /// Moment on the outer segment, space axes, and what is stored; nothing where the lock is open.
+    /// Moment on the outer segment, space axes, and what is stored; nothing if the lock is open.
     #[inline(always)]
     pub(super) fn respond(&self, pair: &Pair<'_, S>, past: &LockPast<S>) -> (V3<S>, S) {
         let (k, l) = pair.axes;

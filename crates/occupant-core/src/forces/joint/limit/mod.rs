@@ -1,4 +1,4 @@
-//! Elastic limits of joints, by direction, dry friction and locks: what joints have beyond those of the report.
+//! Elastic limits of joints by direction, dry friction and locks, which the report does not have.
 
 mod check;
 mod curve;
@@ -260,7 +260,7 @@ fn law(body: &Body, limits: &Limits, layout: &Layout) -> LimitLaw<f64> {
     }
 }
 
-/// The stops' steepest torque up to [`ESTIMATE_RAD`], friction at its steepest and the lock, about the axes that give way
+/// The stops' steepest torque up to [`ESTIMATE_RAD`], friction at its steepest and the lock, about the axes that yield
 /// most.
 fn rates(data: &Joints, limits: &Limits, mobility: &Mobility<'_>) -> Vec<Rate> {
     let row = &data.tree()[limits.joint];

@@ -38,7 +38,7 @@ impl Reported for JointLimits {
         Of::number(Radian, |a| a.excess).channel("excess", "angle of the {} beyond its limit").field(
             5,
             "excess",
-            "angle beyond the limit, of bend or twist the greater; 0 within",
+            "angle beyond the limit, the larger of bend and twist; 0 within",
         ),
         Of::number(NewtonMetre, |a| length(a.stop)).channel("stop_moment", "moment of the stops of the {}").field(
             6,

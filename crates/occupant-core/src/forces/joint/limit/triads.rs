@@ -1,9 +1,9 @@
 //! Reference axes of a ball joint, the angles between them, and how these change.
 //!
-//! In the inner segment k stand the centre axis ĉ, x̂ ⟂ ĉ and ŷ = ĉ × x̂; in the outer segment l the axis ẑ and its own x̂_l,
-//! ŷ_l. With z_x = ẑ·x̂ and so on, bend θ = atan2(√(z_x² + z_y²), z_c), azimuth φ = atan2(z_y, z_x), and twist τ is what is
-//! left of the turn from (x̂, ŷ, ĉ) to (x̂_l, ŷ_l, ẑ) when ĉ has been swung straight to ẑ:
-//! τ = atan2(x̂_l·ŷ − ŷ_l·x̂, x̂_l·x̂ + ŷ_l·ŷ). Left joints mirror the right ones: ŷ and ŷ_l are turned round.
+//! The centre axis ĉ, x̂ ⟂ ĉ and ŷ = ĉ × x̂ are fixed in the inner segment k; the axis ẑ and its own x̂_l, ŷ_l in the
+//! outer segment l. With z_x = ẑ·x̂ and so on, bend θ = atan2(√(z_x² + z_y²), z_c), azimuth φ = atan2(z_y, z_x), and
+//! twist τ is the rest of the rotation from (x̂, ŷ, ĉ) to (x̂_l, ŷ_l, ẑ) after ĉ has been swung straight to ẑ: τ =
+//! atan2(x̂_l·ŷ − ŷ_l·x̂, x̂_l·x̂ + ŷ_l·ŷ). Left joints mirror the right ones: ŷ and ŷ_l are reversed.
 
 use nalgebra::{UnitQuaternion, Vector3};
 

@@ -1,4 +1,4 @@
-//! What can be wrong with a muscle.
+//! Checks of a muscle.
 
 use super::{Joints, Muscle};
 use placed_text::Problems;
@@ -15,7 +15,8 @@ pub(super) fn check(joints: &Joints, muscle: &Muscle, problems: &mut Problems) {
         problems.check_at_least_zero(&format!("{path}.stiffness"), reflex.stiffness_n_m, "N·m");
         problems.check_at_least_zero(&format!("{path}.damping"), reflex.damping_n_m_s, "N·m·s");
         if reflex.delay_s.is_nan() || reflex.delay_s < LEAST_DELAY_S {
-            let expected = format!("at least {LEAST_DELAY_S} s; what acts at once stands beside the reflex");
+            let expected =
+                format!("at least {LEAST_DELAY_S} s; for immediate action use the muscle's own stiffness and damping");
             problems.error(format!("{path}.delay"), format!("{} s", reflex.delay_s), expected);
         }
     }

@@ -1,16 +1,18 @@
 //! The torque of a muscle and its activation.
 //!
-//! T = −a(t)·(sat(Kρ + Dω + s, T_max) − T₀) on the outer segment, ρ the rotation vector from the posture that is held, ω the
-//! relative angular velocity, sat by length, T₀ a torque of its own that goes with the inner segment. s is what reflexes ask for,
-//! the same law late: in axes of the inner segment ṡ = (K_f ρ + D_f ω − s)/τ_f, three numbers of the state, 0 at the start. In a body that has settled a muscle
-//! with tone also carries, whatever its activation, what its joint has to carry at the start: T_w in axes of the inner segment. The activation follows ȧ = (u − a)/τ. Its aim u is the tone a₀, and 1 from when the
-//! reaction time is over until the muscle relaxes: both are known before the run, so that a is closed:
+//! T = −a(t)·(sat(Kρ + Dω + s, T_max) − T₀) on the outer segment, with ρ the rotation vector from the posture to hold,
+//! ω the relative angular velocity, sat by length, and T₀ the muscle's own torque, which turns with the inner segment.
+//! s is the demand of reflexes, the same law with a delay: in axes of the inner segment ṡ = (K_f ρ + D_f ω − s)/τ_f,
+//! three state variables, 0 at the start. In a settled body a muscle with tone also carries, whatever its activation,
+//! the initial load of its joint: T_w in axes of the inner segment. The activation follows ȧ = (u − a)/τ. Its target u
+//! is the tone a₀, and 1 from the end of the reaction time until the muscle relaxes. Both times are known before the
+//! run, so a has a closed form:
 //!
 //! ```text
 //! a = a₀ + (1 − a₀)(E(t − t_off) − E(t − t_on)),  E(t) = exp(−max(t, 0)/τ)
 //! ```
 //!
-//! Kρ + Dω is at once: active muscles are stiff. What muscles do is work from outside.
+//! Kρ + Dω acts immediately, because active muscles are stiff. Muscles do external work.
 
 use crate::body::{Body, Joint, JointPlace, Segment};
 use crate::forces::decay::decay;

@@ -1,4 +1,4 @@
-//! The barriers that `[drive.barriers]` comes to.
+//! The barriers of `[drive.barriers]`.
 
 use std::f64::consts::PI;
 
@@ -11,7 +11,7 @@ use super::super::parts::put;
 use super::{BarrierSection, BlockSection, CushionSection, Hand, RailSection, SignSection, WallSection};
 use placed_text::with_key;
 
-/// Friction of a car's end on what is rigid, and along smooth concrete.
+/// Friction of a car's end on rigid obstacles, and along smooth concrete.
 const ROUGH: f64 = 0.55;
 const CONCRETE: f64 = 0.2;
 /// Diameter of the pole of 49 CFR 571.214, m.
@@ -30,7 +30,7 @@ impl BarrierSection {
         }
     }
 
-    /// The barrier, where the first vehicle starts at a place; what is wrong is reported.
+    /// The barrier; the first vehicle starts at the given position. Mistakes are reported.
     pub(in super::super) fn barrier(&self, b: &mut Builder, at: &str, first_m: [f64; 2]) -> Option<Barrier> {
         Some(match self {
             BarrierSection::Wall(s) => Barrier::Wall(s.wall()),
@@ -153,7 +153,7 @@ impl SignSection {
     }
 }
 
-/// Force over way, m and N; reports lists of unlike length, and strokes that do not rise from 0.
+/// Force over stroke, m and N; reports lists of unequal length, and strokes that do not rise from 0.
 fn held_back(
     b: &mut Builder,
     at: &str,

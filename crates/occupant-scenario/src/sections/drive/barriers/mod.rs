@@ -1,4 +1,4 @@
-//! `[drive.barriers]`: the keys of what stands beside the road.
+//! `[drive.barriers]`: the keys of obstacles beside the road.
 
 mod build;
 
@@ -74,7 +74,7 @@ pub(crate) struct BlockSection {
     pub(crate) friction: Option<Ratio<NOT_NEGATIVE>>,
 }
 
-/// A guardrail on posts, in plan; its ends are anchored. What is not said is its preset's.
+/// A guardrail on posts, in plan; its ends are anchored. Keys that are absent take the values of the preset.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RailSection {
