@@ -263,7 +263,7 @@ fn flat_top(series: &Series, caveats: &mut Vec<String>) {
     let f = &series.force_n;
     let peak = f.iter().copied().fold(0.0, f64::max);
     let is_top = |force: &f64| peak - force <= 1e-6 * peak;
-    let Some(first) = f.iter().position(|force| is_top(force)) else { return };
+    let Some(first) = f.iter().position(&is_top) else { return };
     let count = f[first..].iter().take_while(|force| is_top(force)).count();
     if count >= FLAT && first > 0 {
         let [from, to] = [first, first + count - 1].map(|i| 1e3 * series.time_s[i]);
