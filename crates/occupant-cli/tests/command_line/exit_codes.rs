@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 use super::{answer, code, err, folder_with_case, out};
 
 /// What each command can do in the folder, in an order in which one has what another has made, and what it cannot.
-const COMMANDS: [[&str; 2]; 23] = [
+const COMMANDS: [[&str; 2]; 24] = [
     ["run case.toml -f -o run.mcap --set time.end=0.02", "run none.toml"],
     [
         "export run.mcap -f -o test.csv --channels lower_torso.acceleration.x",
@@ -36,6 +36,7 @@ const COMMANDS: [[&str; 2]; 23] = [
         "sensitivity case.toml --to head.peak --of belts.lap.k1 --set time.end=0.005",
         "sensitivity case.toml --to none --of none",
     ],
+    ["surface drop.csv --mass 6.8 --speed 6 --angle 30 -f -o bolster.toml", "surface none.csv --mass 6.8 --speed 6"],
     ["completions bash", "completions none"],
     ["man pages -f", "man case.toml"],
 ];
@@ -95,6 +96,8 @@ fn every_command_ends_with_0_when_done_1_when_it_broke_off_and_2_when_it_could_n
     fs::write(folder.path().join("driven.toml"), include_str!("../../../../scenarios/templates/drive.toml"))
         .expect("a scenario");
     fs::write(folder.path().join("deck.dat"), DECK).expect("a deck");
+    fs::write(folder.path().join("drop.csv"), include_str!("../../../../scenarios/surfaces/made-up-bolster.csv"))
+        .expect("a record");
     for [good, bad] in COMMANDS {
         let output = answer(folder.path(), &words(good));
         assert_eq!(code(&output), 0, "{good}: {}", err(&output));

@@ -35,7 +35,8 @@ pub struct Clearance {
     pub surface: String,
     /// How far that is.
     pub distance_m: f64,
-    /// Where the way begins and ends, axes of the occupant's vehicle.
+    /// Where the way begins and ends, axes of the occupant's vehicle; for pictures.
+    #[serde(skip)]
     pub ends_m: [[f64; 3]; 2],
 }
 
