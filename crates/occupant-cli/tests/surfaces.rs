@@ -5,6 +5,9 @@ use std::path::Path;
 
 use crate::common::{answer, done, err};
 
+/// A name, its rows, their heading, whether a surface comes of them, and what is said.
+type Case = (&'static str, Vec<[f64; 2]>, &'static str, bool, &'static str);
+
 const G: f64 = 9.806_65;
 
 /// A surface and an impactor, and how it is recorded.
@@ -211,7 +214,7 @@ fn bad_records_are_refused_or_told_of() {
     };
     const USUAL: &str = "t[ms],acceleration[g]";
     let back = rows.iter().position(|row| row[1] == peak).expect("a peak");
-    let cases: [(&str, Vec<[f64; 2]>, &str, bool, &str); 11] = [
+    let cases: [Case; 11] = [
         ("no contact", with(&|[t, _]| [t, 0.0]), USUAL, false, "no contact"),
         ("wrong sign", with(&|[t, a]| [t, -a]), USUAL, true, "its sign was turned"),
         ("both signs", with(&|[t, a]| [t, if t > 0.04 { -30.0 } else { a }]), USUAL, false, "both signs"),

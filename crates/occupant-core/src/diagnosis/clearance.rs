@@ -122,7 +122,7 @@ fn first(
     let is_own = |frame: Frame| setup.belongs_to(frame) == home;
     for own in setup.surfaces.iter().filter(|own| is_own(own.frame)) {
         if let Outline::Polygon(corners) = &own.outline {
-            look(&own.name, own.frame, &[corners.clone()]);
+            look(&own.name, own.frame, std::slice::from_ref(corners));
         }
     }
     for own in setup.solids.iter().filter(|own| is_own(own.frame) && !matches!(own.shape, Shape::HalfSpace { .. })) {

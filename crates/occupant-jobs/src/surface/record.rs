@@ -42,7 +42,7 @@ impl Role {
 
     fn has_unit(&self, scale: Option<Scale>) -> bool {
         let fits = |unit: &&str| scale_of(unit).map(|own| own.dimension) == scale.map(|own| own.dimension);
-        scale.is_some() && self.units.iter().any(|unit| fits(unit))
+        scale.is_some() && self.units.iter().any(fits)
     }
 
     /// The column of this role: by its name, or the only one with such a unit, unless it has to be named.

@@ -77,8 +77,8 @@ fn find<'t>(table: &'t [(&str, Spread)], key: &str) -> Option<&'t Spread> {
 
 /// Of a person of a sex that is said: "body" or "occupants.NAME.body".
 fn of_body(root: &Node, own: &str, key: &str) -> Option<Usual> {
-    let holder = own.trim_end_matches('.').split('.').filter(|step| !step.is_empty());
-    let holder = holder.fold(Some(root), |node, step| node?.get(step))?;
+    let mut steps = own.trim_end_matches('.').split('.').filter(|step| !step.is_empty());
+    let holder = steps.try_fold(root, |node, step| node.get(step))?;
     let sex = match holder.get("body")?.get("sex").and_then(Node::as_str)? {
         "female" => 0,
         "male" => 1,
