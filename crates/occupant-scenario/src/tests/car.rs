@@ -258,3 +258,25 @@ fn bags_of_the_front_wait_for_blows_on_the_front() {
         assert!(due_s(direction) > 1.0, "{direction}");
     }
 }
+
+/// Parts of the bodies that the bag named so touches.
+fn met(setup: &Setup, bag: &str) -> Vec<String> {
+    let bag = setup.bags.iter().find(|one| one.name == bag).unwrap_or_else(|| panic!("no {bag}"));
+    bag.spheres.iter().map(|(sphere, _)| setup.body.spheres[*sphere].part.clone()).collect()
+}
+
+#[test]
+fn a_bag_of_a_car_touches_whoever_sits_before_it_and_no_loose_body() {
+    let box_ = "[loose.box]\nmass = 5\ninertia = [0.1, 0.1, 0.1]\nat = [0.5, 0.4, -0.5]\nvehicle = \"vehicle\"\nskin = \"padding\"\n\
+                spheres = { a = { centre = [0, 0, 0], radius = 0.1 } }\n";
+    let two = "[occupants.driver]\n[occupants.passenger]\n";
+    let setup = build(&(of("class = \"sedan\"") + two + box_));
+    for (bag, own) in [("driver", "driver."), ("passenger", "passenger.")] {
+        let met = met(&setup, bag);
+        assert!(met.len() == 8 && met.iter().all(|part| part.starts_with(own)), "{bag}: {met:?}");
+    }
+    let found = complaint(&(of("bags = { side = \"both\" }") + two + "[bags.driver]\noccupant = \"third\"\n"));
+    assert!(found.contains("no occupant is named \"third\""), "{found}");
+    let alone = complaint(&(of("class = \"sedan\"") + "[bags.driver]\noccupant = \"driver\"\n"));
+    assert!(alone.contains("in a scenario without `occupants`"), "{alone}");
+}
