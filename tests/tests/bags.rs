@@ -310,7 +310,7 @@ fn bags_of_a_car_hold_a_driver_off_the_struck_side() {
     };
     let (bare, _) = run(&[]);
     let (held, model) = run(&["car.bags.curtain=left", "car.bags.side=left"]);
-    // measured: 47 against 80 g with a window that bursts. HIC15 is 181 against 171: the window gives way at once
+    // measured: 33 against 98 g with a window that bursts, HIC15 80 against 411
     assert!(held < 0.75 * bare, "{held} {bare}");
     let names: Vec<&str> = model.setup().bags.iter().map(|bag| bag.name.as_str()).collect();
     assert_eq!(names, ["driver", "left_curtain", "driver_side"]);
