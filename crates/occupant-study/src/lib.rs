@@ -83,6 +83,7 @@ pub use fit::Fit;
 pub use fit_section::{FilterChoice, FitChannel, FitSection, FitTest, GainRange, Misfit, OffsetRange};
 pub use keep::Keep;
 pub use law::{Bounds, Distribution, Law, Value};
+pub use normal::quantile as normal_quantile;
 pub use parameter::{Assignment, Parameter, Target};
 pub use random::of_resample;
 pub use saltelli::Block;

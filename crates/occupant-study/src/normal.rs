@@ -14,7 +14,7 @@ pub(super) fn cumulative(z: f64) -> f64 {
 ///
 /// M. J. Wichura, "Algorithm AS 241: the percentage points of the normal distribution", Applied Statistics 37 (1988),
 /// PPND16: three rational functions, accurate to about 1 part in 10¹⁶.
-pub(super) fn quantile(p: f64) -> f64 {
+pub fn quantile(p: f64) -> f64 {
     let q = p - 0.5;
     if q.abs() <= 0.425 {
         let r = 0.180625 - q * q;

@@ -9,7 +9,7 @@ use super::curve::{self, Choice, Shape};
 use super::law::{Back, Law};
 use super::record::Record;
 use occupant_study::misfit::unrelated_samples;
-use occupant_study::of_resample;
+use occupant_study::{normal_quantile, of_resample};
 
 /// Records that are made.
 const RECORDS: u64 = 100;
@@ -93,7 +93,7 @@ fn again(
         let quiet = if i < from || i >= from + count { 0.0 } else { own[i - from] };
         *force = quiet + noise[i];
     }
-    let speed = |speed: f64| speed + impactor.speed_error_m_s / WIDE * normal(number);
+    let speed = |speed: f64| speed + impactor.speed_error_m_s / WIDE * normal_quantile(of_resample(number, 0));
     let other = Impactor { speed_m_s: impactor.speed_m_s.map(speed), ..*impactor };
     let mut made = Contact::from(&Arc::new(series), &other, contact.time_s[0]);
     curve::restart(&mut made, &other, shape);
@@ -131,10 +131,4 @@ fn shuffled(off: &[f64], count: usize, number: u64, of: u32) -> Vec<f64> {
     let block = (2.0 * remembers).ceil().clamp(1.0, off.len() as f64) as usize;
     let start = |i: usize| (of_resample(number, 2 * (i / block) as u32 + 2 + of) * off.len() as f64) as usize;
     (0..count).map(|i| off[(start(i) + i % block) % off.len()]).collect()
-}
-
-/// A normal number.
-fn normal(number: u64) -> f64 {
-    let [a, b] = [0, 1].map(|i| of_resample(number, i));
-    (-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()
 }

@@ -8,6 +8,7 @@ use super::record::Record;
 use super::{Impactor, refuse};
 use crate::base::Failure;
 use occupant_core::forces::contact::material::DEFAULT_FRICTION_SPEED_M_S;
+use occupant_study::spread::median;
 
 /// A peak is so many times the noise.
 const ABOVE_NOISE: f64 = 8.0;
@@ -277,10 +278,4 @@ fn flat_top(series: &Series, caveats: &mut Vec<String>) {
 fn noise(values: &[f64]) -> f64 {
     let bends: Vec<f64> = values.windows(3).map(|w| (w[0] - 2.0 * w[1] + w[2]).abs()).collect();
     median(&bends).unwrap_or(0.0) / (0.6745 * 6.0_f64.sqrt())
-}
-
-fn median(values: &[f64]) -> Option<f64> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get(sorted.len() / 2).copied()
 }

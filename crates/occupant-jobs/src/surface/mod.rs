@@ -80,6 +80,10 @@ pub fn fit(recording: &Recording, impactor: &Impactor, window_s: [Option<f64>; 2
     let choices = curve::choices(impactor, &Contact::of(&record, impactor)?)?;
     let law = curve::law(&choices[0].shape, &choices[0].contact);
     let contact = choices[0].contact.clone();
+    if law.points.len() < 2 || law.points.windows(2).any(|pair| pair[1][0] <= pair[0][0]) {
+        let found = format!("the depth does not grow with the force: {:.3} mm at the end", 1e3 * contact.greatest_m());
+        return Err(refuse(found, "check the column of the depth and its sign, mass, speed and units"));
+    }
     let friction = contact.friction(&record, impactor);
     let certainty = certainty::of(&record, impactor, &choices, &law);
     let computed = law::computed(&law, &contact, impactor);

@@ -513,11 +513,11 @@ fn mm(length_m: f64) -> String {
     format!("{:.0} mm", 1e3 * length_m)
 }
 
-/// The names of measures, in measures and in figures.
 /// Measures of how far and how fast a chest is pressed in.
 const OF_DEFLECTION: [&str; 6] =
     ["chest_deflection", "chest_compression", "deflection_rate", "viscous_criterion", "cti", "pc_score"];
 
+/// The names of measures, in measures and in figures.
 fn names_of<'a>(measures: impl Iterator<Item = &'a Measure>) -> Vec<String> {
     measures.flat_map(|m| [Some(m.name), m.figure]).flatten().map(str::to_owned).collect()
 }
