@@ -50,7 +50,7 @@ use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use drive::{DrivenVehicle, Drives, Solved};
+pub use drive::{Drawing, DrivenVehicle, Drives, Solved, drawings, moving_rails};
 pub(super) use drive::{People, asks_for_people, solve};
 pub use heading::{heading as column_named, heading_in as column_in, speed_named};
 pub(super) use many::together;
