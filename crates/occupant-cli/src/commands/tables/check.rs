@@ -157,18 +157,21 @@ fn seating(seat: &SeatStart, units: Units) -> String {
     facts(&lines)
 }
 
-/// Every distance of a car in words.
+/// Every distance of a car in words, and what else was chosen.
 fn dimensions(car: &[Dimension], units: Units) -> String {
     let row = |own: &Dimension| {
         let vehicle = own.vehicle.as_ref().map_or(String::new(), |vehicle| format!("vehicles.{vehicle}."));
         let size = match own.size {
             Size::Distance(m) => units.say(m * 1e3, "mm", 0),
             Size::Angle(rad) => format!("{:.1}°", rad.to_degrees()),
+            Size::Force(n) => units.say(n, "N", 0),
+            Size::Moment(n_m) => units.say(n_m, "N·m", 0),
+            Size::Word(word) => word.to_owned(),
         };
         let code = if own.code.is_empty() { NONE } else { own.code };
         [format!("{vehicle}car.{}", own.name), size, code.to_owned()]
     };
-    table(&[(Left, &["distance of the car"]), (Right, &["size"]), (Left, &["SAE J1100"])], car.iter().map(row))
+    table(&[(Left, &["of the car"]), (Right, &["size"]), (Left, &["SAE J1100"])], car.iter().map(row))
 }
 
 /// What is free before and over the body.

@@ -58,6 +58,8 @@ pub struct Node {
     pub strength_n: f64,
     /// Of a node of a segment: how it rides on parts of it that yield; a sphere says so itself.
     pub ride: Shares,
+    /// Of a point of the belt's frame: what carries it instead, in whose axes it is then, such as a back on its hinge.
+    pub frame: Option<Frame>,
 }
 
 impl Node {
@@ -70,7 +72,7 @@ impl Node {
 /// Where a node is.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Site {
-    /// A point of the belt's frame, m, and what pulls it.
+    /// A point of the belt's frame or of the node's own, m, and what pulls it.
     Vehicle(Point3<f64>, Option<Stroke>),
     /// A point of a segment (index), from its lower end, m, and the direction away from the body: webbing that pulls that way
     /// comes off.

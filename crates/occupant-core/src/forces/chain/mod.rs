@@ -265,8 +265,13 @@ fn bear<S: Scalar>(
     for (k, force) in chain.forces(now).into_iter().enumerate().take(chain.nodes.len()) {
         let node = &chain.nodes[k];
         strap += usize::from(node.rubs);
-        let Some(segment) = node.segment(at.spheres) else { continue };
         let centre = now.lies.places[k].centre;
+        let Some(segment) = node.segment(at.spheres) else {
+            if let Some(own) = node.frame {
+                hold(chain, at, own, (centre, force), load);
+            }
+            continue;
+        };
         let mut force = force;
         if let Some(next) = node.next() {
             let (is_over, none) = (past.nodes[k].is_handed_over(), V3::zero());
@@ -294,6 +299,26 @@ fn bear<S: Scalar>(
             power.vehicle += couple.dot(frame.omega);
         }
     }
+}
+
+/// A force on a point of a frame that is not the belt's: what moves it relative to that does work on the webbing, and a frame that
+/// yields feels the force.
+#[inline(always)]
+fn hold<S: Scalar>(
+    chain: &ChainLaw<S>,
+    at: &Instant<'_, S>,
+    own: usize,
+    (point, force): (V3<S>, V3<S>),
+    load: &mut Load<S>,
+) {
+    let bearer = chain.nodes.iter().find_map(|node| node.segment(at.spheres)).unwrap_or(0);
+    let velocity = at.frames[own].velocity_at(point) - at.frames[chain.frame].velocity_at(point);
+    let given = force.dot(velocity);
+    let power = load.power_at(bearer);
+    power.sums[STRETCH] -= given;
+    // what it gives to a frame that yields stands there in the books of the column or hinge
+    power.vehicle -= given;
+    load.push([own, bearer], -force, point, V3::zero(), S::truth(true));
 }
 
 /// A force on a place of a segment, which may ride on parts of it that yield, and its power; space axes.
