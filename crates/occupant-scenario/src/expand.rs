@@ -40,7 +40,7 @@ pub fn rival_path(path: &str) -> Option<String> {
     Some(format!("{above}.{}", rival(key)?))
 }
 
-/// A text that comes with the program or was made by it, read and checked.
+/// A built-in or generated text, parsed and checked.
 pub(super) fn written(title: &str, text: &str) -> Option<Document> {
     let mut document = Document::read(text, Format::Toml, title).ok()?;
     // it lacks what a whole scenario has; its quantities are read

@@ -227,11 +227,11 @@ const PEOPLE: [(&str, Person); 4] = [
     ("male50", REFERENCE_PERSON),
     ("male95", Person { sex: Sex::Male, stature_m: 1.869, mass_kg: 97.52 }),
 ];
-/// The person that the reference is.
+/// The reference person: a 50th-percentile male.
 pub const REFERENCE_PERSON: Person = Person { sex: Sex::Male, stature_m: 1.7734, mass_kg: 173.55 * POUND_KG };
 
 /// The persons that [`Person::is_within_reach`] accepts.
-pub const REACH: &str = "a grown-up of 1.4 to 2.05 m with a body mass index of 17 to 45 kg/m²";
+pub const REACH: &str = "an adult of 1.4 to 2.05 m with a body mass index of 17 to 45 kg/m²";
 
 impl Person {
     /// The one of that name.

@@ -17,7 +17,7 @@ pub(super) struct Years {
     /// Front air bags.
     pub(super) bags: bool,
     limiter: Option<f64>,
-    /// In front.
+    /// Of the front seats.
     pretensioner: f64,
     head_height: f64,
     head_gap: f64,
@@ -44,7 +44,7 @@ impl Years {
         }
     }
 
-    /// A seat of a row with what it does not say itself.
+    /// A seat of a row with defaults for missing keys.
     pub(super) fn fill(&self, own: CarSeatSection, row: usize) -> CarSeatSection {
         let in_front = |number: f64| if row == 0 { number } else { 0.0 };
         CarSeatSection {

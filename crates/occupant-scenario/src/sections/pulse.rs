@@ -157,6 +157,6 @@ fn refuse_foreign_keys(b: &mut Builder, s: &PulseSection) {
     let known = keys_of(s.shape);
     let keys = ["peak", "delta_v", "duration", "peak_fraction", "rise", "plateau", "fall", "file", "columns", "rows"];
     let foreign: Vec<&str> = keys.into_iter().filter(|key| !known.contains(key)).collect();
-    let expected = format!("of these keys only {}", known.join(", "));
+    let expected = format!("this shape takes only {}", known.join(", "));
     b.refuse_keys("path", &foreign, |key| format!("this pulse shape does not use `{key}`"), &expected);
 }

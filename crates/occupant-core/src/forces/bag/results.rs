@@ -299,11 +299,11 @@ impl Reported for Bags {
     }
 }
 
-const FIRES: &str = "fires";
-const OPENS: &str = "opens a vent";
-const BOTTOMS: &str = "bottoms out at its mount or its middle";
-const TOUCHED: &str = "is touched";
-const UNFOLDED: &str = "is unfolded";
-const LEFT: &str = "is left";
-/// From this part on it is unfolded.
+const FIRES: &str = "bag fires";
+const OPENS: &str = "bag opens a vent";
+const BOTTOMS: &str = "bag bottoms out at its mount or its middle";
+const TOUCHED: &str = "bag is touched";
+const UNFOLDED: &str = "bag is fully unfolded";
+const LEFT: &str = "bag is no longer touched";
+/// Unfolded share from which the bag counts as fully unfolded.
 const WHOLE: f64 = 1.0 - 1e-9;

@@ -279,7 +279,7 @@ impl Reported for Chains {
             at_least_zero: true,
         },
         Tracked {
-            column: Column::number("lost_j", "lost, J", 1).measure("lost", Joule),
+            column: Column::number("lost_j", "dissipated, J", 1).measure("lost", Joule),
             time: None,
             at_least_zero: true,
         },

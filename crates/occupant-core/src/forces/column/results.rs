@@ -121,7 +121,7 @@ impl<const TURNS: bool> Giving<TURNS> {
         timed(scaled(1e-3, TableColumn::number("peak_n", "force, kN", 2)).measure("peak", Newton), "peak_time_s", "peak_time"),
         peak(TableColumn::number("energy_j", "work, J", 1).measure("energy", Joule)),
         timed(TableColumn::number("bottomed", "bottomed", 0), "bottomed_time_s", "bottomed_time"),
-        peak(scaled(1e6, TableColumn::number("book_error", "book, 1e-6", 1)).measure("book_error", One)),
+        peak(scaled(1e6, TableColumn::number("book_error", "energy error, 1e-6", 1)).measure("book_error", One)),
     ];
 
     #[rustfmt::skip]
@@ -130,7 +130,7 @@ impl<const TURNS: bool> Giving<TURNS> {
         timed(TableColumn::number("peak_n_m", "moment, N·m", 0).measure("peak", NewtonMetre), "peak_time_s", "peak_time"),
         peak(TableColumn::number("energy_j", "work, J", 1).measure("energy", Joule)),
         timed(TableColumn::number("bottomed", "bottomed", 0), "bottomed_time_s", "bottomed_time"),
-        peak(scaled(1e6, TableColumn::number("book_error", "book, 1e-6", 1)).measure("book_error", One)),
+        peak(scaled(1e6, TableColumn::number("book_error", "energy error, 1e-6", 1)).measure("book_error", One)),
     ];
 }
 

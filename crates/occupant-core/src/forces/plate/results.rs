@@ -59,7 +59,7 @@ impl Reported for Plates {
         timed(scaled(1e3, Column::number("deflection_max_m", "deflection, mm", 1)).measure("deflection_max", Metre), "deflection_max_time_s", "deflection_max_time"),
         timed(Column::number("speed_max_m_s", "speed, m/s", 2).measure("speed_max", MetrePerSecond), "speed_max_time_s", "speed_max_time"),
         timed(scaled(1e-3, Column::number("force_max_n", "force, kN", 2)).measure("force_max", Newton), "force_max_time_s", "force_max_time"),
-        timed(Column::number("deep", "too deep", 0), "deep_time_s", "deep_time"),
+        timed(Column::number("deep", "bottomed out", 0), "deep_time_s", "deep_time"),
     ];
 
     #[inline(always)]

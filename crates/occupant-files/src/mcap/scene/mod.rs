@@ -22,13 +22,13 @@ impl Color {
         [self.0, self.1, self.2, self.3]
     }
 
-    /// The same with another opacity.
+    /// The colour with another opacity.
     const fn with_opacity(self, opacity: f64) -> Self {
         Color(self.0, self.1, self.2, opacity)
     }
 }
 
-/// A message that replaces all that the topic showed before.
+/// A message that replaces everything shown on the topic.
 pub fn replace(wire: &mut Wire, ns: u64, content: impl FnOnce(&mut Wire)) {
     const ALL: u64 = 1;
     wire.message(1, |w| {
@@ -39,7 +39,7 @@ pub fn replace(wire: &mut Wire, ns: u64, content: impl FnOnce(&mut Wire)) {
     content(wire);
 }
 
-/// An entity that is drawn until it is replaced and that moves with `frame`.
+/// An entity fixed to `frame`, shown until it is replaced.
 fn entity(wire: &mut Wire, ns: u64, frame: &str, id: &str, content: impl FnOnce(&mut Wire)) {
     const FOR_EVER: u64 = 0;
     wire.message(2, |w| {

@@ -13,15 +13,15 @@ use occupant_core::model::setup::Scenery;
 
 pub(super) type Polygons = Vec<Vec<Point3<f64>>>;
 
-/// Distance that the road extends beyond the drive, m.
+/// Length of the road beyond the drive, m.
 const BEYOND_M: f64 = 12.0;
-/// Corners of a wheel.
+/// Number of corners of a wheel.
 const ROUND: usize = 24;
-/// Breadth of a tyre mark, and how far it lies over the ground, m.
+/// Width of a tyre mark, and its height above the ground, m.
 const TREAD_M: f64 = 0.16;
 const OVER_M: f64 = 0.01;
 
-/// All of it.
+/// All scenery.
 pub(crate) fn scenery(s: &Scenario, drives: &Drives) -> Vec<Scenery> {
     let mut all = vec![Scenery { name: "road".to_owned(), frame: Frame::Space, polygons_m: road(drives) }];
     for (i, (name, _)) in drives.barriers.iter().enumerate() {
@@ -40,7 +40,7 @@ pub(crate) fn scenery(s: &Scenario, drives: &Drives) -> Vec<Scenery> {
     all
 }
 
-/// A place on the ground in space axes.
+/// A point on the ground in space axes.
 pub(super) fn on_ground(drives: &Drives, x_m: f64, right_m: f64, over_m: f64) -> Point3<f64> {
     Point3::new(x_m, -right_m, drives.world.ground.height_m(x_m, right_m) + over_m)
 }

@@ -8,12 +8,12 @@ use vehicle_motion::barrier::{Barrier, Rail, Slider, Wall};
 use super::Drives;
 use super::scenery::{Polygons, on_ground};
 
-/// Heights of barriers that have none of their own, m.
+/// Default heights of barriers, m.
 const WALL_M: f64 = 0.9;
 const POLE_M: f64 = 2.4;
-/// Distance that a wall is drawn beyond the drive, m.
+/// Length of a wall drawn beyond the drive, m.
 const BEYOND_M: f64 = 5.0;
-/// Half the breadth of a post, m.
+/// Half width of a post, m.
 const POST_M: f64 = 0.06;
 /// Sides of a pole.
 const ROUND: usize = 12;
@@ -63,7 +63,7 @@ fn upright(drives: &Drives, corners: &[[f64; 2]], [foot, top]: [f64; 2]) -> Poly
     (0..corners.len()).map(side).chain([roof]).collect()
 }
 
-/// The strip of a rail, bent as at the end, and its posts in their initial position.
+/// The strip of a rail in its final shape, and its posts in their initial position.
 fn of_rail(drives: &Drives, number: usize, rail: &Rail) -> Polygons {
     let bent = drives.outcome.rails.iter().find(|bent| bent.barrier == number);
     let line = bent.map_or(&rail.line_m[..], |bent| &bent.line_m);
