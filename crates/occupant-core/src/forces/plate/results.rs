@@ -10,7 +10,7 @@ use crate::forces::table::{Cell, Column, Table};
 use crate::motion::scalar::Scalar;
 use crate::quantity::{FieldWords, Quantity};
 
-/// What one plate does at one instant.
+/// State of one plate at one instant.
 #[derive(Clone, Copy, Debug)]
 pub struct PlateAction<S> {
     /// s, m, and ṡ, m/s, inward positive.
@@ -18,9 +18,9 @@ pub struct PlateAction<S> {
     pub(crate) speed: S,
     /// S, N.
     pub(crate) force: S,
-    /// What of its work comes back, J.
+    /// Recoverable energy, J.
     pub(super) stored: S,
-    /// 1 where it is deeper than anything that is known.
+    /// 1 where the deflection exceeds the range of all tests.
     pub(super) deep: S,
 }
 
