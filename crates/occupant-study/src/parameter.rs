@@ -16,6 +16,8 @@ pub struct Parameter {
     pub apply: ApplyChoice,
     /// Law of its values.
     pub law: Law,
+    /// Whether each of its values is run with every sample of the other parameters.
+    pub crossed: bool,
     /// Values that it changes.
     pub targets: Vec<Target>,
 }

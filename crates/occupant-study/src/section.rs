@@ -91,6 +91,9 @@ pub struct ParameterSection {
     /// A list of values: numbers, or text such as names of materials or files.
     #[schemars(extend("minItems" = 1))]
     pub list: Option<Vec<Value>>,
+    /// True: every value of its list or grid is run with every sample of the other parameters, such as each pulse with each
+    /// seat. The number of runs is that of the design times the number of these values.
+    pub crossed: Option<bool>,
     /// Uniform between two values.
     pub range: Option<RangeSection>,
     /// A probability distribution.

@@ -29,6 +29,8 @@ pub(super) const SOLE_M: f64 = 0.03;
 
 /// Heels of passengers forward of and below their H-point, m.
 const PASSENGER_HEELS_M: f64 = 0.70;
+/// Distance of a driver's heels forward of the H-point in a seat too far from the pedals for any leg, m.
+const FARTHEST_HEELS_M: f64 = 0.9;
 /// Least distance of rear passengers' heels behind the H-points of the row in front, m.
 const REAR_FEET_M: f64 = 0.41;
 
@@ -48,7 +50,7 @@ impl Car<'_> {
         let lean = seat.recline_deg;
         let is_driver = seat.name == "driver" && self.section.class != Some(CarClass::Sled);
         let heels = if is_driver {
-            [self.measures.heels, self.measures.seat_height]
+            [self.measures.heels.min(seat.h[0] + FARTHEST_HEELS_M), self.measures.seat_height]
         } else {
             // rows behind the front have the seats ahead before their shins
             let room = if seat.row == 0 { self.measures.heels } else { self.measures.couple - REAR_FEET_M };

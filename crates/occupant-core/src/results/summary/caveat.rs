@@ -53,6 +53,11 @@ impl Caveat {
         self.figures.iter().any(|of| of.strip_suffix('*').map_or(of == figure, |stem| figure.starts_with(stem)))
     }
 
+    /// Whether it affects no particular result: a note on the uncertainty of the model.
+    pub fn is_note(&self) -> bool {
+        self.figures.is_empty()
+    }
+
     /// The same for one of several occupants, whose name precedes those of its results.
     pub(super) fn of_occupant(self, name: &str) -> Self {
         let figures =
