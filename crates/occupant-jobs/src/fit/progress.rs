@@ -29,7 +29,7 @@ impl Progress {
         Progress { runs, budget, evaluations: 0, best: f64::INFINITY, said: f64::INFINITY, stage: "" }
     }
 
-    /// So many evaluations were there before.
+    /// Sets the number of earlier evaluations.
     pub fn from(self, before: u64) -> Self {
         Progress { runs: self.runs.from(before), ..self }
     }

@@ -28,7 +28,7 @@ pub struct Report {
 }
 
 impl Report {
-    /// What the page is of, by the names of its files.
+    /// Subject of the page, by the names of its files.
     pub fn subject(&self) -> String {
         let labels: Vec<&str> = self.runs.iter().map(|run| run.label.as_str()).collect();
         subject(&labels)

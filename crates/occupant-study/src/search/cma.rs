@@ -199,7 +199,7 @@ impl Cma {
     /// Learns from the values of the points that [`Cma::ask`] gave; one that is not a number is the worst.
     ///
     /// # Errors
-    /// Other than a generation of points, or a value for each: nothing is learnt then.
+    /// The number of points or values is not the population size; nothing is learnt.
     pub fn tell(&mut self, points: &[Vec<f64>], values: &[f64]) -> Result<(), BadDescent> {
         let (expected, n) = (self.population(), self.mean.len());
         if points.len() != expected || values.len() != expected || points.iter().any(|point| point.len() != n) {
